@@ -1,0 +1,1 @@
+"""The Pluto compiler: from a graph of blocks to a package that flies drones."""

@@ -1,0 +1,68 @@
+"""What the compiler has to say about a source: one value, from which every output is made.
+
+Codes: P0 syntax, P1 names, types and units, P2 graph, P3 hooks, P4 generated files, P9 internal. A
+code is never used twice, not even after its diagnostic is gone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from enum import Enum
+
+from plutoc.source import Source, Span
+
+
+class Severity(Enum):
+    """An error stops the compiler; a warning does not."""
+
+    ERROR = "error"
+    WARNING = "warning"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Related:
+    """Another place that has to do with it, and how."""
+
+    source: Source
+    span: Span
+    label: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Fix:
+    """A change that certainly mends it: put this text in place of the span."""
+
+    span: Span
+    text: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Diagnostic:
+    """One finding: what is wrong, where, what has to do with it, and what to do."""
+
+    code: str
+    severity: Severity
+    message: str
+    source: Source
+    span: Span
+    label: str = ""
+    related: tuple[Related, ...] = ()
+    help: str | None = None
+    fix: Fix | None = None
+
+
+class Rejected(Exception):
+    """A phase found errors. It carries all of them, and the warnings found on the way."""
+
+    def __init__(self, diagnostics: Iterable[Diagnostic]) -> None:
+        self.diagnostics = tuple(diagnostics)
+        super().__init__("\n".join(f"{d.code}: {d.message}" for d in self.diagnostics))
+
+
+def accept_or_raise(found: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
+    """Return the warnings; raise `Rejected` with everything where there is an error among them."""
+    diagnostics = tuple(sorted(found, key=lambda d: (d.span.start, d.span.end, d.code)))
+    if any(d.severity is Severity.ERROR for d in diagnostics):
+        raise Rejected(diagnostics)
+    return diagnostics

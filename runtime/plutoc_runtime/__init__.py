@@ -1,0 +1,1 @@
+"""The runtime that a generated package carries: the standard library and itself."""
