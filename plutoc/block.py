@@ -1,0 +1,166 @@
+"""What a block is: the vocabulary in which every block, ours or yours, is declared.
+
+A declaration is plain data. The compiler reads it and never asks for a block by name: checks, plan,
+generated code, pages and screens all come from these properties.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from enum import Enum
+from types import MappingProxyType
+from typing import Any
+
+from plutoc_runtime.fields import Field
+from plutoc_runtime.quantities import Type
+from plutoc_runtime.status import IN_GRAPH, Status
+
+Transitions = Mapping[Status, frozenset[Status]]
+"""For each status that a block accepts, the statuses that it can then emit."""
+
+NOTHING: Transitions = MappingProxyType({})
+
+
+def emits(*statuses: Status) -> frozenset[Status]:
+    """Return the statuses as a set."""
+    return frozenset(statuses)
+
+
+def same(*statuses: Status) -> Transitions:
+    """A block that hands each of these statuses on as it came."""
+    return MappingProxyType({status: frozenset((status,)) for status in statuses})
+
+
+ANY_SAME = same(*IN_GRAPH)
+
+
+class HookKind(Enum):
+    """The four kinds of code that a developer adds."""
+
+    ACTION = "action"
+    EVALUATOR = "evaluator"
+    MODIFIER = "modifier"
+    POLICY = "policy"
+
+
+class Gate(Enum):
+    """How a block closes a fork."""
+
+    FIRST = "the first branch to arrive passes, the others are cancelled"
+    ALL = "waits for every branch, then passes the worst status"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Param:
+    """A value written in the source, in parentheses after the block's kind."""
+
+    name: str
+    type: Type
+    doc: str
+    default: bool | int | float | str | None = None
+    """In SI units. None: the block does without."""
+    required: bool = False
+    least: float | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class HookParam:
+    """The name of a hook. The block's step gets the function itself, as `hook`."""
+
+    name: str
+    kind: HookKind
+    doc: str
+    required: bool = True
+    passes: bool = False
+    """The hook's own parameters are written beside it, and its step gets them by name."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Choice:
+    """One of several functions of the runtime, by name, or one of the app's hooks."""
+
+    name: str
+    options: Mapping[str, Callable[..., Any]]
+    default: str
+    doc: str
+    hook: HookKind | None = None
+
+
+AnyParam = Param | HookParam | Choice
+
+
+@dataclass(frozen=True, kw_only=True)
+class Narrowed:
+    """While a parameter has this value, the block emits no more than these statuses."""
+
+    param: str
+    value: bool | int | float | str
+    emits: frozenset[Status]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Block:
+    """One kind of block.
+
+    `step` is the function of the runtime itself, not its name: a type checker follows it, an editor
+    jumps to it, and the compiler finds from it the module to carry along. It is called as
+    `step(run, status, **parameters, **fields)` and gives the status that the mission leaves with; a
+    gate's as `step(run, status, *branches)`. It may be a coroutine function.
+    """
+
+    name: str
+    doc: str
+    """The first line is a sentence that a user understands. Sources: the thesis's sections."""
+    step: Callable[..., Any]
+    transitions: Transitions
+    guarded: Transitions = NOTHING
+    """Accepted only where an edge's guard says so."""
+    params: tuple[AnyParam, ...] = ()
+    narrowed: tuple[Narrowed, ...] = ()
+    emits_by_hook: bool = False
+    """Where its hook declares `emits`, it emits exactly those."""
+    needs: tuple[Field, ...] = ()
+    """Fields that exist because this block is in the graph; its step gets their values by name."""
+    uses: tuple[str, ...] = ()
+    """Fields that its step gets too, where another block brings them in."""
+    named: bool = False
+    """Its step gets the block's own name in the graph, as `block`."""
+
+    creates: bool = False
+    """The mission begins here; exactly one in a graph."""
+    holds: bool = False
+    """A mission may rest here for a time that the user chose."""
+    allocates: bool = False
+    """Gives the mission a drone."""
+    launches: bool = False
+    """Starts the next trip with the drone that was allocated."""
+    watches: bool = False
+    """Ends with the outcome of the trip in flight."""
+    limits: bool = False
+    """Watches, and fails the trip itself; goes beside a block that only watches."""
+    evaluates: bool = False
+    """Judges a finished mission and may ask for more trips."""
+    repeats: bool = False
+    """Starts a finished mission once more."""
+    retries: bool = False
+    """Puts a failed trip back."""
+    bound: str | None = None
+    """The parameter that bounds how often it does so; 0 is no bound."""
+    gate: Gate | None = None
+    resumes: bool = field(default=False)
+    """A mission that was stopped may go on from here."""
+
+    @property
+    def accepts(self) -> frozenset[Status]:
+        """The statuses it takes without a guard."""
+        return frozenset(self.transitions)
+
+    @property
+    def accepts_by_guard(self) -> frozenset[Status]:
+        """The statuses it takes when a guard names them."""
+        return frozenset(self.transitions) | frozenset(self.guarded)
+
+    def param(self, name: str) -> AnyParam | None:
+        """Return the parameter of that name."""
+        return next((param for param in self.params if param.name == name), None)

@@ -1,0 +1,37 @@
+"""A graph that has passed its checks, with what they found out."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from plutoc.graph.model import Edge, Graph
+from plutoc_runtime.status import Status
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Fork:
+    """One status of one block that two or more edges take: a clone of the mission on each."""
+
+    node: str
+    status: Status
+    branches: tuple[Edge, ...]
+    """In the order of the source: that is the order of the branches."""
+    gate: str
+    """The block at which every branch closes."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Checked:
+    """A sound graph."""
+
+    graph: Graph
+    arrives: Mapping[str, frozenset[Status]]
+    """The statuses with which missions can reach each block, and `end`."""
+    leaves: Mapping[str, frozenset[Status]]
+    """The statuses with which they can leave it."""
+    carries: Mapping[Edge, frozenset[Status]]
+    """The statuses that really pass along each edge."""
+    forks: tuple[Fork, ...]
+    implicit_ends: tuple[tuple[str, Status], ...]
+    """Where a mission ends without an edge to `end`."""

@@ -1,0 +1,151 @@
+"""The graph of an app: blocks and edges, with all names resolved and all values in SI units."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+from plutoc.block import Block, HookKind
+from plutoc.source import Source, Span
+from plutoc_runtime.quantities import Type
+from plutoc_runtime.status import Status
+
+START = "start"
+END = "end"
+
+Plain = bool | int | float | str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Parameter:
+    """A parameter of an action or a modifier; without a default it must be given."""
+
+    name: str
+    type: Type
+    default: Plain | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Action:
+    """An action of the app's own: a hook that a drone does at the end of a trip."""
+
+    name: str
+    parameters: tuple[Parameter, ...]
+    repeat: str
+    """`safe`, `once` or `ask`: may it be repeated after a crash?"""
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Hook:
+    """An evaluator, a modifier or a policy of the app."""
+
+    kind: HookKind
+    name: str
+    parameters: tuple[Parameter, ...]
+    emits: tuple[Status, ...]
+    """Declared statuses, in the order of `IN_GRAPH`; empty: the status stays as it was."""
+    writes: tuple[str, ...]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Category:
+    """What drones of one shape can carry and do. SI units."""
+
+    name: str
+    payload: float
+    speed: float
+    flight_time: float
+    charge_time: float
+    reserve: float
+    actions: tuple[str, ...] | None
+    """In the order written; None: every action there is."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Choose:
+    """A `Choice` parameter's value: the option's name, or the hook's."""
+
+    name: str
+    hook: Hook | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Node:
+    """A block of the app."""
+
+    name: str
+    block: Block
+    package: str
+    """The entry point that it comes from; ours is `std`."""
+    values: tuple[tuple[str, Plain | None], ...]
+    """Every `Param` of the declaration with its value, given or default, in declared order."""
+    choices: tuple[tuple[str, Choose], ...]
+    hook: Hook | None
+    passed: tuple[tuple[str, Plain], ...]
+    """The hook's own parameters, given or default, in the hook's order."""
+    declaration: str
+    """`timer = TimerMonitor(default: 5 min)`: canonical, on one line, texts left out."""
+    span: Span
+    name_span: Span
+
+    def emitted(self, status: Status) -> frozenset[Status]:
+        """The statuses that it can emit after it took this one."""
+        out = self.block.transitions.get(status) or self.block.guarded.get(status) or frozenset()
+        if out and self.block.emits_by_hook and self.hook and self.hook.emits:
+            out = frozenset(self.hook.emits)
+        for narrowed in self.block.narrowed:
+            if dict(self.values).get(narrowed.param) == narrowed.value:
+                out &= narrowed.emits
+        return out
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Edge:
+    """An arrow from a block to a block, or from `start`, or to `end`."""
+
+    source: str
+    target: str
+    takes: frozenset[Status]
+    """The guard's statuses; without one, what the target accepts; for `otherwise`, the rest."""
+    guard: tuple[Status, ...] | None
+    otherwise: bool
+    span: Span
+    """The two names and the arrow; for a guarded edge the guard is in `guard_span`."""
+    guard_span: Span | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Graph:
+    """An app: its words and its blocks, in the order of the source."""
+
+    source: Source
+    name: str
+    name_span: Span
+    title: str
+    categories: tuple[Category, ...]
+    """Never empty: an app without a category has one that can do everything."""
+    actions: tuple[Action, ...]
+    hooks: tuple[Hook, ...]
+    nodes: tuple[Node, ...]
+    edges: tuple[Edge, ...]
+    end_span: Span
+    """The closing brace of the app."""
+
+    @cached_property
+    def node(self) -> dict[str, Node]:
+        """The blocks by name."""
+        return {node.name: node for node in self.nodes}
+
+    @cached_property
+    def outgoing(self) -> dict[str, tuple[Edge, ...]]:
+        """The edges that leave each block, and `start`."""
+        names = (START, *self.node)
+        return {name: tuple(e for e in self.edges if e.source == name) for name in names}
+
+    @cached_property
+    def incoming(self) -> dict[str, tuple[Edge, ...]]:
+        """The edges that reach each block, and `end`."""
+        names = (*self.node, END)
+        return {name: tuple(e for e in self.edges if e.target == name) for name in names}

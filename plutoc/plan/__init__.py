@@ -1,0 +1,1 @@
+"""From checked graph to plan: structured control flow, one coroutine a mission."""

@@ -1,0 +1,1 @@
+"""From text to tree: what was written, and where; nothing is looked up here."""

@@ -1,0 +1,179 @@
+"""The tree of a source: its statements as written, each with its place."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from plutoc.source import Source, Span
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Name:
+    """A word that names something."""
+
+    text: str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Number:
+    """`3`, `-0.5`: whole numbers stay whole."""
+
+    value: int | float
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Quantity:
+    """`5 min`, `40 %`: not yet converted, the unit not yet known to exist."""
+
+    value: int | float
+    unit: str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Text:
+    """`"a text"`, its escapes resolved."""
+
+    value: str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Bool:
+    """`yes` or `no`."""
+
+    value: bool
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class List:
+    """`[a, b]` as a value."""
+
+    items: tuple[Value, ...]
+    span: Span
+
+
+Value = Name | Number | Quantity | Text | Bool | List
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Argument:
+    """`policy: nearest`, given to a block or a category."""
+
+    name: Name
+    value: Value
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Parameter:
+    """`dose: mass = 50 mg`, declared by an action or a modifier."""
+
+    name: Name
+    type: Name
+    default: Value | None
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Use:
+    """`use pluto_survey as survey`."""
+
+    package: Name
+    alias: Name | None
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CategoryDecl:
+    """`category scout(payload: 5 g) can take_photo`."""
+
+    name: Name
+    arguments: tuple[Argument, ...]
+    can: tuple[Name, ...]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ActionDecl:
+    """`action pollinate(dose: mass = 50 mg) once`; `repeat` is the last word, if any."""
+
+    name: Name
+    parameters: tuple[Parameter, ...]
+    repeat: Name | None
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class HookDecl:
+    """`evaluator NAME`, `policy NAME`, `modifier NAME(…) emits … writes …`."""
+
+    kind: str
+    """`evaluator`, `modifier` or `policy`."""
+    name: Name
+    parameters: tuple[Parameter, ...]
+    emits: tuple[Name, ...]
+    writes: tuple[Name, ...]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BlockDecl:
+    """`launch = TripLauncher`, `scan = survey.GridScan(spacing: 2 m)`."""
+
+    name: Name
+    prefix: Name | None
+    kind: Name
+    arguments: tuple[Argument, ...]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Stop:
+    """One stop of a flow: a name, or several in brackets."""
+
+    names: tuple[Name, ...]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Guard:
+    """`when STANDBY, FAILED`; `otherwise` has no statuses."""
+
+    statuses: tuple[Name, ...]
+    otherwise: bool
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FlowDecl:
+    """`a -> [b, c] -> d when STANDBY`: at least two stops."""
+
+    stops: tuple[Stop, ...]
+    guard: Guard | None
+    span: Span
+
+
+Statement = CategoryDecl | ActionDecl | HookDecl | BlockDecl | FlowDecl
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AppDecl:
+    """`app NAME ["Title"] { … }`."""
+
+    name: Name
+    title: Text | None
+    statements: tuple[Statement, ...]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class File:
+    """A whole source."""
+
+    source: Source
+    uses: tuple[Use, ...]
+    app: AppDecl
