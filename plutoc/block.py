@@ -19,8 +19,6 @@ from plutoc_runtime.status import IN_GRAPH, Status
 Transitions = Mapping[Status, frozenset[Status]]
 """For each status that a block accepts, the statuses that it can then emit."""
 
-NOTHING: Transitions = MappingProxyType({})
-
 
 def emits(*statuses: Status) -> frozenset[Status]:
     """Return the statuses as a set."""
@@ -76,7 +74,7 @@ class HookParam:
     """The hook's own parameters are written beside it, and its step gets them by name."""
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Choice:
     """One of several functions of the runtime, by name, or one of the app's hooks."""
 
@@ -99,7 +97,7 @@ class Narrowed:
     emits: frozenset[Status]
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Block:
     """One kind of block.
 
@@ -114,7 +112,7 @@ class Block:
     """The first line is a sentence that a user understands. Sources: the thesis's sections."""
     step: Callable[..., Any]
     transitions: Transitions
-    guarded: Transitions = NOTHING
+    guarded: Transitions = field(default_factory=dict)
     """Accepted only where an edge's guard says so."""
     params: tuple[AnyParam, ...] = ()
     narrowed: tuple[Narrowed, ...] = ()
@@ -148,7 +146,7 @@ class Block:
     bound: str | None = None
     """The parameter that bounds how often it does so; 0 is no bound."""
     gate: Gate | None = None
-    resumes: bool = field(default=False)
+    resumes: bool = False
     """A mission that was stopped may go on from here."""
 
     @property
