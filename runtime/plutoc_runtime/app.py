@@ -1,0 +1,33 @@
+"""What a generated package says about itself: its words, its fields and its flow."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Coroutine, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from .actions import Action
+from .fields import Field
+from .model import Category, Mission, Trip
+from .status import Status
+
+Flow = Callable[[Any], Coroutine[Any, Any, Status]]
+"""The coroutine function that takes one mission from start to end."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class App:
+    """An app: everything that its command line and its engine need to know of it."""
+
+    name: str
+    title: str
+    flow: Flow
+    mission: type[Mission[Any]]
+    trip: type[Trip]
+    fields: tuple[Field, ...]
+    """The fields that exist besides the basic ones, missions' before trips'."""
+    categories: tuple[Category, ...]
+    actions: Mapping[str, Action]
+    """Every action there is, ours before the app's own."""
+    evaluators: Mapping[str, Callable[..., Any]] = field(default_factory=dict)
+    """The app's evaluators, by name."""
