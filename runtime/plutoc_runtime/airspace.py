@@ -2,11 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from heapq import heappop, heappush
+from itertools import pairwise
+from math import dist
 
+from .geometry import EPSILON, Corner, Polygon, enters, inside, pushed_out, show, tidy
 from .model import Point
 
-Corner = tuple[float, float]
+MARGIN = 0.1
+"""How far from the corner of a no-fly area a route turns, in metres."""
+
+_REMEMBERED = 10_000
+"""Routes kept: plans repeat their pairs of places, but a drone may be asked from anywhere."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -17,11 +25,127 @@ class Airspace:
     cruise_height: float = 1.2
     ceiling: float = 10.0
     no_fly: tuple[tuple[Corner, ...], ...] = ()
+    _ways: _Ways = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        # Frozen, yet its routes are found only when they are asked for.
+        object.__setattr__(self, "_ways", _Ways(self))
 
     def problem(self, point: Point) -> str | None:
         """Return why a drone may not be at this point, or None."""
-        raise NotImplementedError
+        x, y, z = point
+        width, depth = self.size
+        e = EPSILON
+        if not (-e <= x <= width + e and -e <= y <= depth + e):
+            bounds = f"x goes from 0 to {width:g} m, y from 0 to {depth:g} m"
+            return f"{show(x, y)} is outside the map: {bounds}"
+        if not z <= self.ceiling + e:
+            return f"{show(x, y, z)} is above the ceiling of {self.ceiling:g} m"
+        if z < -e:
+            return f"{show(x, y, z)} is below the ground"
+        for number, polygon in enumerate(self.no_fly, 1):
+            if inside((x, y), polygon):
+                return f"{show(x, y)} is inside no-fly area {number}"
+        return None
 
     def route(self, start: Point, end: Point) -> tuple[Point, ...] | None:
-        """Return the shortest permitted way, the end included and the start not, or None."""
-        raise NotImplementedError
+        """Return the shortest permitted way, the end included and the start not, or None.
+
+        It is straight wherever it can be. Around corners its height changes evenly along the way.
+        """
+        if start > end:  # one way for both directions
+            back = self._ways.between(end, start)
+            return None if back is None else (*back[-2::-1], end)
+        way = self._ways.between(start, end)
+        return None if way is None else way[1:]
+
+
+class _Ways:
+    """What can be seen from where, found as it is needed."""
+
+    def __init__(self, airspace: Airspace) -> None:
+        self._airspace = airspace
+        self._polygons: tuple[Polygon, ...] = tuple(
+            polygon for polygon in map(tidy, airspace.no_fly) if len(polygon) > 2
+        )
+        self._turns: tuple[Corner, ...] | None = None
+        self._seen: dict[int, list[tuple[int, float]]] = {}
+        self._found: dict[tuple[Point, Point], tuple[Point, ...] | None] = {}
+
+    def between(self, start: Point, end: Point) -> tuple[Point, ...] | None:
+        """Return the shortest way with both its ends."""
+        pair = start, end
+        if pair not in self._found:
+            if len(self._found) >= _REMEMBERED:
+                self._found.clear()
+            self._found[pair] = self._find(start, end)
+        return self._found[pair]
+
+    def _find(self, start: Point, end: Point) -> tuple[Point, ...] | None:
+        if self._airspace.problem(start) or self._airspace.problem(end):
+            return None
+        if self._free(start[:2], end[:2]):
+            return start, end
+        corners = self._shortest(start[:2], end[:2])
+        return None if corners is None else _climbing(start, corners, end)
+
+    def _free(self, a: Corner, b: Corner) -> bool:
+        return not any(enters(a, b, polygon) for polygon in self._polygons)
+
+    def _shortest(self, start: Corner, end: Corner) -> list[Corner] | None:
+        """Dijkstra's way over the corners; equal lengths: the corner declared first."""
+        turns = self._corners()
+        ends = {i: dist(turn, end) for i, turn in enumerate(turns) if self._free(turn, end)}
+        last = len(turns)
+        came_from: dict[int, int] = {}
+        best = {i: dist(start, turn) for i, turn in enumerate(turns) if self._free(start, turn)}
+        heap = sorted((length, i) for i, length in best.items())
+        while heap:
+            length, here = heappop(heap)
+            if here == last:
+                return _walk_back(came_from, last, turns)
+            if length > best[here]:
+                continue
+            onward = [*self._visible(here)]
+            if here in ends:
+                onward.append((last, ends[here]))
+            for there, step in onward:
+                if length + step < best.get(there, float("inf")):
+                    best[there], came_from[there] = length + step, here
+                    heappush(heap, (length + step, there))
+        return None
+
+    def _corners(self) -> tuple[Corner, ...]:
+        if self._turns is None:
+            turns = [turn for polygon in self._polygons for turn in pushed_out(polygon, MARGIN)]
+            self._turns = tuple((x, y) for x, y in turns if not self._airspace.problem((x, y, 0.0)))
+        return self._turns
+
+    def _visible(self, here: int) -> list[tuple[int, float]]:
+        if here not in self._seen:
+            turns = self._corners()
+            self._seen[here] = [
+                (i, dist(turns[here], turn))
+                for i, turn in enumerate(turns)
+                if i != here and self._free(turns[here], turn)
+            ]
+        return self._seen[here]
+
+
+def _walk_back(came_from: dict[int, int], last: int, turns: tuple[Corner, ...]) -> list[Corner]:
+    way = []
+    while last in came_from:
+        last = came_from[last]
+        way.append(turns[last])
+    return way[::-1]
+
+
+def _climbing(start: Point, corners: list[Corner], end: Point) -> tuple[Point, ...]:
+    """Add heights to a way: the shortest in the plan is then the shortest in space."""
+    plan = [start[:2], *corners, end[:2]]
+    legs = [dist(a, b) for a, b in pairwise(plan)]
+    whole, gone, way = sum(legs), 0.0, [start]
+    for (x, y), leg in zip(corners, legs, strict=False):
+        gone += leg
+        way.append((x, y, start[2] + (end[2] - start[2]) * gone / whole))
+    return *way, end
