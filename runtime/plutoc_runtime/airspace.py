@@ -7,8 +7,9 @@ from heapq import heappop, heappush
 from itertools import pairwise
 from math import dist
 
-from .geometry import EPSILON, Corner, Polygon, enters, inside, pushed_out, show, tidy
+from .geometry import EPSILON, Corner, Polygon, enters, inside, pushed_out, tidy
 from .model import Point
+from .words import number, place
 
 MARGIN = 0.1
 """How far from the corner of a no-fly area a route turns, in metres."""
@@ -37,15 +38,16 @@ class Airspace:
         width, depth = self.size
         e = EPSILON
         if not (-e <= x <= width + e and -e <= y <= depth + e):
-            bounds = f"x goes from 0 to {width:g} m, y from 0 to {depth:g} m"
-            return f"{show(x, y)} is outside the map: {bounds}"
-        if not z <= self.ceiling + e:
-            return f"{show(x, y, z)} is above the ceiling of {self.ceiling:g} m"
-        if z < -e:
-            return f"{show(x, y, z)} is below the ground"
-        for number, polygon in enumerate(self.no_fly, 1):
+            bounds = f"x goes from 0 to {number(width)} m, y from 0 to {number(depth)} m"
+            return f"{place(point)} is outside the map: {bounds}"
+        if not -e <= z <= self.ceiling + e:
+            where = f"{place(point)} at a height of {number(z)} m"
+            if z < 0:
+                return f"{where} is below the ground"
+            return f"{where} is above the ceiling of {number(self.ceiling)} m"
+        for area, polygon in enumerate(self._ways.polygons, 1):
             if inside((x, y), polygon):
-                return f"{show(x, y)} is inside no-fly area {number}"
+                return f"{place(point)} is inside no-fly area {area}"
         return None
 
     def route(self, start: Point, end: Point) -> tuple[Point, ...] | None:
@@ -65,9 +67,7 @@ class _Ways:
 
     def __init__(self, airspace: Airspace) -> None:
         self._airspace = airspace
-        self._polygons: tuple[Polygon, ...] = tuple(
-            polygon for polygon in map(tidy, airspace.no_fly) if len(polygon) > 2
-        )
+        self.polygons: tuple[Polygon, ...] = tuple(map(tidy, airspace.no_fly))
         self._turns: tuple[Corner, ...] | None = None
         self._seen: dict[int, list[tuple[int, float]]] = {}
         self._found: dict[tuple[Point, Point], tuple[Point, ...] | None] = {}
@@ -90,7 +90,7 @@ class _Ways:
         return None if corners is None else _climbing(start, corners, end)
 
     def _free(self, a: Corner, b: Corner) -> bool:
-        return not any(enters(a, b, polygon) for polygon in self._polygons)
+        return not any(enters(a, b, polygon) for polygon in self.polygons)
 
     def _shortest(self, start: Corner, end: Corner) -> list[Corner] | None:
         """Dijkstra's way over the corners; equal lengths: the corner declared first."""
@@ -117,7 +117,7 @@ class _Ways:
 
     def _corners(self) -> tuple[Corner, ...]:
         if self._turns is None:
-            turns = [turn for polygon in self._polygons for turn in pushed_out(polygon, MARGIN)]
+            turns = [turn for polygon in self.polygons for turn in pushed_out(polygon, MARGIN)]
             self._turns = tuple((x, y) for x, y in turns if not self._airspace.problem((x, y, 0.0)))
         return self._turns
 

@@ -19,11 +19,6 @@ _SHARP = 0.5
 """The sine of half an angle below which a corner is walked around in two points, not one."""
 
 
-def show(*coordinates: float) -> str:
-    """Write a place for a person, to the centimetre: `(3.2, 1.5)`."""
-    return f"({', '.join(f'{round(value, 2) + 0.0:g}' for value in coordinates)})"
-
-
 def tidy(corners: Sequence[Corner]) -> Polygon:
     """Drop corners that repeat the one before, the last that repeats the first included."""
     kept: list[Corner] = []

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import exp
 from random import Random
@@ -56,27 +56,19 @@ class WorldData:
 
 
 class World:
-    """What there is to see and to measure on a map."""
+    """What there is to see and to measure on a map; without data, one made up from the seed."""
 
     def __init__(
         self,
         seed: int,
         airspace: Airspace,
-        features: Sequence[Feature] = (),
-        sources: Sequence[Source] = (),
-        background: Mapping[str, float] | None = None,
+        data: WorldData | None = None,
     ) -> None:
-        self.airspace = airspace
-        self.features, self.sources = tuple(features), tuple(sources)
-        self.background = {**BACKGROUND, **(background or {})}
+        data = invented(seed, airspace) if data is None else data
+        self.features, self.sources = data.features, data.sources
+        self.background = {**BACKGROUND, **data.background}
         self._seed = seed
         self._by_x = sorted((*feature.at, feature.kind) for feature in self.features)
-
-    @classmethod
-    def of(cls, seed: int, airspace: Airspace, data: WorldData | None) -> World:
-        """Make the world that a fleet file describes; None: one made up from the seed."""
-        described = invented(seed, airspace) if data is None else data
-        return cls(seed, airspace, described.features, described.sources, described.background)
 
     def measure(self, quantity: str, point: Point, time: float) -> float:
         """Return what a sensor reads at a point, its small error included."""

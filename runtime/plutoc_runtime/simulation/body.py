@@ -1,0 +1,194 @@
+"""One simulated drone: where it is and what is in its battery, worked out when somebody asks.
+
+Nothing ticks. A body keeps its last change; whatever goes wrong in the meantime is applied, at its
+exact moment, the next time anybody looks. So a flight costs one event a leg, however long it is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import inf
+
+from ..energy import CLIMB_SPEED, docked
+from ..errors import Failure, FlightFailed
+from ..kernel import FLEET, Key
+from ..model import Category, Item, Point
+from ..words import place
+from .faults import Drawn
+from .motion import Charge, Leg, standing
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SimulatedDrone:
+    """A drone to simulate: it begins in its dock. Docks stand on the ground, at height 0."""
+
+    id: str
+    category: Category
+    home: Point
+    index: int = 0
+    """Its place in the fleet file."""
+    battery_level: float = 1.0
+    """What is in its battery at the start, from 0 to 1."""
+
+
+class Body:
+    """The state of one drone. It is its own telemetry."""
+
+    def __init__(self, drone: SimulatedDrone, clock: Callable[[], float]) -> None:
+        self.drone, self._clock = drone, clock
+        self.key: Key = (FLEET[0] + 1 + drone.index,)
+        self.down: FlightFailed | None = None
+        """Why it takes no commands, if it takes none."""
+        self.down_since = 0.0
+        self.carries: Item | None = None
+        self.command = ""
+        """What it is doing; one thing at a time."""
+        self._drawn, self._began = Drawn(), clock()
+        self._charge = Charge(drone.battery_level, clock())
+        self._leg, self._landed = standing(drone.home, clock()), True
+        self._flown = 0.0
+        self.touch_down(clock())
+
+    # What anybody may ask at any time
+
+    @property
+    def location(self) -> Point:
+        """Where it is."""
+        now = self._clock()
+        self.settle(now)
+        return self._leg.at(now)
+
+    @property
+    def battery_level(self) -> float:
+        """What is left in its battery, from 0 to 1."""
+        now = self._clock()
+        self.settle(now)
+        return self._charge.at(now)
+
+    @property
+    def landed(self) -> bool:
+        """Whether it is on the ground."""
+        self.settle(self._clock())
+        return self._landed
+
+    @property
+    def is_docked(self) -> bool:
+        """Whether it stands in its dock."""
+        return self.landed and docked(self._leg.end, self.drone.home)
+
+    @property
+    def flown(self) -> float:
+        """How many metres it has flown, up and down included."""
+        now = self._clock()
+        self.settle(now)
+        return self._flown + self._leg.length(now)
+
+    @property
+    def arrives(self) -> float:
+        """When it is where it goes."""
+        return self._leg.arrives
+
+    @property
+    def fails_to_act(self) -> bool:
+        """Whether the action of this flight goes wrong."""
+        return self._drawn.action
+
+    # What navigation does to it
+
+    def begin(self, drawn: Drawn, now: float) -> None:
+        """Begin a flight, with what will go wrong on it."""
+        self._drawn, self._began = drawn, now
+
+    def lift_off(self, now: float) -> None:
+        """Leave the ground: from now on the battery drains."""
+        self._charge = self._charge.changing(now, -1.0 / self.drone.category.flight_time)
+        self._landed = False
+
+    def move(self, target: Point, now: float, arrives: float) -> None:
+        """Go straight to a point, to be there at a time."""
+        self._turn(Leg(self._leg.at(now), target, now, arrives), now)
+
+    def halt(self, now: float) -> None:
+        """Hover where it is, unless it is past that."""
+        self.settle(now)
+        if self.down is None and not self._landed:
+            self._turn(standing(self._leg.at(now), now), now)
+
+    def touch_down(self, now: float) -> None:
+        """Stand on the ground, below where it is: its flight is over."""
+        self._rest(now)
+        at_home = docked(self._leg.end, self.drone.home)
+        rate = 1.0 / self.drone.category.charge_time if at_home else 0.0
+        self._charge = self._charge.changing(now, rate)
+        self._drawn = Drawn()
+
+    def dock(self, now: float) -> None:
+        """Stand in its dock, put there by somebody, and take commands again."""
+        self.down = None
+        self._turn(standing(self.drone.home, now), now)
+        self.touch_down(now)
+
+    def check(self, now: float) -> None:
+        """Raise why it takes no commands, if it takes none."""
+        self.settle(now)
+        if self.down is not None:
+            raise FlightFailed(self.down.failure, str(self.down))
+
+    # What comes to pass by itself
+
+    def settle(self, now: float) -> None:
+        """Let everything come to pass that was due by now, each at its own moment."""
+        while (due := self._next())[0] <= now:
+            self._happen(*due)
+
+    @property
+    def next_mishap(self) -> float:
+        """When something will go wrong, if it stays in the air for so long."""
+        return self._next()[0]
+
+    def _next(self) -> tuple[float, Failure | None]:
+        """What comes first, and of equals the worst; None: it touches down by itself."""
+        if self._landed:
+            return inf, None
+        empty = self._charge.empty_at, Failure.BATTERY
+        if self.down is not None:  # it has lost its link, and lands
+            return min((self.arrives, None), empty, key=lambda due: due[0])
+        drawn = (
+            (self._drawn.crash, Failure.CRASH),
+            (self._drawn.link, Failure.LINK),
+            (self._drawn.battery, Failure.BATTERY),
+        )
+        moments = [(self._began + after, what) for after, what in drawn if after is not None]
+        return min((*moments, empty), key=lambda due: due[0])
+
+    def _happen(self, when: float, what: Failure | None) -> None:
+        x, y, z = self._leg.at(when)
+        who, where = self.drone.id, f"at {place((x, y, z))}"
+        if what is None:
+            self.touch_down(when)
+        elif what is Failure.LINK:
+            self._fail(what, f"{who} lost its link {where}", when)
+            self.move((x, y, 0.0), when, when + z / CLIMB_SPEED)
+        elif what is Failure.BATTERY:
+            self._fail(what, f"{who} ran out of battery {where}", when)
+            self._rest(when)
+            self._charge = Charge(0.0, when)
+        else:
+            self._fail(what, f"{who} crashed {where}", when)
+            self._rest(when)
+            self._charge = self._charge.changing(when, 0.0)
+            self.carries = None
+
+    def _fail(self, what: Failure, reason: str, when: float) -> None:
+        self.down, self.down_since = FlightFailed(what, reason), when
+        self._drawn = Drawn()
+
+    def _rest(self, when: float) -> None:
+        x, y, _ = self._leg.at(when)
+        self._turn(standing((x, y, 0.0), when), when)
+        self._landed = True
+
+    def _turn(self, leg: Leg, now: float) -> None:
+        self._flown += self._leg.length(now)
+        self._leg = leg

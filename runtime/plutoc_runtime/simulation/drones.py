@@ -1,0 +1,211 @@
+"""A simulated team of drones: navigation over any kernel, in virtual or in real time."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from math import dist, inf
+
+from ..actions import BUILT_IN, PICK, RELEASE, Plain
+from ..airspace import Airspace
+from ..energy import CLIMB_SPEED
+from ..errors import Failure, FlightFailed
+from ..kernel import Kernel, Kind
+from ..model import Item, Point, Telemetry
+from ..navigation import Order
+from ..words import mass, place
+from .body import Body, SimulatedDrone
+from .faults import Faults, draw
+from .world import World
+
+__all__ = ["SimulatedDrone", "SimulatedNavigation"]
+
+OUTAGE = 20.0
+"""Seconds until a drone that lost its link can be reached again."""
+CARRYING_HOME = 300.0
+"""Seconds until somebody has carried a drone home."""
+
+
+class SimulatedNavigation:
+    """Flies simulated drones in a simulated world, and lets go wrong what is drawn to."""
+
+    def __init__(
+        self,
+        kernel: Kernel,
+        drones: Sequence[SimulatedDrone],
+        world: World,
+        faults: Faults,
+        seed: int,
+        airspace: Airspace,
+    ) -> None:
+        self._kernel, self._world, self._airspace = kernel, world, airspace
+        self._faults, self._seed = faults, seed
+        self._bodies = {drone.id: Body(drone, lambda: kernel.now) for drone in drones}
+
+    def telemetry(self, drone: str) -> Telemetry:
+        """Return what is known of a drone; the value stays current."""
+        return self._bodies[drone]
+
+    def carrying(self, drone: str) -> Item | None:
+        """Return what a drone has aboard."""
+        body = self._bodies[drone]
+        body.settle(self._kernel.now)
+        return body.carries
+
+    def flown(self, drone: str) -> float:
+        """Return how many metres a drone has flown, up and down included."""
+        return self._bodies[drone].flown
+
+    async def takeoff(self, drone: str, height: float, order: Order | None) -> None:
+        """Rise to a height; one that flies stays where it is, but what goes wrong is drawn anew."""
+        body = self._bodies[drone]
+        now = self._kernel.now
+        body.check(now)
+        body.begin(draw(self._faults, self._seed, order), now)
+        if body.landed:
+            x, y, _ = body.location
+            body.lift_off(now)
+            await self._move(body, (x, y, height), CLIMB_SPEED, "to take off")
+
+    async def go_to(self, drone: str, target: Point) -> None:
+        """Fly straight to a point."""
+        body = self._in_the_air(drone)
+        command = f"to fly to {place(target)}"
+        await self._move(body, target, body.drone.category.speed, command)
+
+    async def act(
+        self, drone: str, action: str, parameters: Mapping[str, Plain], item: Item | None
+    ) -> object:
+        """Do one of the built-in actions here, and return what came of it."""
+        body = self._in_the_air(drone)
+        if action not in BUILT_IN:
+            raise FlightFailed(Failure.REFUSED, f"{drone} has no action {action}")
+        problem = _grip_problem(body, action, item)
+        if problem is None:
+            await self._pass(body, BUILT_IN[action].seconds, f"to {action}")
+            problem = f"{drone} could not do it" if body.fails_to_act else None
+        if problem is not None:
+            raise _action_failed(body, f"{action} failed", problem)
+        return self._outcome(body, action, parameters, item)
+
+    async def hold(self, drone: str) -> None:
+        """Hover until something goes wrong or nobody wants it any longer."""
+        body = self._in_the_air(drone)
+        if body.fails_to_act:
+            raise _action_failed(body, "the action failed", f"{drone} could not do it")
+        await self._pass(body, inf, "to hover")
+
+    async def land(self, drone: str) -> None:
+        """Land here; does nothing for a drone that stands on the ground."""
+        body = self._bodies[drone]
+        body.check(self._kernel.now)
+        if not body.landed:
+            x, y, _ = body.location
+            body.touch_down(await self._move(body, (x, y, 0.0), CLIMB_SPEED, "to land"))
+
+    async def recover(self, drone: str) -> bool:
+        """Bring a drone home after a failed flight, landed; False: it is lost.
+
+        Whoever meets it there takes off what it still carries.
+        """
+        body = self._bodies[drone]
+        body.settle(self._kernel.now)
+        if body.down is not None and body.down.failure is Failure.LINK:
+            await self._wait_until(body, max(body.down_since + OUTAGE, body.arrives))
+        if body.down is not None and body.down.failure is Failure.CRASH:
+            return False
+        if not await self._flies_home(body):
+            await self._wait_until(body, self._kernel.now + CARRYING_HOME)
+            body.dock(self._kernel.now)
+        body.carries = None
+        return True
+
+    async def _flies_home(self, body: Body) -> bool:
+        if body.down is not None and body.down.failure is not Failure.LINK:
+            return False
+        body.down = None  # the link is back
+        if body.is_docked:
+            return True
+        drone, (x, y, _) = body.drone.id, body.drone.home
+        try:
+            await self.takeoff(drone, self._airspace.cruise_height, None)
+            here = body.location
+            way = self._airspace.route(here, (x, y, here[2]))
+            for point in way or ():
+                await self.go_to(drone, point)
+            await self.land(drone)
+        except FlightFailed:
+            return False
+        return way is not None
+
+    async def _wait_until(self, body: Body, when: float) -> None:
+        await self._kernel.sleep(when - self._kernel.now, Kind.FLIGHT, body.key)
+        body.settle(when)
+
+    async def _move(self, body: Body, target: Point, speed: float, command: str) -> float:
+        now = self._kernel.now
+        seconds = dist(body.location, target) / speed
+        body.move(target, now, now + seconds)
+        return await self._pass(body, seconds, command)
+
+    async def _pass(self, body: Body, seconds: float, command: str) -> float:
+        """Let the time of a command pass, and return when it is over; a mishap is over it first."""
+        if body.command:
+            raise RuntimeError(f"{body.drone.id} was told {command} while told {body.command}")
+        now = self._kernel.now
+        until = min(now + seconds, body.next_mishap)
+        body.command = command
+        try:
+            if until > now:
+                await self._kernel.sleep(until - now, Kind.FLIGHT, body.key)
+        except BaseException:  # no longer wanted
+            body.halt(self._kernel.now)
+            raise
+        finally:
+            body.command = ""
+        # Not the time of now: a real clock is late, and sums of floats are not exact.
+        body.check(until)
+        return until
+
+    def _in_the_air(self, drone: str) -> Body:
+        body = self._bodies[drone]
+        body.check(self._kernel.now)
+        if body.landed:
+            where = place(body.location)
+            reason = f"{drone} is on the ground at {where}: it must take off first"
+            raise FlightFailed(Failure.REFUSED, reason)
+        return body
+
+    def _outcome(
+        self, body: Body, action: str, parameters: Mapping[str, Plain], item: Item | None
+    ) -> object:
+        if action == PICK:
+            body.carries = item
+            return None
+        if action == RELEASE:
+            body.carries = None
+            return None
+        if action == "take_photo":
+            return self._world.photo(body.location, self._kernel.now)
+        quantity = parameters.get("quantity", BUILT_IN["measure"].parameters[0].default)
+        return self._world.measure(str(quantity), body.location, self._kernel.now)
+
+
+def _grip_problem(body: Body, action: str, item: Item | None) -> str | None:
+    """Return why a drone cannot pick or release this, or None."""
+    who, has = body.drone.id, body.carries
+    if action == PICK:
+        payload = body.drone.category.payload
+        if item is None:
+            return "there is nothing to pick"
+        if has is not None:
+            return f"{who} already carries {has.name}"
+        if item.mass > payload + 1e-9:
+            return f"{item.name} weighs {mass(item.mass)}, {who} carries at most {mass(payload)}"
+    if action == RELEASE and (has is None or item is None or has.name != item.name):
+        carries = "nothing" if has is None else has.name
+        return f"{who} carries {carries}" + ("" if item is None else f", not {item.name}")
+    return None
+
+
+def _action_failed(body: Body, what: str, why: str) -> FlightFailed:
+    return FlightFailed(Failure.ACTION, f"{what}: {why} at {place(body.location)}")
