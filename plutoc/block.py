@@ -83,6 +83,8 @@ class Choice:
     default: str
     doc: str
     hook: HookKind | None = None
+    adapt: Callable[..., Any] | None = None
+    """Makes of the app's hook what the options are."""
 
 
 AnyParam = Param | HookParam | Choice

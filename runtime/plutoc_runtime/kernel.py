@@ -110,6 +110,21 @@ class Timer:
         self.call = None
 
 
+class _Ending:
+    """Keeps whatever a coroutine ends with: its task hands it on to those who wait for it."""
+
+    error: BaseException
+
+    def __enter__(self) -> None:
+        pass
+
+    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> bool:
+        if error is None or isinstance(error, (KeyboardInterrupt, SystemExit)):
+            return False
+        self.error = error
+        return True
+
+
 class Task(Generic[T]):
     """A coroutine on its way."""
 
@@ -134,28 +149,23 @@ class Task(Generic[T]):
             self._step(lambda: self._coroutine.send(None))
 
     def _step(self, advance: Callable[[], object]) -> None:
-        try:
+        """Let the coroutine run up to its next wait."""
+        end = _Ending()
+        with end:
             waits_for = advance()
             while not isinstance(waits_for, Signal):
                 error = ForeignAwait(f"it awaited {type(waits_for).__name__}")
                 waits_for = self._coroutine.throw(error)
-        except StopIteration as end:
-            self._finish()
-            self.done.set(end.value)
-        except Cancelled as end:
-            self._finish()
-            self.done.fail(end)
-        except Exception as error:
-            self._finish()
-            if not self.done.watched:
-                self._kernel.crash(error)
-            self.done.fail(error)
-        else:
             self._waits_for = waits_for
             waits_for.watch(self.wake)
-
-    def _finish(self) -> None:
+            return
         del self._kernel.tasks[self]
+        if isinstance(end.error, StopIteration):
+            self.done.set(end.error.value)
+            return
+        if not isinstance(end.error, Cancelled) and not self.done.watched:
+            self._kernel.crash(end.error)
+        self.done.fail(end.error)
 
     def cancel(self) -> None:
         """Stop it where it waits, now."""
@@ -251,5 +261,3 @@ class Kernel:
         call, timer.call = timer.call, None
         if call is not None:
             call()
-        if self.crashed is not None:
-            raise self.crashed

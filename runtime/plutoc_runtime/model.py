@@ -127,6 +127,8 @@ class Trip:
     end_time: float | None = None
     attempt: int = 1
     """How often it has been tried in this round, this time included."""
+    index: int = 0
+    """Its place in the missions file."""
     added: bool = False
     """An evaluator added it: it is not repeated."""
     reason: str = ""
@@ -185,8 +187,5 @@ class Mission(Generic[AnyTrip]):
 
     @property
     def current(self) -> AnyTrip:
-        """The trip that flies now, or flies next."""
-        return self.trips[0]
-
-
-AnyMission = Mission[AnyTrip]
+        """The trip that flies now, or flies next; when none is left, the one flown last."""
+        return self.trips[0] if self.trips else self.completed_trips[-1]

@@ -58,7 +58,7 @@ PYTHON: dict[Type, str] = {
     Type.INT: "int",
     Type.BOOL: "bool",
     Type.TEXT: "str",
-    **{kind: "float" for kind in (Type.FLOAT, *QUANTITIES)},
+    **dict.fromkeys((Type.FLOAT, *QUANTITIES), "float"),
 }
 """The Python type that a hook gets for each type of the language."""
 

@@ -23,7 +23,7 @@ class RealTime(Kernel):
         self._start = self._loop.time()
         self._frozen: float | None = None
         self._armed: asyncio.TimerHandle | None = None
-        self._failed: asyncio.Future[None] = self._loop.create_future()
+        self._over = asyncio.Event()
 
     @property
     def now(self) -> float:
@@ -43,12 +43,11 @@ class RealTime(Kernel):
 
     async def run(self, done: Signal[T]) -> T:
         """Go on until it is done."""
-        over: asyncio.Future[None] = self._loop.create_future()
-        done.watch(lambda: over.done() or over.set_result(None))
+        done.watch(self._over.set)
         self._arm()
-        await asyncio.wait({over, self._failed}, return_when=asyncio.FIRST_COMPLETED)
-        if self._failed.done():
-            self._failed.result()
+        await self._over.wait()
+        if self.crashed is not None:
+            raise self.crashed
         return done.result()
 
     def _arm(self) -> None:
@@ -66,10 +65,9 @@ class RealTime(Kernel):
         try:
             while (when := self.next_time()) is not None and when <= self._frozen:
                 self.take()
-        except BaseException as error:
-            if not self._failed.done():
-                self._failed.set_exception(error)
-            return
+                if self.crashed is not None:
+                    self._over.set()
+                    return
         finally:
             self._frozen = None
         self._arm()

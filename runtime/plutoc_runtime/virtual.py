@@ -44,6 +44,8 @@ class VirtualTime(Kernel):
                 return False
             self._now = when
             self.take()
+            if self.crashed is not None:
+                raise self.crashed
         return True
 
     async def call_hook(

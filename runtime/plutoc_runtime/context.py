@@ -1,0 +1,72 @@
+"""What a hook gets to work with."""
+
+from __future__ import annotations
+
+from .core import Core
+from .kernel import Kind, Signal
+from .model import Trip
+from .results import Result
+from .state import State
+
+
+class Context:
+    """The running app, as an action or a modifier sees it. Times are seconds since the start."""
+
+    __slots__ = ("_core", "_state")
+
+    def __init__(self, core: Core, state: State) -> None:
+        self._core, self._state = core, state
+
+    @property
+    def now(self) -> float:
+        """The time, in seconds since the app started."""
+        return self._core.kernel.now
+
+    @property
+    def results(self) -> tuple[Result, ...]:
+        """What every action of the app has given so far."""
+        return tuple(self._core.results.results)
+
+    def log(self, text: str) -> None:
+        """Write a line on the console."""
+        self._core.log(text, self._state.mission.name)
+
+    async def sleep(self, seconds: float) -> None:
+        """Wait for so many seconds, simulated or real."""
+        kernel, over = self._core.kernel, Signal[None]()
+        timer = kernel.at(kernel.now + seconds, Kind.CLOCK, self._key, lambda: over.set(None))
+        try:
+            await kernel.offer(over)
+        finally:
+            timer.cancel()
+
+    async def trip_ended(self, trip: Trip, *, within: float | None = None) -> bool:
+        """Wait until a trip of this mission is over; say whether it is.
+
+        With `within`, wait no longer than so many seconds from the trip's start: False means that
+        it is still flying. At the very same instant the trip's own end wins.
+        """
+        flight = self._state.flight
+        if trip.ended or flight is None or flight.trip is not trip:
+            return trip.ended
+        kernel, over = self._core.kernel, Signal[None]()
+
+        def wake() -> None:
+            over.set(None)
+
+        flight.ended.watch(wake)
+        timer = None
+        if within is not None:
+            until = (trip.start_time or 0.0) + within
+            timer = kernel.at(until, Kind.TIMER, self._key, wake)
+        try:
+            await kernel.offer(over)
+        finally:
+            flight.ended.unwatch(wake)
+            if timer is not None:
+                timer.cancel()
+        return flight.ended.is_set
+
+    @property
+    def _key(self) -> tuple[int, ...]:
+        return (self._state.mission.index,)

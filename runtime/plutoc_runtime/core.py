@@ -1,0 +1,32 @@
+"""What everything that flies a mission shares."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from .airspace import Airspace
+from .app import App
+from .fleet import Fleet
+from .kernel import Kernel
+from .navigation import Navigation
+from .results import ResultStore
+from .trace import Trace
+from .transitions import Transitions
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Core:
+    """The parts of one running app."""
+
+    app: App
+    kernel: Kernel
+    airspace: Airspace
+    navigation: Navigation
+    trace: Trace
+    results: ResultStore
+    transitions: Transitions
+    fleet: Fleet
+
+    def log(self, text: str, mission: str | None = None) -> None:
+        """Write a line on the console of whoever watches."""
+        self.trace.note("log", mission=mission, text=text)

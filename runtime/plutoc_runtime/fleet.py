@@ -1,0 +1,202 @@
+"""The drones: who is free, who flies home, who charges, who is lost.
+
+The one place where a drone changes its status, but for the moment of its allocation.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Coroutine, Sequence
+from enum import Enum
+from typing import Any
+
+from .airspace import Airspace
+from .allocation import Queue
+from .errors import Failure, FlightFailed
+from .kernel import FLEET, Kernel, Key, Kind, Task
+from .model import Drone, Point
+from .navigation import Navigation
+from .status import DroneStatus
+from .trace import Trace
+from .words import place
+
+_DOCKED_WITHIN = 0.2  # metres from home
+
+
+class AfterTrip(Enum):
+    """Where a drone goes when its trip is over."""
+
+    HOME = "home"
+    STAY = "stay"
+    NEXT = "next"
+
+
+class Fleet:
+    """The drones of one app."""
+
+    def __init__(
+        self,
+        kernel: Kernel,
+        trace: Trace,
+        airspace: Airspace,
+        navigation: Navigation,
+        drones: Sequence[Drone],
+        queue: Queue,
+        after_trip: AfterTrip,
+    ) -> None:
+        self.drones, self.queue = tuple(drones), queue
+        self._kernel, self._trace, self._airspace = kernel, trace, airspace
+        self._navigation, self._after_trip = navigation, after_trip
+        self._errands: dict[Drone, Task[None]] = {}
+        queue.served = self._fetch_what_is_low
+
+    async def go_to(self, drone: Drone, target: Point) -> None:
+        """Fly a drone to a point by a permitted way."""
+        route = self._airspace.route(drone.location, target)
+        if route is None:
+            raise FlightFailed(
+                Failure.REFUSED, f"there is no permitted way from {drone.id} to {place(target)}"
+            )
+        for point in route:
+            await self._navigation.go_to(drone.id, point)
+
+    def engage(self, drone: Drone) -> None:
+        """A drone is about to fly for a mission: whatever it was doing for itself is over."""
+        errand = self._errands.pop(drone, None)
+        if errand is not None:
+            errand.cancel()
+
+    def keep(self, drone: Drone) -> None:
+        """A drone with an item aboard lands where it is and waits for its mission."""
+        self._send(drone, DroneStatus.BUSY, self._land, "waits with its item")
+
+    def dismiss(self, drone: Drone) -> None:
+        """A drone has done what it was allocated for."""
+        if self._after_trip is AfterTrip.HOME or self._is_low(drone):
+            self.send_home(drone)
+        else:
+            self._send(drone, DroneStatus.RETURNING, self._stay, "lands")
+
+    def send_home(self, drone: Drone) -> None:
+        """A drone goes home."""
+        self._send(drone, DroneStatus.RETURNING, self._return, "returns")
+
+    def recover(self, drone: Drone) -> None:
+        """A drone's flight has failed: it is not handed out before it is home again."""
+        self._send(drone, DroneStatus.RECOVERING, self._bring_back, "recovers")
+
+    def never_flew(self, drone: Drone) -> None:
+        """A drone was allocated and is not needed after all."""
+        self._settle(drone)
+
+    async def land_all(self) -> None:
+        """Land every drone that flies, where it is, all at once."""
+        for drone in self.drones:
+            self.engage(drone)
+        tasks = [
+            self._kernel.spawn(self._land(drone), self._key(drone), f"{drone.id} lands")
+            for drone in self.drones
+            if not drone.telemetry.landed
+        ]
+        for task in tasks:
+            await task.done
+
+    def _send(
+        self,
+        drone: Drone,
+        status: DroneStatus,
+        errand: Callable[[Drone], Coroutine[Any, Any, None]],
+        what: str,
+    ) -> None:
+        self.engage(drone)
+        self._become(drone, status)
+        self._errands[drone] = self._kernel.spawn(
+            errand(drone), self._key(drone), f"{drone.id} {what}"
+        )
+
+    def _become(self, drone: Drone, status: DroneStatus) -> None:
+        if drone.status is not status:
+            drone.status = status
+            self._trace.note(
+                f"drone.{status.value.lower()}",
+                drone=drone.id,
+                battery=round(drone.battery_level, 4),
+                at=[round(value, 3) for value in drone.location],
+            )
+        self.queue.changed()
+
+    async def _land(self, drone: Drone) -> None:
+        try:
+            await self._navigation.land(drone.id)
+        except FlightFailed:
+            self._later(drone, self.recover)
+
+    async def _return(self, drone: Drone) -> None:
+        try:
+            await self._navigation.takeoff(drone.id, self._airspace.cruise_height, None)
+            x, y, _ = drone.home
+            await self.go_to(drone, (x, y, drone.location[2]))
+            await self._navigation.land(drone.id)
+        except FlightFailed:
+            self._later(drone, self.recover)
+        else:
+            self._settle(drone)
+
+    async def _stay(self, drone: Drone) -> None:
+        try:
+            await self._navigation.land(drone.id)
+        except FlightFailed:
+            self._later(drone, self.recover)
+            return
+        self._settle(drone)
+        if drone.status is DroneStatus.FREE and self._after_trip is AfterTrip.NEXT:
+            self._kernel.at(
+                self._kernel.now, Kind.ALLOCATE, self._key(drone), lambda: self._linger(drone)
+            )
+
+    def _linger(self, drone: Drone) -> None:
+        """It stands away from home and no mission took it at once."""
+        if drone.status is DroneStatus.FREE and not self._is_docked(drone):
+            self.send_home(drone)
+
+    def _fetch_what_is_low(self) -> None:
+        """Missions wait for drones that stand away from home with too little in their batteries."""
+        for drone in self.queue.too_low():
+            if not self._is_docked(drone):
+                self.send_home(drone)
+
+    async def _bring_back(self, drone: Drone) -> None:
+        if await self._navigation.recover(drone.id):
+            self._settle(drone)
+        else:
+            self._become(drone, DroneStatus.LOST)
+
+    def _later(self, drone: Drone, then: Callable[[Drone], None]) -> None:
+        """Send it on once the errand that says so is itself over."""
+        self._errands.pop(drone, None)
+        self._kernel.at(self._kernel.now, Kind.FLIGHT, self._key(drone), lambda: then(drone))
+
+    def _settle(self, drone: Drone) -> None:
+        """It stands on the ground, well: is there enough in its battery to be handed out?"""
+        self._errands.pop(drone, None)
+        missing = drone.category.reserve - drone.battery_level
+        if missing < 0:
+            self._become(drone, DroneStatus.FREE)
+            return
+        self._become(drone, DroneStatus.CHARGING)
+        seconds = missing * drone.category.charge_time + 0.001
+        self._kernel.at(
+            self._kernel.now + seconds,
+            Kind.CLOCK,
+            self._key(drone),
+            lambda: self._settle(drone) if drone.status is DroneStatus.CHARGING else None,
+        )
+
+    def _is_low(self, drone: Drone) -> bool:
+        """Whether there is little more in it than the way home takes."""
+        return drone.battery_level < drone.category.reserve + 0.2
+
+    def _is_docked(self, drone: Drone) -> bool:
+        return drone.telemetry.landed and drone.distance(drone.home) <= _DOCKED_WITHIN
+
+    def _key(self, drone: Drone) -> Key:
+        return (FLEET[0] + 1 + drone.index,)

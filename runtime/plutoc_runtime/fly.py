@@ -1,0 +1,37 @@
+"""Real time: the same session as in a simulation, on asyncio's clock."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Sequence
+from typing import Any
+
+from .app import App
+from .files.fleet import FleetFile
+from .model import Mission
+from .realtime import RealTime
+from .session import Listener, Outcome, Session
+from .simulation.faults import Faults
+
+
+async def fly_simulated(
+    app: App,
+    missions: Sequence[Mission[Any]],
+    fleet: FleetFile,
+    *,
+    seed: int,
+    faults: Faults,
+    on_event: Listener | None,
+) -> Outcome:
+    """Fly the missions with simulated drones in real time; when cancelled, land them all first."""
+    kernel = RealTime()
+    session = Session(app, fleet, kernel, seed, faults, on_event)
+    session.engine.start(missions)
+    try:
+        await kernel.run(session.engine.done)
+    except asyncio.CancelledError:
+        session.engine.halt()
+        landing = kernel.spawn(session.core.fleet.land_all(), (), "land all")
+        await kernel.run(landing.done)
+        raise
+    return session.outcome(missions)

@@ -1,0 +1,34 @@
+"""Calls to the code that the app's developer wrote, and what its faults become."""
+
+from __future__ import annotations
+
+import traceback
+from collections.abc import Callable
+
+from .errors import ActionFailed, HookFault
+from .kernel import Kernel
+
+Hook = Callable[..., object]
+
+
+async def call_hook(kernel: Kernel, hook: Hook, *args: object, **named: object) -> object:
+    """Call a hook; whatever it raises, `ActionFailed` aside, is a fault of the hook."""
+    try:
+        return await kernel.call_hook(hook, *args, **named)
+    except ActionFailed:
+        raise
+    except Exception as error:
+        raise HookFault(
+            f"hook {hook_name(hook)} raised {type(error).__name__}: {error}", trace_of(error)
+        ) from error
+
+
+def hook_name(hook: Hook) -> str:
+    """Return a hook's name, as its declaration has it."""
+    inner = getattr(hook, "func", hook)  # functools.partial carries its function so
+    return str(getattr(inner, "__name__", inner))
+
+
+def trace_of(error: BaseException) -> str:
+    """Return the traceback of a hook's error, for the log."""
+    return "".join(traceback.format_exception(error)).rstrip()

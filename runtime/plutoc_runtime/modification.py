@@ -1,0 +1,66 @@
+"""What becomes of the status that a modifier returns."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from .errors import HookFault
+from .flight import abort
+from .hooks import hook_name
+from .run import Run
+from .state import State
+from .status import Status, TripStatus
+
+
+def settle(
+    run: Run[Any],
+    hook: Callable[..., object],
+    status: Status,
+    emits: tuple[Status, ...],
+    returned: object,
+) -> Status:
+    """Return the status with which the mission goes on; one that cannot be is a fault."""
+    name = hook_name(hook)
+    if not emits:
+        if returned is not None:
+            raise HookFault(
+                f"modifier {name} declares no `emits` and so must return nothing, not {returned!r}"
+            )
+        return status
+    if not isinstance(returned, Status) or returned not in emits:
+        declared = ", ".join(status.value for status in emits)
+        raise HookFault(f"modifier {name} must return one of {declared}, not {_shown(returned)}")
+    lie = _contradiction(run.state, returned)
+    if lie is not None:
+        raise HookFault(f"modifier {name} returned {returned.value}, but {lie}")
+    if returned is Status.FAILED:
+        abort(run.core, run.state, f"modifier {name} failed the trip")
+    elif returned is not run.mission.status:
+        run.core.transitions.modify(run.mission, returned)
+    return returned
+
+
+def _contradiction(state: State, status: Status) -> str | None:
+    """Return why the mission cannot stand so, or None."""
+    mission = state.mission
+    flying = state.in_flight
+    if status is Status.RUNNING:
+        return None if flying else "no trip is in flight"
+    if status is Status.FAILED:
+        return None
+    if flying is not None:
+        return f"trip {flying.trip.name} is still flying"
+    if status is Status.COMPLETED:
+        return f"{len(mission.trips)} trips are still to do" if mission.trips else None
+    if not mission.trips:
+        return "no trip is left to do"
+    if mission.current.status is not TripStatus.WAITING:
+        return f"trip {mission.current.name} has failed; trip.reset() puts it back"
+    if status is Status.UNEXECUTED and mission.attempts:
+        return "the mission has flown already"
+    return None
+
+
+def _shown(value: object) -> str:
+    return value.value if isinstance(value, Status) else repr(value)

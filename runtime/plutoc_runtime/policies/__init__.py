@@ -1,0 +1,1 @@
+"""The allocation policies that a graph can name, one file each."""

@@ -1,0 +1,18 @@
+"""`first`: the free drone that stands first in the fleet file."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ..model import Drone, Trip
+from ..policy import Decision, Offer, one_by_one
+
+
+def first(offers: Sequence[Offer]) -> list[Decision]:
+    """Give each trip, in turn, the first free drone of the fleet."""
+    return one_by_one(offers, _lowest)
+
+
+def _lowest(trip: Trip, drones: Sequence[Drone]) -> tuple[Drone, str]:
+    drone = min(drones, key=lambda drone: drone.index)
+    return drone, f"first of {len(drones)} free in the fleet's order"

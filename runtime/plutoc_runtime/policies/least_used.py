@@ -1,0 +1,18 @@
+"""`least_used`: the free drone that has flown the fewest trips."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ..model import Drone, Trip
+from ..policy import Decision, Offer, one_by_one
+
+
+def least_used(offers: Sequence[Offer]) -> list[Decision]:
+    """Give each trip, in turn, the free drone with the fewest trips behind it."""
+    return one_by_one(offers, _freshest)
+
+
+def _freshest(trip: Trip, drones: Sequence[Drone]) -> tuple[Drone, str]:
+    drone = min(drones, key=lambda drone: (drone.trips, drone.index))
+    return drone, f"least used of {len(drones)} free: {drone.trips} trips so far"

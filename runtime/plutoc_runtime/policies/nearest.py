@@ -1,0 +1,19 @@
+"""`nearest`: the free drone that is closest to where the trip begins."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ..model import Drone, Trip
+from ..policy import Decision, Offer, one_by_one
+
+
+def nearest(offers: Sequence[Offer]) -> list[Decision]:
+    """Give each trip, in turn, the closest free drone."""
+    return one_by_one(offers, _closest)
+
+
+def _closest(trip: Trip, drones: Sequence[Drone]) -> tuple[Drone, str]:
+    goal = trip.source or trip.target
+    drone = min(drones, key=lambda drone: (drone.distance(goal), drone.index))
+    return drone, f"nearest of {len(drones)} free: {drone.distance(goal):.1f} m away"

@@ -1,0 +1,58 @@
+"""A mission on its way through its graph, as the blocks' steps get it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Coroutine, Sequence
+from typing import Any, Generic, TypeVar
+
+from .context import Context
+from .core import Core
+from .errors import HookFault
+from .hooks import call_hook
+from .kernel import Key, Task
+from .model import Mission
+from .state import State
+from .status import Status
+
+M = TypeVar("M", bound=Mission[Any])
+
+Way = Coroutine[Any, Any, Status]
+
+
+class Run(Generic[M]):
+    """One mission, or one branch of it, and everything that a step may use."""
+
+    __slots__ = ("core", "key", "mission", "state")
+
+    def __init__(self, mission: M, core: Core, state: State, key: Key) -> None:
+        self.mission, self.core, self.state, self.key = mission, core, state, key
+
+    async def hook(self, hook: Callable[..., object], *args: object) -> object:
+        """Call a hook of the app's with these arguments; its faults end the mission."""
+        try:
+            return await call_hook(self.core.kernel, hook, *args)
+        except HookFault as fault:
+            self.core.log(fault.detail, self.mission.name)
+            raise
+
+    @property
+    def context(self) -> Context:
+        """What a hook gets of it."""
+        return Context(self.core, self.state)
+
+    def fork(
+        self, status: Status, branches: Sequence[Callable[[Run[M], Status], Way]]
+    ) -> list[Task[Status]]:
+        """Send a clone of the mission into each branch; the gate that calls this closes them."""
+        return [
+            self.core.kernel.spawn(
+                branch(Run(self.mission, self.core, self.state, (*self.key, number)), status),
+                (*self.key, number),
+                f"{self.mission.name}: branch {number + 1}",
+            )
+            for number, branch in enumerate(branches)
+        ]
+
+
+Branch = Callable[[Run[M], Status], Way]
+"""One way through a fork; it gives the status with which its clone arrives at the gate."""

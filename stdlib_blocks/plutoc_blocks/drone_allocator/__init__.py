@@ -1,0 +1,49 @@
+"""DroneAllocator: gives a mission the drone for its next trip."""
+
+from plutoc.block import Block, Choice, HookKind, Param, emits, same
+from plutoc_runtime.policies.batch_optimal import batch_optimal
+from plutoc_runtime.policies.first import first
+from plutoc_runtime.policies.least_used import least_used
+from plutoc_runtime.policies.nearest import nearest
+from plutoc_runtime.policy import own_policy
+from plutoc_runtime.quantities import Type
+from plutoc_runtime.status import Status
+
+from .step import allocate_drone
+
+DRONE_ALLOCATOR = Block(
+    name="DroneAllocator",
+    doc="""Waits for a drone that can do the next trip, and takes it.
+
+    The fleet has one queue: the head trip's priority counts first, then arrival. A drone is
+    eligible if its category can do the action and carry the item, and if its battery covers the
+    way there, the action, the way home and the reserve. A failed mission is let in only by an
+    edge whose guard says so: its head trip is put back first. Source: thesis 4.2.""",
+    step=allocate_drone,
+    transitions=same(Status.UNEXECUTED, Status.STANDBY),
+    guarded={Status.FAILED: emits(Status.STANDBY)},
+    params=(
+        Choice(
+            name="policy",
+            options={
+                "nearest": nearest,
+                "first": first,
+                "least_used": least_used,
+                "batch_optimal": batch_optimal,
+            },
+            default="nearest",
+            doc="How one of several drones is chosen.",
+            hook=HookKind.POLICY,
+            adapt=own_policy,
+        ),
+        Param(
+            name="allocate_within",
+            type=Type.TIME,
+            doc="The mission fails if it has waited this long for a drone. None: no limit.",
+            least=0.0,
+        ),
+    ),
+    uses=("priority",),
+    allocates=True,
+    resumes=True,
+)

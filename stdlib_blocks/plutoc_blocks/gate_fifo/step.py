@@ -1,0 +1,23 @@
+"""What a GateFIFO does."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import Any
+
+from plutoc_runtime.kernel import Signal, Task
+from plutoc_runtime.run import Branch, Run
+from plutoc_runtime.status import Status
+
+
+async def pass_first(run: Run[Any], status: Status, *branches: Branch[Any]) -> Status:
+    """Send a clone into every branch; go on as the first that arrives."""
+    first: Signal[Task[Status]] = Signal()
+    clones = run.fork(status, branches)
+    for clone in clones:
+        clone.done.watch(partial(first.set, clone))
+    try:
+        return (await first).done.result()
+    finally:
+        for clone in clones:
+            clone.cancel()

@@ -1,0 +1,14 @@
+"""What a MissionCreator does."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from plutoc_runtime.run import Run
+from plutoc_runtime.status import Status
+
+
+def create_mission(run: Run[Any], status: Status) -> Status:
+    """Make the mission of the user's trips."""
+    run.core.transitions.create(run.mission)
+    return status

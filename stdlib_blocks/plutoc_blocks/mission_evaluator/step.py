@@ -1,0 +1,19 @@
+"""What a MissionEvaluator does."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from plutoc_runtime.judgement import apply
+from plutoc_runtime.run import Run
+from plutoc_runtime.status import Status
+
+
+async def evaluate_mission(
+    run: Run[Any], status: Status, *, hook: Callable[..., object], evaluator: str | None
+) -> Status:
+    """Ask the mission's evaluator, and do as its verdict says."""
+    chosen = run.core.app.evaluators[evaluator] if evaluator else hook
+    results = run.core.results.for_evaluator(run.mission)
+    return apply(run, chosen, await run.hook(chosen, run.mission, results))

@@ -1,0 +1,22 @@
+"""What a MissionModifier does."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from plutoc_runtime.modification import settle
+from plutoc_runtime.run import Run
+from plutoc_runtime.status import Status
+
+
+async def modify_mission(
+    run: Run[Any],
+    status: Status,
+    *,
+    hook: Callable[..., object],
+    emits: tuple[Status, ...] = (),
+) -> Status:
+    """Call the hook, and go on with the status that it returns."""
+    returned = await run.hook(hook, run.mission, run.context)
+    return settle(run, hook, status, emits, returned)

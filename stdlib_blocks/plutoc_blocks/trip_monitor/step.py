@@ -1,0 +1,14 @@
+"""What a TripMonitor does."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from plutoc_runtime.flight import outcome
+from plutoc_runtime.run import Run
+from plutoc_runtime.status import Status
+
+
+async def watch_trip(run: Run[Any], status: Status) -> Status:
+    """Wait for the trip's end."""
+    return await outcome(run.core, run.state, run.key)
