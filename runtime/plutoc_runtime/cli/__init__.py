@@ -1,0 +1,91 @@
+"""The command line of a generated package."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+
+from ..app import App
+from ..errors import BadInput
+from . import output
+
+BAD_INPUT, INTERNAL, INTERRUPTED, CLOSED_PIPE = 2, 70, 130, 141
+
+
+def main(app: App, argv: Sequence[str] | None = None) -> int:
+    """Run one command of the app and return its exit code; `argv` is without the program."""
+    output.prepare()
+    ending = _Ending(app)
+    with ending:
+        ending.code = _command(app, argv)
+        output.flush()
+    return ending.code
+
+
+class _Ending:
+    """Turns whatever a command ends with into an exit code, and into a message."""
+
+    def __init__(self, app: App) -> None:
+        self.code = 0
+        self._app = app
+
+    def __enter__(self) -> None:
+        pass
+
+    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> bool:
+        name = self._app.name
+        match error:
+            case None:
+                return True
+            case BadInput():
+                output.tell(str(error))
+                self.code = BAD_INPUT
+            case output.ClosedPipe():
+                output.silence()
+                self.code = CLOSED_PIPE
+            case output.CannotWrite():
+                output.silence()
+                output.tell(f"{name}: the output cannot be written: {error}")
+                self.code = BAD_INPUT
+            case KeyboardInterrupt():
+                output.tell(f"{name}: interrupted")
+                self.code = INTERRUPTED
+            case Exception():
+                _report_bug(name, error)
+                self.code = INTERNAL
+            case _:
+                return False
+        return True
+
+
+def _command(app: App, argv: Sequence[str] | None) -> int:
+    from .options import parse
+
+    try:
+        options = parse(app, argv)
+    except SystemExit as end:  # argparse has printed the help, or what is wrong
+        return end.code if isinstance(end.code, int) else BAD_INPUT
+    match options.command:
+        case "simulate":
+            from .simulate import simulate
+
+            return simulate(app, options)
+        case "fly":
+            from .fly import fly
+
+            return fly(app, options)
+        case _:
+            from .check import check
+
+            return check(app, options)
+
+
+def _report_bug(name: str, error: Exception) -> None:
+    if os.environ.get("PLUTO_DEBUG") == "1":
+        import traceback
+
+        output.tell("".join(traceback.format_exception(error)).rstrip())
+    output.tell(
+        f"{name}: internal error: {type(error).__name__}: {error}\n"
+        "This is a mistake of ours: please report it (PLUTO_DEBUG=1 shows where it happened)."
+    )

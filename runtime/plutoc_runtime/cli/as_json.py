@@ -1,0 +1,70 @@
+"""What a flown plan is to another program: plain data, numbers with three decimals."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from math import isfinite
+
+from ..session import Outcome
+
+
+def outcome_data(name: str, seed: int, outcome: Outcome) -> dict[str, object]:
+    """Return the object that `simulate --json` prints."""
+    return {
+        "app": name,
+        "seed": seed,
+        "duration_s": outcome.duration,
+        "missions": [
+            {
+                "name": mission.name,
+                "status": mission.status.value,
+                "reason": mission.reason,
+                "completed_trips": [trip.name for trip in mission.completed_trips],
+                "rounds": mission.round + 1,
+                "attempts": mission.attempts,
+            }
+            for mission in outcome.missions
+        ],
+        "trips": trips_data(outcome),
+        "drones": [
+            {
+                "id": drone.id,
+                "trips": drone.trips,
+                "flown_m": outcome.flown[drone.id],
+                "battery_level": drone.battery_level,
+                "status": drone.status.value,
+            }
+            for drone in outcome.drones
+        ],
+        "log": outcome.log,
+    }
+
+
+def trips_data(outcome: Outcome) -> dict[str, int]:
+    """Return how many flights there were, and how they ended."""
+    return {
+        "completed": outcome.count("trip.completed"),
+        "failed": outcome.count("trip.failed"),
+        "attempts": outcome.count("trip.launched"),
+    }
+
+
+def dumped(value: object) -> str:
+    """Write plain data as JSON on one line."""
+    return json.dumps(rounded(value), allow_nan=False)
+
+
+def rounded(value: object) -> object:
+    """Return plain data with every number rounded to three decimals; what is no number is null."""
+    match value:
+        case float():
+            return round(value, 3) + 0.0 if isfinite(value) else None  # + 0.0: never -0.0
+        case Mapping():
+            return {str(key): rounded(element) for key, element in value.items()}
+        case list() | tuple():
+            return [rounded(element) for element in value]
+        case None | bool() | int() | str():
+            return value
+        case _:
+            return str(value)

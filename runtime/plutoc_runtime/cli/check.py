@@ -1,0 +1,21 @@
+"""`check`: the plan against the app and the fleet."""
+
+from __future__ import annotations
+
+from ..app import App
+from ..words import counted
+from . import output
+from .options import Options
+from .plans import load
+
+
+def check(app: App, options: Options) -> int:
+    """Say that the fleet can fly the missions; where it cannot, loading has said why."""
+    plan = load(app, options)
+    trips = sum(len(mission.trips) for mission in plan.missions)
+    missions, drones = len(plan.missions), len(plan.fleet.drones)
+    output.line(
+        f"{counted(missions, 'mission')} with {counted(trips, 'trip')}: "
+        f"a fleet of {counted(drones, 'drone')} can fly them"
+    )
+    return 0

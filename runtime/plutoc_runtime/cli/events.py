@@ -1,0 +1,60 @@
+"""What happened, one line an event, for a person who watches."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from ..trace import Event
+from ..words import printable
+
+
+def line_of(event: Event) -> str | None:
+    """Return the line for an event; None for what only a machine wants to know."""
+    say = _SENTENCES.get(str(event["event"]))
+    if say is None:
+        return None
+    time = f"{float(str(event['t'])):>8.1f} s  "
+    mission = event.get("mission")
+    text = f"{mission}: {say(event)}" if mission else say(event)
+    first, *rest = text.split("\n")  # a hook's traceback has many lines
+    return "\n".join([time + printable(first), *(" " * len(time) + printable(r) for r in rest)])
+
+
+def _launched(event: Event) -> str:
+    again = ", again" if event.get("attempt", 1) != 1 else ""
+    return f"trip {event['trip']} launched{again} ({event['drone']})"
+
+
+def _completed(event: Event) -> str:
+    return f"trip {event['trip']} completed ({event['drone']})"
+
+
+def _failed(event: Event) -> str:
+    return f"trip {event['trip']} failed ({event['drone']}): {event['reason']}"
+
+
+def _extended(event: Event) -> str:
+    told = [
+        f"{what}: {', '.join(str(trip) for trip in trips)}"
+        for what, trips in (("again", event.get("redo")), ("new", event.get("add")))
+        if isinstance(trips, list) and trips
+    ]
+    return f"goes on with more trips ({'; '.join(told)})"
+
+
+def _ended(event: Event) -> str:
+    reason = event.get("reason")
+    return f"{event['status']}: {reason}" if reason else str(event["status"])
+
+
+_SENTENCES: Mapping[str, Callable[[Event], str]] = {
+    "trip.launched": _launched,
+    "trip.completed": _completed,
+    "trip.failed": _failed,
+    "mission.repeated": lambda event: f"round {int(str(event['round'])) + 1} begins",
+    "mission.extended": _extended,
+    "mission.ended": _ended,
+    "drone.recovering": lambda event: f"{event['drone']} recovers",
+    "drone.lost": lambda event: f"{event['drone']} is lost",
+    "log": lambda event: str(event["text"]),
+}

@@ -1,0 +1,148 @@
+"""The commands and their flags."""
+
+from __future__ import annotations
+
+from argparse import ArgumentParser, ArgumentTypeError
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from ..app import App
+from ..quantities import Type, parse_quantity
+from ..words import quoted
+
+FAULTS = ("crash", "link", "action", "battery")
+"""What `--fail` can make go wrong."""
+
+
+@dataclass(slots=True)
+class Options:
+    """What was asked for."""
+
+    command: str = ""
+    missions: Path = field(default_factory=Path)
+    fleet: Path | None = None
+    seed: int = 0
+    runs: int | None = None
+    until: float | None = None
+    fail: dict[str, float] = field(default_factory=dict)
+    trace: Path | None = None
+    json: bool = False
+    sim: bool = False
+
+
+def parse(app: App, argv: Sequence[str] | None) -> Options:
+    """Read the command line; raise SystemExit, as argparse does, after help or an error."""
+    parser = _plain(ArgumentParser(prog=app.name, description=app.title, allow_abbrev=False))
+    commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
+
+    def command(name: str, what: str) -> ArgumentParser:
+        return _plain(commands.add_parser(name, help=what, description=what, allow_abbrev=False))
+
+    simulate = command("simulate", "Fly the missions in virtual time, with simulated drones.")
+    _files(simulate)
+    _simulation(simulate)
+    _files(command("check", "Say whether the fleet can fly the missions; nothing flies."))
+    fly = command("fly", "Fly the missions in real time.")
+    _files(fly, fleet_needed=True)
+    fly.add_argument("--sim", action="store_true", help="with simulated drones")
+    options = parser.parse_args(argv, namespace=Options())
+    if options.trace is not None and options.runs is not None:
+        simulate.error("--trace writes down one run: it does not go with --runs")
+    return options
+
+
+def _plain(parser: ArgumentParser) -> ArgumentParser:
+    vars(parser)["color"] = False  # from Python 3.14 on it would be True
+    return parser
+
+
+def _files(parser: ArgumentParser, *, fleet_needed: bool = False) -> None:
+    parser.add_argument("missions", metavar="M.toml", type=Path, help="the missions file")
+    parser.add_argument(
+        "--fleet",
+        metavar="F.toml",
+        type=Path,
+        required=fleet_needed,
+        help="the map and the drones"
+        + ("" if fleet_needed else "; default: five drones on a plain of 20 × 20 m"),
+    )
+
+
+def _simulation(parser: ArgumentParser) -> None:
+    parser.add_argument(
+        "--seed", metavar="N", type=whole, default=0, help="what chance depends on (default 0)"
+    )
+    parser.add_argument(
+        "--runs", metavar="N", type=count, help="simulate N times, with N seeds from --seed on"
+    )
+    parser.add_argument(
+        "--until", metavar="TIME", type=time, help='stop at this simulated time, such as "2 h"'
+    )
+    parser.add_argument(
+        "--fail",
+        metavar="WHAT=SHARE,…",
+        type=faults,
+        default={},
+        help=f"let flights go wrong: {', '.join(FAULTS)}; such as crash=2%%,link=1%%",
+    )
+    parser.add_argument(
+        "--trace", metavar="FILE", type=Path, help="write every event there, a JSON object a line"
+    )
+    parser.add_argument("--json", action="store_true", help="print one JSON object instead")
+
+
+def whole(text: str) -> int:
+    """Read a whole number."""
+    try:
+        return int(text)
+    except ValueError:
+        raise ArgumentTypeError(f"{quoted(text)} is not a whole number") from None
+
+
+def count(text: str) -> int:
+    """Read a number of times."""
+    number = whole(text)
+    if number < 1:
+        raise ArgumentTypeError(f"{quoted(text)} is less than 1")
+    return number
+
+
+def time(text: str) -> float:
+    """Read a time that is more than nothing: 7200, "2 h"."""
+    try:
+        seconds = parse_quantity(text, Type.TIME)
+    except ValueError as error:
+        raise ArgumentTypeError(f"{quoted(text)} {error}") from None
+    if seconds <= 0:
+        raise ArgumentTypeError(f"{quoted(text)} is not more than 0")
+    return seconds
+
+
+def faults(text: str) -> dict[str, float]:
+    """Read crash=10%,link=5%."""
+    shares: dict[str, float] = {}
+    for part in text.split(","):
+        what, equals, amount = (piece.strip() for piece in part.partition("="))
+        if not equals:
+            raise ArgumentTypeError(f"{quoted(part)} is not written like crash=10%")
+        if what not in FAULTS:
+            known = ", ".join(FAULTS)
+            raise ArgumentTypeError(f"{quoted(what)} cannot go wrong; what can: {known}")
+        if what in shares:
+            raise ArgumentTypeError(f"{what} is given twice")
+        shares[what] = share(what, amount)
+    return shares
+
+
+def share(what: str, text: str) -> float:
+    """Read 10% or 0.1."""
+    try:
+        number = parse_quantity(text, Type.PERCENT)
+    except ValueError:
+        raise ArgumentTypeError(
+            f"{what}={text} is not a percentage: write it like {what}=10%"
+        ) from None
+    if not 0 <= number <= 1:
+        raise ArgumentTypeError(f"{what}={text} is not between 0% and 100%")
+    return number

@@ -1,0 +1,20 @@
+"""What a flown plan means for whoever asked: the exit code."""
+
+from __future__ import annotations
+
+from ..session import Outcome
+from ..status import Status
+
+_NEEDS_A_PERSON = (Status.UNCERTAIN, Status.HELD)
+_BAD = (Status.FAILED, Status.CANCELLED)
+
+
+def exit_code(outcome: Outcome) -> int:
+    """Return 0, 1 if a mission failed, or 4 if one waits for a person.
+
+    A mission that `--until` cut short has not failed.
+    """
+    statuses = [mission.status for mission in outcome.missions]
+    if any(status in _NEEDS_A_PERSON for status in statuses):
+        return 4
+    return 1 if any(status in _BAD for status in statuses) else 0

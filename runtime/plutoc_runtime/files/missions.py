@@ -1,0 +1,48 @@
+"""The missions file: what shall be flown (docs/files.md)."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from ..airspace import Airspace
+from ..app import App
+from ..fields import Entity
+from ..model import Mission
+from ..words import quoted
+from . import errors, values
+from .app_fields import read_fields
+from .reading import read
+from .table import Table
+from .trips import read_trips
+
+
+def load_missions(path: Path, app: App, airspace: Airspace) -> list[Mission[Any]]:
+    """Return the missions of a file; raise `BadInput` with everything that is wrong with it."""
+    document = read(path)
+    top = Table(document, document.data)
+    top.only(("mission",), "a missions file")
+    names: dict[str, Table] = {}
+    missions = [
+        _mission(table, index, app, airspace, names)
+        for index, table in enumerate(top.tables("mission", "mission"))
+    ]
+    if document.data.get("mission", []) == []:
+        top.problem(errors.none_given("mission"))
+    document.refuse_if_bad()
+    return missions
+
+
+def _mission(
+    table: Table, index: int, app: App, airspace: Airspace, names: dict[str, Table]
+) -> Mission[Any]:
+    table.who = f"mission {index + 1}"
+    name = table.read("name", values.name, required=True)
+    if name is not None:
+        table.who = f"mission {quoted(name)}"
+        other = names.setdefault(name, table)
+        if other is not table:
+            table.problem(errors.not_unique("mission", name, other.line("name")), "name")
+    given = read_fields(table, app, Entity.MISSION, ("name", "trip"))
+    trips = read_trips(table, app, airspace)
+    return app.mission(name=name or "", trips=trips, index=index, **given)

@@ -1,0 +1,89 @@
+"""From a path to a TOML document whose problems can be told by line."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Sequence
+from pathlib import Path
+
+from ..errors import BadInput
+from . import errors
+from .toml_places import Place, Places, line_of, places
+
+LARGEST = 1 << 20
+"""Bytes. A plan is written by people: anything larger is another file."""
+
+MOST_SHOWN = 50
+
+
+class Document:
+    """A parsed plan file and what is wrong with it: all of it, told in one go."""
+
+    def __init__(self, path: str, data: dict[str, object], where: Places) -> None:
+        self.path, self.data = path, data
+        self._where = where
+        self._problems: list[tuple[int, str]] = []
+
+    def line(self, place: Place) -> int | None:
+        """Return the line of what has this path."""
+        return line_of(self._where, place)
+
+    def problem(self, text: str, place: Place = ()) -> None:
+        """Something is wrong at this place."""
+        self._problems.append((self.line(place) or 0, text))
+
+    def refuse_if_bad(self) -> None:
+        """Raise `BadInput` with a line for each problem, if there is one."""
+        if self._problems:
+            found = sorted(self._problems, key=lambda problem: problem[0])
+            lines = [
+                f"{self.path}:{line}: {text}" if line else f"{self.path}: {text}"
+                for line, text in found
+            ]
+            raise BadInput(shortened(lines))
+
+
+def shortened(lines: Sequence[str]) -> str:
+    """Join lines for a person: nobody reads the thousandth problem."""
+    more = len(lines) - MOST_SHOWN
+    if more <= 0:
+        return "\n".join(lines)
+    return "\n".join([*lines[:MOST_SHOWN], errors.and_more(more)])
+
+
+def read(path: Path) -> Document:
+    """Read a plan file; raise `BadInput` if it is no TOML text of a sane size."""
+    text = _text(path)
+    try:
+        data = tomllib.loads(text)
+    except RecursionError:
+        raise BadInput(f"{path}: {errors.nested_too_deep()}") from None
+    except ValueError as error:  # TOMLDecodeError, and a number with thousands of digits
+        raise BadInput(_syntax(path, text, str(error))) from None
+    return Document(str(path), data, places(text))
+
+
+def _text(path: Path) -> str:
+    try:
+        with path.open("rb") as file:
+            content = file.read(LARGEST + 1)
+    except (OSError, ValueError) as error:  # ValueError: a NUL in the name
+        raise BadInput(f"{path}: {errors.unreadable(error)}") from None
+    if len(content) > LARGEST:
+        raise BadInput(f"{path}: {errors.too_large(LARGEST)}")
+    try:
+        return content.decode("utf-8-sig")  # some editors put a byte-order mark before the text
+    except UnicodeDecodeError as error:
+        line = content.count(b"\n", 0, error.start) + 1
+        raise BadInput(f"{path}:{line}: {errors.not_utf_8()}") from None
+
+
+def _syntax(path: Path, text: str, message: str) -> str:
+    place = re.search(r" \(at line (\d+), column (\d+)\)$", message)
+    if place is not None:
+        return f"{path}:{place[1]}: {errors.syntax(message[: place.start()])}, column {place[2]}"
+    shorter = message.removesuffix(" (at end of document)")
+    if shorter != message:
+        return f"{path}:{len(text.splitlines())}: {errors.syntax(shorter)}, at the end of the file"
+    return f"{path}: {errors.syntax(message)}"
