@@ -1,0 +1,89 @@
+"""What becomes of each branch of each fork: the facts that the checks of forks share."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from plutoc.check.flow import Flow, Fork, Frame, Place, Way, is_final
+from plutoc.check.rounds import rounds
+from plutoc.graph.model import END, Edge
+from plutoc_runtime.status import IN_GRAPH
+
+
+@dataclass(kw_only=True, eq=False)
+class Branch:
+    """One branch of a fork, over all the missions that come through it."""
+
+    fork: Fork
+    number: int
+    edge: Edge
+    gates: dict[str, Way] = field(default_factory=dict)
+    """The gates at which it closes, each with a shortest way."""
+    astray: Way | None = None
+    """The shortest way to where a clone ends, or is flown, before its gate."""
+    circles: Way | None = None
+    """The shortest way to where a clone can go round for ever."""
+    stuck: bool = False
+    nodes: dict[str, None] = field(default_factory=dict)
+    """The blocks in it; those of the forks in it not counted."""
+    inner: dict[Fork, None] = field(default_factory=dict)
+    """The forks that begin in it."""
+
+
+Branches = Mapping[Fork, tuple[Branch, ...]]
+
+
+def branches(flow: Flow) -> Branches:
+    """Return all forks with their branches, in the order of the source."""
+    forks = {split.fork for split in flow.entries}
+    found = {
+        (node.name, status): tuple(
+            Branch(fork=(node.name, status), number=number, edge=edge)
+            for number, edge in enumerate(flow.branches(node.name, status))
+        )
+        for node in flow.graph.nodes
+        for status in IN_GRAPH
+        if (node.name, status) in forks
+    }
+    for place in flow.places:
+        if place.frame is not None:
+            _note(flow, _of(found, place.frame), place)
+    for place, status in flow.loose:
+        if place.frame is not None:
+            branch = _of(found, place.frame)
+            branch.stuck = branch.stuck or not is_final(status)
+            if is_final(status) and branch.astray is None:
+                branch.astray = flow.way(place, status)
+    for split, entries in flow.entries.items():
+        for place in entries:
+            if place.frame is not None:
+                _of(found, place.frame).inner[split.fork] = None
+    for part in rounds(flow):
+        frame = part[0].frame
+        if frame is not None and all(place.frame is not None for place in part):
+            branch = _of(found, frame)
+            branch.circles = branch.circles or flow.way(part[0])
+    return found
+
+
+def within(found: Branches, branch: Branch) -> tuple[Branch, ...]:
+    """Return the branch and all those of the forks in it, however deep."""
+    seen = [branch]
+    for one in seen:
+        seen.extend(b for fork in one.inner for b in found[fork] if b not in seen)
+    return tuple(seen)
+
+
+def _of(found: Branches, frame: Frame) -> Branch:
+    return found[frame.split.fork][frame.branch]
+
+
+def _note(flow: Flow, branch: Branch, place: Place) -> None:
+    block = None if place.node == END else flow.graph.node[place.node].block
+    if block is None or (not place.out and (block.allocates or block.launches)):
+        branch.astray = branch.astray or flow.way(place)
+    elif not place.out and block.gate is not None:
+        branch.gates.setdefault(place.node, flow.way(place))
+    if block is not None and (place.out or block.gate is None):
+        branch.nodes[place.node] = None

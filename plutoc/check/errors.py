@@ -1,0 +1,402 @@
+"""Every sentence of the checks, one function a diagnostic."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from plutoc.check.branches import Branch
+from plutoc.check.flow import Way, ordered
+from plutoc.check.words import (
+    accepts,
+    arrows,
+    emits_here,
+    error,
+    fate,
+    fork_of,
+    is_flown,
+    listed,
+    names,
+    related_to,
+    there,
+    warning,
+    way_of,
+)
+from plutoc.diagnostic import Diagnostic
+from plutoc.graph.model import Edge, Graph, Node
+from plutoc_runtime.status import Status
+
+# Where missions come in
+
+
+def no_creator(graph: Graph) -> Diagnostic:
+    return error(
+        graph,
+        "P2001",
+        graph.name_span,
+        f"no block of `{graph.name}` makes missions",
+        help="declare a block that makes them and begin with `start -> NAME`; "
+        "`plutoc blocks` lists the kinds",
+    )
+
+
+def second_creator(graph: Graph, node: Node, first: Node) -> Diagnostic:
+    return error(
+        graph,
+        "P2002",
+        node.name_span,
+        f"`{node.name}` makes missions, and so does `{first.name}`: there must be exactly one",
+        label="a second one",
+        related=(related_to(graph, first.name_span, "missions are made here already"),),
+        help=f"remove `{node.name}`, or lead its arrows from `{first.name}`",
+    )
+
+
+def no_start(graph: Graph, creator: Node) -> Diagnostic:
+    return error(
+        graph,
+        "P2003",
+        creator.name_span,
+        f"nothing leads from `start` to `{creator.name}`",
+        help=f"add `start -> {creator.name}`: missions begin there",
+    )
+
+
+def start_elsewhere(graph: Graph, edge: Edge, creator: Node) -> Diagnostic:
+    return error(
+        graph,
+        "P2004",
+        edge.span,
+        f"`start` leads to `{edge.target}`, which does not make missions",
+        related=(related_to(graph, creator.name_span, "missions are made here"),),
+        help=f"`start` leads to `{creator.name}` only; draw `{creator.name} -> {edge.target}`",
+    )
+
+
+def into_creator(graph: Graph, edge: Edge, creator: Node) -> Diagnostic:
+    return error(
+        graph,
+        "P2005",
+        edge.span,
+        f"`{edge.source}` leads back to `{creator.name}`, which only makes new missions",
+        related=(related_to(graph, creator.name_span, "missions are made here"),),
+        help="lead the arrow to the block that comes after it",
+    )
+
+
+# What nothing reaches
+
+
+def unreached(graph: Graph, node: Node, behind: Sequence[str]) -> Diagnostic:
+    also = f", nor {names(behind)} behind it" if behind else ""
+    return error(
+        graph,
+        "P2006",
+        node.name_span,
+        f"no path from `start` reaches `{node.name}`{also}",
+        help=f"draw an arrow to `{node.name}`, or remove it",
+    )
+
+
+def starved(
+    graph: Graph, node: Node, edges: Sequence[Edge], leaving: Mapping[str, Sequence[Status]]
+) -> Diagnostic:
+    return error(
+        graph,
+        "P2007",
+        node.name_span,
+        f"`{node.name}` never gets a mission: it accepts {accepts(node)}",
+        related=tuple(
+            related_to(graph, edge.span, f"`{edge.source}` emits {listed(leaving[edge.source])}")
+            for edge in edges
+        ),
+        help="lead an arrow here from a block that emits what it accepts",
+    )
+
+
+def untaken(graph: Graph, edge: Edge, leaving: Sequence[Status]) -> Diagnostic:
+    return error(
+        graph,
+        "P2008",
+        edge.guard_span or edge.span,
+        f"no mission ever takes the arrow `{edge.source} -> {edge.target}`",
+        label=f"takes {listed(ordered(edge.takes))}" if edge.takes else "nothing is left for it",
+        related=(emits_here(graph, edge, leaving),),
+        help="remove the arrow, or let it take what the block emits",
+    )
+
+
+def spare_guard(
+    graph: Graph, edge: Edge, spare: Sequence[Status], leaving: Sequence[Status]
+) -> Diagnostic:
+    return warning(
+        graph,
+        "P2052",
+        edge.guard_span or edge.span,
+        f"`{edge.source}` never emits {listed(spare, 'or')} here",
+        related=(emits_here(graph, edge, leaving),),
+        help=f"leave {listed(spare)} out of the guard",
+    )
+
+
+def idle_otherwise(graph: Graph, edge: Edge, leaving: Sequence[Status]) -> Diagnostic:
+    return warning(
+        graph,
+        "P2053",
+        edge.guard_span or edge.span,
+        f"nothing is left for the arrow `{edge.source} -> {edge.target}`",
+        label="takes what no other arrow takes",
+        related=(emits_here(graph, edge, leaving),),
+        help="remove it: the other arrows take every status",
+    )
+
+
+# Where missions are left
+
+
+def stuck(
+    graph: Graph, node: Node, statuses: Sequence[Status], way: Way, advice: str | None
+) -> Diagnostic:
+    add = f"add `{node.name} -> {advice} when {statuses[0].value}`"
+    return error(
+        graph,
+        "P2009",
+        node.name_span,
+        f"a mission that leaves `{node.name}` {listed(statuses, 'or')} is stuck: no arrow takes it",
+        related=tuple(
+            related_to(graph, edge.span, f"takes {listed(ordered(edge.takes))}")
+            for edge in graph.outgoing[node.name]
+            if edge.takes
+        ),
+        help=f"{add if advice else 'add a block that accepts it'}. {there(way)}",
+    )
+
+
+def implicit_end(graph: Graph, node: Node, statuses: Sequence[Status]) -> Diagnostic:
+    return warning(
+        graph,
+        "P2051",
+        node.name_span,
+        f"a mission that leaves `{node.name}` {listed(statuses, 'or')} ends here: "
+        "no arrow takes it",
+        help=f"to say so, add `{node.name} -> end when {', '.join(s.value for s in statuses)}`",
+    )
+
+
+def endless(graph: Graph, head: Node, way: Way, round_: Sequence[str]) -> Diagnostic:
+    return error(
+        graph,
+        "P2010",
+        head.name_span,
+        f"a mission that comes to `{head.name}` can never end",
+        label="no way leads from here to an end",
+        help=f"it goes round {arrows((*round_, round_[0]))}: lead an arrow out of this loop. "
+        f"{there(way)}",
+    )
+
+
+# Forks and gates
+
+
+def astray(graph: Graph, branches: Sequence[Branch], gates: Sequence[str]) -> Diagnostic:
+    first = branches[0]
+    meet = f"close the fork first, at `{gates[0]}`" if gates else "let its branches meet at a gate"
+    twice = ", so its mission would be flown twice" if is_flown(first) else ""
+    return error(
+        graph,
+        "P2012" if is_flown(first) else "P2011",
+        first.edge.span,
+        f"{fork_of(first.fork)} is not closed: one branch {fate(first)}{twice}",
+        label="this branch",
+        related=tuple(
+            related_to(graph, branch.edge.span, f"this branch too {fate(branch)}")
+            for branch in branches[1:]
+        ),
+        help=f"{meet}; or, if only one of the arrows was meant to take {first.fork[1].value}, "
+        f"guard the others with `when`. {there(first.astray or ())}",
+    )
+
+
+def different_gates(graph: Graph, branches: Sequence[Branch], gates: Sequence[str]) -> Diagnostic:
+    first = branches[0]
+    ways = (next(branch.gates[g] for branch in branches if g in branch.gates) for g in gates)
+    return error(
+        graph,
+        "P2013",
+        first.edge.span,
+        f"{fork_of(first.fork)} closes at different gates: {names(gates)}",
+        related=tuple(
+            related_to(
+                graph, branch.edge.span, f"this branch closes at {names(tuple(branch.gates))}"
+            )
+            for branch in branches
+            if branch.gates
+        ),
+        help="lead all branches to one gate. The ways: " + "; ".join(way_of(way) for way in ways),
+    )
+
+
+def never_closes(graph: Graph, branch: Branch, gates: Sequence[str]) -> Diagnostic:
+    return error(
+        graph,
+        "P2014",
+        branch.edge.span,
+        f"a branch of {fork_of(branch.fork)} can go round for ever and not close",
+        label="this branch",
+        help=f"lead every way through it to {f'`{gates[0]}`' if gates else 'a gate'}. "
+        f"{there(branch.circles)}",
+    )
+
+
+def waits_in_vain(graph: Graph, branch: Branch, gate: str) -> Diagnostic:
+    return error(
+        graph,
+        "P2015",
+        graph.node[gate].name_span,
+        f"`{gate}` waits for a branch of {fork_of(branch.fork)} that cannot arrive",
+        related=(related_to(graph, branch.edge.span, "this branch never gets there"),),
+        help=f"lead the branch to `{gate}`. {there(branch.circles)}",
+    )
+
+
+def outside_fork(graph: Graph, node: Node, way: Way) -> Diagnostic:
+    return error(
+        graph,
+        "P2016",
+        node.name_span,
+        f"a mission can come to `{node.name}` outside of the fork that closes there",
+        help=f"lead this way past the gate. {there(way)}",
+    )
+
+
+def closes_nothing(graph: Graph, node: Node, way: Way) -> Diagnostic:
+    return error(
+        graph,
+        "P2017",
+        node.name_span,
+        f"`{node.name}` closes no fork: a gate needs at least two branches",
+        help="fork before it (two arrows that take the same status), or remove the gate. "
+        f"{there(way)}",
+    )
+
+
+def breeds(graph: Graph, branches: Sequence[Branch], way: Way) -> Diagnostic:
+    first = branches[0]
+    return error(
+        graph,
+        "P2018",
+        first.edge.span,
+        f"{fork_of(first.fork)} comes round to itself before it closes: its clones multiply without end",
+        help=f"close it at a gate before the way leads back. {there(way)}",
+    )
+
+
+def shared_gate(
+    graph: Graph, outer: Sequence[Branch], inner: Sequence[Branch], gate: str
+) -> Diagnostic:
+    return error(
+        graph,
+        "P2019",
+        inner[0].edge.span,
+        f"{fork_of(inner[0].fork)} closes at `{gate}`, which must close {fork_of(outer[0].fork)} around it",
+        label="the fork inside",
+        related=(
+            related_to(graph, outer[0].edge.span, "the fork around it"),
+            related_to(graph, graph.node[gate].name_span, "the gate of both"),
+        ),
+        help=f"give the fork inside a gate of its own, and lead that gate to `{gate}`",
+    )
+
+
+def written_twice(graph: Graph, first: Node, second: Node, attribute: str) -> Diagnostic:
+    return error(
+        graph,
+        "P2020",
+        second.name_span,
+        (
+            f"`{second.name}` and `{first.name}` run side by side and both write `{attribute}`"
+            if first is not second
+            else f"`{first.name}` runs in two branches side by side, and both write `{attribute}`"
+        ),
+        label="who comes last would win",
+        related=(related_to(graph, first.name_span, "written here"),) if first != second else (),
+        help="let one of them write it, or put one behind the other",
+    )
+
+
+def unwatched_limit(graph: Graph, node: Node, way: Way) -> Diagnostic:
+    return error(
+        graph,
+        "P2023",
+        node.name_span,
+        f"`{node.name}` sets a limit to a flight, but no block beside it watches the flight",
+        help="fork: put it on one branch, a block that only watches on another, and let them meet "
+        f"at a gate. {there(way)}",
+    )
+
+
+# Drones and launches
+
+
+def no_allocation(graph: Graph, node: Node, way: Way) -> Diagnostic:
+    return error(
+        graph,
+        "P2021",
+        node.name_span,
+        f"a mission can come to `{node.name}` without a drone allocated since its last launch",
+        help=f"lead the way through a block that allocates a drone. {there(way)}",
+    )
+
+
+def no_launch(graph: Graph, node: Node, way: Way) -> Diagnostic:
+    return error(
+        graph,
+        "P2022",
+        node.name_span,
+        f"a mission can come to `{node.name}` though no trip was launched before",
+        help=f"lead the way through a block that launches the trip. {there(way)}",
+    )
+
+
+def drone_held(graph: Graph, node: Node, way: Way) -> Diagnostic:
+    return warning(
+        graph,
+        "P2054",
+        node.name_span,
+        f"a mission waits in `{node.name}` with a drone allocated, which nobody else can use",
+        help=f"put `{node.name}` before the block that allocates. {there(way)}",
+    )
+
+
+# Failures, judging and repeating
+
+
+def failures_stop(graph: Graph, node: Node) -> Diagnostic:
+    return warning(
+        graph,
+        "P2055",
+        node.name_span,
+        "a failed trip ends its mission: nothing here puts the trip back",
+        label="FAILED leaves here",
+        help="if failed trips shall be flown again, lead FAILED through a block that retries",
+    )
+
+
+def fails_forever(graph: Graph, node: Node, round_: Sequence[str]) -> Diagnostic:
+    return warning(
+        graph,
+        "P2056",
+        node.name_span,
+        f"a trip that always fails is put back by `{node.name}` for ever",
+        help=f"bound the number of attempts in the loop {arrows((*round_, round_[0]))}",
+    )
+
+
+def repeated_unjudged(graph: Graph, node: Node, judge: Node) -> Diagnostic:
+    return warning(
+        graph,
+        "P2057",
+        node.name_span,
+        f"`{node.name}` repeats a mission before `{judge.name}` has judged it",
+        related=(related_to(graph, judge.name_span, "judged only after the last round"),),
+        help=f"lead to `{judge.name}` first, and from there to `{node.name}`",
+    )

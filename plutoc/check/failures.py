@@ -1,0 +1,62 @@
+"""What becomes of failures: retried never, or for ever."""
+
+from __future__ import annotations
+
+from plutoc.check import errors
+from plutoc.check.components import loops, round_of
+from plutoc.check.flow import Flow, Place, blocks_of
+from plutoc.diagnostic import Diagnostic
+from plutoc.graph.model import Node
+from plutoc_runtime.status import Status
+
+
+def unmended(flow: Flow) -> list[Diagnostic]:
+    """Warn where a failed trip ends its mission, for want of a block that puts it back."""
+    failing = [
+        node
+        for node in flow.graph.nodes
+        if node.block.watches and Status.FAILED in flow.leaves[node.name]
+    ]
+    if not failing or any(_mends(flow, node) for node in flow.graph.nodes):
+        return []
+    return [errors.failures_stop(flow.graph, failing[0])]
+
+
+def unbounded(flow: Flow) -> list[Diagnostic]:
+    """Warn of loops that a trip which always fails would go round for ever."""
+    after = {
+        place: tuple(t for t in targets if _is_failure(flow, place, t))
+        for place, targets in flow.after.items()
+    }
+    found: dict[str, Diagnostic] = {}
+    for part in loops(after):
+        inside = set(part)
+        for place in part:
+            node = flow.graph.node[place.node]
+            mended = any(t in inside and t.status is not Status.FAILED for t in after[place])
+            if place.status is Status.FAILED and mended and node.name not in found:
+                names = blocks_of(round_of(after, part, place))
+                found[node.name] = errors.fails_forever(flow.graph, node, names)
+    return list(found.values())
+
+
+def _mends(flow: Flow, node: Node) -> bool:
+    """Does a failed mission come here, and may it leave in a better state?"""
+    return Status.FAILED in flow.arrives[node.name] and bool(
+        node.emitted(Status.FAILED) - {Status.FAILED}
+    )
+
+
+def _is_failure(flow: Flow, place: Place, target: Place) -> bool:
+    """Can a mission take this step though no flight of its trip succeeds, as often as it likes?"""
+    node = flow.graph.node[place.node]
+    if target.status is Status.FAILED:
+        return True
+    if node.block.evaluates or node.block.repeats:
+        return False
+    return not (node.block.watches or _is_bounded(node))
+
+
+def _is_bounded(node: Node) -> bool:
+    limit = dict(node.values).get(node.block.bound) if node.block.bound else None
+    return node.block.retries and bool(limit)

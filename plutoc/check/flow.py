@@ -1,0 +1,139 @@
+"""Where missions can be in a graph: what the walk over all statuses found, and the ways there.
+
+A place inside a fork belongs to a branch, as a statement belongs to a function: the branch is
+entered where the mission forks, and left at the gate, towards wherever the fork was entered from.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from itertools import groupby
+
+from plutoc.graph.model import Edge, Graph
+from plutoc_runtime.status import IN_GRAPH, Status
+
+Fork = tuple[str, Status]
+"""A block, and a status of it that several edges take."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Facts:
+    """What a mission has behind it."""
+
+    allocated: bool = False
+    """It got a drone, and has not been launched since."""
+    launched: bool = False
+    """It was launched at least once."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Split:
+    """A fork, and what the missions that come to it have behind them."""
+
+    node: str
+    status: Status
+    facts: Facts
+
+    @property
+    def fork(self) -> Fork:
+        """The fork alone."""
+        return self.node, self.status
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Frame:
+    """One branch of a fork, by its number in the order of the source."""
+
+    split: Split
+    branch: int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Place:
+    """A mission, or a clone of it, arrives at a block or at `end`."""
+
+    frame: Frame | None
+    """The innermost branch that it is in; None outside all forks."""
+    node: str
+    status: Status
+    facts: Facts
+    out: bool = False
+    """Here it has just left its branch: at the gate, or, by mistake, at a block that flies it."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Step:
+    """How a place was first reached, by the shortest way."""
+
+    before: Place
+    leaving: Status | None
+    """The status on the edge; None where a branch is left, which happens within a block."""
+    enters: bool = False
+    """A branch begins here."""
+    back_to: Place | None = None
+    """A branch is left here: its fork began at that place."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Hop:
+    """One block on a way, and the status that the mission leaves it with."""
+
+    node: str
+    leaving: Status | None
+
+
+Way = tuple[Hop, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Flow:
+    """Everything that the walk found. Mappings are in the order of discovery."""
+
+    graph: Graph
+    edges: tuple[Edge, ...]
+    """Those that were walked: all but the ones that `start` and the creator forbid."""
+    places: Mapping[Place, Step | None]
+    after: Mapping[Place, tuple[Place, ...]]
+    """Where missions go next from each place."""
+    loose: tuple[tuple[Place, Status], ...]
+    """Places left with a status that no edge takes."""
+    entries: Mapping[Split, tuple[Place, ...]]
+    """The places where each fork begins."""
+    arrives: Mapping[str, frozenset[Status]]
+    leaves: Mapping[str, frozenset[Status]]
+    carries: Mapping[Edge, frozenset[Status]]
+
+    def branches(self, node: str, status: Status) -> tuple[Edge, ...]:
+        """The edges that take this status from this block."""
+        return tuple(e for e in self.edges if e.source == node and status in e.takes)
+
+    def way(self, place: Place, leaving: Status | None = None) -> Way:
+        """Return the shortest way to a place, from where missions are made."""
+        hops = [Hop(node=place.node, leaving=leaving)]
+        begun: list[Place] = []
+        while (step := self.places[place]) is not None:
+            if step.back_to is not None:
+                begun.append(step.back_to)
+            # a gate leads back to the fork that this very mission came from, not to any
+            before = begun.pop() if step.enters and begun else step.before
+            if step.leaving is not None:
+                hops.append(Hop(node=before.node, leaving=step.leaving))
+            place = before
+        return tuple(reversed(hops))
+
+
+def blocks_of(places: Iterable[Place]) -> tuple[str, ...]:
+    """Return the blocks of a way, each once: a gate is come to and left at one block."""
+    return tuple(name for name, _ in groupby(place.node for place in places))
+
+
+def ordered(statuses: Iterable[Status]) -> tuple[Status, ...]:
+    """Return the statuses in declared order."""
+    known = frozenset(statuses)
+    return tuple(status for status in IN_GRAPH if status in known)
+
+
+def is_final(status: Status) -> bool:
+    """Can a mission end with this status?"""
+    return status in (Status.COMPLETED, Status.FAILED)

@@ -1,0 +1,87 @@
+"""Every branch of a fork closes at one gate; forks nest."""
+
+from __future__ import annotations
+
+from plutoc.block import Gate
+from plutoc.check import errors, model
+from plutoc.check.branches import Branch, Branches, within
+from plutoc.check.components import loops
+from plutoc.check.flow import Flow, Fork
+from plutoc.diagnostic import Diagnostic
+
+Branched = tuple[Branch, ...]
+
+
+def unclosed(flow: Flow, found: Branches) -> list[Diagnostic]:
+    """Find forks that do not close: for each the one message that says most."""
+    breeding = loops({fork: _inner(branches) for fork, branches in found.items()})
+    diagnostics = []
+    for part in breeding:
+        again = [p for s, places in flow.entries.items() if s.fork == part[0] for p in places]
+        diagnostics.append(
+            errors.breeds(flow.graph, found[part[0]], flow.way(again[-1], part[0][1]))
+        )
+    for fork, branches in found.items():
+        stuck = any(inner.stuck for branch in branches for inner in within(found, branch))
+        if not stuck and not any(fork in part for part in breeding):
+            wrong = _shared(flow, found, branches) or _open(flow, found, branches)
+            diagnostics.extend([wrong] if wrong else [])
+    return diagnostics
+
+
+def closed(found: Branches) -> tuple[model.Fork, ...]:
+    """Return the forks of a graph in which all of them close."""
+    return tuple(
+        model.Fork(
+            node=node,
+            status=status,
+            branches=tuple(branch.edge for branch in branches),
+            gate=gates_of(branches)[0],
+        )
+        for (node, status), branches in found.items()
+    )
+
+
+def gates_of(branches: Branched) -> tuple[str, ...]:
+    """Return the gates at which branches close."""
+    return tuple(dict.fromkeys(gate for branch in branches for gate in branch.gates))
+
+
+def _shared(flow: Flow, found: Branches, branches: Branched) -> Diagnostic | None:
+    """A fork inside a branch takes the gate of the fork around it for its own."""
+    gates = gates_of(branches)
+    for branch in branches:
+        for inner in filter(lambda fork: _sound(found[fork]), branch.inner):
+            for gate in gates_of(found[inner]):
+                if gate in gates:
+                    return errors.shared_gate(flow.graph, branches, found[inner], gate)
+    return None
+
+
+def _open(flow: Flow, found: Branches, branches: Branched) -> Diagnostic | None:
+    # a fork inside that does not close has its own message
+    branches = tuple(b for b in branches if all(_sound(found[fork]) for fork in b.inner))
+    graph, gates = flow.graph, gates_of(branches)
+    astray = [branch for branch in branches if branch.astray]
+    if astray:
+        return errors.astray(graph, astray, gates)
+    if len(gates) > 1:
+        return errors.different_gates(graph, branches, gates)
+    for branch in branches:
+        if not branch.gates and gates and graph.node[gates[0]].block.gate is Gate.ALL:
+            return errors.waits_in_vain(graph, branch, gates[0])
+        if branch.circles or not branch.gates:
+            return errors.never_closes(graph, branch, gates)
+    return None
+
+
+def _inner(branches: Branched) -> tuple[Fork, ...]:
+    return tuple(dict.fromkeys(fork for branch in branches for fork in branch.inner))
+
+
+def _sound(branches: Branched) -> bool:
+    """Do the branches all close, at one gate?"""
+    return len(gates_of(branches)) == 1 and all(
+        branch.gates and not branch.astray and not branch.circles and not branch.stuck
+        for branch in branches
+    )

@@ -1,0 +1,35 @@
+"""The order of judging and repeating."""
+
+from __future__ import annotations
+
+import networkx as nx
+
+from plutoc.check import errors
+from plutoc.check.flow import Flow
+from plutoc.diagnostic import Diagnostic
+
+
+def repeated_unjudged(flow: Flow) -> list[Diagnostic]:
+    """Warn where a mission is repeated before it was judged."""
+    graph = flow.graph
+    arrows = nx.DiGraph()
+    arrows.add_nodes_from(graph.node)
+    arrows.add_edges_from(
+        (edge.source, edge.target)
+        for edge in flow.edges
+        # behind a launch it is another flight that is judged
+        if flow.carries[edge] and not _launches(flow, edge.source)
+    )
+    found = []
+    for node in graph.nodes:
+        if node.block.repeats and flow.arrives[node.name]:
+            behind = nx.descendants(arrows, node.name)
+            judges = [n for n in graph.nodes if n.block.evaluates and n.name in behind]
+            if judges:
+                found.append(errors.repeated_unjudged(graph, node, judges[0]))
+    return found
+
+
+def _launches(flow: Flow, name: str) -> bool:
+    node = flow.graph.node.get(name)
+    return node is not None and node.block.launches

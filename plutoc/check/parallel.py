@@ -1,0 +1,65 @@
+"""What stands side by side in a fork: attributes that two branches write, limits without watch."""
+
+from __future__ import annotations
+
+from itertools import combinations
+
+from plutoc.check import errors
+from plutoc.check.branches import Branch, Branches, within
+from plutoc.check.flow import Flow, Fork, Frame
+from plutoc.diagnostic import Diagnostic
+from plutoc.graph.model import Node
+
+
+def written_twice(flow: Flow, found: Branches) -> list[Diagnostic]:
+    """Find attributes that the hooks of two branches of one fork write."""
+    diagnostics: dict[tuple[str, str, str], Diagnostic] = {}
+    for branches in found.values():
+        for one, other in combinations(branches, 2):
+            for first in _writers(flow, found, one):
+                for second in _writers(flow, found, other):
+                    for attribute in _common(first, second):
+                        key = (first.name, second.name, attribute)
+                        diagnostics.setdefault(
+                            key, errors.written_twice(flow.graph, first, second, attribute)
+                        )
+    return list(diagnostics.values())
+
+
+def unwatched_limits(flow: Flow, found: Branches) -> list[Diagnostic]:
+    """Find blocks that set a limit to a flight with nothing beside them that watches it."""
+    diagnostics: dict[str, Diagnostic] = {}
+    for place in flow.places:
+        node = flow.graph.node.get(place.node)
+        if node is None or not node.block.limits or node.name in diagnostics:
+            continue
+        if not _watched(flow, found, place.frame, set()):
+            diagnostics[node.name] = errors.unwatched_limit(flow.graph, node, flow.way(place))
+    return list(diagnostics.values())
+
+
+def _writers(flow: Flow, found: Branches, branch: Branch) -> list[Node]:
+    return [node for node in _nodes(flow, found, branch) if node.hook and node.hook.writes]
+
+
+def _common(first: Node, second: Node) -> list[str]:
+    others = second.hook.writes if second.hook else ()
+    return [name for name in (first.hook.writes if first.hook else ()) if name in others]
+
+
+def _nodes(flow: Flow, found: Branches, branch: Branch) -> list[Node]:
+    names = {name for inner in within(found, branch) for name in inner.nodes}
+    return [node for node in flow.graph.nodes if node.name in names]
+
+
+def _watched(flow: Flow, found: Branches, frame: Frame | None, seen: set[Fork]) -> bool:
+    """Does a branch beside this one, or beside a branch around it, only watch?"""
+    if frame is None or frame.split.fork in seen:
+        return False
+    for branch in found[frame.split.fork]:
+        if branch.number != frame.branch and any(
+            node.block.watches and not node.block.limits for node in _nodes(flow, found, branch)
+        ):
+            return True
+    around = seen | {frame.split.fork}
+    return all(_watched(flow, found, p.frame, around) for p in flow.entries[frame.split])

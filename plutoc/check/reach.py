@@ -1,0 +1,95 @@
+"""Blocks that nothing reaches, and edges that nothing takes."""
+
+from __future__ import annotations
+
+import networkx as nx
+
+from plutoc.check import errors
+from plutoc.check.components import components
+from plutoc.check.flow import Flow, is_final, ordered
+from plutoc.diagnostic import Diagnostic
+from plutoc.graph.model import END, START, Edge, Graph
+
+
+def unreached(flow: Flow, creator: str) -> list[Diagnostic]:
+    """Find blocks to which no path leads, one message for what hangs together."""
+    graph = flow.graph
+    arrows = nx.DiGraph([(edge.source, edge.target) for edge in flow.edges])
+    arrows.add_nodes_from((creator, *graph.node))
+    reached = nx.descendants(arrows, creator) | {creator}
+    lost = {
+        name: tuple(e.target for e in graph.outgoing[name] if e.target not in reached)
+        for name in graph.node
+        # a second creator has its own message, and may be the way to others
+        if name not in reached and not graph.node[name].block.creates
+    }
+    parts = components(lost)
+    island = {name: index for index, part in enumerate(parts) for name in part}
+    led_to = {t for n in lost for t in lost[n] if t in island and island[t] != island[n]}
+    return [
+        errors.unreached(graph, graph.node[part[0]], _behind(lost, part[0]))
+        for part in parts
+        if led_to.isdisjoint(part) and not _creator_leads(graph, reached, part)
+    ]
+
+
+def _behind(lost: dict[str, tuple[str, ...]], first: str) -> tuple[str, ...]:
+    """The other blocks that only this one leads to."""
+    found = [first]
+    for name in found:
+        found.extend(t for t in lost.get(name, ()) if t in lost and t not in found)
+    return tuple(name for name in lost if name in found[1:])
+
+
+def _creator_leads(graph: Graph, reached: set[str], part: tuple[str, ...]) -> bool:
+    """Does an unreached creator lead here? Then its own message says enough."""
+    return any(
+        edge.source != START
+        and graph.node[edge.source].block.creates
+        and edge.source not in reached
+        for name in part
+        for edge in graph.incoming[name]
+    )
+
+
+def starved(flow: Flow) -> list[Diagnostic]:
+    """Find blocks that missions come near, but never with a status that they accept."""
+    found = []
+    for node in flow.graph.nodes:
+        if flow.arrives[node.name]:
+            continue
+        edges = [e for e in flow.edges if e.target == node.name and flow.leaves.get(e.source)]
+        if edges and not all(is_stuck(flow, edge.source) for edge in edges):
+            leaving = {edge.source: ordered(flow.leaves[edge.source]) for edge in edges}
+            found.append(errors.starved(flow.graph, node, edges, leaving))
+    return found
+
+
+def untaken(flow: Flow) -> list[Diagnostic]:
+    """Find edges that no status can take, and guards that say more than can happen."""
+    found = []
+    for edge in flow.edges:
+        if edge.source == START or not flow.leaves[edge.source]:
+            continue
+        leaving = ordered(flow.leaves[edge.source])
+        if flow.carries[edge]:
+            spare = tuple(s for s in edge.guard or () if s not in flow.leaves[edge.source])
+            if spare:
+                found.append(errors.spare_guard(flow.graph, edge, spare, leaving))
+        elif edge.otherwise:
+            found.append(errors.idle_otherwise(flow.graph, edge, leaving))
+        elif _blames_edge(flow, edge):
+            found.append(errors.untaken(flow.graph, edge, leaving))
+    return found
+
+
+def _blames_edge(flow: Flow, edge: Edge) -> bool:
+    """Is the edge itself at fault, not a block that starves or a mission stuck before it?"""
+    if is_stuck(flow, edge.source):
+        return False
+    return edge.target == END or bool(flow.arrives[edge.target])
+
+
+def is_stuck(flow: Flow, name: str) -> bool:
+    """Can a mission be left at this block, with a status that is not an end?"""
+    return any(place.node == name and not is_final(s) for place, s in flow.loose)
