@@ -57,7 +57,7 @@ class Airspace:
         """
         if start > end:  # one way for both directions
             back = self._ways.between(end, start)
-            return None if back is None else (*back[-2::-1], end)
+            return None if back is None else back[-2::-1]
         way = self._ways.between(start, end)
         return None if way is None else way[1:]
 
@@ -117,7 +117,12 @@ class _Ways:
 
     def _corners(self) -> tuple[Corner, ...]:
         if self._turns is None:
-            turns = [turn for polygon in self.polygons for turn in pushed_out(polygon, MARGIN)]
+            turns = [
+                turn
+                for polygon in self.polygons
+                if len(polygon) > 2
+                for turn in pushed_out(polygon, MARGIN)
+            ]
             self._turns = tuple((x, y) for x, y in turns if not self._airspace.problem((x, y, 0.0)))
         return self._turns
 
