@@ -104,7 +104,7 @@ def test_a_world_is_made_up_where_none_is_described() -> None:
     assert len(data.features) == 50
     assert {feature.kind for feature in data.features} == {"bloom", "pest", "disease"}
     assert Counter(source.quantity for source in data.sources) == {"pm10": 2, "temperature": 1}
-    places = [thing.at for thing in (*data.features, *data.sources)]
+    places = [feature.at for feature in data.features] + [source.at for source in data.sources]
     assert all(0 <= x <= 20 and 0 <= y <= 10 for x, y in places)
     assert World(5, MAP).features == data.features
     assert invented(6, MAP) != data

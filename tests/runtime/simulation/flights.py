@@ -1,0 +1,70 @@
+"""A small team over a small map, and how to fly it in a test."""
+
+from __future__ import annotations
+
+from collections.abc import Coroutine
+from typing import Any, TypeVar
+
+from plutoc_runtime.airspace import Airspace
+from plutoc_runtime.errors import FlightFailed
+from plutoc_runtime.kernel import FLEET, Kernel
+from plutoc_runtime.model import Category
+from plutoc_runtime.navigation import Order
+from plutoc_runtime.simulation.drones import SimulatedDrone, SimulatedNavigation
+from plutoc_runtime.simulation.faults import Faults
+from plutoc_runtime.simulation.world import World
+from plutoc_runtime.virtual import VirtualTime
+
+T = TypeVar("T")
+
+SCOUT = Category(name="scout", speed=0.5, flight_time=420, charge_time=1200)
+HOME = (1.0, 1.0, 0.0)
+CLIMB = 4.0  # seconds to the cruise height of 1.2 m
+PLAIN = Airspace()
+
+
+def team(
+    kernel: Kernel,
+    faults: Faults | None = None,
+    *,
+    airspace: Airspace = PLAIN,
+    seed: int = 1,
+    battery_level: float = 1.0,
+    category: Category = SCOUT,
+) -> SimulatedNavigation:
+    """Two drones, cf1 at (1, 1) and cf2 beside it."""
+    drones = [
+        SimulatedDrone(
+            id=f"cf{i + 1}",
+            category=category,
+            home=(HOME[0] + i, HOME[1], 0.0),
+            index=i,
+            battery_level=battery_level,
+        )
+        for i in range(2)
+    ]
+    return SimulatedNavigation(
+        kernel, drones, World(seed, airspace), faults or Faults(), seed, airspace
+    )
+
+
+def fly(kernel: VirtualTime, coroutine: Coroutine[Any, Any, T]) -> T:
+    """Run one coroutine to its end in virtual time."""
+    task = kernel.spawn(coroutine, FLEET, "test")
+    task.done.watch(lambda: None)
+    kernel.run(task.done)
+    return task.done.result()
+
+
+def failure(kernel: VirtualTime, coroutine: Coroutine[Any, Any, object]) -> FlightFailed:
+    """Run a coroutine that must fail, and return how."""
+    try:
+        fly(kernel, coroutine)
+    except FlightFailed as error:
+        return error
+    raise AssertionError("the flight went well")
+
+
+def order(name: str = "North field/A/0/1", seconds: float = 15.0) -> Order:
+    """Return the order of a flight; to (4, 5) and a photo take 15 s from home."""
+    return Order(id=name, seconds=seconds)
