@@ -1,0 +1,197 @@
+"""From Lark's tree to ours: one function a rule, each rule checked by the grammar before."""
+
+from __future__ import annotations
+
+from lark import Token, Tree
+
+from plutoc.source import Source, Span
+from plutoc.syntax import tree
+from plutoc.syntax.texts import unescaped
+
+Node = Tree[Token]
+Child = Node | Token | None
+
+
+def file(source: Source, node: Node) -> tree.File:
+    """Build the tree of a source from Lark's."""
+    _, *uses, app = _nodes(node)
+    return tree.File(source=source, uses=tuple(map(_use, uses)), app=_app(app))
+
+
+def _use(node: Node) -> tree.Use:
+    package, alias = node.children
+    end = _token(alias or package).end_pos
+    return tree.Use(
+        package=_name(package),
+        alias=_name(alias) if alias else None,
+        span=Span(_span(node).start, end or 0),
+    )
+
+
+def _app(node: Node) -> tree.AppDecl:
+    name, title, *statements = node.children
+    return tree.AppDecl(
+        name=_name(name),
+        title=_text(_token(title)) if title else None,
+        statements=tuple(_statement(_node(statement)) for statement in statements),
+        span=_span(node),
+    )
+
+
+def _statement(node: Node) -> tree.Statement:
+    match node.data:
+        case "category":
+            return _category(node)
+        case "action":
+            return _action(node)
+        case "block":
+            return _block(node)
+        case "flow":
+            return _flow(node)
+        case _:
+            return _hook(node)
+
+
+def _category(node: Node) -> tree.CategoryDecl:
+    name, arguments, can = node.children
+    return tree.CategoryDecl(
+        name=_name(name), arguments=_arguments(arguments), can=_names(can), span=_span(node)
+    )
+
+
+def _action(node: Node) -> tree.ActionDecl:
+    name, parameters, repeat = node.children
+    return tree.ActionDecl(
+        name=_name(name),
+        parameters=_parameters(parameters),
+        repeat=_name(repeat) if repeat else None,
+        span=_span(node),
+    )
+
+
+def _hook(node: Node) -> tree.HookDecl:
+    name, *rest = node.children
+    parameters, emits, writes = rest or (None, None, None)
+    return tree.HookDecl(
+        kind=str(node.data),
+        name=_name(name),
+        parameters=_parameters(parameters),
+        emits=_names(emits),
+        writes=_names(writes),
+        span=_span(node),
+    )
+
+
+def _block(node: Node) -> tree.BlockDecl:
+    name, prefix, kind, arguments = node.children
+    return tree.BlockDecl(
+        name=_name(name),
+        prefix=_name(prefix) if prefix else None,
+        kind=_name(kind),
+        arguments=_arguments(arguments),
+        span=_span(node),
+    )
+
+
+def _flow(node: Node) -> tree.FlowDecl:
+    *stops, guard = node.children
+    return tree.FlowDecl(
+        stops=tuple(_stop(_node(stop)) for stop in stops),
+        guard=_guard(_node(guard)) if guard else None,
+        span=_span(node),
+    )
+
+
+def _stop(node: Node) -> tree.Stop:
+    (only,) = node.children
+    names = _names(only) if isinstance(only, Tree) else (_name(only),)
+    return tree.Stop(names=names, span=_span(node))
+
+
+def _guard(node: Node) -> tree.Guard:
+    otherwise = node.data == "otherwise"
+    statuses = () if otherwise else _names(node.children[0])
+    return tree.Guard(statuses=statuses, otherwise=otherwise, span=_span(node))
+
+
+def _arguments(child: Child) -> tuple[tree.Argument, ...]:
+    return tuple(
+        tree.Argument(
+            name=_name(argument.children[0]),
+            value=_value(argument.children[1]),
+            span=_span(argument),
+        )
+        for argument in _nodes(child)
+    )
+
+
+def _parameters(child: Child) -> tuple[tree.Parameter, ...]:
+    return tuple(_parameter(node) for node in _nodes(child))
+
+
+def _parameter(node: Node) -> tree.Parameter:
+    name, kind, default = node.children
+    return tree.Parameter(
+        name=_name(name),
+        type=_name(kind),
+        default=_value(default) if default else None,
+        span=_span(node),
+    )
+
+
+def _value(child: Child) -> tree.Value:
+    span = _span(child)
+    if isinstance(child, Tree):
+        items = tuple(_value(item) for item in child.children if item is not None)
+        return tree.List(items=items, span=span)
+    token = _token(child)
+    match token.type:
+        case "NUMBER":
+            return tree.Number(value=_number(token), span=span)
+        case "QUANTITY":
+            unit = token.lstrip("-0123456789.").strip()
+            number = token[: len(token) - len(unit)].strip()
+            return tree.Quantity(value=_number(number), unit=unit, span=span)
+        case "TEXT":
+            return _text(token)
+        case _ if token in ("yes", "no"):
+            return tree.Bool(value=token == "yes", span=span)
+        case _:
+            return _name(token)
+
+
+def _number(digits: str) -> int | float:
+    return float(digits) if "." in digits else int(digits)
+
+
+def _text(token: Token) -> tree.Text:
+    return tree.Text(value=unescaped(token), span=_span(token))
+
+
+def _names(child: Child) -> tuple[tree.Name, ...]:
+    return tuple(map(_name, child.children)) if isinstance(child, Tree) else ()
+
+
+def _name(child: Child) -> tree.Name:
+    return tree.Name(text=str(child), span=_span(child))
+
+
+def _span(child: Child) -> Span:
+    place = child.meta if isinstance(child, Tree) else _token(child)
+    # Lark says None where it does not know; in our grammar no rule is empty but optional lists.
+    return Span(place.start_pos or 0, place.end_pos or 0)
+
+
+def _nodes(child: Child) -> list[Node]:
+    children = child.children if isinstance(child, Tree) else []
+    return [grandchild for grandchild in children if isinstance(grandchild, Tree)]
+
+
+def _node(child: Child) -> Node:
+    assert isinstance(child, Tree)
+    return child
+
+
+def _token(child: Child) -> Token:
+    assert isinstance(child, Token)
+    return child

@@ -1,0 +1,245 @@
+"""What can be wrong with a source before any name in it means anything: P0."""
+
+from __future__ import annotations
+
+import unicodedata
+
+from plutoc.diagnostic import Diagnostic, Fix, Related, Severity
+from plutoc.source import Source, Span
+from plutoc.syntax.words import shortened
+
+
+def unexpected(
+    source: Source, span: Span, expected: str, found: str, help: str | None, fix: Fix | None
+) -> Diagnostic:
+    """Something else should stand here."""
+    return _error(
+        "P0001",
+        f"expected {expected}, found {found}",
+        source,
+        span,
+        label=f"expected {expected}",
+        help=help,
+        fix=fix,
+    )
+
+
+def open_text(source: Source, span: Span) -> Diagnostic:
+    """A text without its second quote."""
+    return _error(
+        "P0002",
+        "this text has no closing quote",
+        source,
+        span,
+        label="begins here and must end on the same line",
+        help='write `"` at its end; within a text a quote is written `\\"`',
+    )
+
+
+def unknown_character(source: Source, span: Span) -> Diagnostic:
+    """A character that the language does not use."""
+    char = source.quote(span)
+    # The name, too: a no-break space or a typographic dash cannot be told from the right one.
+    plain = char if char.isascii() and char.isprintable() else _described(char)
+    return _error(
+        "P0003",
+        f"{plain if len(plain) > 1 else f'`{plain}`'} is not part of the language",
+        source,
+        span,
+        label="not allowed here",
+        help=_MEANT.get(char),
+    )
+
+
+_MEANT = {
+    ";": "a statement ends with its line: write no `;`",
+    "'": 'texts stand in double quotes: `"text"`',
+    "“": 'texts stand in straight double quotes: `"text"`',
+    "”": 'texts stand in straight double quotes: `"text"`',
+    "„": 'texts stand in straight double quotes: `"text"`',
+    "→": "write the arrow as `->`",
+    "–": "write a minus or an arrow with the ordinary `-`",
+    "—": "write a minus or an arrow with the ordinary `-`",
+    "−": "write a minus or an arrow with the ordinary `-`",
+    "\u00a0": "write an ordinary space",
+    "/": "a comment begins with `#`",
+    ">": "an arrow is written `->`",
+    "-": "an arrow is written `->`; a negative number has no space behind its `-`",
+}
+
+
+def hidden_character(source: Source, span: Span) -> Diagnostic:
+    """A character in a text or a comment that a screen does not show."""
+    return _error(
+        "P0004",
+        f"{_described(source.quote(span))} is not allowed in a text or a comment",
+        source,
+        span,
+        label="here, where you may not see it",
+        help="remove it: it hides or reorders what a reader sees",
+    )
+
+
+def unknown_escape(source: Source, span: Span) -> Diagnostic:
+    """A backslash before something else than a quote or a backslash."""
+    return _error(
+        "P0005",
+        f"`{source.quote(span)}` means nothing in a text",
+        source,
+        span,
+        help='write `\\\\` for a backslash; the only other escape is `\\"`',
+    )
+
+
+def too_large(source: Source, limit: int) -> Diagnostic:
+    """A file that nobody wrote."""
+    return _error(
+        "P0006",
+        f"this file is larger than {limit // 1024} KiB",
+        source,
+        Span(0, 0),
+        help="split the app: one file holds one app, and a part can live in a package of blocks",
+    )
+
+
+def too_deep(source: Source, span: Span, limit: int) -> Diagnostic:
+    """Lists in lists in lists."""
+    return _error(
+        "P0007",
+        f"brackets are nested more than {limit} deep",
+        source,
+        span,
+        label="one too many",
+        help="no block takes such a value",
+    )
+
+
+def unknown_version(source: Source, span: Span) -> Diagnostic:
+    """A version of the language that this compiler does not know."""
+    return _error(
+        "P0008",
+        f"this compiler reads version 1 of the language, not {shortened(source.quote(span))}",
+        source,
+        span,
+        label="the language's version",
+        help="install a newer plutoc, or write `pluto 1`",
+    )
+
+
+def no_header(source: Source, span: Span) -> Diagnostic:
+    """A file that does not begin with the language's version."""
+    return _error(
+        "P0009",
+        "a file begins with the version of the language, `pluto 1`",
+        source,
+        span,
+        label="comes before it",
+        help="write `pluto 1` on the first line",
+        fix=Fix(span=Span(span.start, span.start), text="pluto 1\n"),
+    )
+
+
+def reserved_word(source: Source, span: Span) -> Diagnostic:
+    """One of the language's words where a name should be."""
+    word = source.quote(span)
+    return _error(
+        "P0010",
+        f"`{word}` is a word of the language and cannot be a name",
+        source,
+        span,
+        label="choose another name",
+        help=f"for instance `{word}_1`",
+    )
+
+
+def never_closed(source: Source, bracket: Span, end: Span) -> Diagnostic:
+    """A bracket that nothing closes."""
+    opening = source.quote(bracket)
+    closing = {"(": ")", "[": "]", "{": "}"}[opening]
+    return _error(
+        "P0011",
+        f"this `{opening}` is never closed",
+        source,
+        bracket,
+        label="opened here",
+        related=(Related(source=source, span=end, label=f"`{closing}` expected by here"),),
+        help=f"write `{closing}`",
+    )
+
+
+def unwritable_number(source: Source, span: Span, digits: int) -> Diagnostic:
+    """A number with more digits than a computer keeps."""
+    return _error(
+        "P0012",
+        f"this number has more than {digits} digits",
+        source,
+        span,
+        help="write it in another unit or with fewer digits",
+    )
+
+
+def second_app(source: Source, span: Span, first: Span) -> Diagnostic:
+    """A file with two apps."""
+    return _error(
+        "P0013",
+        "a file holds one app",
+        source,
+        span,
+        label="a second one",
+        related=(Related(source=source, span=first, label="the first one"),),
+        help="give each app a file of its own",
+    )
+
+
+def late_use(source: Source, span: Span) -> Diagnostic:
+    """A `use` behind the beginning of the app."""
+    return _error(
+        "P0014",
+        "`use` stands before the app",
+        source,
+        span,
+        label="too late here",
+        help="move this line up, right below `pluto 1`",
+    )
+
+
+def no_app(source: Source, span: Span) -> Diagnostic:
+    """A file without an app."""
+    return _error(
+        "P0015",
+        "this file has no app",
+        source,
+        span,
+        label="the file ends here",
+        help="write `app NAME { … }`",
+    )
+
+
+def _described(char: str) -> str:
+    """Say which character it is: "U+00A0 (NO-BREAK SPACE)"."""
+    name = unicodedata.name(char, "")
+    return f"the character U+{ord(char):04X}" + (f" ({name})" if name else "")
+
+
+def _error(
+    code: str,
+    message: str,
+    source: Source,
+    span: Span,
+    *,
+    label: str = "",
+    related: tuple[Related, ...] = (),
+    help: str | None = None,
+    fix: Fix | None = None,
+) -> Diagnostic:
+    return Diagnostic(
+        code=code,
+        severity=Severity.ERROR,
+        message=message,
+        source=source,
+        span=span,
+        label=label,
+        related=related,
+        help=help,
+        fix=fix,
+    )

@@ -1,0 +1,88 @@
+"""From the lexer's tokens to the parser's: which newlines end a statement, which words are names.
+
+A newline ends a statement, except inside brackets and before a line that begins with `->`. Inside
+brackets the language's words are ordinary names. A bracket that was forgotten must not swallow the
+rest of the file: a line that can only be the beginning of a statement closes what was left open.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from lark import Token
+from lark.lark import PostLex
+
+NEWLINE, END = "_NL", "$END"
+NAME, ARROW, EQUAL = "NAME", "_ARROW", "EQUAL"
+OPENING = {"LPAR": "RPAR", "LSQB": "RSQB"}
+CLOSING = frozenset(OPENING.values())
+
+WORDS = (
+    *("pluto", "use", "as", "app", "category", "can", "action", "evaluator", "modifier", "policy"),
+    *("emits", "writes", "when", "otherwise"),
+)
+"""The language's own words. Each is a terminal of the grammar, named in capitals."""
+
+_WORDS = frozenset(word.upper() for word in WORDS)
+_BEGINNERS = frozenset({"CATEGORY", "ACTION", "EVALUATOR", "MODIFIER", "POLICY"})
+_FOLLOWS_A_FIRST_NAME = frozenset({EQUAL, ARROW, NAME})
+
+
+class Newlines(PostLex):
+    """Stands between Lark's lexer and its parser."""
+
+    always_accept = ("COMMENT", NEWLINE, "OPEN_TEXT", "UNKNOWN")
+
+    def process(self, stream: Iterator[Token]) -> Iterator[Token]:
+        """Give the tokens that the parser is to see."""
+        return _process([token for token in stream if token.type != "COMMENT"])
+
+
+def _process(tokens: Sequence[Token]) -> Iterator[Token]:
+    """Never gives two newlines in a row, nor one at the beginning or behind `{`."""
+    following = _following(tokens)
+    depth = 0
+    last = "LBRACE"  # as behind one: nothing before the first statement needs an end
+    for i, token in enumerate(tokens):
+        if token.type == NEWLINE:
+            if depth and _begins_a_statement(tokens, i + 1):
+                depth = 0
+            if depth or last in (NEWLINE, "LBRACE") or following[i] in (ARROW, END):
+                continue
+        elif token.type in OPENING:
+            depth += 1
+        elif token.type in CLOSING:
+            depth = max(depth - 1, 0)
+        elif token.type in ("LBRACE", "RBRACE"):
+            depth = 0
+            if token.type == "RBRACE" and last not in (NEWLINE, "LBRACE"):
+                yield _newline(tokens[i - 1])  # `}` on the line of the last statement
+        elif depth and token.type in _WORDS:
+            token = token.update(type=NAME)
+        last = token.type
+        yield token
+    if last not in (NEWLINE, "LBRACE", "RBRACE"):
+        yield _newline(tokens[-1])
+
+
+def _following(tokens: Sequence[Token]) -> list[str]:
+    """Return for each token the type of the first one behind it that is no newline."""
+    following = [END] * len(tokens)
+    for i in range(len(tokens) - 1, 0, -1):
+        here = tokens[i].type
+        following[i - 1] = following[i] if here == NEWLINE else here
+    return following
+
+
+def _begins_a_statement(tokens: Sequence[Token], i: int) -> bool:
+    """Say whether the line whose first token is the i-th cannot go on with what is in brackets."""
+    first, second = (*(t.type for t in tokens[i : i + 2]), END, END)[:2]
+    if first == NAME:
+        return second in _FOLLOWS_A_FIRST_NAME
+    return first == "RBRACE" or (first in _BEGINNERS and second == NAME)
+
+
+def _newline(after: Token) -> Token:
+    """Return a newline that is not in the source, right behind a token."""
+    line, column = after.end_line, after.end_column
+    return Token(NEWLINE, "", after.end_pos, line, column, line, column, after.end_pos)
