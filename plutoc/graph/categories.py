@@ -1,0 +1,84 @@
+"""Categories: what drones of one shape can carry and do (thesis 4.1)."""
+
+from __future__ import annotations
+
+from plutoc.block import Param
+from plutoc.diagnostic import Diagnostic
+from plutoc.graph import errors, value_errors
+from plutoc.graph.arguments import once_each
+from plutoc.graph.model import Category
+from plutoc.graph.values import typed
+from plutoc.source import Source
+from plutoc.syntax.tree import Argument, CategoryDecl
+from plutoc_runtime.quantities import Type
+
+IMPLICIT = "drone"
+"""The name of the category of an app that declares none."""
+
+PARAMS = (
+    Param(name="payload", type=Type.MASS, doc="What it can carry.", default=0.01),
+    Param(name="speed", type=Type.SPEED, doc="How fast it flies.", default=0.5),
+    Param(name="flight_time", type=Type.TIME, doc="From a full battery.", default=420.0),
+    Param(name="charge_time", type=Type.TIME, doc="To a full battery.", default=1200.0),
+    Param(name="reserve", type=Type.PERCENT, doc="The charge to land with.", default=0.2),
+)
+_BY_NAME = {param.name: param for param in PARAMS}
+
+
+def implicit() -> Category:
+    """Return the category of an app that declares none: it can do everything."""
+    return _category(IMPLICIT, {}, None)
+
+
+def category(
+    source: Source, declared: CategoryDecl, actions: dict[str, None], found: list[Diagnostic]
+) -> Category:
+    """Resolve a category; `actions` are the names of all there are."""
+    values: dict[str, float] = {}
+    owner = f"category `{declared.name.text}`"
+    for argument in once_each(source, declared.arguments, found):
+        param = _BY_NAME.get(argument.name.text)
+        if param is None:
+            found.append(
+                value_errors.unknown_argument(source, argument.name, owner, list(_BY_NAME))
+            )
+            continue
+        value = typed(source, param.name, argument.value, param.type, found)
+        if isinstance(value, float) and _is_possible(source, param, argument, value, found):
+            values[param.name] = value
+    for i, name in enumerate(declared.can):
+        first = next(other for other in declared.can if other.text == name.text)
+        if name.text not in actions:
+            found.append(errors.unknown_action(source, name, list(actions)))
+        elif first is not declared.can[i]:
+            found.append(errors.named_twice(source, name, first))
+    return _category(declared.name.text, values, tuple(dict.fromkeys(n.text for n in declared.can)))
+
+
+def _is_possible(
+    source: Source, param: Param, argument: Argument, value: float, found: list[Diagnostic]
+) -> bool:
+    if param.type is Type.PERCENT:
+        possible, rule = value < 1, "less than 100 %"
+    else:
+        possible, rule = value > 0, "more than 0"
+    if not possible:
+        found.append(value_errors.out_of_range(source, argument.value.span, param.name, rule))
+    return possible
+
+
+def _category(name: str, given: dict[str, float], actions: tuple[str, ...] | None) -> Category:
+    def value(param: str) -> float:
+        default = _BY_NAME[param].default
+        assert isinstance(default, float)
+        return given.get(param, default)
+
+    return Category(
+        name=name,
+        payload=value("payload"),
+        speed=value("speed"),
+        flight_time=value("flight_time"),
+        charge_time=value("charge_time"),
+        reserve=value("reserve"),
+        actions=actions,
+    )

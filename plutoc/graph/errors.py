@@ -1,0 +1,352 @@
+"""What can be wrong with names, packages, hooks and edges (P1). Values: value_errors.py."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from plutoc.diagnostic import Diagnostic
+from plutoc.graph.names import LONGEST, Style, in_snake_case
+from plutoc.graph.wording import (
+    all_of,
+    alternatives,
+    either,
+    error,
+    meant,
+    related,
+    there_are,
+    warning,
+)
+from plutoc.source import Source, Span
+from plutoc.syntax.tree import Name
+from plutoc_runtime.quantities import Type
+from plutoc_runtime.status import IN_GRAPH, Status
+
+
+def malformed_name(source: Source, name: Name) -> Diagnostic:
+    """A name with other characters, or too many."""
+    if len(name.text) > LONGEST:
+        message = f"this name has {len(name.text)} characters; {LONGEST} are the most"
+    else:
+        message = f"`{name.text}` is not a name: names have only the letters a to z, digits and `_`"
+    return error("P1001", message, source, name.span, help="choose a shorter, plain name")
+
+
+def wrong_style(source: Source, name: Name, role: str, style: Style) -> Diagnostic:
+    """A name written as those of another role are."""
+    snake = in_snake_case(name.text) if style is Style.SNAKE else None
+    return error(
+        "P1002",
+        f"{role} is written in {style.value}, and `{name.text}` is not",
+        source,
+        name.span,
+        help=f"write `{snake}`, here and wherever it is used" if snake else None,
+    )
+
+
+def reserved_name(source: Source, name: Name, whose: str) -> Diagnostic:
+    """A name that means something else already."""
+    return error(
+        "P1003",
+        f"nothing can be named `{name.text}`: it is {whose}",
+        source,
+        name.span,
+        label="choose another name",
+    )
+
+
+def taken_app_name(source: Source, name: Name, whose: str) -> Diagnostic:
+    """An app whose package would hide another one."""
+    return error(
+        "P1004",
+        f"an app cannot be named `{name.text}`: its package would have the name of {whose}",
+        source,
+        name.span,
+        label="choose another name",
+        help=f"for instance `{name.text}_app`",
+    )
+
+
+def declared_twice(
+    source: Source, name: Name, role: str, first: Name, first_role: str
+) -> Diagnostic:
+    """Two declarations of one name."""
+    return error(
+        "P1005",
+        f"`{name.text}` is declared twice" + _as(role, first_role),
+        source,
+        name.span,
+        label="the second time",
+        related=(related(source, first.span, "the first time"),),
+        help="give one of them another name",
+    )
+
+
+def differs_in_case_only(source: Source, name: Name, first: Name) -> Diagnostic:
+    """Two names that a reader, or a file system, takes for one."""
+    return error(
+        "P1006",
+        f"`{name.text}` and `{first.text}` differ only in upper and lower case",
+        source,
+        name.span,
+        related=(related(source, first.span, f"`{first.text}`"),),
+        help="give one of them another name",
+    )
+
+
+def built_in_name(source: Source, name: Name) -> Diagnostic:
+    """A hook or an action with the name of an action that every app has."""
+    return error(
+        "P1007",
+        f"`{name.text}` is an action that every app has",
+        source,
+        name.span,
+        label="declared once more",
+        help="remove this declaration to use that action, or choose another name",
+    )
+
+
+def _as(role: str, first_role: str) -> str:
+    return "" if role == first_role else f": as {first_role} and as {role}"
+
+
+def unknown_package(source: Source, name: Name, installed: Sequence[str]) -> Diagnostic:
+    """`use` of what is not installed."""
+    return error(
+        "P1008",
+        f"no package of blocks named `{name.text}` is installed",
+        source,
+        name.span,
+        help=meant(name.text, installed)
+        or "install it with pip into the environment that plutoc runs in",
+    )
+
+
+def broken_package(source: Source, package: str, span: Span, sentence: str) -> Diagnostic:
+    """A package of blocks that does not load."""
+    return error(
+        "P1009",
+        f"`{package}` cannot be used: {sentence}",
+        source,
+        span,
+        help="tell the people who made that package, or install another version of it",
+    )
+
+
+def unused_package(source: Source, name: Name, span: Span) -> Diagnostic:
+    """`use` of what no block comes from."""
+    return warning(
+        "P1010",
+        f"no block of `{name.text}` is used",
+        source,
+        span,
+        label="not needed",
+        help="remove this line",
+    )
+
+
+def unknown_prefix(source: Source, prefix: Name, prefixes: Sequence[str]) -> Diagnostic:
+    """A kind of a package that the file does not `use`."""
+    return error(
+        "P1011",
+        f"this file uses no package called `{prefix.text}`",
+        source,
+        prefix.span,
+        help=meant(prefix.text, prefixes)
+        or f"write `use {prefix.text}` above the app, or leave the prefix out",
+    )
+
+
+def unknown_kind(
+    source: Source, kind: Name, package: str | None, kinds: Sequence[str], elsewhere: Sequence[str]
+) -> Diagnostic:
+    """A block of a kind that does not exist."""
+    where = f"`{package}` has no kind of block" if package else "there is no kind of block"
+    return error(
+        "P1012",
+        f"{where} named `{kind.text}`",
+        source,
+        kind.span,
+        help=alternatives(elsewhere, "write ", "")
+        or meant(kind.text, kinds)
+        or there_are(kinds, "kinds"),
+    )
+
+
+def unknown_action(source: Source, name: Name, known: Sequence[str]) -> Diagnostic:
+    """A category that can do what is not an action."""
+    return error(
+        "P1024",
+        f"there is no action `{name.text}`",
+        source,
+        name.span,
+        help=meant(name.text, known) or f"declare it in the app: `action {name.text}`",
+    )
+
+
+def named_twice(source: Source, name: Name, first: Name) -> Diagnostic:
+    """The same word twice in one list."""
+    return warning(
+        "P1025",
+        f"`{name.text}` is named twice here",
+        source,
+        name.span,
+        label="the second time",
+        related=(related(source, first.span, "the first time"),),
+        help="remove one of them",
+    )
+
+
+def unknown_type(source: Source, name: Name) -> Diagnostic:
+    """A parameter of a type that the language does not know."""
+    known = [kind.value for kind in Type]
+    return error(
+        "P1026",
+        f"there is no type `{name.text}`",
+        source,
+        name.span,
+        help=meant(name.text, known) or f"types are {either(known)}",
+    )
+
+
+def unknown_repeat(source: Source, name: Name, known: Sequence[str]) -> Diagnostic:
+    """A last word of an action that is none of the three."""
+    return error(
+        "P1027",
+        f"whether an action may be repeated is said by {either(known)}, not `{name.text}`",
+        source,
+        name.span,
+        help=meant(name.text, known),
+    )
+
+
+def unknown_status(source: Source, name: Name) -> Diagnostic:
+    """A status that does not exist."""
+    known = [status.value for status in IN_GRAPH]
+    return error(
+        "P1028",
+        f"there is no status `{name.text}`",
+        source,
+        name.span,
+        help=meant(name.text, known) or f"statuses are {either(known)}",
+    )
+
+
+def status_outside_graph(source: Source, name: Name) -> Diagnostic:
+    """A status that no block ever sees."""
+    return error(
+        "P1029",
+        f"no block sees a mission that is {name.text}",
+        source,
+        name.span,
+        label="a status outside the graph",
+        help=f"blocks and edges know {either([status.value for status in IN_GRAPH])}",
+    )
+
+
+def unused_hook(source: Source, name: Name, role: str) -> Diagnostic:
+    """A hook that no block calls."""
+    return warning(
+        "P1030",
+        f"{role} `{name.text}` is declared but no block uses it",
+        source,
+        name.span,
+        label="not used",
+        help="name it in a block, or remove it",
+    )
+
+
+def unused_action(source: Source, name: Name) -> Diagnostic:
+    """An action that no drone can do."""
+    return warning(
+        "P1031",
+        f"no category can do `{name.text}`",
+        source,
+        name.span,
+        label="not used",
+        help=f"add it to a category: `can …, {name.text}`, or remove it",
+    )
+
+
+def clashing_parameter(source: Source, name: Name, owner: str) -> Diagnostic:
+    """A parameter with the name of something that its hook gets anyway."""
+    return error(
+        "P1038",
+        f"a parameter of {owner} cannot be named `{name.text}`: its hook gets that already",
+        source,
+        name.span,
+        label="choose another name",
+    )
+
+
+def unknown_block(
+    source: Source, name: Name, blocks: Sequence[str], role: str | None
+) -> Diagnostic:
+    """An edge from or to what is not a block."""
+    if role:
+        message = f"`{name.text}` is {role}, not a block"
+        help = f"declare a block that uses it: `NAME = KIND(hook: {name.text})`"
+    else:
+        message = f"there is no block `{name.text}`"
+        help = f"declare it in the app: `{name.text} = KIND`"
+    return error("P1032", message, source, name.span, help=meant(name.text, blocks) or help)
+
+
+def into_start(source: Source, name: Name) -> Diagnostic:
+    """An edge to where missions come from."""
+    return error(
+        "P1033",
+        "no edge leads to `start`: every mission begins there once",
+        source,
+        name.span,
+        help="lead it to a block, for instance the one that gives the mission its next drone",
+    )
+
+
+def out_of_end(source: Source, name: Name) -> Diagnostic:
+    """An edge from where missions end."""
+    return error(
+        "P1034",
+        "no edge leaves `end`: missions are over there",
+        source,
+        name.span,
+        help="`end` can only be the last stop",
+    )
+
+
+def edge_twice(source: Source, span: Span, first: Span, names: tuple[str, str]) -> Diagnostic:
+    """The same edge twice."""
+    return error(
+        "P1035",
+        f"the edge from `{names[0]}` to `{names[1]}` is there twice",
+        source,
+        span,
+        label="the second time",
+        related=(related(source, first, "the first time"),),
+        help="remove one of them",
+    )
+
+
+def refused_status(
+    source: Source, name: Name, target: str, kind: str | None, accepted: Iterable[Status]
+) -> Diagnostic:
+    """A guard with a status that the target does not accept."""
+    what = f"`{target}` ({kind})" if kind else f"`{target}`"
+    return error(
+        "P1036",
+        f"{what} does not accept {name.text}",
+        source,
+        name.span,
+        label="not accepted",
+        help=f"it accepts {all_of([status.value for status in IN_GRAPH if status in accepted])}",
+    )
+
+
+def guarded_start(source: Source, span: Span) -> Diagnostic:
+    """A guard on an edge from `start`."""
+    return error(
+        "P1037",
+        "an edge from `start` has no guard: nothing has happened to a mission there yet",
+        source,
+        span,
+        help="remove the guard",
+    )

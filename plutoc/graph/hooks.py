@@ -1,0 +1,119 @@
+"""Actions and hooks: the code that a developer adds, as declared."""
+
+from __future__ import annotations
+
+import keyword
+from collections.abc import Sequence
+
+from plutoc.block import HookKind
+from plutoc.diagnostic import Diagnostic
+from plutoc.graph import errors, names
+from plutoc.graph.model import Action, Hook, Parameter
+from plutoc.graph.names import Style
+from plutoc.graph.scope import ACTION, HOOK_ROLES
+from plutoc.graph.values import typed
+from plutoc.source import Source
+from plutoc.syntax import tree
+from plutoc_runtime.quantities import Type
+from plutoc_runtime.status import IN_GRAPH, Status
+
+REPEATS = ("safe", "once", "ask")
+
+_ALREADY_THERE = {
+    ACTION: frozenset({"drone", "trip", "context"}),
+    HOOK_ROLES["modifier"]: frozenset({"mission", "context", "run", "status", "hook", "block"}),
+}
+"""What a hook, or the step that calls it, gets besides its parameters."""
+
+
+def action(source: Source, declared: tree.ActionDecl, found: list[Diagnostic]) -> Action:
+    """Resolve an action of the app's own."""
+    repeat = declared.repeat
+    if repeat is not None and repeat.text not in REPEATS:
+        found.append(errors.unknown_repeat(source, repeat, REPEATS))
+    return Action(
+        name=declared.name.text,
+        parameters=_parameters(source, declared.parameters, ACTION, found),
+        repeat=repeat.text if repeat else "once",
+        span=declared.name.span,
+    )
+
+
+def hook(source: Source, declared: tree.HookDecl, found: list[Diagnostic]) -> Hook:
+    """Resolve an evaluator, a modifier or a policy."""
+    emitted = {status for _, status in statuses(source, declared.emits, found)}
+    for name in declared.writes:
+        if not names.is_well_formed(name.text):
+            found.append(errors.malformed_name(source, name))
+        elif not names.has_style(name.text, Style.SNAKE):
+            found.append(errors.wrong_style(source, name, "an attribute", Style.SNAKE))
+    return Hook(
+        kind=HookKind(declared.kind),
+        name=declared.name.text,
+        parameters=_parameters(source, declared.parameters, HOOK_ROLES[declared.kind], found),
+        emits=tuple(status for status in IN_GRAPH if status in emitted),
+        writes=tuple(dict.fromkeys(name.text for name in declared.writes)),
+        span=declared.name.span,
+    )
+
+
+def statuses(
+    source: Source, written: Sequence[tree.Name], found: list[Diagnostic]
+) -> list[tuple[tree.Name, Status]]:
+    """Return the statuses that are named, each once and with its name."""
+    resolved: dict[Status, tree.Name] = {}
+    for name in written:
+        status = Status.__members__.get(name.text)
+        if status is None:
+            found.append(errors.unknown_status(source, name))
+        elif status not in IN_GRAPH:
+            found.append(errors.status_outside_graph(source, name))
+        elif status in resolved:
+            found.append(errors.named_twice(source, name, resolved[status]))
+        else:
+            resolved[status] = name
+    return [(name, status) for status, name in resolved.items()]
+
+
+def _parameters(
+    source: Source, declared: Sequence[tree.Parameter], role: str, found: list[Diagnostic]
+) -> tuple[Parameter, ...]:
+    """Resolve parameters. One of an unknown type is left out: the error is told."""
+    first: dict[str, tree.Parameter] = {}
+    parameters = []
+    for parameter in declared:
+        name = parameter.name
+        _check_name(source, name, role, found)
+        before = first.setdefault(name.text.lower(), parameter)
+        if before is not parameter:
+            same = before.name.text == name.text
+            what = "a parameter"
+            found.append(
+                errors.declared_twice(source, name, what, before.name, what)
+                if same
+                else errors.differs_in_case_only(source, name, before.name)
+            )
+        kind = _TYPES.get(parameter.type.text)
+        if kind is None:
+            found.append(errors.unknown_type(source, parameter.type))
+            continue
+        default = (
+            typed(source, name.text, parameter.default, kind, found) if parameter.default else None
+        )
+        parameters.append(Parameter(name=name.text, type=kind, default=default))
+    return tuple(parameters)
+
+
+_TYPES = {kind.value: kind for kind in Type}
+
+
+def _check_name(source: Source, name: tree.Name, role: str, found: list[Diagnostic]) -> None:
+    """Check a parameter's name: it becomes a keyword of a Python call, so Python's are not free."""
+    if not names.is_well_formed(name.text):
+        found.append(errors.malformed_name(source, name))
+    elif keyword.iskeyword(name.text):
+        found.append(errors.reserved_name(source, name, names.reserved(name.text) or ""))
+    elif name.text in _ALREADY_THERE.get(role, ()):
+        found.append(errors.clashing_parameter(source, name, role))
+    elif not names.has_style(name.text, Style.SNAKE):
+        found.append(errors.wrong_style(source, name, "a parameter", Style.SNAKE))

@@ -1,0 +1,95 @@
+"""What a name may be, and which name somebody may have meant."""
+
+from __future__ import annotations
+
+import difflib
+import keyword
+import re
+import sys
+from collections.abc import Iterable
+from enum import Enum
+
+from plutoc.syntax.newlines import WORDS
+
+LONGEST = 63
+
+_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
+
+_TAKEN_PACKAGES = frozenset(
+    {
+        *("cflib", "starlette", "uvicorn", "pytest", "numpy", "scipy", "hatchling"),
+        *("pluto", "plutoc", "plutoc_runtime", "plutoc_blocks", "plutoc_grammar"),
+        *("src", "tests", "test", "docs", "dist", "build", "setup", "conftest"),
+    }
+)
+"""Packages that a generated one can depend on, ours, and folders that it stands beside."""
+
+_DEVICES = frozenset(
+    {"con", "prn", "aux", "nul"}
+    | {f"{port}{number}" for port in ("com", "lpt") for number in range(10)}
+)
+"""Names that Windows keeps for devices: no folder can have them."""
+
+
+class Style(Enum):
+    """How names of a role are written."""
+
+    SNAKE = "snake_case"
+    PASCAL = "PascalCase"
+    UPPER = "UPPER_CASE"
+
+
+_STYLES = {
+    Style.SNAKE: re.compile(r"[a-z][a-z0-9_]*"),
+    Style.PASCAL: re.compile(r"[A-Z][A-Za-z0-9]*"),
+    Style.UPPER: re.compile(r"[A-Z][A-Z0-9_]*"),
+}
+
+
+def is_well_formed(name: str) -> bool:
+    """Say whether it is made of ASCII letters, digits and underscores, and not too long."""
+    return len(name) <= LONGEST and _NAME.fullmatch(name) is not None
+
+
+def has_style(name: str, style: Style) -> bool:
+    """Say whether it is written as names of that role are."""
+    return _STYLES[style].fullmatch(name) is not None
+
+
+def in_snake_case(name: str) -> str:
+    """Return the name as snake_case: `TakePhoto2` as `take_photo2`."""
+    parts = re.sub(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", "_", name)
+    return re.sub(r"_+", "_", parts).lower()
+
+
+def reserved(name: str) -> str | None:
+    """Say whose word it is, in words that follow "it is", or None where it is free."""
+    if name.lower() in ("start", "end"):
+        return "where every mission begins" if name.lower() == "start" else "where missions end"
+    if name in WORDS:
+        return "a word of the language"
+    if keyword.iskeyword(name) or keyword.issoftkeyword(name):
+        return "a word of Python, in which your hooks are written"
+    return "what Python calls an object itself" if name == "self" else None
+
+
+def taken_app_name(name: str) -> str | None:
+    """Say what has that name already, for an app, whose name is its package's."""
+    lower = name.lower()
+    if lower in sys.stdlib_module_names:
+        return "a module of Python's standard library"
+    if lower in _TAKEN_PACKAGES:
+        return "a package or folder that a generated app needs"
+    return "a device on Windows" if lower in _DEVICES else None
+
+
+def near(name: str, options: Iterable[str]) -> list[str]:
+    """Return what somebody may have meant, the nearest first; at most three."""
+    by_lower: dict[str, str] = {}
+    for option in options:
+        if abs(len(option) - len(name)) <= max(len(name), 3):
+            by_lower.setdefault(option.lower(), option)
+    lower = name.lower()
+    if lower in by_lower:
+        return [by_lower[lower]]
+    return [by_lower[match] for match in difflib.get_close_matches(lower, by_lower, 3, 0.65)]

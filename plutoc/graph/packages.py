@@ -1,0 +1,100 @@
+"""`use`: the packages of blocks that a file names, and the kinds it can write."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from plutoc.block import Block
+from plutoc.diagnostic import Diagnostic
+from plutoc.graph import errors
+from plutoc.registry import STD, Blocks, RegistryError
+from plutoc.source import Source
+from plutoc.syntax.tree import BlockDecl, File, Name, Use
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Packages:
+    """What the prefixes of a file stand for."""
+
+    names: Mapping[str, str]
+    """Prefix → package."""
+    kinds: Mapping[str, Mapping[str, Block] | None]
+    """Package → its blocks; None where they cannot be had, which is told already."""
+
+
+def packages_of(file: File, blocks: Blocks, found: list[Diagnostic]) -> Packages:
+    """Load what the file uses."""
+    kinds: dict[str, Mapping[str, Block] | None] = {}
+    kinds[STD] = _load(STD, file.source, file.app.name, blocks, found)
+    names: dict[str, str] = {}
+    for use in file.uses:
+        package = use.package.text
+        if package not in blocks.packages:
+            found.append(errors.unknown_package(file.source, use.package, blocks.packages))
+            kinds[package] = None
+        elif package not in kinds:
+            kinds[package] = _load(package, file.source, use.package, blocks, found)
+        names.setdefault((use.alias or use.package).text, package)
+    found.extend(
+        errors.unused_package(file.source, use.package, use.span)
+        for use in file.uses
+        if kinds[use.package.text] is not None and not _is_used(use, file)
+    )
+    return Packages(names=names, kinds=kinds)
+
+
+def _load(
+    package: str, source: Source, name: Name, blocks: Blocks, found: list[Diagnostic]
+) -> Mapping[str, Block] | None:
+    try:
+        return blocks.of(package)
+    except RegistryError as error:
+        found.append(errors.broken_package(source, package, name.span, str(error)))
+        return None
+
+
+def _is_used(use: Use, file: File) -> bool:
+    prefix = (use.alias or use.package).text
+    return any(
+        isinstance(statement, BlockDecl) and statement.prefix and statement.prefix.text == prefix
+        for statement in file.app.statements
+    )
+
+
+def find(
+    source: Source, declared: BlockDecl, packages: Packages, found: list[Diagnostic]
+) -> tuple[str, Block] | None:
+    """Return the package and the block that a declaration names, or None where there is none."""
+    package = STD
+    if declared.prefix:
+        if declared.prefix.text not in packages.names:
+            found.append(errors.unknown_prefix(source, declared.prefix, list(packages.names)))
+            return None
+        package = packages.names[declared.prefix.text]
+    kinds = packages.kinds[package]
+    if kinds is None:
+        return None
+    kind = declared.kind
+    if kind.text in kinds:
+        return package, kinds[kind.text]
+    found.append(
+        errors.unknown_kind(
+            source,
+            kind,
+            package if declared.prefix else None,
+            list(kinds),
+            _elsewhere(kind.text, packages),
+        )
+    )
+    return None
+
+
+def _elsewhere(kind: str, packages: Packages) -> list[str]:
+    """Return how to write a kind that exists, only with another prefix."""
+    found = [
+        f"{prefix}.{kind}"
+        for prefix, package in packages.names.items()
+        if kind in (packages.kinds[package] or {})
+    ]
+    return [kind, *found] if kind in (packages.kinds[STD] or {}) else found

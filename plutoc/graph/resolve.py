@@ -1,0 +1,142 @@
+"""Tree → graph: every name resolved, every value in SI units."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from plutoc.block import HookKind, HookParam
+from plutoc.diagnostic import Diagnostic, accept_or_raise
+from plutoc.graph import categories, errors, hooks
+from plutoc.graph.edges import edges
+from plutoc.graph.model import Action, Graph, Hook, Node
+from plutoc.graph.nodes import Place, node
+from plutoc.graph.packages import packages_of
+from plutoc.graph.scope import HOOK_ROLES, check_app_name, scope_of
+from plutoc.registry import Blocks
+from plutoc.source import Source, Span
+from plutoc.syntax.tree import (
+    ActionDecl,
+    BlockDecl,
+    CategoryDecl,
+    File,
+    FlowDecl,
+    HookDecl,
+    Name,
+    Value,
+)
+from plutoc_runtime.actions import BUILT_IN
+
+
+def resolve(file: File, blocks: Blocks) -> tuple[Graph, tuple[Diagnostic, ...]]:
+    """Return the graph of a source, and warnings; raise `Rejected` with all errors."""
+    source, statements = file.source, file.app.statements
+    found: list[Diagnostic] = []
+    check_app_name(source, file.app.name, found)
+    scope = scope_of(file, found)
+    packages = packages_of(file, blocks, found)
+    actions: list[Action] = []
+    app_hooks: list[Hook] = []
+    partial: set[str] = set()
+    for declared in statements:
+        before = len(found)
+        match declared:
+            case ActionDecl():
+                actions.append(hooks.action(source, declared, found))
+            case HookDecl():
+                app_hooks.append(hooks.hook(source, declared, found))
+            case _:
+                continue
+        if len(found) > before:
+            partial.add(declared.name.text)
+    known_actions = dict.fromkeys([*BUILT_IN, *(action.name for action in actions)])
+    category_decls = [s for s in statements if isinstance(s, CategoryDecl)]
+    place = Place(
+        source=source,
+        scope=scope,
+        hooks={hook.name: hook for hook in (*map(_as_hook, actions), *app_hooks)},
+        partial=frozenset(partial),
+        packages=packages,
+        found=found,
+    )
+    block_decls = [s for s in statements if isinstance(s, BlockDecl)]
+    resolved = [node(place, declared) for declared in block_decls]
+    nodes = [each for each in resolved if each is not None]
+    by_name = {each.name: each for each in reversed(nodes)}
+    flows = [s for s in statements if isinstance(s, FlowDecl)]
+    graph = Graph(
+        source=source,
+        name=file.app.name.text,
+        name_span=file.app.name.span,
+        title=_title(file),
+        categories=tuple(
+            categories.category(source, declared, known_actions, found)
+            for declared in category_decls
+        )
+        or (categories.implicit(),),
+        actions=tuple(actions),
+        hooks=tuple(app_hooks),
+        nodes=tuple(nodes),
+        edges=edges(source, flows, scope, by_name, found),
+        end_span=Span(file.app.span.end - 1, file.app.span.end),
+    )
+    found.extend(_unused_hooks(source, app_hooks, nodes, block_decls))
+    found.extend(_unused_actions(source, actions, category_decls, block_decls))
+    return graph, accept_or_raise(found)
+
+
+def _as_hook(action: Action) -> Hook:
+    """A block of a package may call an action, as it calls any hook."""
+    return Hook(
+        kind=HookKind.ACTION,
+        name=action.name,
+        parameters=action.parameters,
+        emits=(),
+        writes=(),
+        span=action.span,
+    )
+
+
+def _title(file: File) -> str:
+    """Return the title, or one made of the name: "Crop watch" of `crop_watch`."""
+    title = file.app.title.value.strip() if file.app.title else ""
+    return title or file.app.name.text.replace("_", " ").capitalize()
+
+
+def _unused_hooks(
+    source: Source, declared: Sequence[Hook], nodes: Sequence[Node], blocks: Sequence[BlockDecl]
+) -> list[Diagnostic]:
+    """Find hooks that nothing calls. An evaluator can be a mission's own choice, by its plan."""
+    named = _named(blocks)
+    judged = any(
+        isinstance(param, HookParam) and param.kind is HookKind.EVALUATOR
+        for node in nodes
+        for param in node.block.params
+    )
+    return [
+        errors.unused_hook(
+            source, Name(text=hook.name, span=hook.span), HOOK_ROLES[hook.kind.value]
+        )
+        for hook in declared
+        if hook.name not in named and not (judged and hook.kind is HookKind.EVALUATOR)
+    ]
+
+
+def _unused_actions(
+    source: Source,
+    actions: Sequence[Action],
+    declared: Sequence[CategoryDecl],
+    blocks: Sequence[BlockDecl],
+) -> list[Diagnostic]:
+    """Find actions that no drone can do; without a category, every drone can do everything."""
+    used = _named(blocks) | {name.text for category in declared for name in category.can}
+    return [
+        errors.unused_action(source, Name(text=action.name, span=action.span))
+        for action in actions
+        if declared and action.name not in used
+    ]
+
+
+def _named(blocks: Sequence[BlockDecl]) -> set[str]:
+    """Return the names that blocks are given as values."""
+    values: list[Value] = [argument.value for block in blocks for argument in block.arguments]
+    return {value.text for value in values if isinstance(value, Name)}

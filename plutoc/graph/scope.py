@@ -1,0 +1,85 @@
+"""The names of an app: which are declared, as what, and whether they may be."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from plutoc.diagnostic import Diagnostic
+from plutoc.graph import errors, names
+from plutoc.graph.names import Style
+from plutoc.source import Source
+from plutoc.syntax.tree import ActionDecl, BlockDecl, CategoryDecl, File, FlowDecl, HookDecl, Name
+from plutoc_runtime.actions import BUILT_IN
+
+BLOCK, CATEGORY, ACTION, PREFIX = "a block", "a category", "an action", "a package's prefix"
+HOOK_ROLES = {"evaluator": "an evaluator", "modifier": "a modifier", "policy": "a policy"}
+_HOOKS = frozenset({ACTION, *HOOK_ROLES.values()})
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Declared:
+    """What a name stands for."""
+
+    name: Name
+    role: str
+
+
+Scope = dict[str, Declared]
+"""By name; where a name is declared twice, the first one counts."""
+
+
+def scope_of(file: File, found: list[Diagnostic]) -> Scope:
+    """Collect all names of a file. A wrong statement declares its name all the same."""
+    scope: Scope = {}
+    lower: dict[str, Declared] = {}
+    for declared in _declarations(file):
+        name = declared.name
+        check_name(file.source, name, declared.role, found)
+        first = lower.setdefault(name.text.lower(), declared)
+        if declared.role in _HOOKS and name.text.lower() in BUILT_IN:
+            found.append(errors.built_in_name(file.source, name))
+        elif first is not declared and first.name.text == name.text:
+            found.append(
+                errors.declared_twice(file.source, name, declared.role, first.name, first.role)
+            )
+        elif first is not declared:
+            found.append(errors.differs_in_case_only(file.source, name, first.name))
+        scope.setdefault(name.text, declared)
+    return scope
+
+
+def _declarations(file: File) -> list[Declared]:
+    declared = [Declared(name=use.alias or use.package, role=PREFIX) for use in file.uses]
+    for statement in file.app.statements:
+        match statement:
+            case CategoryDecl():
+                declared.append(Declared(name=statement.name, role=CATEGORY))
+            case ActionDecl():
+                declared.append(Declared(name=statement.name, role=ACTION))
+            case HookDecl():
+                declared.append(Declared(name=statement.name, role=HOOK_ROLES[statement.kind]))
+            case BlockDecl():
+                declared.append(Declared(name=statement.name, role=BLOCK))
+            case FlowDecl():
+                pass
+    return declared
+
+
+def check_name(source: Source, name: Name, role: str, found: list[Diagnostic]) -> None:
+    """Check a declared name by itself."""
+    whose = names.reserved(name.text)
+    if not names.is_well_formed(name.text):
+        found.append(errors.malformed_name(source, name))
+    elif whose:
+        found.append(errors.reserved_name(source, name, whose))
+    elif not names.has_style(name.text, Style.SNAKE):
+        found.append(errors.wrong_style(source, name, f"the name of {role}", Style.SNAKE))
+
+
+def check_app_name(source: Source, name: Name, found: list[Diagnostic]) -> None:
+    """Check an app's name, which is its package's too."""
+    taken = names.taken_app_name(name.text)
+    if taken:
+        found.append(errors.taken_app_name(source, name, taken))
+    else:
+        check_name(source, name, "an app", found)

@@ -1,0 +1,154 @@
+"""What can be wrong with the values in parentheses (P1)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from plutoc.diagnostic import Diagnostic
+from plutoc.graph.wording import a_kind, either, error, meant, related, there_are
+from plutoc.source import Source, Span
+from plutoc.syntax.tree import Name
+from plutoc_runtime.quantities import Type, units_of
+
+
+def unknown_argument(source: Source, name: Name, owner: str, known: Sequence[str]) -> Diagnostic:
+    """A value for a parameter that does not exist."""
+    return error(
+        "P1013",
+        f"{owner} has no parameter `{name.text}`",
+        source,
+        name.span,
+        help=meant(name.text, known) or there_are(known, "parameters") or "it has none at all",
+    )
+
+
+def argument_twice(source: Source, name: Name, first: Span) -> Diagnostic:
+    """Two values for one parameter."""
+    return error(
+        "P1014",
+        f"`{name.text}` is given twice",
+        source,
+        name.span,
+        label="the second time",
+        related=(related(source, first, "the first time"),),
+        help="remove one of them",
+    )
+
+
+def missing_argument(source: Source, span: Span, owner: str, name: str, example: str) -> Diagnostic:
+    """A parameter that has to be given, and is not."""
+    return error(
+        "P1015",
+        f"{owner} needs `{name}`",
+        source,
+        span,
+        label=f"`{name}` is missing",
+        help=f"write `{name}: {example}` in its parentheses",
+    )
+
+
+def wrong_type(source: Source, span: Span, name: str, wanted: str, example: str) -> Diagnostic:
+    """A value of another type."""
+    return error(
+        "P1016",
+        f"`{name}` takes {wanted}",
+        source,
+        span,
+        label=f"not {wanted}",
+        help=f"for instance `{example}`",
+    )
+
+
+def unknown_unit(source: Source, span: Span, unit: str, kind: Type | None) -> Diagnostic:
+    """A unit that the language does not know."""
+    known = [unit for each in Type if kind in (None, each) for unit in units_of(each)]
+    return error(
+        "P1017",
+        f"there is no unit `{unit}`",
+        source,
+        span,
+        label="unknown unit",
+        help=(
+            f"{a_kind(kind)} has the units {either(known)}"
+            if kind
+            else f"units are {either(known)}"
+        ),
+    )
+
+
+def missing_unit(source: Source, span: Span, name: str, kind: Type) -> Diagnostic:
+    """A number where a quantity is wanted."""
+    number = source.quote(span)
+    return error(
+        "P1018",
+        f"`{name}` is {a_kind(kind)} and needs a unit",
+        source,
+        span,
+        label="the unit is missing",
+        help="write " + either([f"{number} {unit}" for unit in units_of(kind)]),
+    )
+
+
+def wrong_dimension(source: Source, span: Span, name: str, given: Type, wanted: str) -> Diagnostic:
+    """A quantity of something else."""
+    mixed_up = given is Type.LENGTH and wanted == a_kind(Type.TIME)
+    return error(
+        "P1019",
+        f"`{name}` takes {wanted}, and this is {a_kind(given)}",
+        source,
+        span,
+        label=a_kind(given),
+        help="`m` is the metre; minutes are written `min`" if mixed_up else None,
+    )
+
+
+def out_of_range(source: Source, span: Span, name: str, rule: str) -> Diagnostic:
+    """A value beyond what is possible."""
+    return error("P1020", f"`{name}` must be {rule}", source, span, label=f"must be {rule}")
+
+
+def unknown_option(
+    source: Source,
+    span: Span,
+    param: str,
+    given: str,
+    options: Sequence[str],
+    possible: Sequence[str],
+    hook: str | None,
+) -> Diagnostic:
+    """A choice that is none of the given ones."""
+    or_hook = f", and no {hook} of that name is declared" if hook else ""
+    return error(
+        "P1021",
+        f"`{param}` cannot be `{given}`: it is none of {either(options)}{or_hook}",
+        source,
+        span,
+        help=meant(given, possible),
+    )
+
+
+def unknown_hook(
+    source: Source, span: Span, given: str, kind: str, known: Sequence[str]
+) -> Diagnostic:
+    """A hook that is not declared."""
+    return error(
+        "P1022",
+        f"no {kind} `{given}` is declared",
+        source,
+        span,
+        label="not declared",
+        help=meant(given, known) or f"declare it in the app: `{kind} {given}`",
+    )
+
+
+def wrong_hook(
+    source: Source, span: Span, given: str, wanted: str, role: str, declared: Span
+) -> Diagnostic:
+    """A hook of another kind."""
+    return error(
+        "P1023",
+        f"`{given}` is {role}; {wanted} is wanted here",
+        source,
+        span,
+        related=(related(source, declared, f"declared as {role}"),),
+    )

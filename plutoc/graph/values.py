@@ -1,0 +1,114 @@
+"""Values of the source: checked against a type, made SI, and written out again."""
+
+from __future__ import annotations
+
+from decimal import Decimal
+
+from plutoc.diagnostic import Diagnostic
+from plutoc.graph import value_errors
+from plutoc.graph.model import Plain
+from plutoc.source import Source
+from plutoc.syntax.tree import Bool, List, Name, Number, Quantity, Text, Value
+from plutoc_runtime.quantities import QUANTITIES, UNITS, Type, to_si
+
+_WANTED = {
+    Type.INT: "a whole number",
+    Type.FLOAT: "a number",
+    Type.BOOL: "`yes` or `no`",
+    Type.TEXT: "a text in quotes",
+}
+
+EXAMPLES = {
+    Type.INT: "3",
+    Type.FLOAT: "0.5",
+    Type.BOOL: "yes",
+    Type.TEXT: '"text"',
+    Type.MASS: "50 mg",
+    Type.LENGTH: "2 m",
+    Type.TIME: "5 min",
+    Type.ANGLE: "90 deg",
+    Type.PERCENT: "40 %",
+    Type.SPEED: "0.5 m/s",
+    Type.TEMPERATURE: "20 C",
+}
+"""A value of each type, for messages."""
+
+
+def typed(
+    source: Source, name: str, value: Value, kind: Type, found: list[Diagnostic]
+) -> Plain | None:
+    """Return the value in SI units, or None where it is not of that type."""
+    match value:
+        case Number(value=number) if kind is Type.FLOAT:
+            return float(number)
+        case Number(value=int() as number) if kind is Type.INT:
+            return number
+        case Bool(value=yes) if kind is Type.BOOL:
+            return yes
+        case Text(value=text) if kind is Type.TEXT:
+            return text
+        case Quantity():
+            return _quantity(source, name, value, kind, found)
+        case Number() if kind in QUANTITIES:
+            found.append(value_errors.missing_unit(source, value.span, name, kind))
+        case _:
+            example = f"{name}: {EXAMPLES[kind]}"
+            found.append(value_errors.wrong_type(source, value.span, name, wanted(kind), example))
+    return None
+
+
+def _quantity(
+    source: Source, name: str, value: Quantity, kind: Type, found: list[Diagnostic]
+) -> float | None:
+    if value.unit not in UNITS:
+        measures = kind if kind in QUANTITIES else None
+        found.append(value_errors.unknown_unit(source, value.span, value.unit, measures))
+        return None
+    given = UNITS[value.unit][0]
+    if given is not kind:
+        found.append(value_errors.wrong_dimension(source, value.span, name, given, wanted(kind)))
+        return None
+    si = to_si(value.value, value.unit)
+    if kind is Type.PERCENT and not 0 <= si <= 1:
+        found.append(value_errors.out_of_range(source, value.span, name, "from 0 % to 100 %"))
+        return None
+    if kind is Type.TEMPERATURE and si < 0:
+        found.append(value_errors.out_of_range(source, value.span, name, "0 K (-273.15 C) or more"))
+        return None
+    return si
+
+
+def wanted(kind: Type) -> str:
+    """Say what a parameter of that type takes: "a mass"."""
+    return _WANTED.get(kind) or f"{'an' if kind.value[0] in 'aeiou' else 'a'} {kind.value}"
+
+
+def at_least(least: float, kind: Type) -> str:
+    """Say a lower bound, which is in SI units, with its unit."""
+    unit = next((unit for unit, (of, factor, _) in UNITS.items() if of is kind and factor == 1), "")
+    if kind is Type.PERCENT:
+        least, unit = least * 100, "%"
+    return f"{_digits(least)} {unit}".strip() + " or more"
+
+
+def written(value: Value) -> str:
+    """Return the value as the formatter would write it; of a text, not what it says."""
+    match value:
+        case Number():
+            return _digits(value.value)
+        case Quantity():
+            return f"{_digits(value.value)} {value.unit}"
+        case Bool():
+            return "yes" if value.value else "no"
+        case Text():
+            return '"…"'
+        case Name():
+            return value.text
+        case List():
+            return f"[{', '.join(map(written, value.items))}]"
+
+
+def _digits(number: float) -> str:
+    """Write a number without an exponent, which the language does not have."""
+    whole = int(number) if number == int(number) else number
+    return format(Decimal(repr(whole)), "f")

@@ -1,0 +1,85 @@
+"""The blocks that are installed: found by their packages' entry points, loaded when first used."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from functools import cache
+from importlib.metadata import EntryPoint, entry_points
+from types import MappingProxyType
+
+from plutoc.block import Block
+
+GROUP = "plutoc.blocks"
+STD = "std"
+"""The package whose kinds need no prefix: ours."""
+
+
+class RegistryError(Exception):
+    """A package of blocks cannot be used. The message is a sentence for a person."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Blocks:
+    """The packages there are, and how to get one's blocks by kind."""
+
+    packages: tuple[str, ...]
+    of: Callable[[str], Mapping[str, Block]]
+    """Raises `RegistryError` where the package is broken."""
+
+
+def blocks() -> Blocks:
+    """Return what is installed here. Nothing is loaded yet."""
+    return Blocks(packages=installed_packages(), of=blocks_of)
+
+
+def installed() -> Mapping[str, Mapping[str, Block]]:
+    """Load every package: its name, then its kinds. One broken package fails the whole."""
+    return {name: blocks_of(name) for name in installed_packages()}
+
+
+def installed_packages() -> tuple[str, ...]:
+    """Return the names of the installed packages of blocks, ours first."""
+    names = {point.name for point in entry_points(group=GROUP)} - {STD}
+    return (STD, *sorted(names))
+
+
+@cache
+def blocks_of(package: str) -> Mapping[str, Block]:
+    """Load a package's blocks, by kind; raise `RegistryError` where that fails."""
+    points = list(entry_points(group=GROUP, name=package))
+    if package == STD and not points:
+        # A checkout that nobody has installed.
+        points = [EntryPoint(name=STD, value="plutoc_blocks:BLOCKS", group=GROUP)]
+    if not points:
+        raise RegistryError(f"no package of blocks named {package} is installed")
+    values = {point.value for point in points}  # one may be found twice on the path
+    if len(values) > 1:
+        raise RegistryError(
+            f"two installed packages call their blocks {package}: {', '.join(sorted(values))}"
+        )
+    return _loaded(package, points[0])
+
+
+def _loaded(package: str, point: EntryPoint) -> Mapping[str, Block]:
+    try:
+        declared: object = point.load()
+    except Exception as error:  # it is somebody else's code: anything can come out of it
+        raise RegistryError(
+            f"the blocks of {package} cannot be loaded from {point.value}:"
+            f" {type(error).__name__}: {error}"
+        ) from error
+    if not isinstance(declared, Iterable):
+        raise RegistryError(
+            f"{point.value} of {package} is a {type(declared).__name__}, not a tuple of blocks"
+        )
+    found: dict[str, Block] = {}
+    for block in declared:
+        if not isinstance(block, Block):
+            raise RegistryError(
+                f"{point.value} of {package} holds a {type(block).__name__} that is not a Block"
+            )
+        if block.name in found:
+            raise RegistryError(f"{package} declares {block.name} twice")
+        found[block.name] = block
+    return MappingProxyType(found)
