@@ -1,0 +1,1 @@
+"""Diagnostics, made readable for people and for programs."""
