@@ -5,10 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from plutoc.check.flow import Flow, Fork, Frame, Place, Way, is_final
+from plutoc.check.flow import Flow, Fork, Frame, Place, is_final
 from plutoc.check.rounds import rounds
 from plutoc.graph.model import END, Edge
-from plutoc_runtime.status import IN_GRAPH
+from plutoc_runtime.status import IN_GRAPH, Status
+
+Astray = tuple[Place, Status | None]
+"""A place, and the status that it is left with where no edge takes that."""
 
 
 @dataclass(kw_only=True, eq=False)
@@ -18,12 +21,12 @@ class Branch:
     fork: Fork
     number: int
     edge: Edge
-    gates: dict[str, Way] = field(default_factory=dict)
-    """The gates at which it closes, each with a shortest way."""
-    astray: Way | None = None
-    """The shortest way to where a clone ends, or is flown, before its gate."""
-    circles: Way | None = None
-    """The shortest way to where a clone can go round for ever."""
+    gates: dict[str, Place] = field(default_factory=dict)
+    """The gates at which it closes, each with the nearest arrival."""
+    astray: Astray | None = None
+    """The nearest place where a clone ends, or is flown, before its gate."""
+    circles: Place | None = None
+    """The nearest place from where a clone can go round for ever."""
     stuck: bool = False
     nodes: dict[str, None] = field(default_factory=dict)
     """The blocks in it; those of the forks in it not counted."""
@@ -54,7 +57,7 @@ def branches(flow: Flow) -> Branches:
             branch = _of(found, place.frame)
             branch.stuck = branch.stuck or not is_final(status)
             if is_final(status) and branch.astray is None:
-                branch.astray = flow.way(place, status)
+                branch.astray = (place, status)
     for split, entries in flow.entries.items():
         for place in entries:
             if place.frame is not None:
@@ -63,7 +66,7 @@ def branches(flow: Flow) -> Branches:
         frame = part[0].frame
         if frame is not None and all(place.frame is not None for place in part):
             branch = _of(found, frame)
-            branch.circles = branch.circles or flow.way(part[0])
+            branch.circles = branch.circles or part[0]
     return found
 
 
@@ -82,8 +85,8 @@ def _of(found: Branches, frame: Frame) -> Branch:
 def _note(flow: Flow, branch: Branch, place: Place) -> None:
     block = None if place.node == END else flow.graph.node[place.node].block
     if block is None or (not place.out and (block.allocates or block.launches)):
-        branch.astray = branch.astray or flow.way(place)
+        branch.astray = branch.astray or (place, None)
     elif not place.out and block.gate is not None:
-        branch.gates.setdefault(place.node, flow.way(place))
+        branch.gates.setdefault(place.node, place)
     if block is not None and (place.out or block.gate is None):
         branch.nodes[place.node] = None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from plutoc.check.branches import Branch
+from plutoc.check.branches import Astray, Branch
 from plutoc.check.flow import Way, ordered
 from plutoc.check.words import (
     accepts,
@@ -17,6 +17,7 @@ from plutoc.check.words import (
     listed,
     names,
     related_to,
+    taken_by,
     there,
     warning,
     way_of,
@@ -154,9 +155,8 @@ def idle_otherwise(graph: Graph, edge: Edge, leaving: Sequence[Status]) -> Diagn
 
 
 def stuck(
-    graph: Graph, node: Node, statuses: Sequence[Status], way: Way, advice: str | None
+    graph: Graph, node: Node, statuses: Sequence[Status], way: Way, taker: str | None
 ) -> Diagnostic:
-    add = f"add `{node.name} -> {advice} when {statuses[0].value}`"
     return error(
         graph,
         "P2009",
@@ -167,7 +167,7 @@ def stuck(
             for edge in graph.outgoing[node.name]
             if edge.takes
         ),
-        help=f"{add if advice else 'add a block that accepts it'}. {there(way)}",
+        help=f"{taken_by(node, statuses[0], taker)}. {there(way)}",
     )
 
 
@@ -197,33 +197,35 @@ def endless(graph: Graph, head: Node, way: Way, round_: Sequence[str]) -> Diagno
 # Forks and gates
 
 
-def astray(graph: Graph, branches: Sequence[Branch], gates: Sequence[str]) -> Diagnostic:
-    first = branches[0]
+def astray(
+    graph: Graph, branches: Sequence[tuple[Branch, Astray]], gates: Sequence[str], way: Way
+) -> Diagnostic:
+    first, lost = branches[0]
     meet = f"close the fork first, at `{gates[0]}`" if gates else "let its branches meet at a gate"
-    twice = ", so its mission would be flown twice" if is_flown(first) else ""
+    twice = ", so its mission would be flown twice" if is_flown(lost) else ""
     return error(
         graph,
-        "P2012" if is_flown(first) else "P2011",
+        "P2012" if is_flown(lost) else "P2011",
         first.edge.span,
-        f"{fork_of(first.fork)} is not closed: one branch {fate(first)}{twice}",
+        f"{fork_of(first.fork)} is not closed: one branch {fate(lost)}{twice}",
         label="this branch",
         related=tuple(
-            related_to(graph, branch.edge.span, f"this branch too {fate(branch)}")
-            for branch in branches[1:]
+            related_to(graph, branch.edge.span, f"this branch too {fate(other)}")
+            for branch, other in branches[1:]
         ),
         help=f"{meet}; or, if only one of the arrows was meant to take {first.fork[1].value}, "
-        f"guard the others with `when`. {there(first.astray or ())}",
+        f"guard the others with `when`. {there(way)}",
     )
 
 
-def different_gates(graph: Graph, branches: Sequence[Branch], gates: Sequence[str]) -> Diagnostic:
-    first = branches[0]
-    ways = (next(branch.gates[g] for branch in branches if g in branch.gates) for g in gates)
+def different_gates(
+    graph: Graph, branches: Sequence[Branch], gates: Sequence[str], ways: Sequence[Way]
+) -> Diagnostic:
     return error(
         graph,
         "P2013",
-        first.edge.span,
-        f"{fork_of(first.fork)} closes at different gates: {names(gates)}",
+        branches[0].edge.span,
+        f"{fork_of(branches[0].fork)} closes at different gates: {names(gates)}",
         related=tuple(
             related_to(
                 graph, branch.edge.span, f"this branch closes at {names(tuple(branch.gates))}"
@@ -235,7 +237,7 @@ def different_gates(graph: Graph, branches: Sequence[Branch], gates: Sequence[st
     )
 
 
-def never_closes(graph: Graph, branch: Branch, gates: Sequence[str]) -> Diagnostic:
+def never_closes(graph: Graph, branch: Branch, gates: Sequence[str], way: Way | None) -> Diagnostic:
     return error(
         graph,
         "P2014",
@@ -243,18 +245,18 @@ def never_closes(graph: Graph, branch: Branch, gates: Sequence[str]) -> Diagnost
         f"a branch of {fork_of(branch.fork)} can go round for ever and not close",
         label="this branch",
         help=f"lead every way through it to {f'`{gates[0]}`' if gates else 'a gate'}. "
-        f"{there(branch.circles)}",
+        f"{there(way)}",
     )
 
 
-def waits_in_vain(graph: Graph, branch: Branch, gate: str) -> Diagnostic:
+def waits_in_vain(graph: Graph, branch: Branch, gate: str, way: Way | None) -> Diagnostic:
     return error(
         graph,
         "P2015",
         graph.node[gate].name_span,
         f"`{gate}` waits for a branch of {fork_of(branch.fork)} that cannot arrive",
         related=(related_to(graph, branch.edge.span, "this branch never gets there"),),
-        help=f"lead the branch to `{gate}`. {there(branch.circles)}",
+        help=f"lead the branch to `{gate}`. {there(way)}",
     )
 
 
@@ -279,8 +281,7 @@ def closes_nothing(graph: Graph, node: Node, way: Way) -> Diagnostic:
     )
 
 
-def breeds(graph: Graph, branches: Sequence[Branch], way: Way) -> Diagnostic:
-    first = branches[0]
+def breeds(graph: Graph, first: Branch, way: Way) -> Diagnostic:
     return error(
         graph,
         "P2018",
@@ -365,9 +366,6 @@ def drone_held(graph: Graph, node: Node, way: Way) -> Diagnostic:
         f"a mission waits in `{node.name}` with a drone allocated, which nobody else can use",
         help=f"put `{node.name}` before the block that allocates. {there(way)}",
     )
-
-
-# Failures, judging and repeating
 
 
 def failures_stop(graph: Graph, node: Node) -> Diagnostic:

@@ -19,7 +19,7 @@ def unclosed(flow: Flow, found: Branches) -> list[Diagnostic]:
     for part in breeding:
         again = [p for s, places in flow.entries.items() if s.fork == part[0] for p in places]
         diagnostics.append(
-            errors.breeds(flow.graph, found[part[0]], flow.way(again[-1], part[0][1]))
+            errors.breeds(flow.graph, found[part[0]][0], flow.way(again[-1], part[0][1]))
         )
     for fork, branches in found.items():
         stuck = any(inner.stuck for branch in branches for inner in within(found, branch))
@@ -62,16 +62,19 @@ def _open(flow: Flow, found: Branches, branches: Branched) -> Diagnostic | None:
     # a fork inside that does not close has its own message
     branches = tuple(b for b in branches if all(_sound(found[fork]) for fork in b.inner))
     graph, gates = flow.graph, gates_of(branches)
-    astray = [branch for branch in branches if branch.astray]
+    astray = [(branch, branch.astray) for branch in branches if branch.astray]
     if astray:
-        return errors.astray(graph, astray, gates)
+        return errors.astray(graph, astray, gates, flow.way(*astray[0][1]))
     if len(gates) > 1:
-        return errors.different_gates(graph, branches, gates)
+        first = {gate: place for b in reversed(branches) for gate, place in b.gates.items()}
+        ways = [flow.way(first[gate]) for gate in gates]
+        return errors.different_gates(graph, branches, gates, ways)
     for branch in branches:
+        way = flow.way(branch.circles) if branch.circles else None
         if not branch.gates and gates and graph.node[gates[0]].block.gate is Gate.ALL:
-            return errors.waits_in_vain(graph, branch, gates[0])
+            return errors.waits_in_vain(graph, branch, gates[0], way)
         if branch.circles or not branch.gates:
-            return errors.never_closes(graph, branch, gates)
+            return errors.never_closes(graph, branch, gates, way)
     return None
 
 

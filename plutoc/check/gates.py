@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from plutoc.check import errors
 from plutoc.check.branches import Branches
-from plutoc.check.flow import Flow
+from plutoc.check.flow import Flow, Place
 from plutoc.check.forks import gates_of
 from plutoc.diagnostic import Diagnostic
 
@@ -16,13 +16,14 @@ def idle(flow: Flow, found: Branches) -> list[Diagnostic]:
         g for branches in found.values() if len(gates_of(branches)) > 1 for g in gates_of(branches)
     }
     closing = {gate for branches in found.values() for gate in gates_of(branches)}
+    alone: dict[str, Place] = {}
+    for place in flow.places:
+        if place.frame is None and not place.out:
+            alone.setdefault(place.node, place)
     diagnostics = []
     for node in flow.graph.nodes:
-        if node.block.gate is None or node.name in torn:
+        if node.block.gate is None or node.name in torn or node.name not in alone:
             continue
-        alone = [p for p in flow.places if p.node == node.name and p.frame is None and not p.out]
-        if alone and node.name in closing:
-            diagnostics.append(errors.outside_fork(flow.graph, node, flow.way(alone[0])))
-        elif alone:
-            diagnostics.append(errors.closes_nothing(flow.graph, node, flow.way(alone[0])))
+        wrong = errors.outside_fork if node.name in closing else errors.closes_nothing
+        diagnostics.append(wrong(flow.graph, node, flow.way(alone[node.name])))
     return diagnostics

@@ -21,16 +21,18 @@ def stuck(flow: Flow) -> list[Diagnostic]:
             place, status = next(iter(left.values()))
             statuses = tuple(s for s in IN_GRAPH if s in left)
             way = flow.way(place, status)
-            found.append(errors.stuck(flow.graph, node, statuses, way, _advice(flow, node, status)))
+            found.append(errors.stuck(flow.graph, node, statuses, way, _taker(flow, node, status)))
     return found
 
 
 def ends(flow: Flow) -> list[Diagnostic]:
     """Warn of blocks where missions end without an edge to `end`."""
+    left: dict[str, list[Status]] = {}
+    for name, status in implicit_ends(flow):
+        left.setdefault(name, []).append(status)
     return [
-        errors.implicit_end(flow.graph, node, statuses)
-        for node in flow.graph.nodes
-        if (statuses := tuple(s for n, s in implicit_ends(flow) if n == node.name))
+        errors.implicit_end(flow.graph, flow.graph.node[name], statuses)
+        for name, statuses in left.items()
     ]
 
 
@@ -52,7 +54,7 @@ def _left(flow: Flow, node: Node) -> dict[Status, tuple[Place, Status]]:
     return left
 
 
-def _advice(flow: Flow, node: Node, status: Status) -> str | None:
+def _taker(flow: Flow, node: Node, status: Status) -> str | None:
     """The block that the mission most likely should go to: it takes the status, and mends most."""
     takers = [n for n in flow.graph.nodes if status in n.block.accepts and n is not node]
     likely = sorted(takers, key=lambda n: (not n.block.allocates, not n.block.watches))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from plutoc.check.branches import Branch
+from plutoc.check.branches import Astray
 from plutoc.check.flow import Fork, Way, ordered
 from plutoc.diagnostic import Diagnostic, Related, Severity
 from plutoc.graph.model import END, Edge, Graph, Node
@@ -102,20 +102,25 @@ def emits_here(graph: Graph, edge: Edge, leaving: Sequence[Status]) -> Related:
     return related_to(graph, graph.node[edge.source].name_span, f"emits {listed(leaving)}")
 
 
-def is_flown(branch: Branch) -> bool:
-    """Does the branch come to a block that flies its mission, and not to an end?"""
-    last = (branch.astray or ())[-1]
-    return last.node != END and last.leaving is None
+def is_flown(astray: Astray) -> bool:
+    """Does a branch come to a block that flies its mission, and not to an end?"""
+    place, leaving = astray
+    return place.node != END and leaving is None
 
 
-def fate(branch: Branch) -> str:
+def fate(astray: Astray) -> str:
     """What becomes of a branch that does not close."""
-    last = (branch.astray or ())[-1]
-    if last.node == END:
-        return "reaches `end` first"
-    if last.leaving is not None:
-        return f"ends at `{last.node}`, where no arrow takes {last.leaving.value}"
-    return f"reaches `{last.node}` first"
+    place, leaving = astray
+    if leaving is None:
+        return f"reaches `{place.node}` first"
+    return f"ends at `{place.node}`, where no arrow takes {leaving.value}"
+
+
+def taken_by(node: Node, status: Status, taker: str | None) -> str:
+    """What to add where no arrow takes a status."""
+    if taker is None:
+        return f"add a block that accepts {status.value}"
+    return f"add `{node.name} -> {taker} when {status.value}`"
 
 
 def _listed(words: Sequence[str], last: str) -> str:

@@ -1,0 +1,114 @@
+"""Pictures of graphs: complete, valid, and safe whatever the title says."""
+
+from __future__ import annotations
+
+import json as standard
+import re
+import shutil
+
+import pytest
+
+from plutoc.check.run import check
+from plutoc.report.graph import NoGraphviz, dot, dot_to_svg, json, mermaid
+from tests.check.graphs import BASIC, GATED, build
+
+APP = f"""{GATED}
+    first -> allocate when STANDBY
+    first -> end when COMPLETED"""
+HOSTILE = 'a "b" \\N %%{init: {}}%% </script> --- & #quot; `x` 🚁'
+
+
+def test_mermaid_shows_every_block_and_every_status() -> None:
+    """Boxes, gates, ends, thick branches, and a dotted arrow where missions end unsaid."""
+    assert mermaid(check(build(APP, title="A field"))[0]) == ("""---
+title: "A field"
+---
+flowchart TD
+    b_start(["start"])
+    b_create["create<br/>MissionCreator"]
+    b_allocate["allocate<br/>DroneAllocator"]
+    b_launch["launch<br/>TripLauncher"]
+    b_watch["watch<br/>TripMonitor"]
+    b_timer["timer<br/>TimerMonitor"]
+    b_first{{"first<br/>GateFIFO"}}
+    b_end(["end"])
+    b_start -->|"UNEXECUTED"| b_create
+    b_create -->|"UNEXECUTED"| b_allocate
+    b_allocate -->|"UNEXECUTED<br/>STANDBY"| b_launch
+    b_launch ==>|"RUNNING"| b_watch
+    b_launch ==>|"RUNNING"| b_timer
+    b_watch -->|"STANDBY<br/>COMPLETED<br/>FAILED"| b_first
+    b_timer -->|"STANDBY<br/>COMPLETED<br/>FAILED"| b_first
+    b_first -->|"STANDBY"| b_allocate
+    b_first -->|"COMPLETED"| b_end
+    b_first -.->|"FAILED"| b_end
+""")
+
+
+def test_a_title_cannot_leave_its_place_in_mermaid() -> None:
+    """Nothing of it but letters, digits and a few signs stands in the text as it is."""
+    title = mermaid(check(build(APP, title=HOSTILE))[0]).splitlines()[1]
+    assert re.fullmatch(r"title: \"(?:[\w ,.'()-]|\\U[0-9a-f]{8})*\"", title)
+
+
+def test_a_title_cannot_leave_its_place_in_graphviz() -> None:
+    """Quotes and backslashes are escaped, entities are not read."""
+    line = dot(check(build(APP, title=HOSTILE))[0]).splitlines()[1]
+    assert 'a \\"b\\" \\\\N' in line
+    assert "&amp; #quot;" in line
+
+
+def test_graphviz_marks_branches_gates_and_unsaid_ends() -> None:
+    """Bold, hexagon, dashed."""
+    lines = [line.strip() for line in dot(check(build(APP))[0]).splitlines()]
+    assert lines[0] == 'digraph "app" {'
+    assert '"first" [shape=hexagon, label="first\\nGateFIFO"];' in lines
+    assert '"launch" -> "watch" [label="RUNNING", style=bold];' in lines
+    assert '"first" -> "end" [label="FAILED", style=dashed];' in lines
+    assert '"allocate" -> "launch" [label="UNEXECUTED\\nSTANDBY", style=solid];' in lines
+
+
+def test_json_tells_blocks_lines_and_statuses() -> None:
+    """A program gets what a person sees."""
+    found = standard.loads(json(check(build(APP))[0]))
+    assert found["app"] == "app"
+    assert found["blocks"][0] == {"name": "create", "kind": "MissionCreator", "line": 2}
+    assert {
+        "from": "launch",
+        "to": "timer",
+        "statuses": ["RUNNING"],
+        "fork": True,
+        "implicit": False,
+    } in found["edges"]
+    assert found["edges"][-1] == {
+        "from": "first",
+        "to": "end",
+        "statuses": ["FAILED"],
+        "fork": False,
+        "implicit": True,
+    }
+
+
+def test_an_arrow_that_takes_nothing_is_dotted() -> None:
+    """It is in the source, so it is in the picture."""
+    text = f"""{BASIC}
+    start -> create -> allocate -> launch -> watch
+    watch -> allocate when STANDBY
+    watch -> end
+    create -> end otherwise"""
+    assert "    b_create -.-> b_end\n" in mermaid(check(build(text))[0])
+
+
+def test_without_graphviz_the_message_says_what_to_install(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """An empty PATH has no `dot`."""
+    monkeypatch.setenv("PATH", "")
+    with pytest.raises(NoGraphviz, match="install Graphviz"):
+        dot_to_svg("digraph {}")
+
+
+@pytest.mark.skipif(shutil.which("dot") is None, reason="Graphviz is not installed")
+def test_graphviz_draws_it() -> None:
+    """The text is what Graphviz reads."""
+    assert "<svg" in dot_to_svg(dot(check(build(APP, title=HOSTILE))[0]))
