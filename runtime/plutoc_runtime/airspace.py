@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from heapq import heappop, heappush
 from itertools import pairwise
-from math import dist
+from math import dist, inf
 
-from .geometry import EPSILON, Corner, Polygon, enters, inside, pushed_out, tidy
+from .geometry import EPSILON, Corner, enters, inside, outlined, pushed_out
 from .model import Point
 from .words import number, place
 
@@ -45,9 +45,9 @@ class Airspace:
             if z < 0:
                 return f"{where} is below the ground"
             return f"{where} is above the ceiling of {number(self.ceiling)} m"
-        for area, polygon in enumerate(self._ways.polygons, 1):
-            if inside((x, y), polygon):
-                return f"{place(point)} is inside no-fly area {area}"
+        for count, area in enumerate(self._ways.areas, 1):
+            if inside((x, y), area.corners):
+                return f"{place(point)} is inside no-fly area {count}"
         return None
 
     def route(self, start: Point, end: Point) -> tuple[Point, ...] | None:
@@ -67,7 +67,7 @@ class _Ways:
 
     def __init__(self, airspace: Airspace) -> None:
         self._airspace = airspace
-        self.polygons: tuple[Polygon, ...] = tuple(map(tidy, airspace.no_fly))
+        self.areas = tuple(map(outlined, airspace.no_fly))
         self._turns: tuple[Corner, ...] | None = None
         self._seen: dict[int, list[tuple[int, float]]] = {}
         self._found: dict[tuple[Point, Point], tuple[Point, ...] | None] = {}
@@ -90,38 +90,40 @@ class _Ways:
         return None if corners is None else _climbing(start, corners, end)
 
     def _free(self, a: Corner, b: Corner) -> bool:
-        return not any(enters(a, b, polygon) for polygon in self.polygons)
+        return not any(enters(a, b, area) for area in self.areas)
 
     def _shortest(self, start: Corner, end: Corner) -> list[Corner] | None:
-        """Dijkstra's way over the corners; equal lengths: the corner declared first."""
+        """Dijkstra's way over the corners, those nearer the end first; of equals the first."""
         turns = self._corners()
-        ends = {i: dist(turn, end) for i, turn in enumerate(turns) if self._free(turn, end)}
         last = len(turns)
-        came_from: dict[int, int] = {}
+        rest = [*(dist(turn, end) for turn in turns), 0.0]
         best = {i: dist(start, turn) for i, turn in enumerate(turns) if self._free(start, turn)}
-        heap = sorted((length, i) for i, length in best.items())
+        came_from: dict[int, int] = {}
+        heap = sorted((length + rest[i], i) for i, length in best.items())
+        done: set[int] = set()
         while heap:
-            length, here = heappop(heap)
+            _, here = heappop(heap)
             if here == last:
                 return _walk_back(came_from, last, turns)
-            if length > best[here]:
+            if here in done:
                 continue
+            done.add(here)
             onward = [*self._visible(here)]
-            if here in ends:
-                onward.append((last, ends[here]))
+            if self._free(turns[here], end):
+                onward.append((last, rest[here]))
             for there, step in onward:
-                if length + step < best.get(there, float("inf")):
-                    best[there], came_from[there] = length + step, here
-                    heappush(heap, (length + step, there))
+                if best[here] + step < best.get(there, inf):
+                    best[there], came_from[there] = best[here] + step, here
+                    heappush(heap, (best[there] + rest[there], there))
         return None
 
     def _corners(self) -> tuple[Corner, ...]:
         if self._turns is None:
             turns = [
                 turn
-                for polygon in self.polygons
-                if len(polygon) > 2
-                for turn in pushed_out(polygon, MARGIN)
+                for area in self.areas
+                if len(area.corners) > 2
+                for turn in pushed_out(area.corners, MARGIN)
             ]
             self._turns = tuple((x, y) for x, y in turns if not self._airspace.problem((x, y, 0.0)))
         return self._turns

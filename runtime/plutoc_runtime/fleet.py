@@ -88,6 +88,11 @@ class Fleet:
         """A drone was allocated and is not needed after all."""
         self._settle(drone)
 
+    async def all_down(self) -> None:
+        """Wait until every drone has done what it does for itself: return, land, recover."""
+        while under_way := [task for task in self._errands.values() if not task.done.is_set]:
+            await under_way[0].ended()
+
     async def land_all(self) -> None:
         """Land every drone that flies, where it is, all at once."""
         for drone in self.drones:

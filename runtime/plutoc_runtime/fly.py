@@ -26,12 +26,14 @@ async def fly_simulated(
     """Fly the missions with simulated drones in real time; when cancelled, land them all first."""
     kernel = RealTime()
     session = Session(app, fleet, kernel, seed, faults, on_event)
-    session.engine.start(missions)
+    over = session.start(missions).done
     try:
-        await kernel.run(session.engine.done)
+        ended = await kernel.run(over)
     except asyncio.CancelledError:
         session.engine.halt()
         landing = kernel.spawn(session.core.fleet.land_all(), (), "land all")
         await kernel.run(landing.done)
         raise
-    return session.outcome(missions)
+    finally:
+        kernel.close()
+    return session.outcome(missions, ended)

@@ -6,6 +6,7 @@ Lengths below `EPSILON` do not count: touching a polygon's edge is not entering 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from itertools import pairwise
 from math import hypot
 
@@ -55,15 +56,32 @@ def _distance(point: Corner, a: Corner, b: Corner) -> float:
     return hypot(point[0] - a[0] - along * dx, point[1] - a[1] - along * dy)
 
 
-def enters(start: Corner, end: Corner, polygon: Polygon) -> bool:
-    """Say whether a straight leg goes through a polygon's inside, be it ever so concave."""
-    if _clear(start, end, polygon):
+@dataclass(frozen=True, slots=True)
+class Area:
+    """A polygon, and the rectangle around it: most legs are nowhere near."""
+
+    corners: Polygon
+    middle: Corner
+    half: Corner
+
+
+def outlined(corners: Sequence[Corner]) -> Area:
+    """Return the area of an outline, its repeated corners left out."""
+    outline = tidy(corners)
+    xs, ys = [x for x, _ in outline] or [0.0], [y for _, y in outline] or [0.0]
+    middle = (min(xs) + max(xs)) / 2, (min(ys) + max(ys)) / 2
+    return Area(outline, middle, ((max(xs) - min(xs)) / 2, (max(ys) - min(ys)) / 2))
+
+
+def enters(start: Corner, end: Corner, area: Area) -> bool:
+    """Say whether a straight leg goes through an area's inside, be it ever so concave."""
+    dx, dy = end[0] - start[0], end[1] - start[1]
+    if len(area.corners) < 3 or _passes_by(start, dx, dy, area):
         return False
     # Wherever the leg meets the outline it may change sides: look once between any two such places.
-    dx, dy = end[0] - start[0], end[1] - start[1]
     square = dx * dx + dy * dy
     places = [0.0, 1.0]
-    for (ax, ay), (bx, by) in zip(polygon, polygon[1:] + polygon[:1], strict=True):
+    for (ax, ay), (bx, by) in zip(area.corners, area.corners[1:] + area.corners[:1], strict=True):
         ex, ey = bx - ax, by - ay
         cross = dx * ey - dy * ex
         if cross:
@@ -72,18 +90,18 @@ def enters(start: Corner, end: Corner, polygon: Polygon) -> bool:
             places.append(((ax - start[0]) * dx + (ay - start[1]) * dy) / square)
     places = sorted(place for place in places if 0.0 <= place <= 1.0)
     middles = [(a + b) / 2 for a, b in pairwise(places)]
-    return any(inside((start[0] + m * dx, start[1] + m * dy), polygon) for m in middles)
+    return any(inside((start[0] + m * dx, start[1] + m * dy), area.corners) for m in middles)
 
 
-def _clear(start: Corner, end: Corner, polygon: Polygon) -> bool:
-    """Whether the leg is all to one side of the polygon: the common case, and the cheap one."""
-    if len(polygon) < 3:
-        return True
-    for axis in (0, 1):
-        values = [corner[axis] for corner in polygon]
-        if max(start[axis], end[axis]) <= min(values) or min(start[axis], end[axis]) >= max(values):
-            return True
-    return False
+def _passes_by(start: Corner, dx: float, dy: float, area: Area) -> bool:
+    """Whether the rectangle around the area is all to one side of the leg, or beyond its ends."""
+    (x, y), (width, height) = area.middle, area.half
+    x, y = x - start[0], y - start[1]
+    return (
+        abs(dx * y - dy * x) >= abs(dx) * height + abs(dy) * width > 0
+        or abs(x - dx / 2) >= width + abs(dx) / 2
+        or abs(y - dy / 2) >= height + abs(dy) / 2
+    )
 
 
 def pushed_out(polygon: Polygon, margin: float) -> list[Corner]:

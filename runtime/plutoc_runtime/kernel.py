@@ -42,12 +42,12 @@ class ForeignAwait(RuntimeError):
 class Signal(Generic[T]):
     """Something that happens once. Await it for its value; any number of coroutines may."""
 
-    __slots__ = ("_error", "_value", "_watchers", "is_set")
+    __slots__ = ("_value", "_watchers", "error", "is_set")
 
     def __init__(self) -> None:
         self.is_set = False
         self._value: T | None = None
-        self._error: BaseException | None = None
+        self.error: BaseException | None = None
         self._watchers: list[Callable[[], None]] = []
 
     def set(self, value: T) -> None:
@@ -59,7 +59,7 @@ class Signal(Generic[T]):
     def fail(self, error: BaseException) -> None:
         """It will never happen: whoever awaits it gets the error."""
         if not self.is_set:
-            self._error = error
+            self.error = error
             self._happened()
 
     def _happened(self) -> None:
@@ -87,8 +87,8 @@ class Signal(Generic[T]):
 
     def result(self) -> T:
         """Return the value, or raise the error; only once it is set."""
-        if self._error is not None:
-            raise self._error
+        if self.error is not None:
+            raise self.error
         return cast(T, self._value)
 
     def __await__(self) -> Generator[Signal[Any], None, T]:
@@ -176,6 +176,18 @@ class Task(Generic[T]):
             self._waits_for = None
         self._step(lambda: self._coroutine.throw(Cancelled()))
 
+    async def ended(self) -> None:
+        """Wait until it is over, even if it is cancelled."""
+        over: Signal[None] = Signal()
+        self.done.watch(lambda: over.set(None))
+        await over
+        if not isinstance(self.done.error, Cancelled):
+            self.done.result()
+
+    def drop(self) -> None:
+        """Forget it where it waits: the run is over."""
+        self._coroutine.close()
+
 
 class Kernel:
     """The heap of events, and the coroutines that wait for them."""
@@ -248,6 +260,11 @@ class Kernel:
         """Remember an error that no coroutine caught: the driver stops and raises it."""
         if self.crashed is None:
             self.crashed = error
+
+    def close(self) -> None:
+        """Drop what still waits; nothing of it runs on."""
+        for task in list(self.tasks):
+            task.drop()
 
     def next_time(self) -> float | None:
         """Return the time of the next event; None: nothing will ever happen."""

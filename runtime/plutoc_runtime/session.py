@@ -13,7 +13,7 @@ from .eligibility import Eligibility
 from .engine import Engine
 from .files.fleet import FleetFile
 from .fleet import Fleet
-from .kernel import Kernel
+from .kernel import FLEET, Kernel, Task
 from .model import Drone, Mission
 from .results import ResultStore
 from .simulation.drones import SimulatedDrone, SimulatedNavigation
@@ -110,10 +110,24 @@ class Session:
         )
         self.engine = Engine(self.core)
 
-    def outcome(self, missions: Sequence[Mission[Any]]) -> Outcome:
-        """Return what has come of the missions so far."""
+    def start(self, missions: Sequence[Mission[Any]]) -> Task[float]:
+        """Set the missions on their way; the task gives the time at which the last one ended.
+
+        It is done when every drone is down as well.
+        """
+        self.engine.start(missions)
+        return self._kernel.spawn(self._see_through(), FLEET, "the session")
+
+    async def _see_through(self) -> float:
+        await self.engine.done
+        ended = self._kernel.now
+        await self.core.fleet.all_down()
+        return ended
+
+    def outcome(self, missions: Sequence[Mission[Any]], ended: float) -> Outcome:
+        """Return what has come of the missions."""
         return Outcome(
-            duration=self._kernel.now,
+            duration=ended,
             missions=tuple(missions),
             drones=self.drones,
             flown={drone.id: self.navigation.flown(drone.id) for drone in self.drones},
@@ -134,6 +148,9 @@ def simulate(
     """Fly the missions in virtual time, until the last one has ended or a time is reached."""
     kernel = VirtualTime()
     session = Session(app, fleet, kernel, seed, faults, on_event)
-    session.engine.start(missions)
-    kernel.run(session.engine.done, until)
-    return session.outcome(missions)
+    over = session.start(missions).done
+    try:
+        ended = over.result() if kernel.run(over, until) else kernel.now
+    finally:
+        kernel.close()
+    return session.outcome(missions, ended)
