@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from plutoc_runtime.airspace import MARGIN, Airspace
 from plutoc_runtime.energy import length
-from plutoc_runtime.geometry import enters, inside
+from plutoc_runtime.geometry import enters, inside, outlined
 from plutoc_runtime.model import Point
 
 Polygon = tuple[tuple[float, float], ...]
@@ -227,7 +227,9 @@ def test_a_way_is_the_shortest(corners: list[tuple[float, float]]) -> None:
 
     def free(*points: Point) -> bool:
         return not any(
-            enters(a[:2], b[:2], square) for a, b in pairwise(points) for square in squares
+            enters(a[:2], b[:2], square)
+            for a, b in pairwise(points)
+            for square in map(outlined, squares)
         )
 
     for other in product(turns, repeat=2):
