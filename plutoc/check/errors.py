@@ -31,9 +31,8 @@ from plutoc_runtime.status import Status
 
 def no_creator(graph: Graph) -> Diagnostic:
     return error(
-        graph,
         "P2001",
-        graph.name_span,
+        (graph, graph.name_span),
         f"no block of `{graph.name}` makes missions",
         help="declare a block that makes them and begin with `start -> NAME`; "
         "`plutoc blocks` lists the kinds",
@@ -42,9 +41,8 @@ def no_creator(graph: Graph) -> Diagnostic:
 
 def second_creator(graph: Graph, node: Node, first: Node) -> Diagnostic:
     return error(
-        graph,
         "P2002",
-        node.name_span,
+        (graph, node.name_span),
         f"`{node.name}` makes missions, and so does `{first.name}`: there must be exactly one",
         label="a second one",
         related=(related_to(graph, first.name_span, "missions are made here already"),),
@@ -54,9 +52,8 @@ def second_creator(graph: Graph, node: Node, first: Node) -> Diagnostic:
 
 def no_start(graph: Graph, creator: Node) -> Diagnostic:
     return error(
-        graph,
         "P2003",
-        creator.name_span,
+        (graph, creator.name_span),
         f"nothing leads from `start` to `{creator.name}`",
         help=f"add `start -> {creator.name}`: missions begin there",
     )
@@ -64,9 +61,8 @@ def no_start(graph: Graph, creator: Node) -> Diagnostic:
 
 def start_elsewhere(graph: Graph, edge: Edge, creator: Node) -> Diagnostic:
     return error(
-        graph,
         "P2004",
-        edge.span,
+        (graph, edge.span),
         f"`start` leads to `{edge.target}`, which does not make missions",
         related=(related_to(graph, creator.name_span, "missions are made here"),),
         help=f"`start` leads to `{creator.name}` only; draw `{creator.name} -> {edge.target}`",
@@ -75,9 +71,8 @@ def start_elsewhere(graph: Graph, edge: Edge, creator: Node) -> Diagnostic:
 
 def into_creator(graph: Graph, edge: Edge, creator: Node) -> Diagnostic:
     return error(
-        graph,
         "P2005",
-        edge.span,
+        (graph, edge.span),
         f"`{edge.source}` leads back to `{creator.name}`, which only makes new missions",
         related=(related_to(graph, creator.name_span, "missions are made here"),),
         help="lead the arrow to the block that comes after it",
@@ -90,9 +85,8 @@ def into_creator(graph: Graph, edge: Edge, creator: Node) -> Diagnostic:
 def unreached(graph: Graph, node: Node, behind: Sequence[str]) -> Diagnostic:
     also = f", nor {names(behind)} behind it" if behind else ""
     return error(
-        graph,
         "P2006",
-        node.name_span,
+        (graph, node.name_span),
         f"no path from `start` reaches `{node.name}`{also}",
         help=f"draw an arrow to `{node.name}`, or remove it",
     )
@@ -102,9 +96,8 @@ def starved(
     graph: Graph, node: Node, edges: Sequence[Edge], leaving: Mapping[str, Sequence[Status]]
 ) -> Diagnostic:
     return error(
-        graph,
         "P2007",
-        node.name_span,
+        (graph, node.name_span),
         f"`{node.name}` never gets a mission: it accepts {accepts(node)}",
         related=tuple(
             related_to(graph, edge.span, f"`{edge.source}` emits {listed(leaving[edge.source])}")
@@ -116,9 +109,8 @@ def starved(
 
 def untaken(graph: Graph, edge: Edge, leaving: Sequence[Status]) -> Diagnostic:
     return error(
-        graph,
         "P2008",
-        edge.guard_span or edge.span,
+        (graph, edge.guard_span or edge.span),
         f"no mission ever takes the arrow `{edge.source} -> {edge.target}`",
         label=f"takes {listed(ordered(edge.takes))}" if edge.takes else "nothing is left for it",
         related=(emits_here(graph, edge, leaving),),
@@ -130,9 +122,8 @@ def spare_guard(
     graph: Graph, edge: Edge, spare: Sequence[Status], leaving: Sequence[Status]
 ) -> Diagnostic:
     return warning(
-        graph,
         "P2052",
-        edge.guard_span or edge.span,
+        (graph, edge.guard_span or edge.span),
         f"`{edge.source}` never emits {listed(spare, 'or')} here",
         related=(emits_here(graph, edge, leaving),),
         help=f"leave {listed(spare)} out of the guard",
@@ -141,9 +132,8 @@ def spare_guard(
 
 def idle_otherwise(graph: Graph, edge: Edge, leaving: Sequence[Status]) -> Diagnostic:
     return warning(
-        graph,
         "P2053",
-        edge.guard_span or edge.span,
+        (graph, edge.guard_span or edge.span),
         f"nothing is left for the arrow `{edge.source} -> {edge.target}`",
         label="takes what no other arrow takes",
         related=(emits_here(graph, edge, leaving),),
@@ -158,9 +148,8 @@ def stuck(
     graph: Graph, node: Node, statuses: Sequence[Status], way: Way, taker: str | None
 ) -> Diagnostic:
     return error(
-        graph,
         "P2009",
-        node.name_span,
+        (graph, node.name_span),
         f"a mission that leaves `{node.name}` {listed(statuses, 'or')} is stuck: no arrow takes it",
         related=tuple(
             related_to(graph, edge.span, f"takes {listed(ordered(edge.takes))}")
@@ -173,9 +162,8 @@ def stuck(
 
 def implicit_end(graph: Graph, node: Node, statuses: Sequence[Status]) -> Diagnostic:
     return warning(
-        graph,
         "P2051",
-        node.name_span,
+        (graph, node.name_span),
         f"a mission that leaves `{node.name}` {listed(statuses, 'or')} ends here: "
         "no arrow takes it",
         help=f"to say so, add `{node.name} -> end when {', '.join(s.value for s in statuses)}`",
@@ -184,9 +172,8 @@ def implicit_end(graph: Graph, node: Node, statuses: Sequence[Status]) -> Diagno
 
 def endless(graph: Graph, head: Node, way: Way, round_: Sequence[str]) -> Diagnostic:
     return error(
-        graph,
         "P2010",
-        head.name_span,
+        (graph, head.name_span),
         f"a mission that comes to `{head.name}` can never end",
         label="no way leads from here to an end",
         help=f"it goes round {arrows((*round_, round_[0]))}: lead an arrow out of this loop. "
@@ -204,13 +191,14 @@ def astray(
     meet = f"close the fork first, at `{gates[0]}`" if gates else "let its branches meet at a gate"
     twice = ", so its mission would be flown twice" if is_flown(lost) else ""
     return error(
-        graph,
         "P2012" if is_flown(lost) else "P2011",
-        first.edge.span,
-        f"{fork_of(first.fork)} is not closed: one branch {fate(lost)}{twice}",
+        (graph, first.edge.span),
+        f"{fork_of(first.fork)} is not closed: its branch to `{first.edge.target}` {fate(lost)}{twice}",
         label="this branch",
         related=tuple(
-            related_to(graph, branch.edge.span, f"this branch too {fate(other)}")
+            related_to(
+                graph, branch.edge.span, f"the branch to `{branch.edge.target}` {fate(other)}, too"
+            )
             for branch, other in branches[1:]
         ),
         help=f"{meet}; or, if only one of the arrows was meant to take {first.fork[1].value}, "
@@ -221,29 +209,29 @@ def astray(
 def different_gates(
     graph: Graph, branches: Sequence[Branch], gates: Sequence[str], ways: Sequence[Way]
 ) -> Diagnostic:
+    closing = [
+        related_to(
+            graph, b.edge.span, f"the branch to `{b.edge.target}` closes at {names([*b.gates])}"
+        )
+        for b in branches
+        if b.gates
+    ]
     return error(
-        graph,
         "P2013",
-        branches[0].edge.span,
+        (graph, closing[0].span),
         f"{fork_of(branches[0].fork)} closes at different gates: {names(gates)}",
-        related=tuple(
-            related_to(
-                graph, branch.edge.span, f"this branch closes at {names(tuple(branch.gates))}"
-            )
-            for branch in branches
-            if branch.gates
-        ),
+        label=closing[0].label,
+        related=tuple(closing[1:]),
         help="lead all branches to one gate. The ways: " + "; ".join(way_of(way) for way in ways),
     )
 
 
 def never_closes(graph: Graph, branch: Branch, gates: Sequence[str], way: Way | None) -> Diagnostic:
     return error(
-        graph,
         "P2014",
-        branch.edge.span,
-        f"a branch of {fork_of(branch.fork)} can go round for ever and not close",
-        label="this branch",
+        (graph, branch.edge.span),
+        f"the branch to `{branch.edge.target}` of {fork_of(branch.fork)} can go round for ever",
+        label="it does not always close",
         help=f"lead every way through it to {f'`{gates[0]}`' if gates else 'a gate'}. "
         f"{there(way)}",
     )
@@ -251,20 +239,22 @@ def never_closes(graph: Graph, branch: Branch, gates: Sequence[str], way: Way | 
 
 def waits_in_vain(graph: Graph, branch: Branch, gate: str, way: Way | None) -> Diagnostic:
     return error(
-        graph,
         "P2015",
-        graph.node[gate].name_span,
+        (graph, graph.node[gate].name_span),
         f"`{gate}` waits for a branch of {fork_of(branch.fork)} that cannot arrive",
-        related=(related_to(graph, branch.edge.span, "this branch never gets there"),),
+        related=(
+            related_to(
+                graph, branch.edge.span, f"the branch to `{branch.edge.target}` never gets there"
+            ),
+        ),
         help=f"lead the branch to `{gate}`. {there(way)}",
     )
 
 
 def outside_fork(graph: Graph, node: Node, way: Way) -> Diagnostic:
     return error(
-        graph,
         "P2016",
-        node.name_span,
+        (graph, node.name_span),
         f"a mission can come to `{node.name}` outside of the fork that closes there",
         help=f"lead this way past the gate. {there(way)}",
     )
@@ -272,9 +262,8 @@ def outside_fork(graph: Graph, node: Node, way: Way) -> Diagnostic:
 
 def closes_nothing(graph: Graph, node: Node, way: Way) -> Diagnostic:
     return error(
-        graph,
         "P2017",
-        node.name_span,
+        (graph, node.name_span),
         f"`{node.name}` closes no fork: a gate needs at least two branches",
         help="fork before it (two arrows that take the same status), or remove the gate. "
         f"{there(way)}",
@@ -283,9 +272,8 @@ def closes_nothing(graph: Graph, node: Node, way: Way) -> Diagnostic:
 
 def breeds(graph: Graph, first: Branch, way: Way) -> Diagnostic:
     return error(
-        graph,
         "P2018",
-        first.edge.span,
+        (graph, first.edge.span),
         f"{fork_of(first.fork)} comes round to itself before it closes: its clones multiply without end",
         help=f"close it at a gate before the way leads back. {there(way)}",
     )
@@ -295,9 +283,8 @@ def shared_gate(
     graph: Graph, outer: Sequence[Branch], inner: Sequence[Branch], gate: str
 ) -> Diagnostic:
     return error(
-        graph,
         "P2019",
-        inner[0].edge.span,
+        (graph, inner[0].edge.span),
         f"{fork_of(inner[0].fork)} closes at `{gate}`, which must close {fork_of(outer[0].fork)} around it",
         label="the fork inside",
         related=(
@@ -310,9 +297,8 @@ def shared_gate(
 
 def written_twice(graph: Graph, first: Node, second: Node, attribute: str) -> Diagnostic:
     return error(
-        graph,
         "P2020",
-        second.name_span,
+        (graph, second.name_span),
         (
             f"`{second.name}` and `{first.name}` run side by side and both write `{attribute}`"
             if first is not second
@@ -326,9 +312,8 @@ def written_twice(graph: Graph, first: Node, second: Node, attribute: str) -> Di
 
 def unwatched_limit(graph: Graph, node: Node, way: Way) -> Diagnostic:
     return error(
-        graph,
         "P2023",
-        node.name_span,
+        (graph, node.name_span),
         f"`{node.name}` sets a limit to a flight, but no block beside it watches the flight",
         help="fork: put it on one branch, a block that only watches on another, and let them meet "
         f"at a gate. {there(way)}",
@@ -340,9 +325,8 @@ def unwatched_limit(graph: Graph, node: Node, way: Way) -> Diagnostic:
 
 def no_allocation(graph: Graph, node: Node, way: Way) -> Diagnostic:
     return error(
-        graph,
         "P2021",
-        node.name_span,
+        (graph, node.name_span),
         f"a mission can come to `{node.name}` without a drone allocated since its last launch",
         help=f"lead the way through a block that allocates a drone. {there(way)}",
     )
@@ -350,9 +334,8 @@ def no_allocation(graph: Graph, node: Node, way: Way) -> Diagnostic:
 
 def no_launch(graph: Graph, node: Node, way: Way) -> Diagnostic:
     return error(
-        graph,
         "P2022",
-        node.name_span,
+        (graph, node.name_span),
         f"a mission can come to `{node.name}` though no trip was launched before",
         help=f"lead the way through a block that launches the trip. {there(way)}",
     )
@@ -360,9 +343,8 @@ def no_launch(graph: Graph, node: Node, way: Way) -> Diagnostic:
 
 def drone_held(graph: Graph, node: Node, way: Way) -> Diagnostic:
     return warning(
-        graph,
         "P2054",
-        node.name_span,
+        (graph, node.name_span),
         f"a mission waits in `{node.name}` with a drone allocated, which nobody else can use",
         help=f"put `{node.name}` before the block that allocates. {there(way)}",
     )
@@ -370,9 +352,8 @@ def drone_held(graph: Graph, node: Node, way: Way) -> Diagnostic:
 
 def failures_stop(graph: Graph, node: Node) -> Diagnostic:
     return warning(
-        graph,
         "P2055",
-        node.name_span,
+        (graph, node.name_span),
         "a failed trip ends its mission: nothing here puts the trip back",
         label="FAILED leaves here",
         help="if failed trips shall be flown again, lead FAILED through a block that retries",
@@ -381,9 +362,8 @@ def failures_stop(graph: Graph, node: Node) -> Diagnostic:
 
 def fails_forever(graph: Graph, node: Node, round_: Sequence[str]) -> Diagnostic:
     return warning(
-        graph,
         "P2056",
-        node.name_span,
+        (graph, node.name_span),
         f"a trip that always fails is put back by `{node.name}` for ever",
         help=f"bound the number of attempts in the loop {arrows((*round_, round_[0]))}",
     )
@@ -391,9 +371,8 @@ def fails_forever(graph: Graph, node: Node, round_: Sequence[str]) -> Diagnostic
 
 def repeated_unjudged(graph: Graph, node: Node, judge: Node) -> Diagnostic:
     return warning(
-        graph,
         "P2057",
-        node.name_span,
+        (graph, node.name_span),
         f"`{node.name}` repeats a mission before `{judge.name}` has judged it",
         related=(related_to(graph, judge.name_span, "judged only after the last round"),),
         help=f"lead to `{judge.name}` first, and from there to `{node.name}`",

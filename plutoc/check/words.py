@@ -55,9 +55,8 @@ def fork_of(fork: Fork) -> str:
 
 
 def error(
-    graph: Graph,
     code: str,
-    span: Span,
+    at: tuple[Graph, Span],
     message: str,
     *,
     label: str = "",
@@ -69,8 +68,8 @@ def error(
         code=code,
         severity=Severity.ERROR,
         message=message,
-        source=graph.source,
-        span=span,
+        source=at[0].source,
+        span=at[1],
         label=label,
         related=related,
         help=help.rstrip(),
@@ -78,9 +77,8 @@ def error(
 
 
 def warning(
-    graph: Graph,
     code: str,
-    span: Span,
+    at: tuple[Graph, Span],
     message: str,
     *,
     label: str = "",
@@ -88,7 +86,7 @@ def warning(
     help: str,
 ) -> Diagnostic:
     """A warning of these facts."""
-    found = error(graph, code, span, message, label=label, related=related, help=help)
+    found = error(code, at, message, label=label, related=related, help=help)
     return replace(found, severity=Severity.WARNING)
 
 

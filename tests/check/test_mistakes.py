@@ -277,7 +277,7 @@ def test_a_forgotten_gate_names_every_branch() -> None:
     """The other branches are pointed at, not reported again."""
     (found,) = errors(MISTAKES["a forgotten gate"][2])
     assert [related.label for related in found.related] == [
-        "this branch too reaches `allocate` first"
+        "the branch to `timer` reaches `allocate` first, too"
     ]
 
 
