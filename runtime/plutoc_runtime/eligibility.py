@@ -8,7 +8,7 @@ from .airspace import Airspace
 from .app import App
 from .energy import needed
 from .model import Drone, Trip
-from .plan_check import why_not
+from .plan_check import stops_of, why_not
 
 
 class Eligibility:
@@ -21,20 +21,11 @@ class Eligibility:
         """Return why a drone cannot fly the chain even with a full battery; None: it can."""
         return why_not(self._app, self._airspace, drone.category, drone.home, chain)
 
-    def battery(self, drone: Drone, chain: Sequence[Trip], *, from_home: bool = False) -> float:
+    def battery(self, drone: Drone, chain: Sequence[Trip]) -> float:
         """Return the battery level that the chain takes, the way home and the reserve included.
 
         More than 1 where no permitted way leads there.
         """
-        stops = [
-            (point, seconds)
-            for trip in chain
-            for point, seconds in (
-                (trip.source, 0.0),
-                (trip.target, self._app.actions[trip.action].seconds),
-            )
-            if point is not None
-        ]
-        start = drone.home if from_home else drone.location
-        share = needed(drone.category, self._airspace, start, stops, drone.home)
+        stops = stops_of(self._app, self._airspace, chain)
+        share = needed(drone.category, self._airspace, drone.location, stops, drone.home)
         return 2.0 if share is None else share + drone.category.reserve

@@ -11,6 +11,7 @@ from typing import Any
 
 from .airspace import Airspace
 from .allocation import Queue
+from .energy import docked
 from .errors import Failure, FlightFailed
 from .kernel import FLEET, Kernel, Key, Kind, Task
 from .model import Drone, Point
@@ -18,8 +19,6 @@ from .navigation import Navigation
 from .status import DroneStatus
 from .trace import Trace
 from .words import place
-
-_DOCKED_WITHIN = 0.2  # metres from home
 
 
 class AfterTrip(Enum):
@@ -187,6 +186,9 @@ class Fleet:
         if missing < 0:
             self._become(drone, DroneStatus.FREE)
             return
+        if not self._is_docked(drone):
+            self.send_home(drone)
+            return
         self._become(drone, DroneStatus.CHARGING)
         seconds = missing * drone.category.charge_time + 0.001
         self._kernel.at(
@@ -201,7 +203,7 @@ class Fleet:
         return drone.battery_level < drone.category.reserve + 0.2
 
     def _is_docked(self, drone: Drone) -> bool:
-        return drone.telemetry.landed and drone.distance(drone.home) <= _DOCKED_WITHIN
+        return drone.telemetry.landed and docked(drone.location, drone.home)
 
     def _key(self, drone: Drone) -> Key:
         return (FLEET[0] + 1 + drone.index,)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from .actions import PICK, RELEASE
 from .airspace import Airspace
 from .app import App
-from .energy import needed
+from .energy import CLIMB_SPEED, needed
 from .fields import Entity, FieldType
 from .model import Category, Mission, Point, Trip
 from .words import mass, percent, place, quoted
@@ -100,7 +100,7 @@ def _miss(
     for trip in chain:
         if trip.item is not None and trip.item.mass > category.payload:
             return _too_heavy(category, trip.item.mass)
-    stops = stops_of(app, chain)
+    stops = stops_of(app, airspace, chain)
     share = needed(category, airspace, home, stops, home)
     if share is None:
         return _no_way(category, airspace, home, stops)
@@ -109,13 +109,19 @@ def _miss(
     return None
 
 
-def stops_of(app: App, chain: Sequence[Trip]) -> list[tuple[Point, float]]:
-    """Return where a chain leads, with the seconds that the action there takes."""
+def stops_of(app: App, airspace: Airspace, chain: Sequence[Trip]) -> list[tuple[Point, float]]:
+    """Return where a chain leads, with the seconds that the drone is busy there.
+
+    Between two trips of a chain it lands with its item, and rises again.
+    """
     stops: list[tuple[Point, float]] = []
-    for trip in chain:
+    for place_, trip in enumerate(chain, start=1):
         if trip.source is not None:
             stops.append((trip.source, 0.0))
-        stops.append((trip.target, app.actions[trip.action].seconds))
+        busy = app.actions[trip.action].seconds
+        if place_ < len(chain):
+            busy += (trip.target[2] + airspace.cruise_height) / CLIMB_SPEED
+        stops.append((trip.target, busy))
     return stops
 
 

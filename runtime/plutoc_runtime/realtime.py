@@ -43,6 +43,7 @@ class RealTime(Kernel):
 
     async def run(self, done: Signal[T]) -> T:
         """Go on until it is done."""
+        self._over.clear()
         done.watch(self._over.set)
         self._arm()
         await self._over.wait()

@@ -31,7 +31,7 @@ _BARE = re.compile(r"[^,\]}\n#]+")
 def places(text: str) -> Places:
     """Return the line of everything in a TOML text that has a path."""
     scanner = _Scanner(text.replace("\r\n", "\n"))
-    with suppress(LookupError, RecursionError):  # better a message without a line than none
+    with suppress(LookupError, ValueError, RecursionError):  # better no line than no message
         scanner.document()
     return scanner.lines
 

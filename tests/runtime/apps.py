@@ -1,0 +1,237 @@
+"""Small apps, written by hand, for the tests of the runtime: one flow for each thing to be seen."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Coroutine, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from plutoc_blocks.clock.step import wait_for_time
+from plutoc_blocks.drone_allocator.step import allocate_drone
+from plutoc_blocks.gap_monitor.step import watch_gap
+from plutoc_blocks.gate_fifo.step import pass_first
+from plutoc_blocks.mission_creator.step import create_mission
+from plutoc_blocks.mission_evaluator.step import evaluate_mission
+from plutoc_blocks.mission_modifier.step import modify_mission
+from plutoc_blocks.mission_repeater.step import repeat_mission
+from plutoc_blocks.priority_manager.step import raise_priority
+from plutoc_blocks.timer_monitor.step import watch_timer
+from plutoc_blocks.trip_launcher.step import launch_trip
+from plutoc_blocks.trip_monitor.step import watch_trip
+
+from plutoc_runtime import model
+from plutoc_runtime.actions import BUILT_IN, Action
+from plutoc_runtime.airspace import Airspace
+from plutoc_runtime.app import App
+from plutoc_runtime.files.fleet import DroneEntry, FleetFile
+from plutoc_runtime.fleet import AfterTrip
+from plutoc_runtime.model import Category, Item, Point
+from plutoc_runtime.policies.nearest import nearest
+from plutoc_runtime.policy import Policy
+from plutoc_runtime.run import Run
+from plutoc_runtime.session import Outcome, simulate
+from plutoc_runtime.simulation.faults import Faults
+from plutoc_runtime.status import Status
+from plutoc_runtime.trace import Event
+
+Way = Callable[[Run[Any], Status], Coroutine[Any, Any, Status]]
+NO_FAULTS = Faults()
+SCOUT = Category(name="scout")
+
+
+@dataclass(slots=True, kw_only=True, eq=False)
+class Trip(model.Trip):
+    """A trip with every field that a block may bring in."""
+
+    delay: float | None = None
+    priority: int = 0
+    gap: float | None = None
+
+
+@dataclass(slots=True, kw_only=True, eq=False)
+class Mission(model.Mission[Trip]):
+    """A mission with every field that a block may bring in."""
+
+    at: float | None = None
+    every: float | None = None
+    safe_time: float | None = None
+    repeat: int | bool = 0
+    evaluator: str | None = None
+
+
+def app(
+    flow: Callable[[Run[Mission]], Coroutine[Any, Any, Status]],
+    *,
+    categories: Sequence[Category] = (SCOUT,),
+    actions: Sequence[Action] = (),
+    evaluators: Mapping[str, Callable[..., object]] | None = None,
+) -> App:
+    """Return an app of this flow."""
+    return App(
+        name="tested",
+        title="Tested",
+        flow=flow,
+        mission=Mission,
+        trip=Trip,
+        fields=(),
+        categories=tuple(categories),
+        actions={**BUILT_IN, **{action.name: action for action in actions}},
+        evaluators=evaluators or {},
+    )
+
+
+def watched(run: Run[Any], status: Status) -> Coroutine[Any, Any, Status]:
+    """A TripMonitor alone."""
+    return watch_trip(run, status)
+
+
+async def timed(run: Run[Any], status: Status) -> Status:
+    """TripMonitor ∥ TimerMonitor → GateFIFO."""
+
+    async def timer(run: Run[Any], status: Status) -> Status:
+        return await watch_timer(run, status, default=None, safe_time=run.mission.safe_time)
+
+    return await pass_first(run, status, watch_trip, timer)
+
+
+async def gapped(run: Run[Any], status: Status) -> Status:
+    """TripMonitor ∥ GapMonitor → GateFIFO."""
+
+    async def gap(run: Run[Any], status: Status) -> Status:
+        return await watch_gap(run, status, default=None, gap=run.mission.current.gap)
+
+    return await pass_first(run, status, watch_trip, gap)
+
+
+def flow(
+    *,
+    watch: Way = watched,
+    clock: bool = False,
+    attempts: int | None = None,
+    evaluator: Callable[..., object] | None = None,
+    repeater: bool = False,
+    policy: Policy = nearest,
+    within: float | None = None,
+    prepare: Callable[..., object] | None = None,
+) -> Callable[[Run[Mission]], Coroutine[Any, Any, Status]]:
+    """Return create → [clock →] [modifier →] allocate → launch → watch, and what follows."""
+
+    async def one_trip(run: Run[Mission], status: Status) -> Status:
+        mission = run.mission
+        if clock:
+            status = await wait_for_time(
+                run,
+                status,
+                block="wait",
+                at=mission.at,
+                every=mission.every,
+                delay=mission.current.delay,
+            )
+        if prepare is not None:
+            status = await modify_mission(run, status, hook=prepare)
+        status = await allocate_drone(
+            run,
+            status,
+            policy=policy,
+            allocate_within=within,
+            priority=mission.current.priority,
+        )
+        return await watch(run, launch_trip(run, status))
+
+    async def whole(run: Run[Mission]) -> Status:
+        mission, status = run.mission, create_mission(run, Status.UNEXECUTED)
+        while True:
+            status = await one_trip(run, status)
+            if status is Status.FAILED and attempts is not None:
+                status = raise_priority(
+                    run, status, max_attempts=attempts, priority=mission.current.priority
+                )
+            if status is Status.COMPLETED and evaluator is not None:
+                status = await evaluate_mission(
+                    run, status, hook=evaluator, evaluator=mission.evaluator
+                )
+            if status is Status.COMPLETED and repeater:
+                status = repeat_mission(run, status, repeat=mission.repeat)
+            if status is not Status.STANDBY:
+                return status
+
+    return whole
+
+
+def modified(hook: Callable[..., object], *emits: Status) -> Way:
+    """TripMonitor ∥ MissionModifier → GateFIFO: the thesis's third exercise."""
+
+    async def limit(run: Run[Any], status: Status) -> Status:
+        return await modify_mission(run, status, hook=hook, emits=emits)
+
+    async def both(run: Run[Any], status: Status) -> Status:
+        return await pass_first(run, status, watch_trip, limit)
+
+    return both
+
+
+def trip(name: str, x: float, y: float = 0.5, action: str = "take_photo", **more: Any) -> Trip:
+    """Return a trip to a point at cruise height."""
+    return Trip(name=name, action=action, target=(x, y, 1.2), **more)
+
+
+def pick(name: str, x: float) -> Trip:
+    """Return a trip that picks the pills."""
+    return trip(name, x, action="pick_item", item=Item(name="pills", mass=0.004))
+
+
+def release(name: str, x: float) -> Trip:
+    """Return a trip that releases the pills."""
+    return trip(name, x, action="release_item", item=Item(name="pills", mass=0.004))
+
+
+def mission(name: str, *trips: Trip, index: int = 0, **more: Any) -> Mission:
+    """Return a mission of these trips."""
+    for place, each in enumerate(trips):
+        each.index = place
+    return Mission(name=name, trips=list(trips), index=index, **more)
+
+
+def fleet(
+    *homes: Point,
+    categories: Sequence[str] = ("scout",),
+    after: AfterTrip = AfterTrip.HOME,
+    max_airborne: int | None = None,
+    airspace: Airspace | None = None,
+) -> FleetFile:
+    """Return a fleet file; without homes, one drone at (0.5, 0.5)."""
+    return FleetFile(
+        airspace=airspace or Airspace(),
+        drones=tuple(
+            DroneEntry(id=f"cf{n}", category=categories[(n - 1) % len(categories)], home=home)
+            for n, home in enumerate(homes or ((0.5, 0.5, 0.0),), start=1)
+        ),
+        after_trip=after,
+        max_airborne=max_airborne,
+    )
+
+
+def fly(
+    tested: App,
+    *missions: Mission,
+    on: FleetFile | None = None,
+    faults: Faults = NO_FAULTS,
+    seed: int = 0,
+    until: float | None = None,
+) -> Outcome:
+    """Fly missions in virtual time."""
+    for index, each in enumerate(missions):
+        each.index = index
+    return simulate(
+        tested, missions, on or fleet(), seed=seed, faults=faults, until=until, on_event=None
+    )
+
+
+def events(outcome: Outcome, kind: str) -> list[Event]:
+    """Return the events of one kind."""
+    return [event for event in outcome.events if event["event"] == kind]
+
+
+def times(outcome: Outcome, kind: str) -> list[float]:
+    """Return when events of one kind happened."""
+    return [float(str(event["t"])) for event in events(outcome, kind)]

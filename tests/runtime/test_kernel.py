@@ -1,0 +1,167 @@
+"""The kernel: events of one instant come in declared order, and nothing is lost."""
+
+from __future__ import annotations
+
+import asyncio
+from functools import partial
+
+import pytest
+from plutoc_runtime.kernel import Cancelled, Kind, Signal
+from plutoc_runtime.realtime import RealTime
+from plutoc_runtime.virtual import Stuck, VirtualTime
+
+
+def test_events_of_one_instant_come_by_kind_then_key_whatever_the_order_of_entry() -> None:
+    kernel, seen = VirtualTime(), list[str]()
+    done: Signal[None] = Signal()
+    entries = [(Kind.ALLOCATE, (0,)), (Kind.TIMER, (0,)), (Kind.FLIGHT, (1,)), (Kind.FLIGHT, (0,))]
+    for kind, key in entries:
+        kernel.at(5.0, kind, key, partial(seen.append, f"{kind.name} {key[0]}"))
+    kernel.at(6.0, Kind.CLOCK, (), partial(done.set, None))
+    assert kernel.run(done)
+    assert seen == ["FLIGHT 0", "FLIGHT 1", "TIMER 0", "ALLOCATE 0"]
+    assert kernel.now == 6.0
+
+
+def test_a_signal_that_comes_at_the_very_limit_has_come() -> None:
+    kernel, won = VirtualTime(), list[bool]()
+    signal: Signal[None] = Signal()
+
+    async def wait() -> None:
+        won.append(await kernel.within(signal, 5.0, Kind.TIMER, (0,)))
+
+    task = kernel.spawn(wait(), (0,), "waiter")
+    kernel.at(5.0, Kind.FLIGHT, (0,), partial(signal.set, None))
+    kernel.run(task.done)
+    assert won == [True]
+
+
+def test_time_that_runs_out_says_so() -> None:
+    kernel = VirtualTime()
+    never: Signal[None] = Signal()
+    task = kernel.spawn(kernel.within(never, 5.0, Kind.TIMER, (0,)), (0,), "waiter")
+    kernel.run(task.done)
+    assert (task.done.result(), kernel.now) == (False, 5.0)
+
+
+def test_a_run_that_can_never_end_names_who_waits() -> None:
+    kernel = VirtualTime()
+    never: Signal[None] = Signal()
+
+    async def wait() -> None:
+        await never
+
+    task = kernel.spawn(wait(), (0,), "the nurse's mission")
+    with pytest.raises(Stuck, match="the nurse's mission"):
+        kernel.run(task.done)
+    kernel.close()
+
+
+def test_a_cancelled_coroutine_stops_where_it_waits_and_cleans_up() -> None:
+    kernel, seen = VirtualTime(), list[str]()
+
+    async def wait() -> None:
+        try:
+            await kernel.sleep(10)
+        finally:
+            seen.append(f"cleaned up at {kernel.now}")
+
+    task = kernel.spawn(wait(), (0,), "waiter")
+    kernel.at(3.0, Kind.TIMER, (0,), task.cancel)
+    kernel.run(task.done)
+    assert seen == ["cleaned up at 3.0"]
+    with pytest.raises(Cancelled):
+        task.done.result()
+
+
+def test_an_error_that_nobody_awaits_stops_the_run() -> None:
+    kernel = VirtualTime()
+
+    async def broken() -> None:
+        raise ZeroDivisionError
+
+    kernel.spawn(broken(), (0,), "broken")
+    with pytest.raises(ZeroDivisionError):
+        kernel.run(Signal[None]())
+
+
+def test_an_error_reaches_whoever_awaits() -> None:
+    kernel = VirtualTime()
+
+    async def broken() -> None:
+        raise ZeroDivisionError
+
+    async def awaiting() -> str:
+        try:
+            await kernel.spawn(broken(), (0,), "broken").done
+        except ZeroDivisionError:
+            return "caught"
+        return "missed"
+
+    task = kernel.spawn(awaiting(), (0,), "awaiting")
+    kernel.run(task.done)
+    assert task.done.result() == "caught"
+
+
+def test_a_run_stops_at_its_time_and_can_go_on() -> None:
+    kernel = VirtualTime()
+    task = kernel.spawn(kernel.sleep(10), (0,), "sleeper")
+    assert not kernel.run(task.done, until=4.0)
+    assert kernel.now == 4.0
+    assert kernel.run(task.done)
+    assert kernel.now == 10.0
+
+
+def test_real_time_takes_the_same_events_in_the_same_order() -> None:
+    async def main() -> list[str]:
+        kernel, seen = RealTime(), list[str]()
+        when = kernel.now + 0.005
+        for kind, key in [(Kind.TIMER, (0,)), (Kind.FLIGHT, (1,)), (Kind.FLIGHT, (0,))]:
+            kernel.at(when, kind, key, partial(seen.append, f"{kind.name} {key[0]}"))
+        task = kernel.spawn(kernel.sleep(0.01), (0,), "sleeper")
+        await kernel.run(task.done)
+        return seen
+
+    assert asyncio.run(main()) == ["FLIGHT 0", "FLIGHT 1", "TIMER 0"]
+
+
+def test_in_real_time_a_hook_may_await_anything_of_asyncio() -> None:
+    async def hook(text: str) -> str:
+        await asyncio.sleep(0)
+        return text.upper()
+
+    async def main() -> object:
+        kernel = RealTime()
+        task = kernel.spawn(kernel.call_hook(hook, "done"), (0,), "hook")
+        return await kernel.run(task.done)
+
+    assert asyncio.run(main()) == "DONE"
+
+
+def test_in_real_time_a_blocking_hook_does_not_hold_the_others_up() -> None:
+    async def main() -> tuple[object, bool]:
+        import threading
+
+        kernel, thread = RealTime(), threading.get_ident()
+        task = kernel.spawn(kernel.call_hook(threading.get_ident), (0,), "hook")
+        return await kernel.run(task.done), thread == task.done.result()
+
+    ident, same_thread = asyncio.run(main())
+    assert isinstance(ident, int)
+    assert not same_thread
+
+
+def test_in_virtual_time_a_hook_that_awaits_asyncio_is_told_what_it_may_await() -> None:
+    async def sleeps() -> None:
+        await asyncio.sleep(1)
+
+    async def yields() -> None:
+        await asyncio.sleep(0)
+
+    for hook in (sleeps, yields):
+        kernel = VirtualTime()
+        task = kernel.spawn(kernel.call_hook(hook), (0,), "hook")
+        task.done.watch(lambda: None)
+        kernel.run(task.done)
+        with pytest.raises(RuntimeError, match=r"only what its context offers"):
+            task.done.result()
