@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Coroutine, Sequence
 from enum import Enum
+from functools import partial
 from typing import Any
 
 from .airspace import Airspace
@@ -85,7 +86,7 @@ class Fleet:
 
     def never_flew(self, drone: Drone) -> None:
         """A drone was allocated and is not needed after all."""
-        self._settle(drone)
+        self._send(drone, DroneStatus.BUSY, self._settle, "is not needed")
 
     async def all_down(self) -> None:
         """Wait until every drone has done what it does for itself: return, land, recover."""
@@ -114,8 +115,14 @@ class Fleet:
         self.engage(drone)
         self._become(drone, status)
         self._errands[drone] = self._kernel.spawn(
-            errand(drone), self._key(drone), f"{drone.id} {what}"
+            self._run(errand, drone), self._key(drone), f"{drone.id} {what}"
         )
+
+    async def _run(
+        self, errand: Callable[[Drone], Coroutine[Any, Any, None]], drone: Drone
+    ) -> None:
+        await errand(drone)
+        del self._errands[drone]
 
     def _become(self, drone: Drone, status: DroneStatus) -> None:
         if drone.status is not status:
@@ -132,7 +139,20 @@ class Fleet:
         try:
             await self._navigation.land(drone.id)
         except FlightFailed:
-            self._later(drone, self.recover)
+            await self._bring_back(drone)
+
+    async def _stay(self, drone: Drone) -> None:
+        try:
+            await self._navigation.land(drone.id)
+        except FlightFailed:
+            await self._bring_back(drone)
+            return
+        await self._settle(drone)
+        if self._after_trip is AfterTrip.NEXT:
+            await self._kernel.sleep(0, Kind.ALLOCATE, self._key(drone))
+            if drone.status is DroneStatus.FREE and not self._is_docked(drone):
+                self._become(drone, DroneStatus.RETURNING)
+                await self._return(drone)
 
     async def _return(self, drone: Drone) -> None:
         try:
@@ -141,62 +161,39 @@ class Fleet:
             await self.go_to(drone, (x, y, drone.location[2]))
             await self._navigation.land(drone.id)
         except FlightFailed:
-            self._later(drone, self.recover)
+            await self._bring_back(drone)
         else:
-            self._settle(drone)
+            await self._settle(drone)
 
-    async def _stay(self, drone: Drone) -> None:
-        try:
-            await self._navigation.land(drone.id)
-        except FlightFailed:
-            self._later(drone, self.recover)
-            return
-        self._settle(drone)
-        if drone.status is DroneStatus.FREE and self._after_trip is AfterTrip.NEXT:
-            self._kernel.at(
-                self._kernel.now, Kind.ALLOCATE, self._key(drone), lambda: self._linger(drone)
-            )
+    async def _bring_back(self, drone: Drone) -> None:
+        self._become(drone, DroneStatus.RECOVERING)
+        if await self._navigation.recover(drone.id):
+            await self._settle(drone)
+        else:
+            self._become(drone, DroneStatus.LOST)
 
-    def _linger(self, drone: Drone) -> None:
-        """It stands away from home and no mission took it at once."""
-        if drone.status is DroneStatus.FREE and not self._is_docked(drone):
-            self.send_home(drone)
+    async def _settle(self, drone: Drone) -> None:
+        """It stands on the ground, well: is there enough in its battery to be handed out?"""
+        missing = drone.category.reserve - drone.battery_level
+        if missing < 0:
+            self._become(drone, DroneStatus.FREE)
+        elif self._is_docked(drone):
+            self._become(drone, DroneStatus.CHARGING)
+            charged = self._kernel.now + missing * drone.category.charge_time + 0.001
+            self._kernel.at(charged, Kind.CLOCK, self._key(drone), partial(self._charged, drone))
+        else:
+            self._become(drone, DroneStatus.RETURNING)
+            await self._return(drone)
+
+    def _charged(self, drone: Drone) -> None:
+        if drone.status is DroneStatus.CHARGING:
+            self._become(drone, DroneStatus.FREE)
 
     def _fetch_what_is_low(self) -> None:
         """Missions wait for drones that stand away from home with too little in their batteries."""
         for drone in self.queue.too_low():
             if not self._is_docked(drone):
                 self.send_home(drone)
-
-    async def _bring_back(self, drone: Drone) -> None:
-        if await self._navigation.recover(drone.id):
-            self._settle(drone)
-        else:
-            self._become(drone, DroneStatus.LOST)
-
-    def _later(self, drone: Drone, then: Callable[[Drone], None]) -> None:
-        """Send it on once the errand that says so is itself over."""
-        self._errands.pop(drone, None)
-        self._kernel.at(self._kernel.now, Kind.FLIGHT, self._key(drone), lambda: then(drone))
-
-    def _settle(self, drone: Drone) -> None:
-        """It stands on the ground, well: is there enough in its battery to be handed out?"""
-        self._errands.pop(drone, None)
-        missing = drone.category.reserve - drone.battery_level
-        if missing < 0:
-            self._become(drone, DroneStatus.FREE)
-            return
-        if not self._is_docked(drone):
-            self.send_home(drone)
-            return
-        self._become(drone, DroneStatus.CHARGING)
-        seconds = missing * drone.category.charge_time + 0.001
-        self._kernel.at(
-            self._kernel.now + seconds,
-            Kind.CLOCK,
-            self._key(drone),
-            lambda: self._settle(drone) if drone.status is DroneStatus.CHARGING else None,
-        )
 
     def _is_low(self, drone: Drone) -> bool:
         """Whether there is little more in it than the way home takes."""

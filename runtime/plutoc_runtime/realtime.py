@@ -9,7 +9,7 @@ from functools import partial
 from inspect import iscoroutinefunction
 from typing import TypeVar
 
-from .kernel import Kernel, Signal
+from .kernel import Kernel, Key, Kind, Signal, Timer
 
 T = TypeVar("T")
 
@@ -35,6 +35,13 @@ class RealTime(Kernel):
         """Seconds since midnight, local time."""
         local = time.localtime()
         return local.tm_hour * 3600.0 + local.tm_min * 60.0 + local.tm_sec
+
+    def at(self, when: float, kind: Kind, key: Key, call: Callable[[], None]) -> Timer:
+        """Call this at a time; a hook may ask for it between the kernel's own events."""
+        timer = super().at(when, kind, key, call)
+        if self._frozen is None:
+            self._arm()
+        return timer
 
     def post(self, call: Callable[[], None]) -> None:
         """Tell the kernel something from outside: an answer of a drone, of a hook, of a person."""

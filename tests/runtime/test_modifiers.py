@@ -1,0 +1,102 @@
+"""Modifiers: the thesis's third exercise, and statuses that cannot be."""
+
+from __future__ import annotations
+
+import apps
+import pytest
+from plutoc_runtime.context import Context
+from plutoc_runtime.model import Mission
+from plutoc_runtime.status import Status, TripStatus
+
+ANY_END = (Status.STANDBY, Status.COMPLETED, Status.FAILED)
+
+
+async def limit_trip(mission: Mission[apps.Trip], context: Context) -> Status:
+    """A timer of 12 s, as an app's developer would write it."""
+    trip = mission.current
+    if await context.trip_ended(trip, within=12.0):
+        return mission.status
+    assert trip.expired(12.0)
+    return Status.FAILED
+
+
+def test_a_timer_written_as_a_modifier_fails_a_trip_that_takes_too_long() -> None:
+    outcome = apps.fly(
+        apps.app(apps.flow(watch=apps.modified(limit_trip, *ANY_END))),
+        apps.mission("m", apps.trip("A", 2.0), apps.trip("B", 15.0)),
+    )
+    (mission,) = outcome.missions
+    assert mission.status is Status.FAILED
+    assert mission.reason == "modifier limit_trip failed the trip"
+    (failure,) = apps.events(outcome, "trip.failed")
+    assert failure["t"] == pytest.approx(apps.times(outcome, "trip.launched")[1] + 12.0)
+
+
+def test_a_timer_written_as_a_modifier_lets_short_trips_pass() -> None:
+    trips = [apps.trip("A", 2.0), apps.trip("B", 2.0), apps.trip("C", 2.0)]
+    outcome = apps.fly(
+        apps.app(apps.flow(watch=apps.modified(limit_trip, *ANY_END))), apps.mission("m", *trips)
+    )
+    assert outcome.completed
+
+
+async def says_standby(mission: Mission[apps.Trip], context: Context) -> Status:
+    return Status.STANDBY
+
+
+async def says_nothing(mission: Mission[apps.Trip], context: Context) -> None:
+    return None
+
+
+async def says_running(mission: Mission[apps.Trip], context: Context) -> Status:
+    return Status.RUNNING
+
+
+@pytest.mark.parametrize(
+    ("hook", "says"),
+    [
+        (says_standby, "returned STANDBY, but trip A is still flying"),
+        (says_nothing, "must return one of STANDBY, COMPLETED, FAILED, not None"),
+        (says_running, "must return one of STANDBY, COMPLETED, FAILED, not RUNNING"),
+    ],
+)
+def test_a_status_that_cannot_be_fails_the_mission(hook: object, says: str) -> None:
+    assert callable(hook)
+    outcome = apps.fly(
+        apps.app(apps.flow(watch=apps.modified(hook, *ANY_END))),
+        apps.mission("m", apps.trip("A", 5.0), apps.trip("B", 5.0)),
+    )
+    (mission,) = outcome.missions
+    assert mission.status is Status.FAILED
+    assert says in mission.reason
+    assert outcome.drones[0].status.value == "FREE", "its drone was called home"
+
+
+def test_a_modifier_without_emits_changes_the_mission_and_not_its_status() -> None:
+    def go_elsewhere(mission: Mission[apps.Trip], context: Context) -> None:
+        mission.current.target = (7.0, 7.0, 1.2)
+        context.log(f"{context.now:g} s: elsewhere")
+
+    outcome = apps.fly(
+        apps.app(apps.flow(prepare=go_elsewhere)), apps.mission("m", apps.trip("A", 2.0))
+    )
+    assert outcome.completed
+    assert outcome.log == ["0 s: elsewhere"]
+    assert outcome.flown["cf1"] > 15.0
+
+
+def test_a_modifier_without_emits_may_return_nothing_at_all() -> None:
+    outcome = apps.fly(
+        apps.app(apps.flow(prepare=lambda mission, context: Status.FAILED)),
+        apps.mission("m", apps.trip("A", 2.0)),
+    )
+    assert "must return nothing" in outcome.missions[0].reason
+
+
+def test_a_trip_is_reset_only_when_it_is_over() -> None:
+    trip = apps.trip("A", 2.0, status=TripStatus.EXECUTING)
+    with pytest.raises(ValueError, match="in flight"):
+        trip.reset()
+    trip.status = TripStatus.FAILED
+    trip.reset()
+    assert (trip.status, trip.attempt) == (TripStatus.WAITING, 2)
