@@ -18,7 +18,6 @@ from plutoc_blocks.priority_manager.step import raise_priority
 from plutoc_blocks.timer_monitor.step import watch_timer
 from plutoc_blocks.trip_launcher.step import launch_trip
 from plutoc_blocks.trip_monitor.step import watch_trip
-
 from plutoc_runtime import model
 from plutoc_runtime.actions import BUILT_IN, Action
 from plutoc_runtime.airspace import Airspace

@@ -10,6 +10,7 @@ import apps
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+
 from plutoc_runtime.fleet import AfterTrip
 from plutoc_runtime.model import Category, Drone, Trip
 from plutoc_runtime.policies.batch_optimal import assign, batch_optimal

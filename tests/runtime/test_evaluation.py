@@ -6,6 +6,7 @@ from typing import Any
 
 import apps
 import pytest
+
 from plutoc_runtime.model import Mission
 from plutoc_runtime.results import Results
 from plutoc_runtime.status import Status

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import apps
+
 from plutoc_runtime.actions import Action
 from plutoc_runtime.errors import ActionFailed
 from plutoc_runtime.simulation.faults import Faults

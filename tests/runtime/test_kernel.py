@@ -6,6 +6,7 @@ import asyncio
 from functools import partial
 
 import pytest
+
 from plutoc_runtime.kernel import Cancelled, Kind, Signal
 from plutoc_runtime.realtime import RealTime
 from plutoc_runtime.virtual import Stuck, VirtualTime

@@ -7,11 +7,12 @@ import threading
 
 import apps
 import pytest
+
+from plutoc_runtime.actions import Action
+from plutoc_runtime.airspace import Airspace
 from plutoc_runtime.context import Context
 from plutoc_runtime.fly import fly_simulated
 from plutoc_runtime.model import Category, Drone
-from plutoc_runtime.actions import Action
-from plutoc_runtime.airspace import Airspace
 from plutoc_runtime.simulation.faults import Faults
 from plutoc_runtime.trace import Event
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import apps
 import pytest
+
 from plutoc_runtime.status import DroneStatus, Status
 from plutoc_runtime.trace import Event
 

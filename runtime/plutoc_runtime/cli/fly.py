@@ -28,7 +28,7 @@ def fly(app: App, options: Options) -> int:
         raise BadInput(f"{app.name}: real drones are not supported yet: use --sim")
     plan = load(app, options)
     try:
-        outcome = asyncio.run(_fly(app, plan))
+        outcome = asyncio.run(flown(app, plan))
     except asyncio.CancelledError:
         return TERMINATED  # Ctrl-C comes out as KeyboardInterrupt instead
     output.line()
@@ -37,7 +37,8 @@ def fly(app: App, options: Options) -> int:
     return exit_code(outcome)
 
 
-async def _fly(app: App, plan: Plan) -> Outcome:
+async def flown(app: App, plan: Plan) -> Outcome:
+    """Fly a plan; whoever cancels this waits until all drones have landed."""
     _terminate_gently()
     flight = asyncio.ensure_future(
         fly_simulated(app, plan.missions, plan.fleet, seed=0, faults=Faults(), on_event=_tell)
