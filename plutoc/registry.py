@@ -71,13 +71,13 @@ def _loaded(package: str, point: EntryPoint) -> Mapping[str, Block]:
         ) from error
     if not isinstance(declared, Iterable):
         raise RegistryError(
-            f"{point.value} of {package} is a {type(declared).__name__}, not a tuple of blocks"
+            f"{point.value} of {package} is of type {type(declared).__name__}, not a tuple of blocks"
         )
     found: dict[str, Block] = {}
     for block in declared:
         if not isinstance(block, Block):
             raise RegistryError(
-                f"{point.value} of {package} holds a {type(block).__name__} that is not a Block"
+                f"{point.value} of {package} holds something of type {type(block).__name__}, not only blocks"
             )
         if block.name in found:
             raise RegistryError(f"{package} declares {block.name} twice")

@@ -19,6 +19,10 @@ from plutoc_runtime.status import Status
 END_ACCEPTS = frozenset({Status.COMPLETED, Status.FAILED})
 
 
+_MOST_PROPOSALS = 100
+"""Near names are looked for so often: it takes long among many, and nobody reads more."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Arrow:
     """One pair of a flow; a guard belongs to the last arrow of its statement."""
@@ -50,7 +54,19 @@ def edges(
             if _is_possible(arrow, nodes):
                 resolved.append(_edge(arrow, tuple(status for _, status in guard), taken, nodes))
     _check_twice(source, resolved, found)
-    return tuple(_rest(edge, resolved, nodes) for edge in resolved)
+    taken_from: dict[str, set[Status]] = {}
+    for edge in resolved:
+        if not edge.otherwise:
+            taken_from.setdefault(edge.source, set()).update(edge.takes)
+    # `otherwise`: what the target accepts, less what the block's other edges take
+    return tuple(
+        (
+            replace(edge, takes=edge.takes.difference(taken_from.get(edge.source, ())))
+            if edge.otherwise
+            else edge
+        )
+        for edge in resolved
+    )
 
 
 def _arrows(flow: FlowDecl) -> Iterator[Arrow]:
@@ -84,14 +100,6 @@ def _edge(
     )
 
 
-def _rest(edge: Edge, every: Sequence[Edge], nodes: Mapping[str, Node]) -> Edge:
-    """Take from an `otherwise` what the block's other edges take."""
-    if not edge.otherwise:
-        return edge
-    others = [e for e in every if e.source == edge.source and not e.otherwise]
-    return replace(edge, takes=edge.takes.difference(*(e.takes for e in others)))
-
-
 def _accepts(target: str, nodes: Mapping[str, Node]) -> frozenset[Status]:
     return END_ACCEPTS if target == END else nodes[target].block.accepts
 
@@ -101,6 +109,7 @@ def _check_stops(
 ) -> None:
     """Check that every stop is a block, or `start` at a beginning, or `end` at an end."""
     blocks = [name for name, declared in scope.items() if declared.role == BLOCK]
+    told = 0
     hopeless: set[str] = set()  # told once: a block that is missing, not a slip of the pen
     for flow in flows:
         for i, stop in enumerate(flow.stops):
@@ -114,8 +123,10 @@ def _check_stops(
                         found.append(errors.out_of_end(source, name))
                 elif (declared is None or declared.role != BLOCK) and name.text not in hopeless:
                     role = declared.role if declared else None
-                    found.append(errors.unknown_block(source, name, blocks, role))
-                    if not near(name.text, blocks):
+                    meant = near(name.text, blocks) if told < _MOST_PROPOSALS else []
+                    told += 1
+                    found.append(errors.unknown_block(source, name, meant, role))
+                    if not meant:
                         hopeless.add(name.text)
 
 

@@ -62,7 +62,7 @@ def taken_app_name(source: Source, name: Name, whose: str) -> Diagnostic:
         source,
         name.span,
         label="choose another name",
-        help=f"for instance `{name.text}_app`",
+        help=f"for instance `{in_snake_case(name.text)}_app`",
     )
 
 
@@ -247,7 +247,7 @@ def unused_hook(source: Source, name: Name, role: str) -> Diagnostic:
     """A hook that no block calls."""
     return warning(
         "P1030",
-        f"{role} `{name.text}` is declared but no block uses it",
+        f"the {role} `{name.text}` is declared but no block uses it",
         source,
         name.span,
         label="not used",
@@ -284,7 +284,7 @@ def unknown_block(
     """An edge from or to what is not a block."""
     if role:
         message = f"`{name.text}` is {role}, not a block"
-        help = f"declare a block that uses it: `NAME = KIND(hook: {name.text})`"
+        help = "only blocks stand in a flow: declare one with `NAME = KIND`"
     else:
         message = f"there is no block `{name.text}`"
         help = f"declare it in the app: `{name.text} = KIND`"

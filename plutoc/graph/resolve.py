@@ -11,18 +11,19 @@ from plutoc.graph.edges import edges
 from plutoc.graph.model import Action, Graph, Hook, Node
 from plutoc.graph.nodes import Place, node
 from plutoc.graph.packages import packages_of
-from plutoc.graph.scope import HOOK_ROLES, check_app_name, scope_of
+from plutoc.graph.scope import check_app_name, scope_of
+from plutoc.graph.values import written
 from plutoc.registry import Blocks
 from plutoc.source import Source, Span
 from plutoc.syntax.tree import (
     ActionDecl,
     BlockDecl,
+    Bool,
     CategoryDecl,
     File,
     FlowDecl,
     HookDecl,
     Name,
-    Value,
 )
 from plutoc_runtime.actions import BUILT_IN
 
@@ -113,9 +114,7 @@ def _unused_hooks(
         for param in node.block.params
     )
     return [
-        errors.unused_hook(
-            source, Name(text=hook.name, span=hook.span), HOOK_ROLES[hook.kind.value]
-        )
+        errors.unused_hook(source, Name(text=hook.name, span=hook.span), hook.kind.value)
         for hook in declared
         if hook.name not in named and not (judged and hook.kind is HookKind.EVALUATOR)
     ]
@@ -138,5 +137,5 @@ def _unused_actions(
 
 def _named(blocks: Sequence[BlockDecl]) -> set[str]:
     """Return the names that blocks are given as values."""
-    values: list[Value] = [argument.value for block in blocks for argument in block.arguments]
-    return {value.text for value in values if isinstance(value, Name)}
+    values = [argument.value for block in blocks for argument in block.arguments]
+    return {written(value) for value in values if isinstance(value, Name | Bool)}

@@ -34,7 +34,6 @@ def scope_of(file: File, found: list[Diagnostic]) -> Scope:
     lower: dict[str, Declared] = {}
     for declared in _declarations(file):
         name = declared.name
-        check_name(file.source, name, declared.role, found)
         first = lower.setdefault(name.text.lower(), declared)
         if declared.role in _HOOKS and name.text.lower() in BUILT_IN:
             found.append(errors.built_in_name(file.source, name))
@@ -44,6 +43,8 @@ def scope_of(file: File, found: list[Diagnostic]) -> Scope:
             )
         elif first is not declared:
             found.append(errors.differs_in_case_only(file.source, name, first.name))
+        else:
+            check_name(file.source, name, declared.role, found)
         scope.setdefault(name.text, declared)
     return scope
 

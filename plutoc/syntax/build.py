@@ -130,11 +130,12 @@ def _parameters(child: Child) -> tuple[tree.Parameter, ...]:
 
 
 def _parameter(node: Node) -> tree.Parameter:
-    name, kind, default = node.children
+    # Lark puts no None for a left out default: what it can be is a rule that it sees through.
+    name, kind, *default = node.children
     return tree.Parameter(
         name=_name(name),
         type=_name(kind),
-        default=_value(default) if default else None,
+        default=_value(default[0]) if default else None,
         span=_span(node),
     )
 

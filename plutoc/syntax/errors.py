@@ -70,13 +70,14 @@ _MEANT = {
 
 def hidden_character(source: Source, span: Span) -> Diagnostic:
     """A character in a text or a comment that a screen does not show."""
+    char = source.quote(span)
     return _error(
         "P0004",
-        f"{_described(source.quote(span))} is not allowed in a text or a comment",
+        f"{_described(char)} is not allowed in a text or a comment",
         source,
         span,
         label="here, where you may not see it",
-        help="remove it: it hides or reorders what a reader sees",
+        help="write spaces" if char == "\t" else "remove it: it hides or reorders what others see",
     )
 
 
@@ -136,6 +137,19 @@ def no_header(source: Source, span: Span) -> Diagnostic:
         label="comes before it",
         help="write `pluto 1` on the first line",
         fix=Fix(span=Span(span.start, span.start), text="pluto 1\n"),
+    )
+
+
+def wrong_header(source: Source, span: Span) -> Diagnostic:
+    """A first line that means to be the language's version."""
+    return _error(
+        "P0016",
+        "a file begins with the version of the language, `pluto 1`",
+        source,
+        span,
+        label="not `pluto 1`",
+        help="write `pluto 1` on the first line",
+        fix=Fix(span=span, text="pluto 1"),
     )
 
 
@@ -217,7 +231,7 @@ def no_app(source: Source, span: Span) -> Diagnostic:
 
 def _described(char: str) -> str:
     """Say which character it is: "U+00A0 (NO-BREAK SPACE)"."""
-    name = unicodedata.name(char, "")
+    name = "tab" if char == "\t" else unicodedata.name(char, "").lower()
     return f"the character U+{ord(char):04X}" + (f" ({name})" if name else "")
 
 

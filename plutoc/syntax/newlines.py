@@ -53,9 +53,9 @@ def _process(tokens: Sequence[Token]) -> Iterator[Token]:
             depth += 1
         elif token.type in CLOSING:
             depth = max(depth - 1, 0)
-        elif token.type in ("LBRACE", "RBRACE"):
+        elif token.type == "RBRACE" and _ends_line(tokens, i):
             depth = 0
-            if token.type == "RBRACE" and last not in (NEWLINE, "LBRACE"):
+            if last not in (NEWLINE, "LBRACE"):
                 yield _newline(tokens[i - 1])  # `}` on the line of the last statement
         elif depth and token.type in _WORDS:
             token = token.update(type=NAME)
@@ -72,6 +72,11 @@ def _following(tokens: Sequence[Token]) -> list[str]:
         here = tokens[i].type
         following[i - 1] = following[i] if here == NEWLINE else here
     return following
+
+
+def _ends_line(tokens: Sequence[Token], i: int) -> bool:
+    """Say whether nothing stands behind the i-th on its line."""
+    return i + 1 == len(tokens) or tokens[i + 1].type == NEWLINE
 
 
 def _begins_a_statement(tokens: Sequence[Token], i: int) -> bool:

@@ -6,6 +6,7 @@ is a line; a mistake costs the rest of its line, and the parser goes back to whe
 
 from __future__ import annotations
 
+import difflib
 from collections.abc import Sequence
 
 from lark import Token
@@ -14,7 +15,7 @@ from plutoc.diagnostic import Diagnostic
 from plutoc.source import Source
 from plutoc.syntax import errors
 from plutoc.syntax.explain import explain
-from plutoc.syntax.newlines import END, NEWLINE
+from plutoc.syntax.newlines import END, NAME, NEWLINE
 from plutoc.syntax.state import State, beginning, copied, feeds, made_up, span
 
 _HEADER = (("PLUTO", "pluto"), ("NUMBER", "1"), (NEWLINE, ""))
@@ -23,12 +24,17 @@ _APP = (("APP", "app"), ("NAME", "app"), ("LBRACE", "{"))
 
 def diagnose(source: Source, tokens: Sequence[Token]) -> list[Diagnostic]:
     """Return what is wrong with the order of the tokens."""
+    if tokens[0].type == END:
+        return [errors.no_app(source, span(tokens[0]))]
     state = beginning()
     found: list[Diagnostic] = []
     apps: list[Token] = []
     i = 0
     if tokens[0].type != "PLUTO":
-        found.append(errors.no_header(source, span(tokens[0])))
+        i = _behind_wrong_header(tokens)
+        wrong = span(tokens[0]).to(span(tokens[max(i - 2, 0)]))
+        error = errors.wrong_header if i else errors.no_header
+        found.append(error(source, wrong))
         _feed_made_up(state, _HEADER)
     line = i
     before = copied(state)
@@ -44,6 +50,8 @@ def diagnose(source: Source, tokens: Sequence[Token]) -> list[Diagnostic]:
                 line = i
             continue
         found.append(explain(source, state, tokens, line, i, apps))
+        if END in state.choices():
+            break  # behind the end of the app
         state = before
         choices = state.choices()
         if "PLUTO" in choices:
@@ -54,9 +62,17 @@ def diagnose(source: Source, tokens: Sequence[Token]) -> list[Diagnostic]:
         elif "RBRACE" in choices and token.type != END:
             i = _behind_line(tokens, line)
         else:
-            break  # behind the app's end, or at the file's
+            break
         line = i
     return found
+
+
+def _behind_wrong_header(tokens: Sequence[Token]) -> int:
+    """Return where the second line begins, if the first one means to be `pluto 1`; else 0."""
+    end = next((i for i, token in enumerate(tokens) if token.type == NEWLINE), 0)
+    near = difflib.get_close_matches(tokens[0].lower(), ["pluto"])
+    means_it = tokens[1].type == "NUMBER" or (near and tokens[0].type == NAME)
+    return end + 1 if means_it and end else 0
 
 
 def _enter_app(state: State, tokens: Sequence[Token], line: int) -> int:
@@ -75,12 +91,16 @@ def _enter_app(state: State, tokens: Sequence[Token], line: int) -> int:
 
 
 def _behind_line(tokens: Sequence[Token], i: int) -> int:
-    """Return the place of the next line, with what stands in braces passed over."""
+    """Return the place of the next line, with what stands in braces over several lines passed over."""
     depth = 0
     while tokens[i].type != END:
-        depth += {"LBRACE": 1, "RBRACE": -1}.get(tokens[i].type, 0)
+        token, following = tokens[i], tokens[i + 1]
+        if token.type == "LBRACE" and (following.line or 0) > (token.line or 0):
+            depth += 1
+        elif token.type == "RBRACE" and depth:
+            depth -= 1
         i += 1
-        if tokens[i - 1].type == NEWLINE and depth <= 0:
+        if token.type == NEWLINE and not depth:
             break
     return i
 
