@@ -1,0 +1,225 @@
+"""Text → tree."""
+
+from __future__ import annotations
+
+import os
+import stat
+from pathlib import Path
+
+import pytest
+
+from plutoc.source import Source
+from plutoc.syntax import grammar
+from plutoc.syntax.newlines import WORDS
+from plutoc.syntax.parse import parse
+from plutoc.syntax.tree import (
+    ActionDecl,
+    BlockDecl,
+    Bool,
+    CategoryDecl,
+    File,
+    FlowDecl,
+    HookDecl,
+    List,
+    Name,
+    Number,
+    Quantity,
+    Statement,
+    Text,
+    Value,
+)
+
+SAMPLE = (Path(__file__).parent.parent / "cases" / "alfalfa" / "app.pluto").read_text("utf-8")
+
+
+def parsed(text: str) -> File:
+    """Parse a whole source."""
+    return parse(Source("app.pluto", text))
+
+
+def statements(text: str) -> tuple[Statement, ...]:
+    """Parse what stands in an app's braces."""
+    return parsed(f"pluto 1\napp demo {{\n{text}\n}}\n").app.statements
+
+
+def value(text: str) -> Value:
+    """Parse a value."""
+    (block,) = statements(f"a = K(x: {text})")
+    assert isinstance(block, BlockDecl)
+    return block.arguments[0].value
+
+
+def flow(text: str) -> list[tuple[str, ...]]:
+    """Parse a flow: the names at its stops."""
+    (found,) = statements(text)
+    assert isinstance(found, FlowDecl)
+    return [tuple(name.text for name in stop.names) for stop in found.stops]
+
+
+def test_sample_has_all_its_statements() -> None:
+    """The app of the thesis's section 6.1.2."""
+    file = parsed(SAMPLE)
+    assert (file.app.name.text, file.app.title and file.app.title.value) == (
+        "alfalfa",
+        "Alfalfa crop monitoring",
+    )
+    kinds = [type(statement) for statement in file.app.statements]
+    assert [kinds.count(k) for k in (CategoryDecl, ActionDecl, HookDecl, BlockDecl, FlowDecl)] == [
+        2,
+        1,
+        1,
+        10,
+        11,
+    ]
+
+
+def test_use() -> None:
+    """With and without another name."""
+    uses = parsed("pluto 1\nuse a\nuse b as c\napp demo {}").uses
+    assert [(use.package.text, use.alias and use.alias.text) for use in uses] == [
+        ("a", None),
+        ("b", "c"),
+    ]
+
+
+def test_values() -> None:
+    """Every kind of value."""
+    match value('[3, -0.5, 5 min, 40%, 0.8 m/s, "a \\"b\\" \\\\", yes, no, nearest, [],]'):
+        case List(
+            items=(
+                Number(value=3),
+                Number(value=-0.5),
+                Quantity(value=5, unit="min"),
+                Quantity(value=40, unit="%"),
+                Quantity(value=0.8, unit="m/s"),
+                Text(value='a "b" \\'),
+                Bool(value=True),
+                Bool(value=False),
+                Name(text="nearest"),
+                List(items=()),
+            )
+        ):
+            pass
+        case other:
+            pytest.fail(repr(other))
+
+
+def test_hooks() -> None:
+    """Parameters, emits and writes, each optional."""
+    full, bare, action = statements(
+        "modifier m(limit: time = 3 min, n: int,) emits STANDBY, FAILED writes delay, gap\n"
+        "policy p\naction a(dose: mass) ask"
+    )
+    assert isinstance(full, HookDecl) and isinstance(bare, HookDecl)
+    assert [p.name.text for p in full.parameters] == ["limit", "n"]
+    assert isinstance(full.parameters[0].default, Quantity) and full.parameters[1].default is None
+    assert [n.text for n in (*full.emits, *full.writes)] == ["STANDBY", "FAILED", "delay", "gap"]
+    assert (full.kind, bare.kind, bare.parameters, bare.emits) == ("modifier", "policy", (), ())
+    assert isinstance(action, ActionDecl) and action.repeat and action.repeat.text == "ask"
+
+
+def test_guards() -> None:
+    """`when` names statuses, `otherwise` names none."""
+    one, two, three = statements("a -> b when X, Y\na -> b otherwise\na -> b")
+    assert isinstance(one, FlowDecl) and isinstance(two, FlowDecl) and isinstance(three, FlowDecl)
+    assert one.guard and [n.text for n in one.guard.statuses] == ["X", "Y"]
+    assert two.guard and two.guard.otherwise and two.guard.statuses == ()
+    assert three.guard is None
+
+
+def test_prefix() -> None:
+    """A kind of a used package."""
+    (block,) = statements("scan = survey.GridScan(spacing: 2 m)")
+    assert isinstance(block, BlockDecl) and block.prefix and block.prefix.text == "survey"
+
+
+@pytest.mark.parametrize("word", WORDS)
+def test_words_are_names_inside_brackets(word: str) -> None:
+    """A parameter, a value and a stop in brackets may be called so."""
+    (block,) = statements(f"a = K({word}: {word})")
+    assert isinstance(block, BlockDecl)
+    assert (block.arguments[0].name.text, block.arguments[0].value) == (
+        word,
+        Name(text=word, span=block.arguments[0].value.span),
+    )
+    assert flow(f"[a, {word}] -> b") == [("a", word), ("b",)]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "a -> b -> c",
+        "a\n  -> b\n  -> c",
+        "a\n\n  # why\n  -> b  # that\n-> c",
+        "\n\na -> b -> c\n\n",
+        "a->b->c",
+        "a\r\n  -> b -> c\r\n",
+        "[\n a,\n] -> [b\n] -> c",
+    ],
+)
+def test_newlines_that_end_nothing(text: str) -> None:
+    """Inside brackets and before an arrow, a statement goes on."""
+    assert flow(text) == [("a",), ("b",), ("c",)]
+
+
+@pytest.mark.parametrize("space", ["", " ", "\n", "\n\n  \n", "  # empty\n"])
+def test_empty_app(space: str) -> None:
+    """An app without statements is for the checks to refuse."""
+    assert statements(space) == ()
+
+
+@pytest.mark.parametrize("end", ["", "\n", "\n\n# the end", "\r\n"])
+def test_app_on_one_line(end: str) -> None:
+    """A brace ends the last statement."""
+    file = parsed("pluto 1\napp demo { a -> b }" + end)
+    assert len(file.app.statements) == 1
+
+
+def test_byte_order_mark_is_tolerated() -> None:
+    """At the beginning, where some editors write one."""
+    assert parsed("\ufeff" + SAMPLE).app.name.text == "alfalfa"
+
+
+def test_spans_are_places_in_the_source() -> None:
+    """Of every statement, whatever stands before it."""
+    source = Source("a", "\ufeffpluto 1\r\n# ü 日本\r\napp demo {\r\n  a = K(x: 5 min)  # x\r\n}")
+    (block,) = parse(source).app.statements
+    assert source.quote(block.span) == "a = K(x: 5 min)"
+    assert isinstance(block, BlockDecl)
+    assert source.quote(block.arguments[0].value.span) == "5 min"
+    assert source.quote(parse(source).app.span).endswith("}")
+
+
+@pytest.fixture
+def cache_home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Another cache folder, and no parser made yet."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    monkeypatch.setattr(grammar, "parser", grammar.parser.__wrapped__)
+    return tmp_path
+
+
+def test_parser_is_cached_for_the_user_alone(cache_home: Path) -> None:
+    """What is unpickled must be nobody else's to write."""
+    grammar.parser()
+    folder = cache_home / "pluto"
+    assert stat.S_IMODE(folder.stat().st_mode) == 0o700
+    assert [path.name.startswith("grammar-") for path in folder.iterdir()] == [True]
+    assert grammar.parser().parse("pluto 1\napp demo {}") == grammar.parser().parse(
+        "pluto 1\napp demo {}"
+    )
+
+
+@pytest.mark.skipif(os.name != "posix", reason="permissions are otherwise elsewhere")
+def test_cache_that_others_can_write_is_not_used(cache_home: Path) -> None:
+    """Nothing is read from it, nothing is written to it."""
+    folder = cache_home / "pluto"
+    folder.mkdir()
+    folder.chmod(0o777)
+    grammar.parser()
+    assert not list(folder.iterdir())
+
+
+def test_cache_folder_that_cannot_be_made_is_no_error(cache_home: Path) -> None:
+    """A read-only home compiles too."""
+    (cache_home / "pluto").write_text("in the way")
+    assert grammar.parser()
