@@ -105,8 +105,10 @@ def test_the_sentence_tells_what_each_category_lacks() -> None:
     team = fleet((SCOUT, HOME), (CARRIER, HOME), (SCOUT, (3.0, 3.0, 0.0)))
     pills = [trip("pick_item", grams=8, name="A"), trip("release_item", grams=8, name="2")]
     assert said(team, trip("take_photo"), *pills) == [
-        'mission "M", trips "A" to 2: no drone of the fleet can do it: scout cannot pick_item; '
-        "carrier carries at most 5 g, the item weighs 8 g"
+        (
+            'mission "M", trips "A" to 2: no drone of the fleet can do it: scout cannot pick_item; '
+            "carrier carries at most 5 g, the item weighs 8 g"
+        )
     ]
 
 
@@ -125,6 +127,8 @@ def test_what_repeats_until_stopped_has_no_end() -> None:
         FieldMission(name="B", trips=[], repeat=1),
     ]
     assert endless(missions, APP) == [
-        'mission "A" repeats until it is stopped (repeat = true): say when with --until, '
-        "such as --until 2h"
+        (
+            'mission "A" repeats until it is stopped (repeat = true): say when with --until, '
+            "such as --until 2h"
+        )
     ]

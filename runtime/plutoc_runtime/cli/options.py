@@ -15,9 +15,9 @@ FAULTS = ("crash", "link", "action", "battery")
 """What `--fail` can make go wrong."""
 
 
-@dataclass(slots=True)
+@dataclass
 class Options:
-    """What was asked for."""
+    """What was asked for. No slots: argparse keeps what it does not know here, too."""
 
     command: str = ""
     missions: Path = field(default_factory=Path)

@@ -20,7 +20,8 @@ def prepare() -> None:
     """Let no character stop the output: a terminal may not know all letters of a name."""
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, TextIOWrapper):
-            stream.reconfigure(errors="backslashreplace")
+            with suppress(OSError):  # what is wrong with it will show when it is written to
+                stream.reconfigure(errors="backslashreplace")
 
 
 def line(text: str = "") -> None:

@@ -43,10 +43,12 @@ def spread(values: Sequence[float]) -> dict[str, float] | None:
     """Return how some numbers lie; None where there is none."""
     if not values:
         return None
+    most = max(values)
+    ninth = quantiles(values, n=10, method="inclusive")[-1] if len(values) > 1 else most
     return {
         "min": min(values),
         "median": median(values),
         "mean": mean(values),
-        "p90": quantiles(values, n=10, method="inclusive")[-1] if len(values) > 1 else values[0],
-        "max": max(values),
+        "p90": min(max(ninth, median(values)), most),  # rounding may lead it past its neighbours
+        "max": most,
     }

@@ -1,0 +1,119 @@
+"""What the command line takes and refuses."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.runtime.cli.conftest import Command
+
+
+def test_check_says_that_the_fleet_can_fly_the_plan(missions: Path, command: Command) -> None:
+    """In one line."""
+    said = "2 missions with 3 trips: a fleet of 5 drones can fly them\n"
+    assert command("check", missions) == (0, said, "")
+
+
+def test_a_plan_that_nobody_can_fly_is_refused(missions: Path, command: Command) -> None:
+    """By check and simulate alike, before anything starts."""
+    fleet = missions.with_name("f.toml")
+    fleet.write_text('[[drone]]\nid = "a"\ncategory = "scout"\nhome = [1, 1]\n')
+    said = (
+        f'{missions}: mission "North", trip 2: no drone of the fleet can do it: '
+        "scout cannot pollinate\n"
+    )
+    assert command("check", missions, "--fleet", fleet) == (2, "", said)
+    assert command("simulate", missions, "--fleet", fleet) == (2, "", said)
+
+
+def test_a_bad_file_is_exit_2(missions: Path, command: Command) -> None:
+    """Both files."""
+    assert command("check", missions, "--fleet", missions)[0] == 2
+    missing = missions.with_name("none.toml")
+    said = f"{missing}: there is no such file\n"
+    assert command("simulate", missing) == (2, "", said)
+
+
+def test_real_drones_are_not_there_yet(missions: Path, command: Command) -> None:
+    """And says so before it looks at the files."""
+    said = "alfalfa: real drones are not supported yet: use --sim\n"
+    assert command("fly", missions, "--fleet", "none.toml") == (2, "", said)
+
+
+@pytest.mark.parametrize(
+    ("argv", "said"),
+    [
+        ("", "the following arguments are required: COMMAND"),
+        ("soar m.toml", "argument COMMAND: invalid choice: 'soar'"),
+        ("simulate", "the following arguments are required: M.toml"),
+        ("fly m.toml", "the following arguments are required: --fleet"),
+        ("check m.toml --seed 1", "unrecognized arguments: --seed 1"),
+        ("simulate m.toml --unt 3", "unrecognized arguments: --unt 3"),
+        ("simulate m.toml --seed x", 'argument --seed: "x" is not a whole number'),
+        ("simulate m.toml --runs 0", 'argument --runs: "0" is less than 1'),
+        ("simulate m.toml --runs 2 --trace t", "--trace writes down one run"),
+        ("simulate m.toml --until 0", 'argument --until: "0" is not more than 0'),
+        ("simulate m.toml --until 3m", 'argument --until: "3m" is a length, not a time'),
+        ("simulate m.toml --fail crash", '"crash" is not written like crash=10%'),
+        ("simulate m.toml --fail fire=1%", '"fire" cannot go wrong; what can: crash, link'),
+        ("simulate m.toml --fail crash=1%,crash=2%", "crash is given twice"),
+        ("simulate m.toml --fail crash=10", "crash=10 is not between 0% and 100%"),
+        ("simulate m.toml --fail crash=x", "crash=x is not a percentage"),
+    ],
+)
+def test_wrong_usage_is_exit_2(argv: str, said: str, command: Command) -> None:
+    """With the usage and what is wrong, on standard error, without colours."""
+    code, out, err = command(*argv.split())
+    assert (code, out) == (2, "")
+    assert err.startswith("usage: alfalfa")
+    assert said in err
+    assert "\x1b" not in err
+
+
+def test_help_is_exit_0(command: Command) -> None:
+    """It names the app and its commands."""
+    code, out, _ = command("--help")
+    assert code == 0
+    assert "Alfalfa crop monitoring" in out
+    for name in ("simulate", "check", "fly"):
+        assert command(name, "--help")[0] == 0
+        assert name in out
+
+
+SCRIPT = "import sys; from tests.runtime.files.an_app import APP; import plutoc_runtime.cli as c; "
+
+
+def in_a_process(code: str, missions: Path, stdout: int) -> subprocess.CompletedProcess[str]:
+    path = f"import sys; sys.path[:0] = {sys.path!r}; "
+    argv = [sys.executable, "-c", path + SCRIPT + code, str(missions)]
+    return subprocess.run(argv, text=True, stdout=stdout, stderr=subprocess.PIPE, check=False)
+
+
+def test_a_closed_pipe_is_silent(missions: Path) -> None:
+    """Whoever read the output knows that he has gone."""
+    code = "sys.exit(c.main(APP, ['simulate', sys.argv[1]]))"
+    read, write = os.pipe()
+    os.close(read)
+    done = in_a_process(code, missions, stdout=write)
+    os.close(write)
+    assert (done.returncode, done.stderr) == (141, "")
+
+
+def test_a_full_disk_is_told_once(missions: Path) -> None:
+    """And Python says nothing of its own at its end."""
+    with open("/dev/full", "w") as full:
+        code = "sys.exit(c.main(APP, ['simulate', sys.argv[1]]))"
+        done = in_a_process(code, missions, stdout=full.fileno())
+    assert done.returncode == 2
+    assert done.stderr == "alfalfa: the output cannot be written: No space left on device\n"
+
+
+def test_check_imports_no_engine_and_no_event_loop(missions: Path) -> None:
+    """A command brings in only what it needs."""
+    code = "c.main(APP, ['check', sys.argv[1]]); "
+    code += "sys.exit('asyncio' in sys.modules or 'plutoc_runtime.session' in sys.modules)"
+    assert in_a_process(code, missions, stdout=subprocess.DEVNULL).returncode == 0

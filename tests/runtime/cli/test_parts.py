@@ -1,0 +1,140 @@
+"""The small parts of the command line: figures, JSON, the progress bar."""
+
+from __future__ import annotations
+
+import io
+import json
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from plutoc_runtime.cli.as_json import dumped
+from plutoc_runtime.cli.events import line_of
+from plutoc_runtime.cli.options import faults
+from plutoc_runtime.cli.progress import Progress
+from plutoc_runtime.cli.report import table
+from plutoc_runtime.cli.summary import Run, spread, summary
+from plutoc_runtime.words import duration, mass, number, quoted
+
+
+def test_the_summary_counts_successes_and_times_only_those() -> None:
+    """A mission that failed early is not a fast one."""
+    runs = [
+        Run(seed=seed, success=seed != 2, makespan=float(10 * seed), attempts=seed, failed=0)
+        for seed in range(1, 5)
+    ]
+    figures = summary(runs)
+    assert (figures["runs"], figures["succeeded"], figures["success_rate"]) == (4, 3, 0.75)
+    assert figures["failed_seeds"] == [2]
+    makespan = figures["makespan_s"]
+    assert isinstance(makespan, dict)
+    assert (makespan["min"], makespan["median"], makespan["max"]) == (10.0, 30.0, 40.0)
+    assert summary(runs[1:2])["makespan_s"] is None
+
+
+@given(st.lists(st.floats(0, 1e6), min_size=1, max_size=30))
+def test_a_spread_is_ordered(values: list[float]) -> None:
+    """From the least over the median and the ninth tenth to the most."""
+    found = spread(values)
+    assert found is not None
+    ordered = [found["min"], found["median"], found["p90"], found["max"]]
+    assert ordered == sorted(ordered)
+
+
+@given(
+    st.recursive(
+        st.none() | st.booleans() | st.integers() | st.floats() | st.text(),
+        lambda inner: st.lists(inner) | st.dictionaries(st.text(), inner),
+        max_leaves=10,
+    )
+)
+def test_any_plain_data_is_valid_json_of_three_decimals(data: object) -> None:
+    """No infinity, no minus nought, no line break."""
+    text = dumped(data)
+    assert "\n" not in text
+
+    def three(number: str) -> float:
+        assert number != "-0.0"
+        assert float(number) == round(float(number), 3)
+        return float(number)
+
+    def refuse(word: str) -> float:
+        raise AssertionError(word)
+
+    json.loads(text, parse_float=three, parse_constant=refuse)
+
+
+def test_faults_are_read_with_or_without_blanks() -> None:
+    """A percentage, or a share of 1."""
+    assert faults("crash=10%, link = 5 %,action=0.01") == {
+        "crash": 0.1,
+        "link": 0.05,
+        "action": 0.01,
+    }
+
+
+@pytest.mark.parametrize(
+    ("event", "line"),
+    [
+        ({"event": "trip.launched", "trip": "A", "drone": "cf1", "attempt": 2},
+         "     2.5 s  M: trip A launched, again (cf1)"),
+        ({"event": "trip.failed", "trip": "A", "drone": "cf1", "reason": "why"},
+         "     2.5 s  M: trip A failed (cf1): why"),
+        ({"event": "mission.repeated", "round": 1}, "     2.5 s  M: round 2 begins"),
+        ({"event": "mission.extended", "redo": ["A", "B"], "add": []},
+         "     2.5 s  M: goes on with more trips (again: A, B)"),
+        ({"event": "mission.ended", "status": "FAILED", "reason": "why"},
+         "     2.5 s  M: FAILED: why"),
+        ({"event": "trip.allocated"}, None),
+    ],
+)  # fmt: skip
+def test_an_event_is_a_line(event: dict[str, object], line: str | None) -> None:
+    """Or nothing, where it is of no interest to a person."""
+    assert line_of({"t": 2.5, "mission": "M", **event}) == line
+
+
+def test_the_bar_comes_only_after_a_while() -> None:
+    """And goes without a trace."""
+    now, stream = [0.0], io.StringIO()
+    bar = Progress(stream, lambda: now[0], shown=True)
+    bar.update(0.1, "early")
+    bar.clear()
+    assert stream.getvalue() == ""
+    now[0] = 1.5
+    bar.update(0.5, "half")
+    bar.update(0.6, "too soon")
+    now[0] = 2.0
+    bar.update(1.5, "all")
+    bar.clear()
+    half = "[" + "#" * 15 + "." * 15 + "] half"
+    full = "[" + "#" * 30 + "] all"
+    assert stream.getvalue() == f"\r{half}\r{full} \r{' ' * len(full)}\r"
+
+
+def test_no_bar_where_nobody_sees_it() -> None:
+    """Not in a file, and not for ever so long."""
+    stream = io.StringIO()
+    Progress(stream, iter([0.0, 9.0]).__next__, shown=False).update(0.5, "x")
+    assert stream.getvalue() == ""
+
+
+def test_a_table_lines_up() -> None:
+    """Words to the left, numbers to the right, no blanks at the end, nothing unprintable."""
+    assert list(table(("a", "n"), [("long", "1"), ("\x1b", "23")], right=(1,))) == [
+        "a      n",
+        "long   1",
+        "\\x1b  23",
+    ]
+
+
+def test_numbers_are_written_for_people() -> None:
+    """Short, with their units."""
+    assert [number(value) for value in (2.0, 0.5, 1 / 3, -0.0, 20.0)] == [
+        "2", "0.5", "0.333", "0", "20"
+    ]  # fmt: skip
+    assert [duration(value) for value in (0.0, 42.54, 59.99, 200.0, 7500.0, 7200.0)] == [
+        "0 s", "42.5 s", "60 s", "3 min 20 s", "2 h 5 min", "2 h"
+    ]  # fmt: skip
+    assert (mass(0.008), mass(1.5)) == ("8 g", "1.5 kg")
+    assert quoted("x" * 100) == '"' + "x" * 59 + '…"'

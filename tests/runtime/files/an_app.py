@@ -1,0 +1,115 @@
+"""An app as plutoc would make it: two categories, every kind of field, an action of its own."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from plutoc_blocks.drone_allocator.step import allocate_drone
+from plutoc_blocks.mission_creator.step import create_mission
+from plutoc_blocks.mission_repeater.step import repeat_mission
+from plutoc_blocks.priority_manager.step import raise_priority
+from plutoc_blocks.trip_launcher.step import launch_trip
+from plutoc_blocks.trip_monitor.step import watch_trip
+from plutoc_runtime.actions import BUILT_IN, Action, Parameter
+from plutoc_runtime.app import App
+from plutoc_runtime.context import Context
+from plutoc_runtime.errors import ActionFailed
+from plutoc_runtime.fields import Entity, Field, FieldType
+from plutoc_runtime.model import Category, Drone, Mission, Trip
+from plutoc_runtime.policies.nearest import nearest
+from plutoc_runtime.quantities import Type
+from plutoc_runtime.run import Run
+from plutoc_runtime.status import Status
+
+
+@dataclass(slots=True, kw_only=True, eq=False)
+class FieldTrip(Trip):
+    delay: float | None = None
+    priority: int = 0
+
+
+@dataclass(slots=True, kw_only=True, eq=False)
+class FieldMission(Mission[FieldTrip]):
+    safe_time: float | None = None
+    repeat: int | bool = 0
+    at: float | None = None
+    evaluator: str | None = None
+
+
+async def fly_mission(run: Run[FieldMission]) -> Status:
+    status = create_mission(run, Status.UNEXECUTED)
+    while True:
+        status = await allocate_drone(run, status, policy=nearest, allocate_within=None)
+        status = await watch_trip(run, launch_trip(run, status))
+        if status is Status.FAILED:
+            trip = run.mission.current
+            status = raise_priority(run, status, max_attempts=2, priority=trip.priority)
+        if status is Status.COMPLETED:
+            status = repeat_mission(run, status, repeat=run.mission.repeat)
+        if status in (Status.COMPLETED, Status.FAILED):
+            return status
+
+
+async def pollinate(drone: Drone, trip: Trip, context: Context, *, dose: float, **_: Any) -> float:
+    await context.sleep(2.0)
+    if dose > 1.0:
+        raise ActionFailed("the brush is not that large")
+    return dose
+
+
+def field(name: str, on: Entity, kind: FieldType) -> Field:
+    return Field(name=name, on=on, type=kind, label=name, doc=name)
+
+
+POLLINATE = Action(
+    name="pollinate",
+    parameters=(
+        Parameter(name="dose", type=Type.MASS),
+        Parameter(name="gently", type=Type.BOOL, default=True),
+        Parameter(name="strokes", type=Type.INT, default=3),
+        Parameter(name="share", type=Type.PERCENT, default=0.5),
+        Parameter(name="note", type=Type.TEXT, default=""),
+        Parameter(name="force", type=Type.FLOAT, default=1.0),
+    ),
+    hook=pollinate,
+)
+
+APP = App(
+    name="alfalfa",
+    title="Alfalfa crop monitoring",
+    flow=fly_mission,
+    mission=FieldMission,
+    trip=FieldTrip,
+    fields=(
+        field("safe_time", Entity.MISSION, FieldType.TIME),
+        field("repeat", Entity.MISSION, FieldType.ROUNDS),
+        field("at", Entity.MISSION, FieldType.TIME_OF_DAY),
+        field("evaluator", Entity.MISSION, FieldType.EVALUATOR),
+        field("delay", Entity.TRIP, FieldType.TIME),
+        field("priority", Entity.TRIP, FieldType.INT),
+    ),
+    categories=(
+        Category(name="scout", actions=frozenset({"take_photo", "measure"})),
+        Category(
+            name="carrier",
+            payload=0.005,
+            speed=0.8,
+            actions=frozenset({"pick_item", "release_item", "pollinate"}),
+        ),
+    ),
+    actions={**BUILT_IN, "pollinate": POLLINATE},
+    evaluators={"find_blooms": lambda mission, results: None},
+)
+
+PLAIN = App(
+    name="plain",
+    title="Plain",
+    flow=fly_mission,
+    mission=FieldMission,
+    trip=FieldTrip,
+    fields=(),
+    categories=(Category(name="drone"),),
+    actions=BUILT_IN,
+)
+"""An app without fields, categories or hooks."""

@@ -1,0 +1,183 @@
+"""What a fleet file may hold, and what is said of one that cannot be flown."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from plutoc_runtime.airspace import Airspace
+from plutoc_runtime.app import App
+from plutoc_runtime.errors import BadInput
+from plutoc_runtime.files.fleet import DroneEntry, FleetFile, default_fleet, load_fleet
+from plutoc_runtime.fleet import AfterTrip
+from plutoc_runtime.simulation.world import Feature, Source, WorldData
+from tests.runtime.files.an_app import APP, PLAIN
+
+FULL = """
+[map]
+size = [20.0, "1200 cm"]
+image = "ward.svg"
+cruise_height = 1.5
+ceiling = "4 m"
+no_fly = [[[8, 0], [9, 0], [9, 5], [8, 5]]]
+
+[fleet]
+after_trip = "stay"
+apart = "40 cm"
+max_airborne = 5
+
+[[drone]]
+id = "cf1"
+category = "scout"
+home = [0.5, 0.5]
+uri = "radio://0/80/2M/E7E7E7E7E1"
+
+[[drone]]
+id = "cf2"
+category = "carrier"
+home = [1.5, 0.5, 0.1]
+
+[world]
+background = { pm10 = 15.0 }
+[[world.feature]]
+kind = "bloom"
+at = [2, 3]
+radius = "20 cm"
+[[world.feature]]
+kind = "pest"
+at = [3, 3]
+[[world.source]]
+quantity = "pm10"
+at = [4, 4]
+peak = 80
+radius = "3 m"
+"""
+
+
+def load(path: Path, text: str, app: App = APP) -> FleetFile:
+    file = path / "fleet.toml"
+    file.write_text(text, encoding="utf-8")
+    return load_fleet(file, app)
+
+
+def problems(path: Path, text: str, app: App = APP) -> list[str]:
+    with pytest.raises(BadInput) as caught:
+        load(path, text, app)
+    return [line.removeprefix(f"{path}/fleet.toml") for line in str(caught.value).split("\n")]
+
+
+def test_a_file_says_where_drones_fly_and_how(tmp_path: Path) -> None:
+    """The map, the fleet's behaviour, each drone with its line, and the simulated world."""
+    assert load(tmp_path, FULL) == FleetFile(
+        airspace=Airspace(
+            size=(20.0, 12.0),
+            cruise_height=1.5,
+            ceiling=4.0,
+            no_fly=(((8.0, 0.0), (9.0, 0.0), (9.0, 5.0), (8.0, 5.0)),),
+        ),
+        image="ward.svg",
+        after_trip=AfterTrip.STAY,
+        apart=0.4,
+        max_airborne=5,
+        drones=(
+            DroneEntry(
+                id="cf1",
+                category="scout",
+                home=(0.5, 0.5, 0.0),
+                uri="radio://0/80/2M/E7E7E7E7E1",
+                line=14,
+            ),
+            DroneEntry(id="cf2", category="carrier", home=(1.5, 0.5, 0.1), line=20),
+        ),
+        world=WorldData(
+            features=(
+                Feature(kind="bloom", at=(2.0, 3.0), radius=0.2),
+                Feature(kind="pest", at=(3.0, 3.0)),
+            ),
+            sources=(Source(quantity="pm10", at=(4.0, 4.0), peak=80.0, radius=3.0),),
+            background={"pm10": 15.0},
+        ),
+    )
+
+
+def test_only_the_drones_must_be_given(tmp_path: Path) -> None:
+    """And not even their category, where the app has but one."""
+    fleet = load(tmp_path, '[[drone]]\nid = "a"\nhome = [1, 1]', PLAIN)
+    drone = DroneEntry(id="a", category="drone", home=(1.0, 1.0, 0.0), line=1)
+    assert fleet == FleetFile(airspace=Airspace(), drones=(drone,))
+    assert fleet.after_trip is AfterTrip.HOME
+    assert fleet.world is None
+
+
+def test_without_a_file_five_drones_stand_along_an_edge() -> None:
+    """The app's categories in turn, a metre apart."""
+    fleet = default_fleet(APP)
+    assert [(drone.id, drone.category) for drone in fleet.drones] == [
+        ("cf1", "scout"),
+        ("cf2", "carrier"),
+        ("cf3", "scout"),
+        ("cf4", "carrier"),
+        ("cf5", "scout"),
+    ]
+    assert [drone.home[0] for drone in fleet.drones] == [1.0, 2.0, 3.0, 4.0, 5.0]
+    assert all(fleet.airspace.problem(drone.home) is None for drone in fleet.drones)
+
+
+def test_all_problems_of_a_file_are_told_in_one_go(tmp_path: Path) -> None:
+    """Each with its line, and the drone it is about."""
+    text = FULL.replace('"stay"', '"sit"').replace("max_airborne = 5", "max_airborne = 0")
+    text = text.replace('"scout"', '"scot"').replace("[1.5, 0.5, 0.1]", "[8.5, 0.5]")
+    text = text.replace('id = "cf2"', 'id = "cf1"').replace("peak = 80", "peek = 80")
+    text = text.replace("[map]\n", "[map]\nscale = 3\n")
+    assert problems(tmp_path, text) == [
+        ':3: [map]: unknown key "scale"; [map] has: size, image, cruise_height, ceiling, no_fly',
+        ':11: [fleet]: after_trip "sit" is none of: home, stay, next',
+        ":13: [fleet]: max_airborne 0 is less than 1",
+        ':17: drone "cf1": unknown category "scot"; did you mean "scout"?',
+        ':22: drone "cf1": there is another drone "cf1", in line 16: names must differ',
+        ':24: drone "cf1": home (8.5, 0.5) is inside no-fly area 1',
+        ":35: [[world.source]]: has no peak",
+        (
+            ':38: [[world.source]]: unknown key "peek"; did you mean "peak"? '
+            "a source has: quantity, at, peak, radius"
+        ),
+    ]
+
+
+DRONE = '[[drone]]\nid = "a"\nhome = [1, 1]\ncategory = "scout"\n'
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("", ": has no [[drone]]: nothing to fly"),
+        ('[drone]\nid = "a"',
+         ":1: drone is not a list of tables: write [[drone]], with two brackets"),
+        (f"map = 3\n{DRONE}", ":1: map is not a table: write [map]"),
+        ('[[drone]]\nid = "a"\nhome = [1, 1]',
+         ':1: drone "a": has no category; this app has: scout, carrier'),
+        (f"{DRONE}[map]\nsize = [20, 0]", ":6: [map]: size […] has a side that is not more than 0"),
+        (f"{DRONE}[map]\nsize = 20", ":6: [map]: size 20 is not a list of 2 numbers"),
+        (f"{DRONE}[map]\ncruise_height = 0",
+         ":6: [map]: cruise_height 0 is not more than 0"),
+        (f"{DRONE}[map]\nceiling = 1",
+         ":5: [map]: cruise_height, 1.2 m, is above the ceiling, 1 m"),
+        (f"{DRONE}[map]\nno_fly = [\n[[0, 0], [1, 0]]\n]",
+         ":7: [map]: no_fly area 1 is not a list of at least three corners [x, y]"),
+        (f"{DRONE}[map]\nno_fly = [[[0, 0], [1, 0], [2, 0]]]",
+         ":6: [map]: no_fly area 1 covers no ground: its corners lie on one line"),
+        (f"{DRONE}[map]\nno_fly = [[[0, 0], [1, 0], [nan, 0]]]",
+         ":6: [map]: no_fly area 1 has a corner 3 that has an element that is not a finite number"),
+        (f"{DRONE}[map]\nno_fly = 3",
+         ":6: [map]: no_fly 3 is not a list of areas, each a list of corners [x, y]"),
+        (f'{DRONE}[[drone]]\nid = "b"\ncategory = "scout"\nhome = [1, 1.05]',
+         ':8: drone "b": home is where drone "a" has its own: each needs a place to stand'),
+        (f"{DRONE}[fleet]\napart = -1", ":6: [fleet]: apart -1 is less than 0"),
+        (f"{DRONE}[world]\nbackground = {{ pm10 = true }}",
+         ":6: [world]: pm10 true is not a number"),
+    ],
+)  # fmt: skip
+def test_a_fleet_that_cannot_fly_is_refused(tmp_path: Path, text: str, said: str) -> None:
+    """The message names the key and what is wrong with its value."""
+    assert problems(tmp_path, text) == [said]
