@@ -1,0 +1,1 @@
+"""From a plan to the files of a generated package: pure functions from data to text."""

@@ -1,0 +1,83 @@
+"""The functions that `flow.py` calls, and by what names: nobody's name hides another's."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from plutoc.block import Choice
+from plutoc.emit.embed import OURS, Carried
+from plutoc.emit.imports import Import
+from plutoc.graph.model import Graph, Node
+
+RESERVED = frozenset(
+    {
+        *("APP", "Action", "App", "BUILT_IN", "CATEGORIES", "FIELDS", "Mission", "Parameter"),
+        *("Run", "Status", "Trip", "Type", "at", "flow", "hooks", "mission", "partial", "run"),
+        *("dict", "frozenset", "status", "str"),
+    }
+)
+"""The names that `flow.py` gives to other things."""
+
+Names = Mapping[Carried, str]
+
+
+def carried_functions(graph: Graph) -> tuple[Carried, ...]:
+    """Return every function of an installed package that the flow calls, in source order."""
+    found = dict.fromkeys(
+        Carried(package=node.package, function=function)
+        for node in graph.nodes
+        for function in (node.block.step, *_chosen(node))
+    )
+    return tuple(found)
+
+
+def chosen(node: Node, choice: Choice) -> tuple[Callable[..., Any] | None, str | None]:
+    """Return the function for a choice, and the hook that it makes one of, if any.
+
+    The function is None where the hook is handed on as it is.
+    """
+    value = dict(node.choices)[choice.name]
+    if value.hook is None:
+        return choice.options[value.name], None
+    return choice.adapt, value.hook.name
+
+
+def _chosen(node: Node) -> list[Callable[..., Any]]:
+    choices = [param for param in node.block.params if isinstance(param, Choice)]
+    functions = [chosen(node, choice)[0] for choice in choices]
+    return [function for function in functions if function is not None]
+
+
+def names_of(functions: tuple[Carried, ...]) -> Names:
+    """Return what each function is called in `flow.py`.
+
+    Where a name is taken, those of other packages get their package's name before it, so that a
+    further package in the graph renames nothing of ours.
+    """
+    wanted = Counter(name for name, _ in {(one.name, one.home) for one in functions})
+    taken = set(RESERVED)
+    names: dict[Carried, str] = {}
+    for one in sorted(functions, key=lambda one: one.package != OURS):
+        free = one.name not in RESERVED and not one.name.startswith("_")
+        plain = free and (wanted[one.name] == 1 or one.package == OURS)
+        names[one] = _free(one.name if plain else f"{one.package}_{one.name.strip('_')}", taken)
+        taken.add(names[one])
+    return names
+
+
+def _free(name: str, taken: set[str]) -> str:
+    number, free = 1, name
+    while free in taken:
+        number += 1
+        free = f"{name}_{number}"
+    return free
+
+
+def imports_of(names: Names) -> list[Import]:
+    """Return the imports of the functions."""
+    return [
+        Import(module=one.home, name=one.name, alias=name if name != one.name else None)
+        for one, name in names.items()
+    ]

@@ -1,0 +1,134 @@
+"""`flow.py`: how a mission flows, and what the app says about itself."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from plutoc.block import HookKind
+from plutoc.emit.callables import carried_functions, imports_of, names_of
+from plutoc.emit.fields import fields_of
+from plutoc.emit.imports import Import, import_lines, names
+from plutoc.emit.python import call, items, literal
+from plutoc.emit.render import render
+from plutoc.emit.statements import Scope, body_lines
+from plutoc.emit.walk import branches, nodes
+from plutoc.graph.model import Action, Graph, Parameter
+from plutoc.plan.model import Body, Plan
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Function:
+    """A branch of a fork."""
+
+    name: str
+    path: str
+    lines: list[str]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FlowFile:
+    """What the template places."""
+
+    app: str
+    imports: list[str]
+    start: str
+    lines: list[str]
+    branches: list[Function]
+    app_arguments: list[str]
+
+
+def flow_file(plan: Plan) -> str:
+    """Return the text of `flow.py`, not yet formatted."""
+    graph = plan.checked.graph
+    scope = Scope(
+        names=names_of(carried_functions(graph)),
+        fields={field.name: field for field in fields_of(graph)},
+        mission="mission",
+    )
+    in_branch = replace(scope, mission="run.mission")
+    lines = list(body_lines(plan.body, scope))
+    functions = [
+        Function(name=one.name, path=one.path, lines=list(body_lines(one.body, in_branch)))
+        for one in branches(plan.body)
+    ]
+    app_arguments = _app(graph)
+    written = "\n".join([*lines, *app_arguments, *(line for f in functions for line in f.lines)])
+    return render(
+        "flow.py",
+        FlowFile(
+            app=graph.name,
+            imports=import_lines([*_imports(graph, written), *imports_of(scope.names)]),
+            start=_start(plan.body, scope),
+            lines=lines,
+            branches=functions,
+            app_arguments=app_arguments,
+        ),
+    )
+
+
+def _start(body: Body, scope: Scope) -> str:
+    asked = any(node.block.needs or _used(node.block.uses, scope) for node in nodes(body))
+    if asked:
+        return "mission, status = run.mission, Status.UNEXECUTED"
+    return "status = Status.UNEXECUTED"
+
+
+def _used(uses: tuple[str, ...], scope: Scope) -> bool:
+    return any(name in scope.fields for name in uses)
+
+
+def _imports(graph: Graph, written: str) -> list[Import]:
+    imports = [
+        *names("._runtime.actions", "BUILT_IN"),
+        *names("._runtime.app", "App"),
+        *names("._runtime.run", "Run"),
+        *names("._runtime.status", "Status"),
+        *names(".model", "CATEGORIES", "FIELDS", "Mission", "Trip"),
+    ]
+    if "hooks." in written:
+        imports += names(".", "hooks")
+    if "partial(" in written:
+        imports += names("functools", "partial")
+    if graph.actions:
+        imports += names("._runtime.actions", "Action")
+    if any(action.parameters for action in graph.actions):
+        imports += [
+            *names("._runtime.actions", "Parameter"),
+            *names("._runtime.quantities", "Type"),
+        ]
+    return imports
+
+
+def _app(graph: Graph) -> list[str]:
+    """Return the arguments of the `App`."""
+    own = ", ".join(f"{literal(action.name)}: {_action(action)}" for action in graph.actions)
+    evaluators = [hook.name for hook in graph.hooks if hook.kind is HookKind.EVALUATOR]
+    arguments = [
+        f"name={literal(graph.name)}",
+        f"title={literal(graph.title)}",
+        "flow=flow",
+        "mission=Mission",
+        "trip=Trip",
+        "fields=FIELDS",
+        "categories=CATEGORIES",
+        f"actions={{**BUILT_IN, {own},}}" if own else "actions=BUILT_IN",
+    ]
+    if evaluators:
+        functions = (f"{literal(name)}: hooks.{name}" for name in evaluators)
+        arguments.append(f"evaluators={items(functions, '{}')}")
+    return arguments
+
+
+def _action(action: Action) -> str:
+    arguments = [f"name={literal(action.name)}"]
+    if action.parameters:
+        arguments.append(f"parameters={items(map(_parameter, action.parameters))}")
+    arguments += [f"repeat={literal(action.repeat)}", f"hook=hooks.{action.name}"]
+    return call("Action", arguments)
+
+
+def _parameter(parameter: Parameter) -> str:
+    arguments = [f"name={literal(parameter.name)}", f"type=Type.{parameter.type.name}"]
+    if parameter.default is not None:
+        arguments.append(f"default={literal(parameter.default)}")
+    return call("Parameter", arguments)

@@ -1,0 +1,111 @@
+"""`model.py`: the missions and trips of the app, with its fields and categories."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from dataclasses import fields as dataclass_fields
+
+from plutoc.emit.fields import fields_of, python_type
+from plutoc.emit.imports import Import, import_lines, names
+from plutoc.emit.python import annotation, builtins_alias, call, docstring, items, literal, shadows
+from plutoc.emit.render import render
+from plutoc.graph import model as graph_model
+from plutoc.graph.model import Graph
+from plutoc_runtime.fields import Entity, Field
+from plutoc_runtime.model import Category
+
+_DEFAULTS = {field.name: field.default for field in dataclass_fields(Category)}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Attribute:
+    """One line of a class, and its docstring."""
+
+    name: str
+    type: str
+    default: str
+    doc: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ModelFile:
+    """What the template places."""
+
+    app: str
+    imports: list[str]
+    mission: list[Attribute]
+    trip: list[Attribute]
+    fields: list[str]
+    categories: list[str]
+
+
+def model_file(graph: Graph) -> str:
+    """Return the text of `model.py`, not yet formatted."""
+    fields = fields_of(graph)
+    return render(
+        "model.py",
+        ModelFile(
+            app=graph.name,
+            imports=import_lines(_imports(fields)),
+            mission=_attributes(fields, Entity.MISSION),
+            trip=_attributes(fields, Entity.TRIP),
+            fields=[_field(field) for field in fields],
+            categories=[_category(category) for category in graph.categories],
+        ),
+    )
+
+
+def _imports(fields: tuple[Field, ...]) -> list[Import]:
+    imports = [
+        *names("dataclasses", "dataclass"),
+        *names("._runtime", "model"),
+        *names("._runtime.fields", "Field"),
+        *names("._runtime.model", "Category"),
+    ]
+    if fields:
+        imports += names("._runtime.fields", "Entity", "FieldType")
+    taken = {field.name for field in fields}
+    if shadows(taken, (python_type(field) for field in fields)):
+        alias = builtins_alias(taken)
+        imports.append(Import(module="builtins", alias=None if alias == "builtins" else alias))
+    return imports
+
+
+def _attributes(fields: tuple[Field, ...], entity: Entity) -> list[Attribute]:
+    taken = {field.name for field in fields}
+    return [
+        Attribute(
+            name=field.name,
+            type=annotation(python_type(field), taken),
+            default=literal(field.default),
+            doc=docstring(field.doc),
+        )
+        for field in fields
+        if field.on is entity
+    ]
+
+
+def _field(field: Field) -> str:
+    arguments = [
+        f"name={literal(field.name)}",
+        f"on=Entity.{field.on.name}",
+        f"type=FieldType.{field.type.name}",
+        f"label={literal(field.label)}",
+        f"doc={literal(field.doc)}",
+    ]
+    if field.default is not None:
+        arguments.append(f"default={literal(field.default)}")
+    return call("Field", arguments)
+
+
+def _category(category: graph_model.Category) -> str:
+    """Return what differs from the runtime's own defaults."""
+    arguments = [f"name={literal(category.name)}"]
+    for name in ("payload", "speed", "flight_time", "charge_time", "reserve"):
+        value = getattr(category, name)
+        if value != _DEFAULTS[name]:
+            arguments.append(f"{name}={literal(value)}")
+    if category.actions is not None:
+        actions = items(map(literal, category.actions), "{}") if category.actions else ""
+        arguments.append(f"actions=frozenset({actions})")
+    return call("Category", arguments)

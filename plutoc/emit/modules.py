@@ -1,0 +1,129 @@
+"""The installed modules that are carried along: their text, and what they import."""
+
+from __future__ import annotations
+
+import ast
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cache
+from importlib.util import find_spec
+from pathlib import PurePath
+
+import plutoc_runtime
+
+RUNTIME = plutoc_runtime.__name__
+
+
+class EmbedError(Exception):
+    """An installed module cannot be carried along. The message says where and what to change."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Module:
+    """An installed module: its text, byte for byte, read as UTF-8."""
+
+    name: str
+    file: str
+    text: str
+    is_package: bool
+
+    @property
+    def package(self) -> str:
+        """The package that its relative imports start from."""
+        return self.name if self.is_package else self.name.rpartition(".")[0]
+
+    def refuse(self, line: int, problem: str) -> EmbedError:
+        """Return the error for something in a line of it."""
+        return EmbedError(f"{self.file}:{line}: {problem}")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ImportFrom:
+    """`from target import names`, the target spelled out in full."""
+
+    target: str
+    names: tuple[str, ...]
+    line: int
+    offset: int
+    """Bytes from the start of the module's text."""
+    written: str
+    """The target as the line has it, dots included."""
+
+
+@cache
+def load(name: str) -> Module | None:
+    """Return an installed module's text; None where there is no such module."""
+    try:
+        spec = find_spec(name)
+    except ModuleNotFoundError:  # what should be a package on the way there is none
+        return None
+    if spec is None or spec.origin is None or spec.loader is None:
+        return None
+    get_data = getattr(spec.loader, "get_data", None)
+    if get_data is None or PurePath(spec.origin).suffix != ".py":
+        return None
+    data: bytes = get_data(spec.origin)
+    return Module(
+        name=name,
+        file=spec.origin,
+        text=data.decode("utf-8"),
+        is_package=spec.submodule_search_locations is not None,
+    )
+
+
+def is_within(name: str, package: str) -> bool:
+    """Say whether a module is a package, or in it."""
+    return name == package or name.startswith(f"{package}.")
+
+
+def is_standard(name: str) -> bool:
+    """Say whether a module is Python's own."""
+    return name.partition(".")[0] in sys.stdlib_module_names
+
+
+@cache
+def imports_from(module: Module) -> tuple[ImportFrom, ...]:
+    """Return what a module imports from elsewhere than the standard library.
+
+    Imports inside functions count too. A plain `import` of such a module is refused: it would bind
+    a name that a carried module does not have.
+    """
+    return tuple(_imports(module))
+
+
+def _imports(module: Module) -> Iterator[ImportFrom]:
+    starts = [0]
+    for text in module.text.encode().splitlines(keepends=True):
+        starts.append(starts[-1] + len(text))
+    for node in ast.walk(ast.parse(module.text)):
+        if isinstance(node, ast.Import):
+            for alias in node.names:
+                if not is_standard(alias.name):
+                    raise module.refuse(node.lineno, _no_plain_import(alias.name))
+        elif isinstance(node, ast.ImportFrom):
+            target = _target(module, node)
+            if node.level or not is_standard(target):
+                yield ImportFrom(
+                    target=target,
+                    names=tuple(alias.name for alias in node.names),
+                    line=node.lineno,
+                    offset=starts[node.lineno - 1] + node.col_offset,
+                    written="." * node.level + (node.module or ""),
+                )
+
+
+def _no_plain_import(name: str) -> str:
+    if is_within(name, RUNTIME):
+        return f"write `from {name} import …` instead of `import {name}`: the module moves"
+    return f"{name} is not of the standard library: it cannot be carried along"
+
+
+def _target(module: Module, node: ast.ImportFrom) -> str:
+    if not node.level:
+        return node.module or ""
+    parts = module.package.split(".")
+    if node.level > len(parts):
+        raise module.refuse(node.lineno, "the import leads out of its package")
+    base = parts[: len(parts) - node.level + 1]
+    return ".".join([*base, node.module] if node.module else base)

@@ -1,0 +1,75 @@
+"""From a plan to a package: {path: text}, and nothing else."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+
+from plutoc.emit.callables import carried_functions
+from plutoc.emit.embed import FOLDER, embed
+from plutoc.emit.flow_file import flow_file
+from plutoc.emit.hooks_file import hooks_file, hooks_test
+from plutoc.emit.lock import NAME, lock
+from plutoc.emit.model_file import model_file
+from plutoc.emit.modules import RUNTIME
+from plutoc.emit.project_files import attributes_file, init_file, main_file, project_file, readme
+from plutoc.emit.python import owned
+from plutoc.emit.render import verbatim
+from plutoc.emit.test_file import flow_test
+from plutoc.plan.model import Plan
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Package:
+    """The files of a generated package, by path; folders are separated by `/`."""
+
+    name: str
+    owned: Mapping[str, str]
+    """Written anew each time."""
+    once: Mapping[str, str]
+    """Written where there is no such file yet; the user's from then on."""
+
+
+def emit(plan: Plan, *, source_name: str, picture: str) -> Package:
+    """Return the package of a plan; `picture` is its graph in Mermaid, for the README."""
+    graph = plan.checked.graph
+    app = f"src/{graph.name}"
+    modules = {
+        "__init__.py": init_file(graph),
+        "__main__.py": main_file(graph),
+        "flow.py": flow_file(plan),
+        "model.py": model_file(graph),
+    }
+    carried = embed(carried_functions(graph), sorted(_runtime_modules(modules.values())))
+    files = {
+        ".gitattributes": attributes_file(source_name),
+        "LICENSE": verbatim("LICENSE"),
+        "README.md": readme(graph, source_name, picture),
+        "pyproject.toml": project_file(graph, source_name),
+        **{f"{app}/{name}": owned(text, source_name) for name, text in modules.items()},
+        **{f"{app}/{path}": text for path, text in carried.items()},
+        f"{app}/py.typed": "",
+        "tests/test_flow.py": owned(flow_test(graph), source_name),
+    }
+    files[NAME] = lock(graph.name, source_name, (node.package for node in graph.nodes), files)
+    once = {f"{app}/hooks.py": hooks_file(plan.checked)}
+    if graph.actions or graph.hooks:
+        once["tests/test_hooks.py"] = hooks_test(graph)
+    return Package(
+        name=graph.name,
+        owned=dict(sorted(files.items())),
+        once=once,
+    )
+
+
+def _runtime_modules(texts: Iterable[str]) -> Iterator[str]:
+    """Yield the modules of the runtime that the app's own modules import."""
+    for text in texts:
+        for node in ast.walk(ast.parse(text)):
+            if isinstance(node, ast.ImportFrom) and (node.module or "").startswith(FOLDER):
+                inner = (node.module or "").removeprefix(FOLDER).removeprefix(".")
+                if inner.startswith("blocks"):
+                    continue
+                names = [alias.name for alias in node.names] if not inner else [inner]
+                yield from (f"{RUNTIME}.{name}" for name in names)

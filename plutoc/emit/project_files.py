@@ -1,0 +1,139 @@
+"""The files of a package that are not its app: project, README, entry points, tests."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from plutoc.emit.fields import fields_of
+from plutoc.emit.imports import Import, import_lines
+from plutoc.emit.markup import fence, markdown, one_line, toml_text
+from plutoc.emit.python import header
+from plutoc.emit.render import render
+from plutoc.graph.model import Graph
+
+EXPORTS = {
+    "ActionFailed": "._runtime.errors",
+    "Category": "._runtime.model",
+    "Context": "._runtime.context",
+    "Drone": "._runtime.model",
+    "Item": "._runtime.model",
+    "Mission": ".model",
+    "Photo": "._runtime.model",
+    "Point": "._runtime.model",
+    "Result": "._runtime.results",
+    "Results": "._runtime.results",
+    "Status": "._runtime.status",
+    "Trip": ".model",
+    "Verdict": "._runtime.verdict",
+}
+"""The types that hooks are written with, and where they are."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Headed:
+    """A file that only needs its header."""
+
+    header: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Entry:
+    """`__main__.py`."""
+
+    app: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Exports:
+    """`__init__.py`."""
+
+    app: str
+    imports: list[str]
+    exports: list[str]
+    homes: list[tuple[str, str]]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Project:
+    """`pyproject.toml`."""
+
+    header: str
+    app: str
+    distribution: str
+    description: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FieldRow:
+    """A field of missions or trips, in the README's table."""
+
+    name: str
+    on: str
+    doc: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Readme:
+    """`README.md`."""
+
+    header: str
+    app: str
+    title: str
+    fence: str
+    picture: str
+    fields: list[FieldRow]
+
+
+def init_file(graph: Graph) -> str:
+    """Return the text of `__init__.py`, not yet formatted."""
+    imports = [Import(module=module, name=name) for name, module in EXPORTS.items()]
+    return render(
+        "init.py",
+        Exports(
+            app=graph.name,
+            imports=import_lines(imports),
+            exports=list(EXPORTS),
+            homes=list(EXPORTS.items()),
+        ),
+    )
+
+
+def main_file(graph: Graph) -> str:
+    """Return the text of `__main__.py`, not yet formatted."""
+    return render("main.py", Entry(app=graph.name))
+
+
+def project_file(graph: Graph, source_name: str) -> str:
+    """Return the text of `pyproject.toml`."""
+    return render(
+        "pyproject.toml",
+        Project(
+            header=header(source_name),
+            app=graph.name,
+            distribution=toml_text(graph.name.rstrip("_")),  # a distribution cannot end with one
+            description=toml_text(one_line(graph.title) or graph.name),
+        ),
+    )
+
+
+def readme(graph: Graph, source_name: str, picture: str) -> str:
+    """Return the text of `README.md`."""
+    return render(
+        "README.md",
+        Readme(
+            header=header(source_name),
+            app=graph.name,
+            title=markdown(graph.title),
+            fence=fence(picture),
+            picture=picture.rstrip("\n"),
+            fields=[
+                FieldRow(name=field.name, on=field.on.value, doc=markdown(field.doc))
+                for field in fields_of(graph)
+            ],
+        ),
+    )
+
+
+def attributes_file(source_name: str) -> str:
+    """Return the text of `.gitattributes`."""
+    return render("gitattributes", Headed(header=header(source_name)))

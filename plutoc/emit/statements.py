@@ -1,0 +1,208 @@
+"""The lines of the flow: a plan's steps as Python statements."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from inspect import iscoroutinefunction
+
+from plutoc.block import Choice, HookParam, Param
+from plutoc.emit.callables import Names, chosen
+from plutoc.emit.embed import Carried
+from plutoc.emit.python import call, items, literal
+from plutoc.graph.model import Node
+from plutoc.plan.model import (
+    Arm,
+    Body,
+    Break,
+    Call,
+    Continue,
+    Dispatch,
+    End,
+    Goto,
+    Join,
+    Loop,
+    Step,
+    Switch,
+)
+from plutoc_runtime.fields import Entity, Field
+from plutoc_runtime.status import Status
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Scope:
+    """What the lines around a statement settle."""
+
+    names: Names
+    fields: Mapping[str, Field]
+    """The fields that exist in this app."""
+    mission: str
+    """How the mission is reached here."""
+    head: str = ""
+    """Where the innermost loop begins."""
+    in_loop: bool = False
+    """A loop of the plan lies between here and the `Dispatch` around it."""
+
+
+def body_lines(body: Body, scope: Scope) -> Iterator[str]:
+    """Yield the lines of a body, without indentation of its own."""
+    for step, following in zip(body, (*body[1:], None), strict=True):
+        match step:
+            case Call(node=node):
+                yield f"# {node.declaration}"
+                yield from _go_through(_call(node, (), scope), following)
+            case Join(gate=gate, branches=branches):
+                yield f"# {_picture(step)}"
+                functions = tuple(branch.name for branch in branches)
+                yield from _go_through(_call(gate, functions, scope), following)
+            case Switch(arms=arms):
+                yield from _switch(arms, scope)
+            case Loop(head=head, body=inner):
+                yield "while True:"
+                yield from _indented(body_lines(inner, replace(scope, head=head, in_loop=True)))
+            case Continue() | Break() if not scope.in_loop:
+                raise AssertionError("a jump of a loop outside of any loop")
+            case Continue():
+                yield f"continue  # -> {scope.head}"
+            case Break():
+                yield "break"
+            case End():
+                yield from () if returns_at_once(body) else ("return status",)
+            case Goto(label=label):
+                if scope.in_loop:
+                    raise AssertionError(f"a jump to {label} out of a loop cannot be written")
+                yield f"at = {literal(label)}"
+                yield "continue"
+            case Dispatch():
+                yield from _dispatch(step, scope)
+
+
+def returns_at_once(body: Body) -> bool:
+    """Say whether a body ends by returning what its last block gives."""
+    return len(body) > 1 and isinstance(body[-1], End) and isinstance(body[-2], Call | Join)
+
+
+def _go_through(called: str, following: Step | None) -> Iterator[str]:
+    yield f"return {called}" if isinstance(following, End) else f"status = {called}"
+
+
+def _call(node: Node, branches: tuple[str, ...], scope: Scope) -> str:
+    step = Carried(package=node.package, function=node.block.step)
+    arguments = ("run", "status", *branches, *_keywords(node, scope))
+    called = call(scope.names[step], arguments)
+    return f"await {called}" if iscoroutinefunction(node.block.step) else called
+
+
+def _keywords(node: Node, scope: Scope) -> Iterator[str]:
+    block = node.block
+    if block.named:
+        yield f"block={literal(node.name)}"
+    for param in block.params:
+        match param:
+            case Param(name=name):
+                yield f"{name}={literal(dict(node.values).get(name))}"
+            case HookParam():
+                yield f"hook={_hook(node)}"
+            case Choice(name=name):
+                yield f"{name}={_choice(node, param, scope)}"
+    if block.emits_by_hook and node.hook and node.hook.emits:
+        yield f"emits={status_tuple(node.hook.emits)}"
+    for field in (
+        *block.needs,
+        *(scope.fields[name] for name in block.uses if name in scope.fields),
+    ):
+        yield f"{field.name}={scope.mission}{_PLACES[field.on]}.{field.name}"
+
+
+_PLACES = {Entity.MISSION: "", Entity.TRIP: ".current"}
+
+
+def _hook(node: Node) -> str:
+    if node.hook is None:
+        return "None"
+    function = f"hooks.{node.hook.name}"
+    passed = [f"{name}={literal(value)}" for name, value in node.passed]
+    return call("partial", (function, *passed)) if passed else function
+
+
+def _choice(node: Node, choice: Choice, scope: Scope) -> str:
+    function, hook = chosen(node, choice)
+    if function is None:
+        return f"hooks.{hook}"
+    name = scope.names[Carried(package=node.package, function=function)]
+    return f"{name}(hooks.{hook})" if hook else name
+
+
+def status_tuple(statuses: tuple[Status, ...]) -> str:
+    """Return some statuses as Python writes them."""
+    return items(f"Status.{status.name}" for status in statuses)
+
+
+def _picture(join: Join) -> str:
+    """`launch -> [watch, timer] -> first = GateFIFO`."""
+    firsts = ", ".join(branch.path.split(" -> ")[1] for branch in join.branches)
+    return f"{join.fork.name} -> [{firsts}] -> {join.gate.declaration}"
+
+
+def _switch(arms: tuple[Arm, ...], scope: Scope) -> Iterator[str]:
+    """Yield early ways out first, flat; an arm that goes on below makes the rest its `else`."""
+    busy = [arm for arm in arms if arm.body]
+    rest = busy[-1] if busy and len(busy) == len(arms) else None
+    keyword = "if"
+    for arm in busy:
+        to_follow = isinstance(arm.body[0], Break)
+        inner = iter([f"break  # -> {arm.to}"]) if to_follow else body_lines(arm.body, scope)
+        if arm is rest and keyword == "if":
+            yield from inner
+        else:
+            yield "else:" if arm is rest else f"{keyword} {_condition(arm)}:"
+            yield from _indented(inner)
+        if not leaves(arm.body):
+            keyword = "elif"
+
+
+def _condition(arm: Arm) -> str:
+    if len(arm.statuses) == 1:
+        return f"status is Status.{arm.statuses[0].name}"
+    return f"status in {status_tuple(arm.statuses)}"
+
+
+def leaves(body: Body) -> bool:
+    """Say whether control never falls off the end of a body."""
+    match body[-1] if body else None:
+        case Continue() | Break() | End() | Goto() | Dispatch():
+            return True
+        case Switch(arms=arms):
+            return all(leaves(arm.body) for arm in arms)
+        case Loop(body=inner):
+            return not _breaks(inner)
+        case _:
+            return False
+
+
+def _breaks(body: Body) -> bool:
+    """Say whether the loop around this body is left by a `Break`."""
+    for step in body:
+        match step:
+            case Break():
+                return True
+            case Switch(arms=arms):
+                if any(_breaks(arm.body) for arm in arms):
+                    return True
+            case _:
+                pass
+    return False
+
+
+def _dispatch(dispatch: Dispatch, scope: Scope) -> Iterator[str]:
+    yield f"at = {literal(dispatch.start)}"
+    yield "while True:"
+    yield "    match at:"
+    for case in dispatch.cases:
+        yield f"        case {literal(case.label)}:"
+        inner = replace(scope, in_loop=False)
+        yield from _indented(_indented(_indented(body_lines(case.body, inner))))
+
+
+def _indented(lines: Iterator[str]) -> Iterator[str]:
+    return (f"    {line}" for line in lines)

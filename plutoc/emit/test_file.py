@@ -1,0 +1,76 @@
+"""`tests/test_flow.py`: the app flies a small plan in simulation."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from plutoc.emit.markup import toml_text
+from plutoc.emit.render import render
+from plutoc.graph.model import Action, Graph
+from plutoc_runtime.actions import BUILT_IN, PICK, RELEASE
+from plutoc_runtime.quantities import Type
+
+_SAMPLES = {Type.INT: "1", Type.BOOL: "true", Type.TEXT: '"text"', Type.PERCENT: "0.5"}
+"""What a trip gives for a parameter without a default; for all other types, 1.0."""
+
+_TARGETS = ("[3.0, 4.0]", "[6.0, 2.5]")
+"""Near the drones of a plain of 20 × 20 m."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MissionTable:
+    """A `[[mission]]`, in TOML."""
+
+    name: str
+    trips: list[str]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FlowTest:
+    """What the template places."""
+
+    app: str
+    missions: list[MissionTable]
+
+
+def flow_test(graph: Graph) -> str:
+    """Return the text of `tests/test_flow.py`, not yet formatted."""
+    return render("test_flow.py", FlowTest(app=graph.name, missions=_missions(graph)))
+
+
+def _missions(graph: Graph) -> list[MissionTable]:
+    """Return a mission for each action; items only where drones can do nothing else."""
+    own = {action.name: action for action in graph.actions}
+    can = [name for name in (*BUILT_IN, *own) if _can(graph, name)]
+    simple = [name for name in can if name not in (PICK, RELEASE)]
+    if not simple:
+        return [MissionTable(name=toml_text("parcel"), trips=_parcel(graph))]
+    return [
+        MissionTable(
+            name=toml_text(name), trips=[_trip(name, own.get(name), target) for target in _TARGETS]
+        )
+        for name in simple
+    ]
+
+
+def _can(graph: Graph, action: str) -> bool:
+    return any(one.actions is None or action in one.actions for one in graph.categories)
+
+
+def _trip(name: str, action: Action | None, target: str) -> str:
+    trip = f"action = {toml_text(name)}, target = {target}"
+    needed = [one for one in action.parameters if one.default is None] if action else []
+    if needed:
+        given = ", ".join(f"{one.name} = {_SAMPLES.get(one.type, '1.0')}" for one in needed)
+        trip += f", parameters = {{ {given} }}"
+    return trip
+
+
+def _parcel(graph: Graph) -> list[str]:
+    """Return trips that take an item somewhere: a plan for drones that do nothing else."""
+    mass = min(category.payload for category in graph.categories)
+    item = f'{{ name = "parcel", mass = {mass!r} }}'
+    return [
+        f"action = {toml_text(name)}, target = {target}, item = {item}"
+        for name, target in zip((PICK, RELEASE), _TARGETS, strict=True)
+    ]

@@ -1,0 +1,44 @@
+"""Ways through a plan's steps."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from plutoc.graph.model import Node
+from plutoc.plan.model import Body, Branch, Call, Dispatch, Join, Loop, Step, Switch
+
+
+def steps(body: Body) -> Iterator[Step]:
+    """Yield every step of a function, in order, without those of a fork's branches."""
+    for step in body:
+        yield step
+        match step:
+            case Loop(body=inner):
+                yield from steps(inner)
+            case Switch(arms=arms):
+                for arm in arms:
+                    yield from steps(arm.body)
+            case Dispatch(cases=cases):
+                for case in cases:
+                    yield from steps(case.body)
+            case _:
+                pass
+
+
+def nodes(body: Body) -> Iterator[Node]:
+    """Yield the blocks that a function calls."""
+    for step in steps(body):
+        match step:
+            case Call(node=node) | Join(gate=node):
+                yield node
+            case _:
+                pass
+
+
+def branches(body: Body) -> Iterator[Branch]:
+    """Yield the branches of every fork, each followed by those of the forks in it."""
+    for step in steps(body):
+        if isinstance(step, Join):
+            for branch in step.branches:
+                yield branch
+                yield from branches(branch.body)
