@@ -141,11 +141,15 @@ class Graph:
     @cached_property
     def outgoing(self) -> dict[str, tuple[Edge, ...]]:
         """The edges that leave each block, and `start`."""
-        names = (START, *self.node)
-        return {name: tuple(e for e in self.edges if e.source == name) for name in names}
+        by_source: dict[str, list[Edge]] = {name: [] for name in (START, *self.node)}
+        for edge in self.edges:
+            by_source[edge.source].append(edge)
+        return {name: tuple(edges) for name, edges in by_source.items()}
 
     @cached_property
     def incoming(self) -> dict[str, tuple[Edge, ...]]:
         """The edges that reach each block, and `end`."""
-        names = (*self.node, END)
-        return {name: tuple(e for e in self.edges if e.target == name) for name in names}
+        by_target: dict[str, list[Edge]] = {name: [] for name in (*self.node, END)}
+        for edge in self.edges:
+            by_target[edge.target].append(edge)
+        return {name: tuple(edges) for name, edges in by_target.items()}
