@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from environments import ROOT, fresh, succeed
+from tests.release.environments import ROOT, fresh, succeed
 
 SOURCE = """\
 pluto 1

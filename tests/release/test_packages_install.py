@@ -7,7 +7,8 @@ import sys
 from pathlib import Path
 
 import pytest
-from environments import ROOT, compile_app, fresh, succeed
+
+from tests.release.environments import ROOT, compile_app, fresh, succeed
 
 EXAMPLES = sorted(path.parent for path in ROOT.glob("examples/*/app.pluto"))
 
@@ -22,7 +23,7 @@ def test_an_example_installs_alone_is_clean_and_completes_its_missions(
     succeed(programs / "pip", "install", "--quiet", package)
     assert installed(programs) - before == {example.name.replace("_", "-")}
 
-    plan = [example / "missions.toml", "--fleet", example / "fleet.toml"]
+    plan: list[str | Path] = [example / "missions.toml", "--fleet", example / "fleet.toml"]
     flown = json.loads(succeed(programs / example.name, "simulate", *plan, "--json"))
     assert {mission["status"] for mission in flown["missions"]} == {"COMPLETED"}
     assert succeed(programs / example.name, "check", *plan)

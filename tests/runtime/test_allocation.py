@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from itertools import permutations
 from typing import Any
 
-import apps
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -20,6 +19,7 @@ from plutoc_runtime.policies.nearest import nearest
 from plutoc_runtime.policy import Policy, own_policy
 from plutoc_runtime.simulation.faults import Faults
 from plutoc_runtime.status import Status
+from tests.runtime import apps
 
 HOMES = ((0.5, 0.5, 0.0), (9.5, 0.5, 0.0), (18.5, 0.5, 0.0))
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-import apps
 import pytest
+
+from tests.runtime import apps
 
 
 def starts(outcome: apps.Outcome) -> list[float]:

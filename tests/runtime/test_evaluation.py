@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
-import apps
 import pytest
 
 from plutoc_runtime.model import Mission
 from plutoc_runtime.results import Results
 from plutoc_runtime.status import Status
 from plutoc_runtime.verdict import Verdict
+from tests.runtime import apps
 
 
 def judged(hook: object, *trips: apps.Trip, **more: Any) -> apps.Outcome:

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import apps
-
 from plutoc_runtime.actions import Action
 from plutoc_runtime.errors import ActionFailed
 from plutoc_runtime.simulation.faults import Faults
 from plutoc_runtime.status import Status
+from tests.runtime import apps
 
 HOMES = ((0.5, 0.5, 0.0), (6.0, 0.5, 0.0))
 

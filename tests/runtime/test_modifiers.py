@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import apps
 import pytest
 
 from plutoc_runtime.context import Context
 from plutoc_runtime.model import Mission
 from plutoc_runtime.status import Status, TripStatus
+from tests.runtime import apps
 
 ANY_END = (Status.STANDBY, Status.COMPLETED, Status.FAILED)
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import asyncio
 import threading
 
-import apps
 import pytest
 
 from plutoc_runtime.actions import Action
@@ -15,6 +14,7 @@ from plutoc_runtime.fly import fly_simulated
 from plutoc_runtime.model import Category, Drone
 from plutoc_runtime.simulation.faults import Faults
 from plutoc_runtime.trace import Event
+from tests.runtime import apps
 
 FAST = Category(name="scout", speed=200.0)
 LOW = Airspace(cruise_height=0.003)

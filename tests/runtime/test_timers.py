@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import apps
 import pytest
 
 from plutoc_runtime.status import DroneStatus, Status
 from plutoc_runtime.trace import Event
+from tests.runtime import apps
 
 
 def test_a_safe_time_longer_than_each_trip_never_fails_a_later_one() -> None:

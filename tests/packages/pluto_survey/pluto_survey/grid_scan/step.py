@@ -13,7 +13,7 @@ from plutoc_runtime.status import Status
 def spread_trips(run: Run[Any], status: Status, *, spacing: float, side: int) -> Status:
     """Replace every trip of the mission by a grid around its target."""
     middle = (side - 1) / 2
-    spread = []
+    spread: list[Any] = []
     for trip in run.mission.trips:
         x, y, z = trip.target
         for row, column in product(range(side), repeat=2):

@@ -1,8 +1,0 @@
-"""Tests of what is released: they install it, as a user would."""
-
-from __future__ import annotations
-
-import sys
-from pathlib import Path
-
-sys.path.insert(0, str(Path(__file__).parent))
