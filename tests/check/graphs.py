@@ -145,7 +145,7 @@ def _arrows(line: str, span: Span) -> list[tuple[str, str, tuple[Status, ...] | 
     assert match
     stops = [[n.strip() for n in stop.strip(" []").split(",")] for stop in match[1].split("->")]
     guard = tuple(Status(name.strip()) for name in match[2].split(",")) if match[2] else None
-    found = []
+    found: list[tuple[str, str, tuple[Status, ...] | None, bool, Span]] = []
     for index, (ones, targets) in enumerate(itertools.pairwise(stops)):
         last = index == len(stops) - 2
         for one in ones:
