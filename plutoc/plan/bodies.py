@@ -1,0 +1,84 @@
+"""What is true of a body of steps, and in which order the arms of a switch read best."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from plutoc.plan.model import (
+    Arm,
+    Body,
+    Break,
+    Call,
+    Continue,
+    Dispatch,
+    End,
+    Goto,
+    Join,
+    Loop,
+    Step,
+    Switch,
+)
+
+Jump = Continue | Break | End | Goto
+
+
+def falls(body: Body) -> bool:
+    """Does control, on some way, come to the end of the body?"""
+    return all(_passes(step) for step in body)
+
+
+def breaks(body: Body) -> bool:
+    """Does a `Break` in the body leave the loop around it?"""
+    return any(
+        isinstance(step, Break)
+        or (isinstance(step, Switch) and any(breaks(arm.body) for arm in step.arms))
+        for step in body
+    )
+
+
+def continues(body: Body) -> bool:
+    """Does a `Continue` in the body begin the loop around it again?"""
+    return any(
+        isinstance(step, Continue)
+        or (isinstance(step, Switch) and any(continues(arm.body) for arm in step.arms))
+        for step in body
+    )
+
+
+def _passes(step: Step) -> bool:
+    match step:
+        case Call() | Join():
+            return True
+        case Switch():
+            return any(falls(arm.body) for arm in step.arms)
+        case Loop():
+            return breaks(step.body)
+        case Continue() | Break() | End() | Goto() | Dispatch():
+            return False
+
+
+def switch(arms: Iterable[Arm]) -> Body:
+    """Return a switch whose arms read best; what only one arm goes on to stands behind it.
+
+    Arms that leave at once come first, then arms that leave later, then those that go on: so the
+    main line stays flat, and the exceptions to it stand indented above.
+    """
+    ordered = sorted(arms, key=_rank)
+    if all(_rank(arm) == 0 for arm in ordered):
+        ordered.sort(key=lambda arm: arm.body == (Continue(),))
+    *early, last = ordered
+    if any(falls(arm.body) for arm in early):
+        return (Switch(arms=tuple(ordered)),)
+    flat = Arm(statuses=last.statuses, body=(), to=last.to)
+    return (Switch(arms=(*early, flat)), *last.body)
+
+
+def _rank(arm: Arm) -> int:
+    if not falls(arm.body):
+        return 0 if isinstance(arm.body[0], Jump) else 1
+    return 2 if arm.body else 3
+
+
+def without_last_continue(body: Sequence[Step]) -> Body:
+    """A loop's body, where falling off its end does what the last step says."""
+    return tuple(body[:-1]) if body and body[-1] == Continue() else tuple(body)

@@ -1,0 +1,96 @@
+"""From a checked graph to its plan."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from plutoc.check.model import Checked
+from plutoc.graph.model import START, Edge
+from plutoc.plan.chart import Chart, Charts, Kind, Spot
+from plutoc.plan.dispatch import dispatch
+from plutoc.plan.model import Body, Branch, Call, End, Join, Plan
+from plutoc.plan.shape import Shape, shape
+from plutoc.plan.structure import Around, Hopeless, Unstructured, Writer
+from plutoc_runtime.status import Status
+
+
+def build(checked: Checked) -> Plan:
+    """Return what the generated coroutine shall do, not yet optimised: every block a call."""
+    edge = next(e for e in checked.graph.outgoing[START] if checked.carries[e])
+    charts = Charts(checked=checked)
+    chart = charts.chart(edge.target, checked.carries[edge])
+    return Plan(checked=checked, body=_body(charts, chart, {}))
+
+
+def _body(charts: Charts, chart: Chart, names: dict[str, None]) -> Body:
+    found = shape(chart)
+    steps = {spot: _steps(charts, chart, spot, names) for spot in found.order}
+    return _structured(found, steps)
+
+
+def _structured(found: Shape, steps: Mapping[Spot, Body]) -> Body:
+    """Write the body by loops and switches if that is possible, else as a dispatch."""
+    if found.reducible:
+        for copies in (False, True):
+            writer = Writer(shape=found, steps=steps, copies=copies)
+            try:
+                return writer.body(found.chart.entry, Around())
+            except (Unstructured, Hopeless):
+                continue
+    return dispatch(found, steps)
+
+
+def _steps(charts: Charts, chart: Chart, spot: Spot, names: dict[str, None]) -> Body:
+    """Write what happens at a spot itself."""
+    node = charts.checked.graph.node
+    match spot.kind:
+        case Kind.BLOCK:
+            return (Call(node=node[spot.name]),)
+        case Kind.BEHIND:
+            return ()
+        case Kind.FORK:
+            branches = tuple(
+                _branch(charts, edge, chart.arrives[spot], spot.gate, names)
+                for edge in spot.branches
+            )
+            return (Join(fork=node[spot.name], gate=node[spot.gate], branches=branches),)
+
+
+def _branch(
+    charts: Charts, edge: Edge, statuses: frozenset[Status], gate: str, names: dict[str, None]
+) -> Branch:
+    name = _name(edge.target, names)
+    if edge.target == gate:
+        path = f"{edge.source} -> {gate}"
+        return Branch(name=name, path=path, body=(End(),))
+    chart = charts.chart(edge.target, statuses)
+    path = " -> ".join((edge.source, *_path(chart), gate))
+    return Branch(name=name, path=path, body=_body(charts, chart, names))
+
+
+def _name(block: str, names: dict[str, None]) -> str:
+    """Return a free name for a branch.
+
+    A block's name is a word that begins with a letter. So with an underscore before it, it is
+    neither one of Python's own words nor the name of a built-in function.
+    """
+    name, number = f"_{block}", 1
+    while name in names:
+        number += 1
+        name = f"_{block}_{number}"
+    names[name] = None
+    return name
+
+
+def _path(chart: Chart) -> tuple[str, ...]:
+    """The blocks of a branch, as far as it does not part."""
+    found: list[str] = []
+    spot: Spot | None = chart.entry
+    while spot is not None:
+        if spot.kind is not Kind.BLOCK or spot.name in found:
+            return (*found, "...")
+        found.append(spot.name)
+        if len(chart.ways[spot]) > 1:
+            return (*found, "...")
+        spot = chart.ways[spot][0].target
+    return tuple(found)

@@ -1,0 +1,161 @@
+"""The flow chart of one body: which places a mission comes to in it, and what leads where.
+
+The flow outside of all forks is one body, and each branch of a fork is one. The statuses are walked
+anew in every body: a block may stand in two of them, and get other statuses in each.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from enum import Enum
+
+from plutoc.block import Gate
+from plutoc.check.model import Checked, Fork
+from plutoc.graph.model import END, Edge
+from plutoc_runtime.status import IN_GRAPH, WORST_FIRST, Status
+
+
+class Kind(Enum):
+    """What happens at a spot."""
+
+    BLOCK = "the mission goes through a block"
+    FORK = "it goes through all branches of a fork, up to the gate"
+    BEHIND = "it is behind a gate, with the status that the gate let through"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Spot:
+    """A place in a body."""
+
+    kind: Kind
+    name: str
+    """The block's, or the gate's; for a fork that of the block before it."""
+    branches: tuple[Edge, ...] = ()
+    gate: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Way:
+    """What leads from a spot to the next, or out of the body."""
+
+    statuses: tuple[Status, ...]
+    """In declared order."""
+    target: Spot | None
+    """None: the mission, or the branch, is at its end."""
+    to: str
+    """The target as a person names it."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Chart:
+    """A body before it has a structure."""
+
+    entry: Spot
+    ways: Mapping[Spot, tuple[Way, ...]]
+    """In the order of discovery; the ways of a spot in the order of the source."""
+    arrives: Mapping[Spot, frozenset[Status]]
+    exits: frozenset[Status]
+
+
+@dataclass(kw_only=True)
+class Charts:
+    """Draws the charts of one graph, and remembers what came out of each branch."""
+
+    checked: Checked
+    forks: dict[tuple[str, Status], Fork] = field(init=False)
+    numbers: dict[Edge, int] = field(init=False)
+    brought: dict[tuple[Edge, Status], frozenset[Status]] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        self.forks = {(fork.node, fork.status): fork for fork in self.checked.forks}
+        self.numbers = {edge: number for number, edge in enumerate(self.checked.graph.edges)}
+
+    def chart(self, entry: str, statuses: frozenset[Status]) -> Chart:
+        """Return the body that begins at a block with these statuses."""
+        first = Spot(kind=Kind.BLOCK, name=entry)
+        queue = [(first, status) for status in IN_GRAPH if status in statuses]
+        known = set(queue)
+        exits: set[Status] = set()
+        found: dict[Spot, dict[Status, tuple[int, Spot | None, str]]] = {}
+        arrives: dict[Spot, set[Status]] = {}
+        for spot, status in queue:
+            arrives.setdefault(spot, set()).add(status)
+            for leaving in self.after(spot, status):
+                number, target, to = self.follow(spot, leaving)
+                found.setdefault(spot, {})[leaving] = (number, target, to)
+                if target is None:
+                    exits.add(leaving)
+                elif (target, leaving) not in known:
+                    known.add((target, leaving))
+                    queue.append((target, leaving))
+        return Chart(
+            entry=first,
+            ways={spot: _ways(leads) for spot, leads in found.items()},
+            arrives={spot: frozenset(statuses) for spot, statuses in arrives.items()},
+            exits=frozenset(exits),
+        )
+
+    def after(self, spot: Spot, status: Status) -> tuple[Status, ...]:
+        """Return the statuses with which a mission can leave a spot, in declared order."""
+        if spot.kind is Kind.FORK:
+            left = self.passing(spot, status)
+        else:
+            emitted = self.checked.graph.node[spot.name].emitted(status)
+            left = emitted & self.checked.leaves[spot.name]
+        return tuple(s for s in IN_GRAPH if s in left)
+
+    def follow(self, spot: Spot, status: Status) -> tuple[int, Spot | None, str]:
+        """Return where this status leads: the edge's number, the target, and its name."""
+        if spot.kind is Kind.FORK:
+            return 0, Spot(kind=Kind.BEHIND, name=spot.gate), spot.gate
+        graph = self.checked.graph
+        if (fork := self.forks.get((spot.name, status))) is not None:
+            target = Spot(kind=Kind.FORK, name=fork.node, branches=fork.branches, gate=fork.gate)
+            to = f"[{', '.join(edge.target for edge in fork.branches)}]"
+            return self.numbers[fork.branches[0]], target, to
+        for edge in graph.outgoing[spot.name]:
+            if status in self.checked.carries[edge]:
+                # to a mission in a branch a gate is the end: behind it another body goes on
+                out = edge.target == END or graph.node[edge.target].block.gate is not None
+                entered = None if out else Spot(kind=Kind.BLOCK, name=edge.target)
+                return self.numbers[edge], entered, edge.target
+        return len(self.numbers), None, END
+
+    def passing(self, fork: Spot, status: Status) -> frozenset[Status]:
+        """Return what the gate lets through when missions fork with this status."""
+        brought = [self.brings(edge, status) for edge in fork.branches]
+        return let_through(self.checked.graph.node[fork.gate].block.gate, brought)
+
+    def brings(self, edge: Edge, status: Status) -> frozenset[Status]:
+        """Return the statuses with which one branch arrives at its gate."""
+        if self.checked.graph.node[edge.target].block.gate is not None:
+            return frozenset((status,))
+        if (edge, status) not in self.brought:
+            self.brought[edge, status] = self.chart(edge.target, frozenset((status,))).exits
+        return self.brought[edge, status]
+
+
+def _ways(leads: Mapping[Status, tuple[int, Spot | None, str]]) -> tuple[Way, ...]:
+    """One way for each target, however many statuses and edges lead there."""
+    targets: dict[Spot | None, tuple[int, str]] = {}
+    for number, target, to in sorted(leads.values(), key=lambda lead: lead[0]):
+        targets.setdefault(target, (number, to))
+    return tuple(
+        Way(
+            statuses=tuple(s for s in IN_GRAPH if s in leads and leads[s][1] == target),
+            target=target,
+            to=to,
+        )
+        for target, (_, to) in targets.items()
+    )
+
+
+def let_through(gate: Gate | None, brought: Sequence[frozenset[Status]]) -> frozenset[Status]:
+    """Return what a gate can pass on, given what each branch of the fork can bring."""
+    some = frozenset[Status]().union(*brought)
+    if gate is not Gate.ALL:
+        return some
+    # at best, every branch brings the best that it can: nothing better than that passes
+    floor = min(max(map(WORST_FIRST.index, statuses), default=-1) for statuses in brought)
+    return frozenset(s for s in some if WORST_FIRST.index(s) <= floor)

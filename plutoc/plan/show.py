@@ -1,0 +1,73 @@
+"""A plan as text, for people and for tests: a step a line, what is inside it indented."""
+
+from __future__ import annotations
+
+from plutoc.plan.model import (
+    Arm,
+    Body,
+    Branch,
+    Break,
+    Call,
+    Continue,
+    Dispatch,
+    End,
+    Goto,
+    Join,
+    Loop,
+    Plan,
+    Step,
+    Switch,
+)
+
+
+def show(plan: Plan) -> str:
+    """Return a plan as text."""
+    lines = [f"plan {plan.checked.graph.name}", *_inside(plan.body)]
+    return "\n".join(lines) + "\n"
+
+
+def _inside(body: Body) -> list[str]:
+    return [f"  {line}" for step in body for line in _step(step)]
+
+
+def _step(step: Step) -> list[str]:
+    match step:
+        case Call():
+            return [f"call {step.node.name}"]
+        case Join():
+            lines = [line for branch in step.branches for line in _branch(branch)]
+            return [f"join {step.fork.name} -> {step.gate.name}", *lines]
+        case Switch():
+            return ["switch", *(line for arm in step.arms for line in _arm(arm))]
+        case Loop():
+            return [f"loop {step.head}", *_inside(step.body)]
+        case Continue():
+            return ["continue"]
+        case Break():
+            return ["break"]
+        case End():
+            return ["end"]
+        case Goto():
+            return [f"goto {step.label}"]
+        case Dispatch():
+            lines = []
+            for case in step.cases:
+                lines += [f"  case {case.label}", *(f"  {line}" for line in _inside(case.body))]
+            return [f"dispatch from {step.start}", *lines]
+
+
+def _branch(branch: Branch) -> list[str]:
+    inside = (f"  {line}" for line in _inside(branch.body))
+    return [f"  branch {branch.name}: {branch.path}", *inside]
+
+
+def _arm(arm: Arm) -> list[str]:
+    names = ", ".join(status.value for status in arm.statuses)
+    match arm.body:
+        case ():
+            rest = ["go on"]
+        case (Continue() | Break() | End() | Goto() as jump,):
+            rest = _step(jump)
+        case body:
+            return [f"  {names} -> {arm.to}:", *(f"  {line}" for line in _inside(body))]
+    return [f"  {names} -> {arm.to}: {rest[0]}"]

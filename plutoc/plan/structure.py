@@ -1,0 +1,259 @@
+"""From a chart to a body of loops and switches, if the chart has that structure.
+
+Each spot is written once, where the last spot before it is that every way there passes: in an arm
+if one arrow leads there, behind the switch if several do. What loops leave towards stands behind
+them. Where a jump would be needed that Python does not have, `Unstructured` is raised.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from plutoc.plan.bodies import breaks, falls, switch, without_last_continue
+from plutoc.plan.chart import Kind, Spot, Way
+from plutoc.plan.model import Arm, Body, Break, Continue, End, Goto, Loop, Step
+from plutoc.plan.shape import Shape
+from plutoc_runtime.status import IN_GRAPH
+
+DEPTH = 12
+"""Loops in loops; Python itself compiles no more than twenty."""
+PATIENCE = 50
+"""How often each spot may be tried in one place or another before we give up."""
+
+
+class Unstructured(Exception):
+    """A jump is needed that cannot be written."""
+
+
+class Hopeless(Exception):
+    """Too many ways were tried."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Around:
+    """What a piece of a body knows of what is around it."""
+
+    follow: Spot | None = None
+    """Where falling off the end leads; None: it must not."""
+    head: Spot | None = None
+    """Where the innermost loop begins."""
+    out: Spot | None = None
+    """What stands behind the innermost loop, where it is left by `Break`."""
+    elsewhere: frozenset[Spot] = frozenset()
+    """Spots that are written in another place, behind a loop or as a case."""
+    labels: frozenset[Spot] = frozenset()
+    """Spots that `Goto` leads to."""
+    depth: int = 0
+
+
+@dataclass(kw_only=True)
+class Writer:
+    """Writes the body of one chart."""
+
+    shape: Shape
+    steps: Mapping[Spot, Body]
+    """What happens at each spot."""
+    copies: bool = False
+    """May a block be written twice, if nothing but the end follows it?"""
+    tried: int = 0
+
+    def body(self, spot: Spot, around: Around) -> Body:
+        """Write a spot, and all that is reached through it only."""
+        if spot in self.shape.loops and spot not in around.labels:
+            looped, behind = self.loop(spot, around)
+            return looped if behind is None else looped + self.body(behind, around)
+        return self.plain(spot, around)
+
+    def plain(self, spot: Spot, around: Around) -> Body:
+        """Write a spot whose loop, if it has one, has been opened. Straight on, no recursion."""
+        written: list[Step] = []
+        current: Spot | None = spot
+        while current is not None:
+            self.tried += 1
+            if self.tried > PATIENCE * len(self.shape.order):
+                raise Hopeless
+            written += self.steps[current]
+            steps, current = self.onward(current, around)
+            written += steps
+            while current is not None and current in self.shape.loops:
+                steps, current = self.loop(current, around)
+                written += steps
+        return tuple(written)
+
+    def onward(self, spot: Spot, around: Around) -> tuple[Body, Spot | None]:
+        """Write what follows a spot, up to where one line goes on; return the spot there."""
+        ways = self.shape.chart.ways[spot]
+        merges = self.merges(spot, around)
+        if merges:
+            return self.merging(ways, merges, spot, around)
+        if around.follow is not None and len(ways) > 1:
+            return self.switching(ways, (), spot, around), None
+        written: Body = ()
+        # nothing may fall off the end, so all ways but one are written as arms that leave
+        ordered = sorted(ways, key=lambda way: self.inlined(way, spot, around))
+        if not self.inlined(ordered[-1], spot, around):
+            ordered.sort(key=lambda way: way.target is not None and way.target == around.head)
+        *early, last = ordered
+        if early:
+            arms = [self.arm(way, spot, around) for way in early]
+            written = switch([*arms, Arm(statuses=last.statuses, body=(), to=last.to)])
+        if self.inlined(last, spot, around):
+            return written, last.target
+        return written + self.jump(last.target, around), None
+
+    def merges(self, spot: Spot, around: Around) -> tuple[Spot, ...]:
+        """The spots that are written behind this one's switch."""
+        return tuple(
+            merge
+            for merge in self.shape.order
+            if self.shape.parent.get(merge) == spot
+            and merge in self.shape.merges
+            and merge not in around.elsewhere
+        )
+
+    def merging(
+        self, ways: Sequence[Way], merges: Sequence[Spot], spot: Spot, around: Around
+    ) -> tuple[Body, Spot | None]:
+        """Write ways that come together again at `merges`; return the last of these."""
+        last = merges[-1]
+        try:
+            within = replace(around, follow=last)
+            written = self.switching(ways, merges[:-1], spot, within)
+        except Unstructured:
+            return self.apart(ways, merges, spot, around), None
+        return written, last if falls(written) else None
+
+    def apart(
+        self, ways: Sequence[Way], merges: Sequence[Spot], spot: Spot, around: Around
+    ) -> Body:
+        """Write the ways that come together at the last merge in one arm, the others beside it."""
+        one = [way for way in ways if self.reaches(way, merges[-1])]
+        other = [way for way in ways if way not in one]
+        firsts = [m for m in merges if any(self.reaches(way, m) for way in one)]
+        seconds = [m for m in merges if any(self.reaches(way, m) for way in other)]
+        if not other or set(firsts) & set(seconds):
+            raise Unstructured
+        together = [self.together(one, firsts, spot, around)]
+        if seconds:
+            together.append(self.together(other, seconds, spot, around))
+        else:
+            together.extend(self.arm(way, spot, around) for way in other)
+        return switch(together)
+
+    def together(
+        self, ways: Sequence[Way], merges: Sequence[Spot], spot: Spot, around: Around
+    ) -> Arm:
+        written, behind = self.merging(ways, merges, spot, around)
+        if behind is not None:
+            written += self.body(behind, around)
+        statuses = {status for way in ways for status in way.statuses}
+        return Arm(
+            statuses=tuple(s for s in IN_GRAPH if s in statuses),
+            body=written,
+            to=", ".join(way.to for way in ways),
+        )
+
+    def switching(
+        self, ways: Sequence[Way], merges: Sequence[Spot], spot: Spot, around: Around
+    ) -> Body:
+        """Write a switch, and behind it the merges that the ways meet at."""
+        if merges:
+            written, behind = self.merging(ways, merges, spot, around)
+            return written if behind is None else written + self.body(behind, around)
+        return switch([self.arm(way, spot, around) for way in ways])
+
+    def arm(self, way: Way, spot: Spot, around: Around) -> Arm:
+        if way.target is not None and self.inlined(way, spot, around):
+            written = self.body(way.target, around)
+        else:
+            written = self.jump(way.target, around)
+        return Arm(statuses=way.statuses, body=written, to=way.to)
+
+    def inlined(self, way: Way, spot: Spot, around: Around) -> bool:
+        """Is the target written just where the way leads there?"""
+        return (
+            way.target is not None
+            and self.shape.parent.get(way.target) == spot
+            and way.target not in self.shape.merges
+            and way.target not in around.elsewhere
+        )
+
+    def reaches(self, way: Way, spot: Spot) -> bool:
+        return way.target is not None and spot in self.shape.ahead[way.target]
+
+    def jump(self, target: Spot | None, around: Around) -> Body:
+        """Write how a spot is reached that is written elsewhere."""
+        if target is None:
+            return (End(),)
+        if target in around.labels:
+            return (Goto(label=target.name),)
+        if target == around.follow:
+            return ()
+        if target == around.head:
+            return (Continue(),)
+        if target == around.out:
+            return (Break(),)
+        ways = self.shape.chart.ways[target]
+        if self.copies and target.kind is Kind.BLOCK and all(way.target is None for way in ways):
+            return (*self.steps[target], End())
+        raise Unstructured
+
+    def loop(self, head: Spot, around: Around) -> tuple[Body, Spot | None]:
+        """Write a loop; return the spot to go on with behind it."""
+        if around.depth == DEPTH:
+            raise Hopeless
+        for out in self.outs(head, around):
+            ours = out is not None and self.ours(out, head, around)
+            try:
+                behind = () if out is None or ours else self.jump(out, around)
+                within = Around(
+                    head=head,
+                    out=out,
+                    elsewhere=around.elsewhere | {spot for spot in (out,) if spot is not None},
+                    depth=around.depth + 1,
+                )
+                written = without_last_continue(self.plain(head, within))
+            except Unstructured:
+                continue
+            looped: Body = (Loop(head=head.name, body=written),)
+            if not breaks(written):
+                return looped, None
+            return (looped, out) if ours else (looped + behind, None)
+        raise Unstructured
+
+    def ours(self, spot: Spot, head: Spot, around: Around) -> bool:
+        """Is the spot to be written behind the loop that begins at `head`?"""
+        return spot in self.shape.below[head] and spot not in around.elsewhere
+
+    def outs(self, head: Spot, around: Around) -> tuple[Spot | None, ...]:
+        """What may stand behind a loop, the most promising first; None: nothing does.
+
+        What is around the loop can be reached in no other way. What only the loop leads to may
+        also be written inside it.
+        """
+        round_, chart = self.shape.loops[head], self.shape.chart
+        exits = [
+            way.target
+            for spot in self.shape.order
+            if spot in round_
+            for way in chart.ways[spot]
+            if way.target is not None and way.target not in round_
+        ]
+        # What the inside of a loop leads to, whether by the loop or by what follows it.
+        led_to = [
+            way.target
+            for spot in self.shape.order
+            if spot in self.shape.below[head]
+            for way in chart.ways[spot]
+            if way.target is not None and way.target not in self.shape.below[head]
+        ]
+        inside = [
+            spot
+            for spot in reversed(self.shape.order)
+            if spot not in round_ and self.shape.parent.get(spot) in round_
+        ]
+        around_it = [spot for spot in exits if not self.ours(spot, head, around)]
+        meeting = [spot for spot in inside if spot in self.shape.merges]
+        found = dict.fromkeys((*around_it, *meeting, *led_to, *inside))
+        return (*found, None)

@@ -1,0 +1,128 @@
+"""Is a plan sound? Run after it was built and after every pass; a failure is our own mistake."""
+
+from __future__ import annotations
+
+from keyword import iskeyword, issoftkeyword
+
+from plutoc.plan import errors
+from plutoc.plan.bodies import continues, falls
+from plutoc.plan.model import (
+    Arm,
+    Body,
+    Branch,
+    Break,
+    Continue,
+    Dispatch,
+    Goto,
+    Join,
+    Loop,
+    Plan,
+    Step,
+    Switch,
+)
+from plutoc.plan.walk import walk
+from plutoc_runtime.status import Status
+
+FLOW = "the flow"
+
+
+def verify(plan: Plan) -> None:
+    """Raise `BadPlan` if the plan is malformed, or does not do what the graph says."""
+    names: dict[str, None] = {}
+    _whole(plan.body, FLOW, names)
+    walk(plan, FLOW)
+
+
+def _whole(body: Body, where: str, names: dict[str, None]) -> None:
+    """A body that is a function: it is left by `End` alone."""
+    match body:
+        case (Dispatch() as step,):
+            _dispatch(step, where, names)
+        case _:
+            _body(body, where, names, in_loop=False, labels=None)
+            if falls(body):
+                raise errors.falls_off(where)
+
+
+def _dispatch(step: Dispatch, where: str, names: dict[str, None]) -> None:
+    labels: dict[str, None] = {}
+    for case in step.cases:
+        if case.label in labels:
+            raise errors.label_twice(where, case.label)
+        labels[case.label] = None
+    if step.start not in labels:
+        raise errors.no_label(where, step.start)
+    for case in step.cases:
+        inside = f"{where}, case {case.label}"
+        _body(case.body, inside, names, in_loop=False, labels=tuple(labels))
+        if falls(case.body):
+            raise errors.falls_off(inside)
+
+
+def _body(
+    body: Body,
+    where: str,
+    names: dict[str, None],
+    *,
+    in_loop: bool,
+    labels: tuple[str, ...] | None,
+) -> None:
+    for number, step in enumerate(body):
+        if number and not falls(body[:number]):
+            raise errors.after_jump(where)
+        _step(step, where, in_loop=in_loop, labels=labels)
+        match step:
+            case Join():
+                for branch in step.branches:
+                    _branch(branch, names)
+            case Switch():
+                for arm in step.arms:
+                    _body(arm.body, where, names, in_loop=in_loop, labels=labels)
+            case Loop():
+                inside = f"{where}, loop {step.head}"
+                _body(step.body, inside, names, in_loop=True, labels=labels)
+                if not falls(step.body) and not continues(step.body):
+                    raise errors.no_round(inside)
+            case _:
+                pass
+
+
+def _step(step: Step, where: str, *, in_loop: bool, labels: tuple[str, ...] | None) -> None:
+    """Check a step but not what is inside it."""
+    match step:
+        case Continue() | Break() if not in_loop:
+            raise errors.outside_loop(where, type(step).__name__.lower())
+        case Goto() if labels is None:
+            raise errors.outside_dispatch(where, step.label)
+        case Goto() if labels is not None and step.label not in labels:
+            raise errors.no_label(where, step.label)
+        case Loop() if labels is not None:
+            raise errors.loop_in_case(where)
+        case Dispatch():
+            raise errors.dispatch_inside(where)
+        case Switch():
+            _arms(step.arms, where)
+        case _:
+            pass
+
+
+def _arms(arms: tuple[Arm, ...], where: str) -> None:
+    if len(arms) < 2 or not all(arm.statuses for arm in arms):
+        raise errors.few_arms(where)
+    taken: set[Status] = set()
+    for arm in arms:
+        for status in arm.statuses:
+            if status in taken:
+                raise errors.arms_overlap(where, status)
+            taken.add(status)
+
+
+def _branch(branch: Branch, names: dict[str, None]) -> None:
+    name = branch.name
+    if name in names:
+        raise errors.name_twice(name)
+    private = name.startswith("_") and not name.startswith("__") and name != "_"
+    if not private or not name.isidentifier() or iskeyword(name) or issoftkeyword(name):
+        raise errors.bad_name(name)
+    names[name] = None
+    _whole(branch.body, f"branch {name}", names)
