@@ -11,7 +11,7 @@ from .kernel import Kernel
 Hook = Callable[..., object]
 
 
-async def call_hook(kernel: Kernel, hook: Hook, *args: object, **named: object) -> object:
+async def call_hook(kernel: Kernel, hook: Hook, /, *args: object, **named: object) -> object:
     """Call a hook; whatever it raises, `ActionFailed` aside, is a fault of the hook."""
     try:
         return await kernel.call_hook(hook, *args, **named)

@@ -247,7 +247,7 @@ class Kernel:
         return signal.is_set
 
     async def call_hook(
-        self, hook: Callable[..., object], *args: object, **named: object
+        self, hook: Callable[..., object], /, *args: object, **named: object
     ) -> object:
         """Run a hook of the app's, `def` or `async def`, and return what it returns."""
         raise NotImplementedError

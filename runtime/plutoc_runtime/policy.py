@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from .errors import HookFault
 from .hooks import hook_name, trace_of
@@ -47,7 +48,7 @@ def one_by_one(offers: Sequence[Offer], choose: Chooser) -> list[Decision]:
     return decisions
 
 
-def own_policy(hook: Callable[[Trip, Sequence[Drone]], Drone | None]) -> Policy:
+def own_policy(hook: Callable[[Any, Sequence[Drone]], Drone | None]) -> Policy:
     """Make a policy of the app's own hook: it is asked trip by trip."""
     return OwnPolicy(hook)
 
@@ -56,7 +57,7 @@ def own_policy(hook: Callable[[Trip, Sequence[Drone]], Drone | None]) -> Policy:
 class OwnPolicy:
     """A policy of the app's own. Two that ask the same hook are equal."""
 
-    hook: Callable[[Trip, Sequence[Drone]], Drone | None]
+    hook: Callable[[Any, Sequence[Drone]], Drone | None]
 
     def __call__(self, offers: Sequence[Offer]) -> list[Decision]:
         """Ask the hook for each trip in turn."""

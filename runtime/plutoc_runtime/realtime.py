@@ -81,7 +81,7 @@ class RealTime(Kernel):
         self._arm()
 
     async def call_hook(
-        self, hook: Callable[..., object], *args: object, **named: object
+        self, hook: Callable[..., object], /, *args: object, **named: object
     ) -> object:
         """Run a hook beside the missions: `async def` as a task, `def` in a thread."""
         call = partial(hook, *args, **named)

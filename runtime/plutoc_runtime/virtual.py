@@ -49,7 +49,7 @@ class VirtualTime(Kernel):
         return True
 
     async def call_hook(
-        self, hook: Callable[..., object], *args: object, **named: object
+        self, hook: Callable[..., object], /, *args: object, **named: object
     ) -> object:
         """Run a hook here and now; an `async def` may await only what its context offers."""
         result = hook(*args, **named)
