@@ -1,0 +1,120 @@
+"""The command line of the compiler."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+
+from plutoc.cli.endings import (
+    CLEAN,
+    CLOSED_PIPE,
+    ERRORS,
+    INTERNAL,
+    INTERRUPTED,
+    REFUSED,
+    USAGE,
+    Unusable,
+)
+from plutoc.cli.options import Options, parse
+from plutoc.cli.say import say
+from plutoc.diagnostic import Rejected
+from plutoc_runtime.cli import output
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run one command and return its exit code; `argv` is without the program."""
+    output.prepare()
+    ending = _Ending()
+    with ending:
+        ending.code = _command(argv)
+        output.flush()
+    return ending.code
+
+
+class _Ending:
+    """Turns whatever a command ends with into an exit code, and into a message."""
+
+    def __init__(self) -> None:
+        self.code = CLEAN
+
+    def __enter__(self) -> None:
+        pass
+
+    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> bool:
+        match error:
+            case None:
+                return True
+            case Unusable():
+                output.tell(f"plutoc: {error}")
+                self.code = USAGE
+            case output.ClosedPipe():
+                output.silence()
+                self.code = CLOSED_PIPE
+            case output.CannotWrite():
+                output.silence()
+                output.tell(f"plutoc: the output cannot be written: {error}")
+                self.code = USAGE
+            case KeyboardInterrupt():
+                output.tell("plutoc: interrupted")
+                self.code = INTERRUPTED
+            case Exception():
+                _report_bug(error)
+                self.code = INTERNAL
+            case _:
+                return False
+        return True
+
+
+def _command(argv: Sequence[str] | None) -> int:
+    try:
+        options = parse(argv)
+    except SystemExit as end:  # argparse has printed the help, or what is wrong
+        return end.code if isinstance(end.code, int) else USAGE
+    try:
+        return _run(options)
+    except Rejected as rejected:
+        from plutoc.emit.write import Refused
+
+        say(rejected.diagnostics, options.format)
+        return REFUSED if isinstance(rejected, Refused) else ERRORS
+
+
+def _run(options: Options) -> int:
+    """Each command imports what it needs, when it is called."""
+    match options.command:
+        case "new":
+            from plutoc.cli.new import new
+
+            return new(options)
+        case "check":
+            from plutoc.cli.check import check
+
+            return check(options)
+        case "compile":
+            from plutoc.cli.compile import compile_
+
+            return compile_(options)
+        case "run":
+            from plutoc.cli.run import run
+
+            return run(options)
+        case "graph":
+            from plutoc.cli.graph import graph
+
+            return graph(options)
+        case _:
+            from plutoc.cli.blocks import blocks
+
+            return blocks(options)
+
+
+def _report_bug(error: Exception) -> None:
+    if os.environ.get("PLUTO_DEBUG") == "1":
+        import traceback
+
+        output.tell("".join(traceback.format_exception(error)).rstrip())
+    output.tell(
+        f"plutoc: internal error (P9001): {type(error).__name__}: {error}\n"
+        "This is a mistake of ours: please report it, with your source if you can"
+        " (PLUTO_DEBUG=1 shows where it happened)."
+    )

@@ -1,0 +1,119 @@
+"""`compile`: the package of an app, on the disk."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import replace
+from pathlib import Path
+from shlex import quote
+
+from plutoc.check.model import Checked
+from plutoc.cli.diff import diff
+from plutoc.cli.endings import CLEAN, Unusable
+from plutoc.cli.files import default_folder, find_hooks, hooks_path, read_app, shown
+from plutoc.cli.options import Options
+from plutoc.cli.say import say
+from plutoc.compile import Compiled, analyse, compile_source, planned
+from plutoc.diagnostic import Rejected
+from plutoc.emit.errors import never_written, outdated, place_of
+from plutoc.emit.write import CannotWrite, Changes, compare, write
+from plutoc.source import Source
+from plutoc_runtime.cli import output
+from plutoc_runtime.words import counted
+
+
+def compile_(options: Options) -> int:
+    """Write an app's package, or say what would be written."""
+    source = read_app(options.file)
+    if options.show is not None:
+        return _show(source, options)
+    compiled = compile_source(
+        source,
+        source_name=options.file.name,
+        find_hooks=lambda checked: _hooks(options, checked),
+    )
+    say(compiled.warnings, options.format)
+    try:
+        changes = _changes(options, compiled)
+        if options.diff:
+            for line in diff(changes):
+                output.line(line)
+        if options.check:
+            _refuse(compiled.checked, changes)
+        elif not options.diff:
+            write(changes)
+    except CannotWrite as error:
+        raise Unusable(f"{shown(Path(error.path))}: {error.why}; nothing was changed") from None
+    if options.format == "text" and not options.diff:
+        _tell(compiled, changes)
+    return CLEAN
+
+
+def _show(source: Source, options: Options) -> int:
+    checked, warnings = analyse(source)
+    say(warnings, options.format)
+    if options.show == "graph":
+        from plutoc.report.graph import mermaid
+
+        text = mermaid(checked)
+    else:
+        from plutoc.plan.show import show
+
+        text = show(planned(checked))
+    output.line(text.rstrip("\n"))
+    return CLEAN
+
+
+def _folder(options: Options, checked: Checked) -> Path:
+    return options.folder or default_folder(options.file, checked)
+
+
+def _hooks(options: Options, checked: Checked) -> Source | None:
+    """Return the developer's code, with stubs for what is missing if that was asked for."""
+    hooks = find_hooks(checked, options.file, _folder(options, checked))
+    if hooks is None or not options.add_stubs:
+        return hooks
+    from plutoc.hooks.add import with_stubs
+
+    return Source(hooks.path, with_stubs(checked, hooks))
+
+
+def _changes(options: Options, compiled: Compiled) -> Changes:
+    """Say what would change. A hooks.py beside the app becomes the package's first one."""
+    folder, path = _folder(options, compiled.checked), hooks_path(compiled.checked)
+    package, asked = compiled.package, {}
+    if compiled.hooks is not None:
+        if options.add_stubs and (folder / path).is_file():
+            asked[path] = compiled.hooks.text
+        package = replace(package, once={**package.once, path: compiled.hooks.text})
+    place = place_of(compiled.checked.graph)
+    return compare(package, folder, place, asked=asked, force=options.force)
+
+
+def _refuse(checked: Checked, changes: Changes) -> None:
+    """`--check`: raise `Rejected` if the package is not what writing would make it."""
+    place, folder = place_of(checked.graph), shown(changes.folder)
+    if changes.first:
+        raise Rejected([never_written(place, folder)])
+    if changes.files:
+        raise Rejected([outdated(place, folder, [change.path for change in changes.files])])
+
+
+def _tell(compiled: Compiled, changes: Changes) -> None:
+    folder = shown(changes.folder)
+    if changes.first:
+        output.line(f"{folder}: a new package of {counted(len(changes.files), 'file')}")
+        graph = compiled.checked.graph
+        own = f"{folder}/{hooks_path(compiled.checked)}"
+        if compiled.hooks is not None:
+            output.line(f"  {compiled.hooks.path} was copied to {own}: edit that one from now on")
+        elif graph.hooks or graph.actions:
+            output.line(f"  your own code goes into {own}")
+        output.line(f"  install it with: pip install {quote(os.path.join('.', changes.folder))}")
+    elif changes.files:
+        output.line(f"{folder}: {counted(len(changes.files), 'file')} changed")
+        for change in changes.files:
+            mark = "+" if change.before is None else "-" if change.after is None else "~"
+            output.line(f"  {mark} {shown(Path(change.path))}")
+    else:
+        output.line(f"{folder}: up to date")

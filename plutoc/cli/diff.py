@@ -1,0 +1,32 @@
+"""What would change, as `diff -u` writes it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from difflib import unified_diff
+from io import StringIO
+
+from plutoc.emit.write import Change, Changes
+
+_NO_END = "\n\\ No newline at end of file"
+
+
+def diff(changes: Changes) -> Iterator[str]:
+    """Yield the lines of a patch that could be applied in the package's folder."""
+    for change in changes.files:
+        yield from _of(change)
+
+
+def _of(change: Change) -> Iterator[str]:
+    before, after = _lines(change.before), _lines(change.after)
+    old = "/dev/null" if change.before is None else f"a/{change.path}"
+    new = "/dev/null" if change.after is None else f"b/{change.path}"
+    if not before and not after:  # an empty file comes or goes
+        yield from (f"--- {old}", f"+++ {new}")
+    for line in unified_diff(before, after, old, new):
+        yield line[:-1] if line.endswith("\n") else line + _NO_END
+
+
+def _lines(text: str | None) -> list[str]:
+    """Return the lines with their ends."""
+    return list(StringIO(text or "", newline="\n"))  # unlike splitlines: only line feeds count

@@ -1,0 +1,72 @@
+"""Reading what people wrote."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from plutoc.check.model import Checked
+from plutoc.cli.endings import Unusable
+from plutoc.source import Source
+from plutoc.syntax.parse import LARGEST
+from plutoc_runtime.words import printable
+
+HOOKS = "hooks.py"
+
+
+def shown(path: Path) -> str:
+    """Return a path as a message can say it."""
+    return printable(os.fspath(path))
+
+
+def read_app(path: Path) -> Source:
+    """Read a `.pluto` file; raise `Unusable` where there is nothing to parse."""
+    return Source(shown(path), _text(path))
+
+
+def find_hooks(checked: Checked, file: Path, folder: Path) -> Source | None:
+    """Return the hooks.py that counts: the package's own, else the one beside the app."""
+    for path in (folder / hooks_path(checked), file.parent / HOOKS):
+        if path.is_file():
+            return read_hooks(path)
+    return None
+
+
+def hooks_path(checked: Checked) -> str:
+    """Return where in its package an app keeps the developer's code."""
+    return f"src/{checked.graph.name}/{HOOKS}"
+
+
+def default_folder(file: Path, checked: Checked) -> Path:
+    """Return where a package goes if nobody says so."""
+    return file.parent / checked.graph.name
+
+
+def read_hooks(path: Path) -> Source:
+    """Read a hooks.py, with the line ends that Python sees."""
+    text = _text(path).removeprefix("\ufeff")
+    return Source(shown(path), text.replace("\r\n", "\n").replace("\r", "\n"))
+
+
+def _text(path: Path) -> str:
+    """Return a file's text, its line ends untouched."""
+    try:
+        with path.open("rb") as file:
+            data = file.read(LARGEST + 1)
+    except IsADirectoryError:
+        raise Unusable(f"{shown(path)} is a folder, not a file") from None
+    except FileNotFoundError:
+        raise Unusable(f"there is no file {shown(path)}") from None
+    except (OSError, ValueError) as error:
+        raise Unusable(f"{shown(path)} cannot be read: {_why(error)}") from None
+    if len(data) > LARGEST:
+        raise Unusable(f"{shown(path)} is larger than {LARGEST // 1024} KiB")
+    try:
+        return data.decode("utf-8")
+    except UnicodeDecodeError as error:
+        line = data.count(b"\n", 0, error.start) + 1
+        raise Unusable(f"{shown(path)} is not UTF-8 text: see line {line}") from None
+
+
+def _why(error: OSError | ValueError) -> str:
+    return (isinstance(error, OSError) and error.strerror) or str(error)

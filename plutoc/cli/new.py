@@ -1,0 +1,61 @@
+"""`new`: a folder with a small app, to begin with."""
+
+from __future__ import annotations
+
+import os
+from importlib.resources import files
+from pathlib import Path
+
+from plutoc.cli.endings import CLEAN, Unusable
+from plutoc.cli.options import Options
+from plutoc.diagnostic import Diagnostic
+from plutoc.emit.write import CannotWrite, create
+from plutoc.graph.scope import check_app_name
+from plutoc.source import Source, Span
+from plutoc.syntax.tree import Name
+from plutoc_runtime.cli import output
+
+_IN_STARTER = "my_app"
+"""The app's name in the files of the starter."""
+
+
+def new(options: Options) -> int:
+    """Write the starter into a folder of its own, and say how to go on."""
+    name = options.name
+    _check_name(name)
+    folder = Path(name)
+    if folder.is_symlink() or (folder.exists() and not folder.is_dir()):
+        raise Unusable(f"{name} is there already, and is no folder: choose another name")
+    try:
+        if folder.exists() and os.listdir(folder):
+            raise Unusable(f"the folder {name} is not empty: choose another name")
+        create(folder, _starter(name))
+    except CannotWrite as error:
+        raise Unusable(f"{error.path}: {error.why}; nothing was changed") from None
+    output.line(
+        f"{name}/ is ready: an app, its missions and a fleet.\n\n"
+        f"  cd {name}\n"
+        f"  plutoc check {name}.pluto    # is the app sound?\n"
+        f"  plutoc run {name}.pluto      # fly the missions, simulated\n"
+        f"  plutoc compile {name}.pluto  # write it as a Python package"
+    )
+    return CLEAN
+
+
+def _check_name(name: str) -> None:
+    found: list[Diagnostic] = []
+    span = Span(0, len(name))
+    check_app_name(Source("NAME", name), Name(text=name, span=span), found)
+    if found:
+        first = found[0]
+        raise Unusable(first.message + (f"\nhelp: {first.help}" if first.help else ""))
+
+
+def _starter(name: str) -> dict[str, str]:
+    folder = files("plutoc.cli").joinpath("starter")
+    names = {"app.pluto": f"{name}.pluto", "missions.toml": "missions.toml"}
+    names["fleet.toml"] = "fleet.toml"
+    return {
+        path: folder.joinpath(file).read_text(encoding="utf-8").replace(_IN_STARTER, name)
+        for file, path in names.items()
+    }

@@ -1,0 +1,183 @@
+"""The commands and their flags."""
+
+from __future__ import annotations
+
+import sys
+from argparse import SUPPRESS, Action, ArgumentParser, ArgumentTypeError
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from plutoc.cli.endings import USAGE
+
+PICTURES = ("mermaid", "dot", "svg", "json")
+
+
+@dataclass(slots=True)
+class Options:
+    """What was asked for."""
+
+    command: str = ""
+    name: str = ""
+    file: Path = field(default_factory=Path)
+    files: list[Path] = field(default_factory=list)
+    format: str = "text"
+    picture: str = PICTURES[0]
+    folder: Path | None = None
+    check: bool = False
+    diff: bool = False
+    force: bool = False
+    add_stubs: bool = False
+    plain: bool = False
+    show: str | None = None
+    missions: Path | None = None
+    fleet: Path | None = None
+    seed: int | None = None
+    json: bool = False
+    kind: str | None = None
+
+
+def parse(argv: Sequence[str] | None) -> Options:
+    """Read the command line; raise SystemExit, as argparse does, after help or an error."""
+    parser = _plain(
+        ArgumentParser(
+            prog="plutoc",
+            description="Turns graphs of drone missions into Python packages that fly them.",
+            epilog="`plutoc COMMAND --help` says more about a command.",
+            allow_abbrev=False,
+        )
+    )
+    parser.add_argument("--version", action=_Version, help="print the version and end")
+    commands = parser.add_subparsers(
+        dest="command", metavar="COMMAND", title="commands", required=True
+    )
+
+    def command(name: str, what: str) -> ArgumentParser:
+        return _plain(commands.add_parser(name, help=what, description=what, allow_abbrev=False))
+
+    _new(command("new", "Make a folder with a small app to begin with."))
+    _check(command("check", "Say what is wrong with an app; nothing is written."))
+    _compile(command("compile", "Write the Python package of an app."))
+    _run(command("run", "Compile an app and simulate its missions at once."))
+    _graph(command("graph", "Print the picture of an app, with the statuses on every edge."))
+    _blocks(command("blocks", "List the blocks that are installed, or explain one."))
+    arguments = sys.argv[1:] if argv is None else list(argv)
+    if not arguments:
+        parser.print_help(sys.stderr)
+        raise SystemExit(USAGE)
+    return parser.parse_args(arguments, namespace=Options())
+
+
+class _Version(Action):
+    """Looks the version up only when somebody asks for it."""
+
+    def __init__(self, option_strings: Sequence[str], dest: str, help: str) -> None:
+        super().__init__(option_strings, SUPPRESS, nargs=0, default=SUPPRESS, help=help)
+
+    def __call__(self, parser: ArgumentParser, *_: object) -> None:
+        from importlib.metadata import PackageNotFoundError, version
+
+        try:
+            print(f"plutoc {version('plutoc')}")
+        except PackageNotFoundError:
+            print("plutoc, from a checkout that is not installed")
+        parser.exit()
+
+
+def _plain(parser: ArgumentParser) -> ArgumentParser:
+    vars(parser)["color"] = False  # from Python 3.14 on it would be True
+    return parser
+
+
+def _file(parser: ArgumentParser) -> None:
+    parser.add_argument("file", metavar="FILE", type=Path, help="the app, a .pluto file")
+
+
+def _format(parser: ArgumentParser) -> None:
+    parser.add_argument(
+        "--format",
+        choices=("text", "json"),
+        default="text",
+        help="how to report: text on standard error (default), or JSON lines on standard output",
+    )
+
+
+def _new(parser: ArgumentParser) -> None:
+    parser.add_argument("name", metavar="NAME", help="the app's name, such as crop_watch")
+
+
+def _check(parser: ArgumentParser) -> None:
+    parser.add_argument("files", metavar="FILE", type=Path, nargs="+", help="apps, .pluto files")
+    _format(parser)
+
+
+def _compile(parser: ArgumentParser) -> None:
+    _file(parser)
+    parser.add_argument(
+        "-o",
+        dest="folder",
+        metavar="DIR",
+        type=Path,
+        help="the package's folder (default: one named after the app, beside the file)",
+    )
+    parser.add_argument(
+        "--check", action="store_true", help="write nothing; exit with 1 if something would change"
+    )
+    parser.add_argument(
+        "--diff", action="store_true", help="write nothing; print what would change"
+    )
+    parser.add_argument(
+        "--force", action="store_true", help="overwrite files of ours that were edited by hand"
+    )
+    parser.add_argument(
+        "--add-stubs", action="store_true", help="add the hooks that are missing to hooks.py"
+    )
+    parser.add_argument("-O0", dest="plain", action="store_true", help="do not optimise the plan")
+    parser.add_argument(
+        "--show",
+        choices=("graph", "plan"),
+        help="write nothing; print the checked graph or the plan",
+    )
+    _format(parser)
+
+
+def _run(parser: ArgumentParser) -> None:
+    _file(parser)
+    parser.add_argument(
+        "--missions",
+        metavar="M.toml",
+        type=Path,
+        help="the missions file (default: missions.toml beside the app)",
+    )
+    parser.add_argument(
+        "--fleet",
+        metavar="F.toml",
+        type=Path,
+        help="the map and the drones (default: fleet.toml beside the app, if it is there)",
+    )
+    parser.add_argument(
+        "--seed", metavar="N", type=_whole, help="what chance depends on (default 0)"
+    )
+    parser.add_argument("--json", action="store_true", help="print one JSON object instead")
+
+
+def _graph(parser: ArgumentParser) -> None:
+    _file(parser)
+    parser.add_argument(
+        "--format",
+        dest="picture",
+        choices=PICTURES,
+        default=PICTURES[0],
+        help="how to draw it (default: %(default)s)",
+    )
+
+
+def _blocks(parser: ArgumentParser) -> None:
+    parser.add_argument("kind", metavar="KIND", nargs="?", help="one block, to read about it")
+
+
+def _whole(text: str) -> int:
+    try:
+        return int(text)
+    except ValueError:
+        raise ArgumentTypeError(f"{text!r} is not a whole number") from None

@@ -1,0 +1,77 @@
+"""The pipeline, a line a phase: text → tree → graph → checked graph → plan → files."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from plutoc.check.model import Checked
+from plutoc.check.run import check
+from plutoc.diagnostic import Diagnostic, Rejected
+from plutoc.graph.resolve import resolve
+from plutoc.registry import blocks
+from plutoc.source import Source
+from plutoc.syntax.parse import parse
+
+if TYPE_CHECKING:
+    from plutoc.emit.package import Package
+    from plutoc.plan.model import Plan
+
+Warnings = tuple[Diagnostic, ...]
+FindHooks = Callable[[Checked], Source | None]
+"""Returns the hooks.py that is there already, if there is one."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Compiled:
+    """An app from its source to its files."""
+
+    checked: Checked
+    hooks: Source | None
+    package: Package
+    warnings: Warnings
+
+
+def compile_source(source: Source, *, source_name: str, find_hooks: FindHooks) -> Compiled:
+    """Return a source's package; raise `Rejected` with all errors of the first phase that fails."""
+    checked, warnings = analyse(source)
+    hooks = find_hooks(checked)
+    warnings += check_hooks(checked, hooks)
+    package = package_of(checked, source_name=source_name)
+    return Compiled(checked=checked, hooks=hooks, package=package, warnings=warnings)
+
+
+def analyse(source: Source) -> tuple[Checked, Warnings]:
+    """Return the checked graph of a source."""
+    file = parse(source)
+    graph, of_names = resolve(file, blocks())
+    checked, of_graph = check(graph)
+    return checked, of_names + of_graph
+
+
+def check_hooks(checked: Checked, hooks: Source | None) -> Warnings:
+    """Hold the developer's own code against the app, where there is any yet."""
+    from plutoc.hooks.check import check_hooks
+
+    return check_hooks(checked, hooks)
+
+
+def planned(checked: Checked) -> Plan:
+    """Return the plan of a checked graph."""
+    from plutoc.plan.build import build
+
+    return build(checked)
+
+
+def package_of(checked: Checked, *, source_name: str) -> Package:
+    """Return the files of a checked graph's package."""
+    from plutoc.emit.errors import not_embeddable, place_of
+    from plutoc.emit.modules import EmbedError
+    from plutoc.emit.package import emit
+    from plutoc.report.graph import mermaid
+
+    try:
+        return emit(planned(checked), source_name=source_name, picture=mermaid(checked))
+    except EmbedError as error:  # a block that somebody else made
+        raise Rejected([not_embeddable(place_of(checked.graph), str(error))]) from error

@@ -1,0 +1,183 @@
+"""What can stand in the way of a package's files: P4."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from plutoc.diagnostic import Diagnostic, Related, Severity
+from plutoc.graph.model import Graph
+from plutoc.source import Source, Span
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Place:
+    """Where the app that the files are made of is declared."""
+
+    source: Source
+    span: Span
+
+
+def place_of(graph: Graph) -> Place:
+    """Return where an app is declared."""
+    return Place(source=graph.source, span=graph.name_span)
+
+
+def edited(place: Place, path: str, text: str, wanted: str | None) -> Diagnostic:
+    """A file that is made of the app, and that somebody changed."""
+    gone = "" if wanted is not None else ", and the app does not need this file any more"
+    return _error(
+        "P4001",
+        f"`{path}` was edited by hand{gone}",
+        Source(path, text),
+        _first_difference(text, wanted),
+        label="differs from what was written here" if wanted is not None else "",
+        related=(_made_of(place),),
+        help=f"make this change in `{place.source.path}`, or in `hooks.py` if it is code of your"
+        " own, and undo it here; `--force` throws it away",
+    )
+
+
+def somebody_elses_file(place: Place, path: str) -> Diagnostic:
+    """A file that we never wrote, where one of ours would go."""
+    return _error(
+        "P4002",
+        f"`{path}` was not written by plutoc, and the package needs a file of this name",
+        place.source,
+        place.span,
+        label="its package",
+        help="give your file another name; `--force` overwrites it",
+    )
+
+
+def not_ours(place: Place, folder: str) -> Diagnostic:
+    """A folder with other things in it."""
+    return _error(
+        "P4003",
+        f"`{folder}` is not empty, and no package of plutoc's",
+        place.source,
+        place.span,
+        label="its package would go there",
+        help="name a new or empty folder with `-o`",
+    )
+
+
+def another_app(place: Place, folder: str, other: str) -> Diagnostic:
+    """A folder with another app's package."""
+    return _error(
+        "P4004",
+        f"`{folder}` is the package of another app, `{other}`",
+        place.source,
+        place.span,
+        label="its package would go there",
+        help="name another folder with `-o`; if the app was renamed, remove the old package or"
+        " move it away, and bring its `hooks.py` along",
+    )
+
+
+def damaged_lock(place: Place, path: str, why: str) -> Diagnostic:
+    """A record of what was written that cannot be read."""
+    return _error(
+        "P4005",
+        f"`{path}` is damaged: {why}",
+        place.source,
+        place.span,
+        label="its package",
+        help="it says which files were edited by hand. Take it from your version control again"
+        " (after a merge, either side will do); `--force` writes the whole package anew",
+    )
+
+
+def in_the_way(place: Place, path: str, what: str, wanted: str) -> Diagnostic:
+    """A link, a folder or a file where something else must be."""
+    return _error(
+        "P4006",
+        f"`{path}` is {what}, and {wanted} must be there",
+        place.source,
+        place.span,
+        label="its package",
+        help="move it away, or name another folder with `-o`",
+    )
+
+
+def never_written(place: Place, folder: str) -> Diagnostic:
+    """`--check` of a package that does not exist."""
+    return _error(
+        "P4007",
+        f"there is no package in `{folder}` yet",
+        place.source,
+        place.span,
+        label="nothing was generated of this app",
+        help=f"run `plutoc compile {place.source.path}`",
+    )
+
+
+def outdated(place: Place, folder: str, paths: Sequence[str]) -> Diagnostic:
+    """`--check` of a package that is not what its source says."""
+    files = "1 file" if len(paths) == 1 else f"{len(paths)} files"
+    shown = "\n".join(f"  {path}" for path in paths[:_SHOWN])
+    more = f"\n  … and {len(paths) - _SHOWN} more" if len(paths) > _SHOWN else ""
+    return _error(
+        "P4008",
+        f"`{folder}` is out of date: {files} would change",
+        place.source,
+        place.span,
+        label="its package",
+        help=f"run `plutoc compile {place.source.path}`; `--diff` shows what would change in\n"
+        f"{shown}{more}",
+    )
+
+
+_SHOWN = 8
+
+
+def not_embeddable(place: Place, sentence: str) -> Diagnostic:
+    """A block whose code cannot be carried along."""
+    return _error(
+        "P4009",
+        f"the package cannot carry this app's blocks along: {sentence}",
+        place.source,
+        place.span,
+        label="its package",
+        help="tell the people who made that block, or use another one",
+    )
+
+
+def _first_difference(text: str, wanted: str | None) -> Span:
+    """Return the first line that is not as it should be."""
+    if wanted is None:
+        return Span(0, 0)
+    start = 0
+    for line, other in zip(
+        text.splitlines(keepends=True), wanted.splitlines(keepends=True), strict=False
+    ):
+        if line != other:
+            return Span(start, start + len(line.rstrip()))
+        start += len(line)
+    return Span(start, start)
+
+
+def _made_of(place: Place) -> Related:
+    return Related(source=place.source, span=place.span, label="made of this app")
+
+
+def _error(
+    code: str,
+    message: str,
+    source: Source,
+    span: Span,
+    *,
+    label: str = "",
+    related: tuple[Related, ...] = (),
+    help: str | None = None,
+) -> Diagnostic:
+    return Diagnostic(
+        code=code,
+        severity=Severity.ERROR,
+        message=message,
+        source=source,
+        span=span,
+        label=label,
+        related=related,
+        help=help,
+    )

@@ -1,0 +1,53 @@
+"""What `pluto.lock` says about a folder: whose it is, and how its files were written."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import PurePosixPath
+
+
+class DamagedLock(Exception):
+    """It cannot be read. The text says why, for a person."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Lock:
+    """The record of a generated package."""
+
+    app: str
+    files: Mapping[str, str]
+    """Path → SHA-256 of the text that was written, in hexadecimal digits."""
+
+
+def read_lock(data: bytes) -> Lock:
+    """Read a record; raise `DamagedLock` where it is not as we write it.
+
+    It may come from a stranger, together with the rest of the folder: no path may lead out of it.
+    """
+    try:
+        table = tomllib.loads(data.decode())
+    except UnicodeDecodeError:
+        raise DamagedLock("it is no text") from None
+    except (tomllib.TOMLDecodeError, RecursionError) as error:
+        marks = data.startswith(b"<<<<<<< ") or b"\n<<<<<<< " in data
+        raise DamagedLock("a merge left its marks in it" if marks else str(error)) from None
+    app, files = table.get("app"), table.get("files")
+    if not isinstance(app, str) or not isinstance(files, dict):
+        raise DamagedLock("it does not name the app and its files")
+    for path, digest in files.items():
+        if not isinstance(digest, str) or not _stays_inside(path):
+            raise DamagedLock(f"{path!a} is no file of a package")
+    return Lock(app=app, files=files)
+
+
+def _stays_inside(path: str) -> bool:
+    parts = PurePosixPath(path).parts
+    return (
+        bool(parts)
+        and path == "/".join(parts)
+        and not path.startswith("/")
+        and ".." not in parts
+        and not any(char in '\\:*?"<>|' or not char.isprintable() for char in path)
+    )

@@ -1,0 +1,263 @@
+"""Writing a package: the one place of the compiler that changes what is on the disk.
+
+First `compare` says what would change, and refuses what is not ours to change; then `write` does
+it, all of it or nothing. New texts are written aside and renamed, so no file is ever half-written.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import tempfile
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+from hashlib import sha256
+from pathlib import Path, PurePosixPath
+from types import MappingProxyType
+
+from plutoc.diagnostic import Diagnostic, Rejected
+from plutoc.emit import errors
+from plutoc.emit.errors import Place
+from plutoc.emit.lock import NAME as LOCK
+from plutoc.emit.package import Package
+from plutoc.emit.recorded import DamagedLock, Lock, read_lock
+
+_ASIDE = ".plutoc-"
+"""What the names of folders for unfinished work begin with; one is left only if we are killed."""
+
+_NOTHING: Mapping[str, str] = MappingProxyType({})
+
+Save = Callable[[Path, bytes], object]
+
+
+class Refused(Rejected):
+    """Something is in the way that is not ours to overwrite."""
+
+
+class CannotWrite(Exception):
+    """The disk says no. Nothing was changed."""
+
+    def __init__(self, error: OSError, folder: Path) -> None:
+        self.path = error.filename if isinstance(error.filename, str) else str(folder)
+        self.why = error.strerror or str(error)
+        super().__init__(f"{self.path}: {self.why}")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Change:
+    """One file: its text before and after; None where there is none."""
+
+    path: str
+    before: str | None
+    after: str | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Changes:
+    """What writing would change in a folder, in the package's order."""
+
+    folder: Path
+    first: bool
+    """No package was there before."""
+    files: tuple[Change, ...]
+
+
+def compare(
+    package: Package,
+    folder: Path,
+    place: Place,
+    *,
+    asked: Mapping[str, str] = _NOTHING,
+    force: bool = False,
+) -> Changes:
+    """Return what writing a package would change; raise `Refused` where that is not ours to do.
+
+    `place` is where the app is declared. `asked` are files of the user's that the user wants to
+    have changed. With `force`, what was edited by hand is no obstacle.
+    """
+    try:
+        lock = _lock(package.name, folder, place, force=force)
+        recorded = lock.files if lock else {}
+        found: list[Diagnostic] = []
+        files: list[Change] = []
+        for path, (before, after) in _texts(package, folder, asked, recorded, place, found).items():
+            old = None if before is None else before.replace(b"\r\n", b"\n")  # as Git may have it
+            if old == (None if after is None else after.encode()):
+                continue
+            written = old is None or recorded.get(path) == sha256(old).hexdigest()
+            if written or path == LOCK or path in asked or force:
+                text = None if old is None else old.decode("utf-8", "replace")
+                files.append(Change(path=path, before=text, after=after))
+            elif path in package.owned and path not in recorded:
+                found.append(errors.somebody_elses_file(place, str(folder / path)))
+            else:
+                text = (old or b"").decode("utf-8", "replace")
+                found.append(errors.edited(place, str(folder / path), text, after))
+    except OSError as error:
+        raise CannotWrite(error, folder) from error
+    if found:
+        raise Refused(found)
+    return Changes(folder=folder, first=lock is None, files=tuple(files))
+
+
+def _lock(app: str, folder: Path, place: Place, *, force: bool) -> Lock | None:
+    """Return what was recorded about a folder, or None where nothing is there yet."""
+    if folder.is_symlink() or (folder.exists() and not folder.is_dir()):
+        raise Refused([errors.in_the_way(place, str(folder), _kind(folder), "a folder")])
+    if not folder.exists() or all(name.startswith(_ASIDE) for name in os.listdir(folder)):
+        return None
+    path = folder / LOCK
+    if not path.is_file() or path.is_symlink():
+        raise Refused([errors.not_ours(place, str(folder))])
+    try:
+        lock = read_lock(path.read_bytes())
+    except DamagedLock as error:
+        if force:
+            return Lock(app=app, files={})
+        raise Refused([errors.damaged_lock(place, str(path), str(error))]) from None
+    if lock.app != app:
+        raise Refused([errors.another_app(place, str(folder), lock.app)])
+    return lock
+
+
+def _texts(
+    package: Package,
+    folder: Path,
+    asked: Mapping[str, str],
+    recorded: Mapping[str, str],
+    place: Place,
+    found: list[Diagnostic],
+) -> dict[str, tuple[bytes | None, str | None]]:
+    """Return every file that is to be looked at, as it is on the disk and as it shall be."""
+    wanted: dict[str, str | None] = {**package.owned}
+    wanted |= {path: text for path, text in package.once.items() if not (folder / path).is_file()}
+    wanted |= asked
+    wanted |= {path: None for path in recorded if path not in {*package.owned, *package.once}}
+    texts: dict[str, tuple[bytes | None, str | None]] = {}
+    for path, text in wanted.items():
+        obstacle = _obstacle(folder, path)
+        if obstacle is None:
+            target = folder / path
+            texts[path] = (target.read_bytes() if target.exists() else None, text)
+        else:
+            what = "a file" if obstacle == folder / path else "a folder"
+            found.append(errors.in_the_way(place, str(obstacle), _kind(obstacle), what))
+    return texts
+
+
+def _obstacle(folder: Path, path: str) -> Path | None:
+    """Return what a file cannot be written through: a link, or what is not a folder."""
+    target = folder
+    *parents, name = PurePosixPath(path).parts
+    for parent in parents:
+        target /= parent
+        if target.is_symlink() or (target.exists() and not target.is_dir()):
+            return target
+    target /= name
+    return target if target.is_symlink() or (target.exists() and not target.is_file()) else None
+
+
+def _kind(path: Path) -> str:
+    if path.is_symlink():
+        return "a symbolic link"
+    return "a folder" if path.is_dir() else "a file" if path.is_file() else "no ordinary file"
+
+
+def write(changes: Changes, *, save: Save = Path.write_bytes) -> None:
+    """Make the changes, all or none; raise `CannotWrite` where the disk refuses."""
+    folder = changes.folder
+    made: list[Path] = []
+    try:
+        with _undone_unless_finished(made):
+            if not folder.exists():
+                made += _make_folders(folder.parent)
+            with _aside(folder if folder.exists() else folder.parent) as aside:
+                _prepare(changes, aside, save)
+                if folder.exists():
+                    _replace(changes, aside)
+                else:
+                    os.rename(aside / "new", folder)
+    except OSError as error:
+        raise CannotWrite(error, folder) from error
+
+
+def create(folder: Path, texts: Mapping[str, str], *, save: Save = Path.write_bytes) -> None:
+    """Write files into a new or empty folder, all or none."""
+    files = [Change(path=path, before=None, after=text) for path, text in texts.items()]
+    write(Changes(folder=folder, first=True, files=tuple(files)), save=save)
+
+
+@contextmanager
+def _aside(parent: Path) -> Iterator[Path]:
+    """Give a folder for unfinished work, on the same disk as its place, and take it away again."""
+    aside = Path(tempfile.mkdtemp(prefix=_ASIDE, dir=parent))
+    try:
+        yield aside
+    finally:
+        shutil.rmtree(aside, ignore_errors=True)
+
+
+@contextmanager
+def _undone_unless_finished(made: list[Path]) -> Iterator[None]:
+    """Remove the folders that were made for it when it fails, a Ctrl-C included."""
+    try:
+        yield
+    except BaseException:
+        for folder in reversed(made):
+            with suppress(OSError):
+                folder.rmdir()
+        raise
+
+
+def _make_folders(folder: Path) -> list[Path]:
+    """Make a folder and those above it; return the new ones, from the top."""
+    missing = [path for path in (folder, *folder.parents) if not path.exists()]
+    for path in reversed(missing):
+        path.mkdir(exist_ok=True)
+    return missing[::-1]
+
+
+def _prepare(changes: Changes, aside: Path, save: Save) -> None:
+    """Write the new texts aside, and keep the old ones there. Most of what can fail fails here."""
+    for change in changes.files:
+        if change.after is not None:
+            new = aside / "new" / change.path
+            new.parent.mkdir(parents=True, exist_ok=True)
+            save(new, change.after.encode())
+        if change.before is not None:
+            old = aside / "old" / change.path
+            old.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy2(changes.folder / change.path, old)
+
+
+def _replace(changes: Changes, aside: Path) -> None:
+    """Rename the new files into their places; where one cannot be, put all back."""
+    folder, begun, made = changes.folder, list[Change](), list[Path]()
+    with _undone_unless_finished(made):
+        try:
+            for change in changes.files:
+                begun.append(change)
+                if change.after is None:
+                    (folder / change.path).unlink()
+                else:
+                    made += _make_folders((folder / change.path).parent)
+                    os.replace(aside / "new" / change.path, folder / change.path)
+        except BaseException:
+            for change in begun:
+                with suppress(OSError):
+                    if change.before is None:
+                        (folder / change.path).unlink()
+                    else:
+                        os.replace(aside / "old" / change.path, folder / change.path)
+            raise
+    for change in changes.files:
+        if change.after is None:
+            _remove_empty_folders((folder / change.path).parent, folder)
+
+
+def _remove_empty_folders(path: Path, top: Path) -> None:
+    with suppress(OSError):  # the first one that is not empty ends it
+        while path != top:
+            path.rmdir()
+            path = path.parent

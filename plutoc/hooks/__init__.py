@@ -1,0 +1,1 @@
+"""The code that a developer added, held against what the app declares."""

@@ -1,0 +1,123 @@
+"""The developer's functions against what the app declares."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from plutoc.check.model import Checked
+from plutoc.diagnostic import Diagnostic, Rejected
+from plutoc.graph.names import near
+from plutoc.hooks import errors
+from plutoc.hooks.expected import Expected, expected
+from plutoc.hooks.module import (
+    Function,
+    Module,
+    Unreadable,
+    arg_span,
+    name_span,
+    read,
+    yields,
+)
+from plutoc.source import Source, Span
+
+
+def check_hooks(checked: Checked, hooks: Source | None) -> tuple[Diagnostic, ...]:
+    """Return the warnings, of which there are none yet; raise `Rejected` with all errors.
+
+    Without a hooks.py there is nothing to check: the first one will be written with all stubs.
+    """
+    found = [] if hooks is None else list(_found(checked, hooks))
+    if found:
+        raise Rejected(found)
+    return ()
+
+
+def missing(checked: Checked, hooks: Source) -> tuple[str, ...]:
+    """Return the hooks that a hooks.py does not define; none where it cannot be read."""
+    try:
+        module = read(hooks)
+    except Unreadable:
+        return ()
+    return tuple(hook.name for hook in expected(checked) if _is_missing(hook, module))
+
+
+def _found(checked: Checked, hooks: Source) -> Iterator[Diagnostic]:
+    try:
+        module = read(hooks)
+    except Unreadable as error:
+        if error.span is None:
+            yield errors.unreadable(hooks, error.why)
+        else:
+            yield errors.not_python(hooks, error.span, error.why)
+        return
+    app, declared = checked.graph.source, expected(checked)
+    free = [
+        name
+        for name, definition in module.defined.items()
+        if isinstance(definition, Function) and name not in {hook.name for hook in declared}
+    ]
+    for hook in declared:
+        if _is_missing(hook, module):
+            meant = next(iter(near(hook.name, free)), None)
+            yield errors.missing(app, hook, hooks.path, meant)
+        else:
+            yield from _of_definition(app, hooks, hook, module)
+
+
+def _is_missing(hook: Expected, module: Module) -> bool:
+    return hook.name not in module.defined and not module.imports_all
+
+
+def _of_definition(
+    app: Source, hooks: Source, hook: Expected, module: Module
+) -> Iterator[Diagnostic]:
+    """What is imported, assigned or decorated can be anything: it is believed."""
+    definition = module.defined.get(hook.name)
+    if isinstance(definition, ast.ClassDef):
+        yield errors.not_a_function(app, hooks, hook, name_span(hooks, definition))
+    elif definition is not None and not definition.decorator_list:
+        span = name_span(hooks, definition)
+        if isinstance(definition, ast.AsyncFunctionDef) and not hook.may_wait:
+            yield errors.may_not_wait(app, hooks, hook, span)
+        elif yields(definition):
+            yield errors.generator(app, hooks, hook, span)
+        yield from _of_parameters(app, hooks, hook, definition, span)
+
+
+def _of_parameters(
+    app: Source, hooks: Source, hook: Expected, function: Function, span: Span
+) -> Iterator[Diagnostic]:
+    """Find what would go wrong when the app calls it."""
+    arguments = function.args
+    by_place = [*arguments.posonlyargs, *arguments.args]
+    count = len(hook.passed)
+    if len(by_place) < count and arguments.vararg is None:
+        yield errors.wrong_count(app, hooks, hook, span, [arg.arg for arg in by_place])
+        return
+    for arg, gets in zip(by_place, hook.passed, strict=False):
+        # Its name is free, as long as it is not the name of something else that comes.
+        if arg.arg != gets and arg.arg in (*hook.passed, *hook.own_names):
+            yield errors.wrong_order(app, hooks, hook, arg_span(hooks, arg), arg.arg, gets)
+            return
+    rest = by_place[count:]
+    by_name = {arg.arg for arg in (*rest, *arguments.kwonlyargs)}
+    only_by_place = {arg.arg for arg in arguments.posonlyargs[count:]}
+    for name in hook.own_names:
+        if name in only_by_place:
+            yield errors.by_position_only(app, hooks, hook, span, name)
+        elif name not in by_name and arguments.kwarg is None:
+            yield errors.missing_parameter(app, hooks, hook, span, name)
+    for arg in _without_default(arguments):
+        if arg not in by_place[:count] and arg.arg not in hook.own_names:
+            yield errors.unfilled_parameter(app, hooks, hook, arg_span(hooks, arg), arg.arg)
+
+
+def _without_default(arguments: ast.arguments) -> list[ast.arg]:
+    by_place = [*arguments.posonlyargs, *arguments.args]
+    needed = by_place[: len(by_place) - len(arguments.defaults)]
+    return needed + [
+        arg
+        for arg, default in zip(arguments.kwonlyargs, arguments.kw_defaults, strict=True)
+        if default is None
+    ]

@@ -1,0 +1,200 @@
+"""What can be wrong with the code that a developer added: P3."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from plutoc.diagnostic import Diagnostic, Related, Severity
+from plutoc.hooks.expected import Expected
+from plutoc.source import Source, Span
+
+
+def not_python(hooks: Source, span: Span, why: str) -> Diagnostic:
+    """A hooks.py that Python itself would refuse."""
+    return _error(
+        "P3001",
+        f"this is not Python: {why}",
+        hooks,
+        span,
+        label="Python stops here",
+        help="mend it first: hooks can only be checked in a file that Python can read",
+    )
+
+
+def unreadable(hooks: Source, why: str) -> Diagnostic:
+    """A hooks.py that cannot be read at all."""
+    return _error("P3002", f"`{hooks.path}` cannot be read: {why}", hooks, Span(0, 0))
+
+
+def missing(app: Source, hook: Expected, path: str, near: str | None) -> Diagnostic:
+    """A hook that the app declares and hooks.py does not define."""
+    similar = f"there is a `{near}`: rename it if it is meant, or " if near else ""
+    return _error(
+        "P3003",
+        f"`{path}` has no `{hook.name}`",
+        app,
+        hook.span,
+        label=f"this {hook.kind.value} is a function that you write",
+        help=f"{similar}write it there, to begin with like this:\n\n{hook.stub}",
+    )
+
+
+def not_a_function(app: Source, hooks: Source, hook: Expected, span: Span) -> Diagnostic:
+    """A class with the name of a hook."""
+    return _on_hook(
+        "P3004",
+        f"`{hook.name}` is a class, and the app calls it as a function",
+        app,
+        hooks,
+        hook,
+        span,
+        label="a class",
+    )
+
+
+def wrong_count(
+    app: Source, hooks: Source, hook: Expected, span: Span, takes: Sequence[str]
+) -> Diagnostic:
+    """A hook with too few parameters for what it gets by position."""
+    got = f"only {_listed(takes)}" if takes else "nothing"
+    return _on_hook(
+        "P3005",
+        f"`{hook.name}` gets {_listed(hook.passed)}, and takes {got}",
+        app,
+        hooks,
+        hook,
+        span,
+        label=f"too few parameters for {_a(hook)}",
+    )
+
+
+def wrong_order(
+    app: Source, hooks: Source, hook: Expected, span: Span, name: str, gets: str
+) -> Diagnostic:
+    """A parameter with the name of what comes in another place."""
+    return _on_hook(
+        "P3006",
+        f"`{name}` of `{hook.name}` would get the {gets}",
+        app,
+        hooks,
+        hook,
+        span,
+        label=f"the {gets} arrives here",
+    )
+
+
+def missing_parameter(
+    app: Source, hooks: Source, hook: Expected, span: Span, name: str
+) -> Diagnostic:
+    """A parameter that the app declares and the hook does not take."""
+    return _on_hook(
+        "P3007",
+        f"`{hook.name}` does not take `{name}`, which the app declares",
+        app,
+        hooks,
+        hook,
+        span,
+        label=f"no parameter `{name}`",
+    )
+
+
+def unfilled_parameter(
+    app: Source, hooks: Source, hook: Expected, span: Span, name: str
+) -> Diagnostic:
+    """A parameter that nobody gives a value."""
+    return _on_hook(
+        "P3008",
+        f"nothing gives `{name}` of `{hook.name}` a value",
+        app,
+        hooks,
+        hook,
+        span,
+        label="neither declared in the app nor with a default",
+    )
+
+
+def by_position_only(
+    app: Source, hooks: Source, hook: Expected, span: Span, name: str
+) -> Diagnostic:
+    """A parameter that is given by name and can only be given by its place."""
+    return _on_hook(
+        "P3009",
+        f"`{name}` of `{hook.name}` is given by name, and can be given only by its place",
+        app,
+        hooks,
+        hook,
+        span,
+        label="write it behind a `*`",
+    )
+
+
+def may_not_wait(app: Source, hooks: Source, hook: Expected, span: Span) -> Diagnostic:
+    """A policy that is an `async def`."""
+    return _on_hook(
+        "P3010",
+        f"{_a(hook)} answers at once: `{hook.name}` cannot be an `async def`",
+        app,
+        hooks,
+        hook,
+        span,
+        label="write `def`",
+    )
+
+
+def generator(app: Source, hooks: Source, hook: Expected, span: Span) -> Diagnostic:
+    """A hook with a `yield`, which the app would never run."""
+    return _on_hook(
+        "P3011",
+        f"`{hook.name}` contains `yield`, so calling it does nothing",
+        app,
+        hooks,
+        hook,
+        span,
+        label="a generator",
+    )
+
+
+def _on_hook(
+    code: str, message: str, app: Source, hooks: Source, hook: Expected, span: Span, *, label: str
+) -> Diagnostic:
+    return _error(
+        code,
+        message,
+        hooks,
+        span,
+        label=label,
+        related=(Related(source=app, span=hook.span, label="declared here"),),
+        help=f"the app calls it like this:\n\n{hook.first_line}",
+    )
+
+
+def _a(hook: Expected) -> str:
+    word = hook.kind.value
+    return f"an {word}" if word[0] in "aeiou" else f"a {word}"
+
+
+def _listed(names: Sequence[str]) -> str:
+    quoted = [f"`{name}`" for name in names]
+    return " and ".join([", ".join(quoted[:-1]), quoted[-1]] if len(quoted) > 1 else quoted)
+
+
+def _error(
+    code: str,
+    message: str,
+    source: Source,
+    span: Span,
+    *,
+    label: str = "",
+    related: tuple[Related, ...] = (),
+    help: str | None = None,
+) -> Diagnostic:
+    return Diagnostic(
+        code=code,
+        severity=Severity.ERROR,
+        message=message,
+        source=source,
+        span=span,
+        label=label,
+        related=related,
+        help=help,
+    )

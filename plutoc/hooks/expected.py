@@ -1,0 +1,68 @@
+"""What the app expects of each of its hooks: which arguments it passes, and how."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from plutoc.block import HookKind
+from plutoc.check.model import Checked
+from plutoc.emit.hooks_file import Stub, stubs
+from plutoc.graph.model import Action, Hook, Parameter
+from plutoc.source import Span
+
+_PASSED = {
+    HookKind.ACTION: ("drone", "trip", "context"),
+    HookKind.EVALUATOR: ("mission", "results"),
+    HookKind.MODIFIER: ("mission", "context"),
+    HookKind.POLICY: ("trip", "candidates"),
+}
+"""What comes by position, whatever the hook calls it."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Expected:
+    """One function of hooks.py, as the app calls it."""
+
+    kind: HookKind
+    name: str
+    passed: tuple[str, ...]
+    """What it gets by position."""
+    own: tuple[Parameter, ...]
+    """What it gets by name: the parameters that the app declares."""
+    may_wait: bool
+    """It may be an `async def`."""
+    span: Span
+    """Where the app declares it."""
+    first_line: str
+    """As its `def` is written, types included."""
+    stub: str
+    """A whole function that flies as it is."""
+
+    @property
+    def own_names(self) -> tuple[str, ...]:
+        """What it gets by name."""
+        return tuple(parameter.name for parameter in self.own)
+
+
+def expected(checked: Checked) -> tuple[Expected, ...]:
+    """Return all hooks of an app, in the order of the source."""
+    graph = checked.graph
+    drafts = {stub.name: stub for stub in stubs(checked)}
+    hooks = [_expected(each, drafts[each.name]) for each in graph.hooks]
+    hooks += [_expected(each, drafts[each.name]) for each in graph.actions]
+    return tuple(sorted(hooks, key=lambda hook: hook.span.start))
+
+
+def _expected(hook: Action | Hook, draft: Stub) -> Expected:
+    kind = HookKind.ACTION if isinstance(hook, Action) else hook.kind
+    first_line = f"{draft.coroutine}def {draft.name}{draft.signature}:"
+    return Expected(
+        kind=kind,
+        name=hook.name,
+        passed=_PASSED[kind],
+        own=hook.parameters,
+        may_wait=kind is not HookKind.POLICY,
+        span=hook.span,
+        first_line=first_line,
+        stub="\n    ".join([first_line, *draft.lines]),
+    )
