@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from itertools import combinations
 from math import dist
+from typing import NamedTuple
 
-from . import Mission, Photo, Results, Trip, Verdict
+from . import Mission, Photo, Result, Results, Verdict
 
 SHARP = 0.7
 """The least sharpness of a photo on the map."""
@@ -23,7 +23,17 @@ STRIP = 0.5
 TRIES = 6
 """How often one photo is taken before the mission gives up."""
 
-Photos = Mapping[Trip, Photo]
+
+class Shot(NamedTuple):
+    """The last photo of a trip."""
+
+    result: Result
+    photo: Photo
+
+    @property
+    def off_target(self) -> float:
+        """How many metres beside its target it was taken."""
+        return dist(self.result.trip.target[:2], self.photo.position[:2])
 
 
 def stitches(mission: Mission, results: Results) -> Verdict:
@@ -32,13 +42,13 @@ def stitches(mission: Mission, results: Results) -> Verdict:
     All photos are judged together, those of other missions included; but a mission has only its
     own trips flown again.
     """
-    photos = latest(results)
-    bad = {trip: "blurred" for trip, photo in photos.items() if photo.sharpness < SHARP}
-    for one, other in combinations(photos, 2):
-        if one not in bad and other not in bad and too_far_apart(one, other, photos):
+    shots = latest(results)
+    bad = {shot: "blurred" for shot in shots if shot.photo.sharpness < SHARP}
+    for one, other in combinations(shots, 2):
+        if one not in bad and other not in bad and too_far_apart(one, other):
             # The one further off its target is to blame.
-            bad[max(one, other, key=lambda trip: off_target(trip, photos))] = "overlaps too little"
-    redo = {trip: why for trip, why in bad.items() if trip in mission.completed_trips}
+            bad[max(one, other, key=lambda shot: shot.off_target)] = "overlaps too little"
+    redo = {shot.result.trip: why for shot, why in bad.items() if shot.result.mission is mission}
     for trip, why in redo.items():
         if sum(result.trip is trip for result in results.all) >= TRIES:
             return Verdict(fail=f"photo {trip.name} still {why} after {TRIES} tries")
@@ -48,19 +58,24 @@ def stitches(mission: Mission, results: Results) -> Verdict:
     return Verdict(redo=tuple(redo), log=tuple(log))
 
 
-def latest(results: Results) -> dict[Trip, Photo]:
+def latest(results: Results) -> list[Shot]:
     """Return the last photo of each trip, of all missions."""
-    return {result.trip: result.value for result in results.all if isinstance(result.value, Photo)}
+    shots = {
+        result.trip: Shot(result, result.value)
+        for result in results.all
+        if isinstance(result.value, Photo)
+    }
+    return list(shots.values())
 
 
-def too_far_apart(one: Trip, other: Trip, photos: Photos) -> bool:
+def too_far_apart(one: Shot, other: Shot) -> bool:
     """Say whether two photos are of neighbouring places and show too little of the same ground."""
-    along, across = (abs(a - b) for a, b in zip(one.target[:2], other.target[:2], strict=True))
-    a, b = photos[one], photos[other]
+    (x, y, _), (other_x, other_y, _) = one.result.trip.target, other.result.trip.target
+    along, across = abs(x - other_x), abs(y - other_y)
     if across <= STRIP:
-        return along < a.width * (1 - AHEAD) and overlap(a, b) < AHEAD
+        return along < one.photo.width * (1 - AHEAD) and overlap(one.photo, other.photo) < AHEAD
     if along <= STRIP:
-        return across < a.height * (1 - ASIDE) and overlap(a, b) < ASIDE
+        return across < one.photo.height * (1 - ASIDE) and overlap(one.photo, other.photo) < ASIDE
     return False
 
 
@@ -69,8 +84,3 @@ def overlap(a: Photo, b: Photo) -> float:
     wide = (a.width + b.width) / 2 - abs(a.position[0] - b.position[0])
     high = (a.height + b.height) / 2 - abs(a.position[1] - b.position[1])
     return max(0.0, wide) * max(0.0, high) / (a.width * a.height)
-
-
-def off_target(trip: Trip, photos: Photos) -> float:
-    """Return how many metres beside its target a photo was taken."""
-    return dist(trip.target[:2], photos[trip].position[:2])

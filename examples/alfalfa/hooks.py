@@ -2,7 +2,17 @@
 
 from __future__ import annotations
 
-from . import ActionFailed, Context, Drone, Mission, Photo, Point, Results, Trip, Verdict
+from . import (
+    ActionFailed,
+    Context,
+    Drone,
+    Mission,
+    Photo,
+    Point,
+    Results,
+    Trip,
+    Verdict,
+)
 
 DOSE = 20e-6
 """Kilograms of pollen for each bloom on a photo."""
