@@ -28,7 +28,7 @@ def find_hooks(checked: Checked, file: Path, folder: Path) -> Source | None:
     """Return the hooks.py that counts: the package's own, else the one beside the app."""
     for path in (folder / hooks_path(checked), file.parent / HOOKS):
         if path.is_file():
-            return read_hooks(path)
+            return read_module(path)
     return None
 
 
@@ -42,8 +42,8 @@ def default_folder(file: Path, checked: Checked) -> Path:
     return file.parent / checked.graph.name
 
 
-def read_hooks(path: Path) -> Source:
-    """Read a hooks.py, with the line ends that Python sees."""
+def read_module(path: Path) -> Source:
+    """Read a module of the developer's, with the line ends that Python sees."""
     text = _text(path).removeprefix("\ufeff")
     return Source(shown(path), text.replace("\r\n", "\n").replace("\r", "\n"))
 
