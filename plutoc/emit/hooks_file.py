@@ -23,7 +23,7 @@ UNITS = {
     Type.LENGTH: "in metres",
     Type.TIME: "in seconds",
     Type.ANGLE: "in radians",
-    Type.PERCENT: "as a share from 0 to 1",
+    Type.PERCENT: "a share from 0 to 1",
     Type.SPEED: "in metres a second",
     Type.TEMPERATURE: "in kelvin",
 }
@@ -184,7 +184,7 @@ def _hook(hook: Hook, checked: Checked, taken: set[str]) -> Stub:
                 coroutine="",
                 signature="(mission: Mission, results: Results) -> Verdict",
                 doc=["Judge a finished mission by what its actions gave."],
-                lines=[f"return Verdict(ok=True, log=({literal(_yet(hook.name))},))"],
+                lines=[f"return Verdict(ok=True, log=({literal(_all_pass(hook.name))},))"],
                 uses=("Mission", "Results", "Verdict"),
             )
         case HookKind.POLICY:
@@ -258,6 +258,10 @@ def _units(parameters: tuple[Parameter, ...]) -> list[str]:
 
 def _yet(name: str) -> str:
     return f"{name} does nothing yet: write it in hooks.py"
+
+
+def _all_pass(name: str) -> str:
+    return f"{name} accepts every mission as yet: write it in hooks.py"
 
 
 def _log(name: str) -> str:

@@ -34,8 +34,10 @@ def owned(text: str, source_name: str) -> str:
 def formatted(text: str) -> str:
     """Return a module as Black writes it."""
     import black  # heavy, and needed only where files are made
+    from black.mode import TargetVersion
 
-    return black.format_str(text, mode=black.Mode(line_length=LINE_LENGTH))
+    mode = black.Mode(line_length=LINE_LENGTH, target_versions={TargetVersion.PY311})
+    return black.format_str(text, mode=mode)
 
 
 def literal(value: Plain | None) -> str:

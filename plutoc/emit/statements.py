@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from inspect import iscoroutinefunction
 
@@ -46,7 +46,7 @@ class Scope:
 
 def body_lines(body: Body, scope: Scope) -> Iterator[str]:
     """Yield the lines of a body, without indentation of its own."""
-    for step, following in zip(body, (*body[1:], None), strict=True):
+    for step, following in zip(body, (*body[1:], None), strict=False):
         match step:
             case Call(node=node):
                 yield f"# {node.declaration}"
@@ -146,19 +146,24 @@ def _picture(join: Join) -> str:
 
 def _switch(arms: tuple[Arm, ...], scope: Scope) -> Iterator[str]:
     """Yield early ways out first, flat; an arm that goes on below makes the rest its `else`."""
-    busy = [arm for arm in arms if arm.body]
-    rest = busy[-1] if busy and len(busy) == len(arms) else None
+    written = [(arm, _arm(arm, scope)) for arm in arms]
+    busy = [(arm, lines) for arm, lines in written if lines]
+    rest = busy[-1][0] if len(busy) == len(arms) else None
     keyword = "if"
-    for arm in busy:
-        to_follow = isinstance(arm.body[0], Break)
-        inner = iter([f"break  # -> {arm.to}"]) if to_follow else body_lines(arm.body, scope)
+    for arm, lines in busy:
         if arm is rest and keyword == "if":
-            yield from inner
+            yield from lines
         else:
             yield "else:" if arm is rest else f"{keyword} {_condition(arm)}:"
-            yield from _indented(inner)
+            yield from _indented(lines)
         if not leaves(arm.body):
             keyword = "elif"
+
+
+def _arm(arm: Arm, scope: Scope) -> list[str]:
+    if arm.body[:1] == (Break(),):
+        return [f"break  # -> {arm.to}"]
+    return list(body_lines(arm.body, scope))
 
 
 def _condition(arm: Arm) -> str:
@@ -204,5 +209,5 @@ def _dispatch(dispatch: Dispatch, scope: Scope) -> Iterator[str]:
         yield from _indented(_indented(_indented(body_lines(case.body, inner))))
 
 
-def _indented(lines: Iterator[str]) -> Iterator[str]:
+def _indented(lines: Iterable[str]) -> Iterator[str]:
     return (f"    {line}" for line in lines)
