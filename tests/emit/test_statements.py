@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from importlib.abc import InspectLoader
+from types import ModuleType
 from typing import Any
 
 import hypothesis.strategies as st
@@ -227,13 +229,24 @@ def whole(body: Body) -> Body:
 SCRIPTS = st.lists(st.sampled_from(IN_GRAPH), max_size=30)
 
 
+class Text(InspectLoader):
+    """Loads a module from its text."""
+
+    def __init__(self, text: str) -> None:
+        self._text = text
+
+    def get_source(self, fullname: str) -> str:
+        return self._text
+
+
 def agree(body: Body, script: list[Status]) -> None:
     """Hold what the lines do against what the steps say."""
-    scope: dict[str, Any] = {"step": step, "gate": gate, "Status": Status}
-    exec(written(body), scope)
+    flow = ModuleType("flow")
+    vars(flow).update(step=step, gate=gate, Status=Status)
+    Text(written(body)).exec_module(flow)
     told, done = World(script), World(script)
     first = Status.UNEXECUTED
-    assert result(lambda: scope["flow"](done, first), done) == result(
+    assert result(lambda: flow.flow(done, first), done) == result(
         lambda: function(body, told, first), told
     )
 

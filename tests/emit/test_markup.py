@@ -1,0 +1,53 @@
+"""Free text stays text."""
+
+from __future__ import annotations
+
+import tomllib
+
+import hypothesis.strategies as st
+from hypothesis import given
+
+from plutoc.emit.markup import fence, markdown, one_line, toml_text
+from plutoc.emit.python import header
+
+WHOLE = st.text(st.characters(exclude_categories=["Cs"]))
+
+
+@given(WHOLE)
+def test_toml_gives_every_text_back(text: str) -> None:
+    """Whatever it holds, it is ASCII in the file and itself when read."""
+    assert toml_text(text).isascii()
+    assert tomllib.loads(f"a = {toml_text(text)}") == {"a": text}
+
+
+def test_half_a_character_is_replaced() -> None:
+    """TOML cannot write a lone surrogate."""
+    assert tomllib.loads(f"a = {toml_text(chr(0xD800))}") == {"a": "\ufffd"}
+
+
+@given(st.text())
+def test_markdown_is_one_line_without_marks(text: str) -> None:
+    """Nothing of it can begin a tag, a link, a table cell or code."""
+    written = markdown(text)
+    assert len(written.splitlines()) <= 1
+    for mark in "`<[|*":
+        assert f"\\{mark}" in written or mark not in text
+
+
+@given(st.text("`\na"))
+def test_nothing_closes_a_fence_early(text: str) -> None:
+    """The fence is longer than any run of backticks in the text."""
+    assert fence(text) not in text
+
+
+@given(st.text())
+def test_header_is_one_line_and_no_encoding(name: str) -> None:
+    """Only a plain file name gets into it."""
+    written = header(name)
+    assert "\n" not in written and "coding:" not in written and "coding=" not in written
+    assert written.isascii() and written.endswith(". DO NOT EDIT.")
+
+
+def test_one_line_keeps_words_apart() -> None:
+    """Line ends become blanks."""
+    assert one_line(" a\n\n b\tc ") == "a b c"
