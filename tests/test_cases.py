@@ -9,34 +9,37 @@ from pathlib import Path
 
 import pytest
 
-from plutoc import registry
-from plutoc.check.run import check
+from plutoc.compile import analyse, check_hooks
 from plutoc.diagnostic import Diagnostic, Rejected
-from plutoc.graph.resolve import resolve
 from plutoc.report.text import render
 from plutoc.source import Source
-from plutoc.syntax.parse import parse
 
 CASES = Path(__file__).parent / "cases"
 FOLDERS = sorted(path.parent for path in CASES.glob("*/app.pluto"))
 
 
-def diagnostics_of(source: Source) -> tuple[Diagnostic, ...]:
+def diagnostics_of(source: Source, hooks: Source | None) -> tuple[Diagnostic, ...]:
     """Take a source through all phases that have something to say about it."""
     try:
-        graph, warnings = resolve(parse(source), registry.blocks())
-        _, more = check(graph)
+        checked, warnings = analyse(source)
+        return warnings + check_hooks(checked, hooks)
     except Rejected as rejected:
         return rejected.diagnostics
-    return warnings + more
+
+
+def read(path: Path) -> Source | None:
+    """Read a file of a case, if it has it."""
+    # In bytes: reading as text would hide carriage returns from the parser.
+    return Source(path.name, path.read_bytes().decode()) if path.exists() else None
 
 
 @pytest.mark.parametrize("folder", FOLDERS, ids=lambda folder: folder.name)
 def test_report_is_as_expected(folder: Path, update: bool) -> None:
     """A source gives exactly the report beside it."""
-    # In bytes: reading as text would hide carriage returns from the parser.
-    text = (folder / "app.pluto").read_bytes().decode()
-    report = render(diagnostics_of(Source("app.pluto", text)), colour=False, limit=100)
+    source = read(folder / "app.pluto")
+    assert source is not None
+    found = diagnostics_of(source, read(folder / "hooks.py"))
+    report = render(found, colour=False, limit=100)
     expected = folder / "report.txt"
     if update:
         expected.write_text(report, encoding="utf-8")

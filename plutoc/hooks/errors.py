@@ -35,7 +35,7 @@ def missing(app: Source, hook: Expected, path: str, near: str | None) -> Diagnos
         app,
         hook.span,
         label=f"this {hook.kind.value} is a function that you write",
-        help=f"{similar}write it there, to begin with like this:\n\n{hook.stub}",
+        help=f"{similar}write it there, to begin with like this:\n{hook.stub}",
     )
 
 
@@ -164,7 +164,7 @@ def _on_hook(
         span,
         label=label,
         related=(Related(source=app, span=hook.span, label="declared here"),),
-        help=f"the app calls it like this:\n\n{hook.first_line}",
+        help=f"the app calls it like this:\n{hook.first_line}",
     )
 
 

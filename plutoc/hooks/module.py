@@ -50,8 +50,10 @@ def _parsed(source: Source) -> ast.Module:
             return ast.parse(source.text)
     except SyntaxError as error:
         raise Unreadable(error.msg, _place(source, error)) from None
-    except (ValueError, RecursionError, MemoryError) as error:
-        raise Unreadable(str(error) or "it is nested too deep", None) from None
+    except (RecursionError, MemoryError):
+        raise Unreadable("it is nested too deep", None) from None
+    except ValueError:  # before Python 3.12; since then it is a SyntaxError
+        raise Unreadable("it holds a null byte, which is no text", None) from None
 
 
 def _place(source: Source, error: SyntaxError) -> Span | None:

@@ -1,0 +1,7 @@
+"""Hooks."""
+
+from . import Mission, Results, Verdict
+
+
+def find_bloom(mission: Mission, results: Results) -> Verdict:
+    return Verdict(ok=True)

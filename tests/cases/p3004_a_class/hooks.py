@@ -1,0 +1,2 @@
+class find_blooms:
+    pass

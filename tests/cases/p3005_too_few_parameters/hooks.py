@@ -1,0 +1,6 @@
+def pollinate(*, dose):
+    return dose
+
+
+def find_blooms(mission):
+    return None

@@ -1,0 +1,2 @@
+def pollinate(drone, trip, context, often, *, dose, wait, slow=False):
+    return dose

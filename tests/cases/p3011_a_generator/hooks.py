@@ -1,0 +1,2 @@
+def find_blooms(mission, results):
+    yield from results.new
