@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from importlib.abc import InspectLoader
+from itertools import count
 from types import ModuleType
 from typing import Any
 
@@ -33,6 +34,8 @@ from plutoc.plan.model import (
 )
 from plutoc.source import Span
 from plutoc_runtime.status import IN_GRAPH, Status
+
+NUMBERS = count()
 
 Trace = list[tuple[str, Status]]
 
@@ -93,7 +96,7 @@ NODES = st.integers(0, 9).map(lambda number: Call(node=node(f"n{number}")))
 
 @st.composite
 def joins(draw: st.DrawFn) -> Join:
-    number = draw(st.integers(0, 999))
+    number = next(NUMBERS)  # no two forks of a flow share a function
     ways = tuple(
         Branch(name=f"_b{number}_{place}", path="a -> b -> c", body=(*draw(bodies(2)), End()))
         for place in range(2)
