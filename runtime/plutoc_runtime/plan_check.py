@@ -66,10 +66,9 @@ def problems(
         while rest:
             chain = chain_of(rest)
             rest = rest[len(chain) :]
-            misses = [_miss(app, airspace, category, home, chain) for category, home in drones]
-            if None not in misses:
-                nearest = _nearest([miss for miss in misses if miss], drones)
-                found.append(f"{_called(mission, chain)}: {_nobody(nearest)}")
+            misses = _misses(app, airspace, drones, chain)
+            if misses is not None:
+                found.append(f"{_called(mission, chain)}: {_nobody(_nearest(misses, drones))}")
     return found
 
 
@@ -87,6 +86,22 @@ def endless(missions: Sequence[Mission[Any]], app: App) -> list[str]:
         for name in rounds
         if getattr(mission, name) is True
     ]
+
+
+def _misses(
+    app: App,
+    airspace: Airspace,
+    drones: Sequence[tuple[Category, Point]],
+    chain: Sequence[Trip],
+) -> list[_Miss] | None:
+    """Return what each drone lacks; None as soon as one lacks nothing."""
+    misses = []
+    for category, home in drones:
+        miss = _miss(app, airspace, category, home, chain)
+        if miss is None:
+            return None
+        misses.append(miss)
+    return misses
 
 
 def _miss(

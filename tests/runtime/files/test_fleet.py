@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import tempfile
 from pathlib import Path
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from plutoc_runtime.airspace import Airspace
 from plutoc_runtime.app import App
@@ -181,3 +184,18 @@ DRONE = '[[drone]]\nid = "a"\nhome = [1, 1]\ncategory = "scout"\n'
 def test_a_fleet_that_cannot_fly_is_refused(tmp_path: Path, text: str, said: str) -> None:
     """The message names the key and what is wrong with its value."""
     assert problems(tmp_path, text) == [said]
+
+
+LINES = st.sampled_from([*FULL.split("\n"), "x = 1", "home = 3", "[fleet]", "size = [1e9, nan]"])
+
+
+@given(st.lists(LINES, max_size=25))
+def test_any_mixture_of_lines_is_loaded_or_refused(lines: list[str]) -> None:
+    """Nothing that a file may hold ends in anything but a fleet or `BadInput`."""
+    with tempfile.TemporaryDirectory() as folder:
+        try:
+            fleet = load(Path(folder), "\n".join(lines))
+        except BadInput as error:
+            assert str(error)
+        else:
+            assert fleet.drones

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tempfile
 from pathlib import Path
 from typing import Any
 
@@ -324,8 +325,6 @@ LINES = st.sampled_from([*FULL.split("\n"), "x = 1", "[[mission]]", "target = 3"
 @given(st.lists(LINES, max_size=25))
 def test_any_mixture_of_lines_is_loaded_or_refused(lines: list[str]) -> None:
     """Nothing that a file may hold ends in anything but missions or `BadInput`."""
-    import tempfile
-
     with tempfile.TemporaryDirectory() as folder:
         try:
             missions = load(Path(folder), "\n".join(lines))

@@ -1,0 +1,35 @@
+"""What docs/files.md shows is what the files hold."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import fields
+from pathlib import Path
+
+from plutoc_runtime.files.app_fields import ELSEWHERE
+from plutoc_runtime.files.fleet import load_fleet
+from plutoc_runtime.files.missions import load_missions
+from plutoc_runtime.plan_check import problems
+from tests.runtime.files.an_app import APP
+
+PAGE = (Path(__file__).parents[3] / "docs" / "files.md").read_text(encoding="utf-8")
+
+
+def test_the_examples_are_a_plan_that_loads(tmp_path: Path) -> None:
+    """The missions file, and the fleet file with its world, a carrier added."""
+    missions, fleet, world = re.findall(r"```toml\n(.*?)```", PAGE, re.DOTALL)
+    carrier = '[[drone]]\nid = "cf2"\ncategory = "carrier"\nhome = [1.5, 0.5]\n'
+    (tmp_path / "m.toml").write_text(missions, encoding="utf-8")
+    (tmp_path / "f.toml").write_text(fleet + carrier + world, encoding="utf-8")
+    team = load_fleet(tmp_path / "f.toml", APP)
+    flown = load_missions(tmp_path / "m.toml", APP, team.airspace)
+    assert len(flown[0].trips) == 4
+    assert team.world is not None
+    assert {field.name for field in fields(team) if not getattr(team, field.name)} == set()
+    assert problems(flown, APP, team, team.airspace) == []
+
+
+def test_the_page_has_every_further_field() -> None:
+    """In the order in which messages know them."""
+    rows = re.findall(r"^\| (mission|trip) \| `(\w+)`", PAGE, re.MULTILINE)
+    assert rows == [(on.value, name) for on, names in ELSEWHERE.items() for name in names]
