@@ -1,0 +1,124 @@
+"""The examples compile, fly to their end, and keep the invariants whatever goes wrong."""
+
+from __future__ import annotations
+
+import ast
+import json
+import os
+import subprocess
+import sys
+import tomllib
+
+import pytest
+
+from plutoc.cli import main
+from tests.flying import EXAMPLES, MISHAPS, NAMES, Example
+from tests.invariants import violations
+
+SEEDS = range(10)
+BAD_SEEDS = range(20)
+
+WARNED = {
+    "drugs_distribution": ["P2055"],
+    "object_finder": ["P2055"],
+    "warehouse_item_finder": ["P2055"],
+}
+"""The basic graph of the thesis retries nothing; its examples say so. The others have no warning."""
+
+
+def test_every_app_of_the_thesis_is_there() -> None:
+    """The applications of the thesis's chapter 6 that Pluto can do."""
+    assert NAMES == [
+        "aerial_mapping",
+        "alfalfa",
+        "drugs_distribution",
+        "drugs_distribution_retry",
+        "drugs_distribution_timer",
+        "object_finder",
+        "pm10",
+        "warehouse_item_finder",
+    ]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_examples_warn_of_nothing_unexpected(name: str, capsys: pytest.CaptureFixture[str]) -> None:
+    """`plutoc check` accepts every example, with the warnings that its README mentions."""
+    assert main(["check", "--format", "json", str(EXAMPLES / name / "app.pluto")]) == 0
+    codes = [json.loads(line)["code"] for line in capsys.readouterr().out.splitlines()]
+    assert codes == WARNED.get(name, [])
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_folders_are_whole(name: str) -> None:
+    """Every example has its files, and its app is named like its folder."""
+    folder = EXAMPLES / name
+    for file in ("missions.toml", "fleet.toml", "README.md", "map.svg"):
+        assert (folder / file).is_file()
+    assert f"app {name} " in (folder / "app.pluto").read_text(encoding="utf-8")
+    fleet = tomllib.loads((folder / "fleet.toml").read_text(encoding="utf-8"))
+    assert (folder / fleet["map"]["image"]).is_file()
+
+
+def test_hooks_of_an_example_become_the_packages(example: Example) -> None:
+    """Where there is a hooks.py beside the source it is the package's first."""
+    beside = EXAMPLES / example.name / "hooks.py"
+    own = example.package / "src" / example.name / "hooks.py"
+    if beside.exists():
+        assert own.read_bytes() == beside.read_bytes()
+    else:
+        assert not any(
+            isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef)
+            for node in ast.walk(ast.parse(own.read_text(encoding="utf-8")))
+        )
+
+
+def test_examples_complete_when_nothing_goes_wrong(example: Example) -> None:
+    """Every mission of every example is completed, for any seed, within its battery limits."""
+    for seed in SEEDS:
+        flown = example.fly(seed)
+        assert {status for status, _ in flown.ends} == {"COMPLETED"}, f"seed {seed}"
+        assert violations(flown.trace, example.items) == [], f"seed {seed}"
+        # A drone that lands with less than its reserve charges before it is free again.
+        assert not any(event["event"] == "drone.charging" for event in flown.trace), f"seed {seed}"
+
+
+def test_examples_end_whatever_goes_wrong(example: Example) -> None:
+    """With crashes, lost links and failed actions every mission still ends, and says why."""
+    for seed in BAD_SEEDS:
+        flown = example.fly(seed, MISHAPS)
+        for status, reason in flown.ends:
+            assert status == "COMPLETED" or (status == "FAILED" and reason), f"seed {seed}"
+        assert violations(flown.trace, example.items) == [], f"seed {seed}"
+
+
+def test_the_same_seed_is_the_same_flight(example: Example) -> None:
+    """Chance is drawn from the seed alone."""
+    assert example.fly(7, MISHAPS).trace == example.fly(7, MISHAPS).trace
+
+
+def test_command_line_completes(example: Example) -> None:
+    """`simulate missions.toml --fleet fleet.toml`, as a person types it, ends with 0."""
+    folder = EXAMPLES / example.name
+    run = subprocess.run(
+        [sys.executable, "-m", example.name, "simulate", "missions.toml", "--fleet", "fleet.toml"],
+        cwd=folder,
+        env={**os.environ, "PYTHONPATH": str(example.package / "src")},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert run.returncode == 0, run.stdout + run.stderr
+    count = len(example.missions)
+    assert f"{count} of {count} missions completed" in run.stdout
+
+
+@pytest.mark.parametrize("name", [name for name in NAMES if name.startswith("drugs_")])
+def test_drugs_distribution_flies_the_missions_of_the_thesis(name: str) -> None:
+    """Each step of the exercise flies the three missions of thesis 6.2.1."""
+    text = (EXAMPLES / name / "missions.toml").read_text(encoding="utf-8")
+    plan = tomllib.loads(text)["mission"]
+    assert [[(t["name"], t["action"]) for t in mission["trip"]] for mission in plan] == [
+        [("A", "take_photo"), ("B", "take_photo"), ("C", "take_photo")],
+        [("A", "measure"), ("B", "measure")],
+        [("A", "pick_item"), ("B", "release_item"), ("C", "take_photo"), ("D", "measure")],
+    ]

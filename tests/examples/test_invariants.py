@@ -1,0 +1,247 @@
+"""Each invariant can fail: a sound trace has no violation, and each planted mistake is found."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+import pytest
+
+from tests.invariants import (
+    INVARIANTS,
+    Event,
+    Trace,
+    attempts_count_up,
+    completed_missions_did_everything,
+    drones_serve_one_mission_at_a_time,
+    items_stay_aboard,
+    missions_end_once,
+    nothing_happens_after_the_end,
+    time_never_runs_backwards,
+    trips_do_not_overlap,
+    unwell_drones_stay_down,
+    violations,
+)
+
+Change = Callable[[list[dict[str, object]]], None]
+
+ITEMS = {"ward": {"pick": "bed"}}
+
+
+def sound() -> list[dict[str, object]]:
+    """A mission that fails once, brings an item with d1, and is asked for one trip more."""
+
+    def trip(kind: str, name: str, drone: str, attempt: int = 1, **more: object) -> Event:
+        return {
+            "event": f"trip.{kind}",
+            "mission": "ward",
+            "trip": name,
+            "drone": drone,
+            "round": 0,
+            "attempt": attempt,
+            **more,
+        }
+
+    def given(name: str, drone: str) -> Event:
+        return {"event": "trip.allocated", "mission": "ward", "trip": name, "drone": drone}
+
+    events: list[Event] = [
+        {"event": "mission.created", "mission": "ward", "trips": ["pick", "bed"]},
+        given("pick", "d0"),
+        trip("launched", "pick", "d0"),
+        trip("failed", "pick", "d0", reason="d0 crashed"),
+        {"event": "drone.recovering", "drone": "d0"},
+        {"event": "trip.reset", "mission": "ward", "trip": "pick", "attempt": 2},
+        {"event": "drone.lost", "drone": "d0"},
+        given("pick", "d1"),
+        trip("launched", "pick", "d1", 2),
+        trip("completed", "pick", "d1", 2),
+        given("bed", "d1"),
+        trip("launched", "bed", "d1"),
+        trip("completed", "bed", "d1"),
+        {"event": "drone.returning", "drone": "d1"},
+        {"event": "mission.extended", "mission": "ward", "redo": [], "add": ["look"]},
+        {"event": "drone.free", "drone": "d1"},
+        given("look", "d1"),
+        trip("launched", "look", "d1"),
+        trip("completed", "look", "d1"),
+        {"event": "drone.returning", "drone": "d1"},
+        {"event": "mission.ended", "mission": "ward", "status": "COMPLETED", "reason": ""},
+        {"event": "log", "mission": "ward", "text": "good night"},
+    ]
+    return [{"t": float(second), **event} for second, event in enumerate(events)]
+
+
+def place(trace: Trace, kind: str, **facts: object) -> int:
+    """Return where the first event of a kind, with these facts, stands."""
+    return next(
+        number
+        for number, event in enumerate(trace)
+        if event["event"] == kind and facts.items() <= event.items()
+    )
+
+
+def test_sound_trace_has_no_violation() -> None:
+    """Failures, retries, items, added trips and late log lines are all in order."""
+    assert violations(sound(), ITEMS) == []
+
+
+def test_empty_trace_has_no_violation() -> None:
+    """Where nothing happened nothing went wrong."""
+    assert violations([], {}) == []
+
+
+def back_in_time(trace: list[dict[str, object]]) -> None:
+    """An event stands after a later one."""
+    trace[5]["t"] = 0.5
+
+
+def hangs(trace: list[dict[str, object]]) -> None:
+    """The mission never ends."""
+    del trace[place(trace, "mission.ended")]
+
+
+def ends_twice(trace: list[dict[str, object]]) -> None:
+    """The mission ends again."""
+    trace.append(dict(trace[place(trace, "mission.ended")], t=99.0))
+
+
+def ends_oddly(trace: list[dict[str, object]]) -> None:
+    """The mission ends while it is on standby."""
+    trace[place(trace, "mission.ended")]["status"] = "STANDBY"
+
+
+def fails_silently(trace: list[dict[str, object]]) -> None:
+    """The mission fails for no reason."""
+    trace[place(trace, "mission.ended")].update(status="FAILED", reason=" ")
+
+
+def complains(trace: list[dict[str, object]]) -> None:
+    """The mission is completed and has a reason all the same."""
+    trace[place(trace, "mission.ended")]["reason"] = "d0 crashed"
+
+
+def haunts(trace: list[dict[str, object]]) -> None:
+    """The mission is allocated a drone after its end."""
+    event = trace[place(trace, "trip.allocated", trip="look")]
+    trace.append(dict(event, t=99.0))
+
+
+def flies_two_trips(trace: list[dict[str, object]]) -> None:
+    """The second trip is launched while the first one flies."""
+    del trace[place(trace, "trip.completed", trip="pick")]
+
+
+def lands_without_a_flight(trace: list[dict[str, object]]) -> None:
+    """A trip is completed that was never launched."""
+    del trace[place(trace, "trip.launched", trip="look")]
+
+
+def lands_another(trace: list[dict[str, object]]) -> None:
+    """What ends is another drone's flight."""
+    trace[place(trace, "trip.completed", trip="look")]["drone"] = "d2"
+
+
+def ends_in_flight(trace: list[dict[str, object]]) -> None:
+    """The mission ends while its trip flies."""
+    del trace[place(trace, "trip.completed", trip="look")]
+
+
+def gives_a_returning_drone(trace: list[dict[str, object]]) -> None:
+    """A drone on its way home is given away."""
+    del trace[place(trace, "drone.free")]
+
+
+def gives_a_drone_twice(trace: list[dict[str, object]]) -> None:
+    """Another mission gets the drone that the first one holds."""
+    event = trace[place(trace, "trip.allocated", trip="pick", drone="d1")]
+    trace.insert(trace.index(event) + 1, dict(event, mission="other"))
+
+
+def flies_with_a_stolen_drone(trace: list[dict[str, object]]) -> None:
+    """A trip is launched with a drone that its mission was not given."""
+    trace[place(trace, "trip.launched", trip="look")]["drone"] = "d2"
+
+
+def gives_a_recovering_drone(trace: list[dict[str, object]]) -> None:
+    """A drone that recovers is given to the mission again."""
+    for event in trace[place(trace, "trip.allocated", drone="d1") : place(trace, "drone.free")]:
+        if event.get("drone") == "d1":
+            event["drone"] = "d0"
+
+
+def brings_back_the_lost(trace: list[dict[str, object]]) -> None:
+    """A lost drone is free after all."""
+    trace.insert(place(trace, "drone.lost") + 1, {"t": 6.5, "event": "drone.free", "drone": "d0"})
+
+
+def miscounts(trace: list[dict[str, object]]) -> None:
+    """The second flight of a trip calls itself the first."""
+    for event in trace:
+        if event.get("attempt") == 2:
+            event["attempt"] = 1
+
+
+def forgets_a_trip(trace: list[dict[str, object]]) -> None:
+    """The mission is completed without the trip that was added."""
+    del trace[place(trace, "trip.allocated", trip="look") : place(trace, "mission.ended")]
+
+
+def swaps_drones_with_an_item_aboard(trace: list[dict[str, object]]) -> None:
+    """One drone picks the item, and another one releases it."""
+    for event in trace:
+        if event.get("trip") == "bed":
+            event["drone"] = "d2"
+
+
+def serves_another_with_an_item_aboard(trace: list[dict[str, object]]) -> None:
+    """The drone that has the item is given to another mission."""
+    event = dict(trace[place(trace, "trip.allocated", trip="bed")], mission="other")
+    trace.insert(place(trace, "trip.allocated", trip="bed"), event)
+
+
+def of_items(trace: Trace) -> Iterator[str]:
+    """The invariant that needs to know the items as well."""
+    return items_stay_aboard(trace, ITEMS)
+
+
+PLANTED: list[tuple[Change, Callable[[Trace], Iterator[str]], str]] = [
+    (back_in_time, time_never_runs_backwards, "comes after something at 4 s"),
+    (hangs, missions_end_once, "ward ended 0 times"),
+    (ends_twice, missions_end_once, "ward ended 2 times"),
+    (ends_oddly, missions_end_once, "ward ended STANDBY"),
+    (fails_silently, missions_end_once, "failed without a reason"),
+    (complains, missions_end_once, "says why it failed: d0 crashed"),
+    (haunts, nothing_happens_after_the_end, "ward had ended before trip.allocated"),
+    (flies_two_trips, trips_do_not_overlap, "ward launched bed during pick"),
+    (lands_without_a_flight, trips_do_not_overlap, "look of ward ended and was not in flight"),
+    (lands_another, trips_do_not_overlap, "look (d2, round 0, attempt 1) of ward ended, not look"),
+    (ends_in_flight, trips_do_not_overlap, "ward ended during look"),
+    (gives_a_returning_drone, drones_serve_one_mission_at_a_time, "before it was free again"),
+    (gives_a_drone_twice, drones_serve_one_mission_at_a_time, "to other while ward had it"),
+    (flies_with_a_stolen_drone, drones_serve_one_mission_at_a_time, "which did not have it"),
+    (gives_a_recovering_drone, unwell_drones_stay_down, "with d0 after drone.lost"),
+    (brings_back_the_lost, unwell_drones_stay_down, "d0 was lost before drone.free"),
+    (miscounts, attempts_count_up, "flight 2 of pick of ward calls itself attempt 1"),
+    (forgets_a_trip, completed_missions_did_everything, "look 1 times to do"),
+    (swaps_drones_with_an_item_aboard, of_items, "has its item aboard d1, yet takes d2"),
+    (serves_another_with_an_item_aboard, of_items, "d1 has the item of ward, yet serves other"),
+]
+
+
+@pytest.mark.parametrize(
+    ("plant", "invariant", "sentence"), PLANTED, ids=[plant.__name__ for plant, _, _ in PLANTED]
+)
+def test_planted_mistake_is_found(
+    plant: Change, invariant: Callable[[Trace], Iterator[str]], sentence: str
+) -> None:
+    """The invariant finds the mistake, says what it is, and the whole of them reports it too."""
+    trace = sound()
+    plant(trace)
+    found = list(invariant(trace))
+    assert any(sentence in text for text in found), found
+    assert set(found) <= set(violations(trace, ITEMS))
+
+
+def test_every_invariant_is_shown_to_fail() -> None:
+    """No invariant stands there that nothing could violate."""
+    assert {invariant for _, invariant, _ in PLANTED} == {*INVARIANTS, of_items}

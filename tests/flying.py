@@ -1,0 +1,117 @@
+"""Compiles an example and flies it in this process, with the package's own embedded runtime."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Mapping, Sequence
+from contextlib import redirect_stdout
+from copy import deepcopy
+from dataclasses import dataclass
+from importlib import import_module
+from io import StringIO
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from plutoc.cli import main
+from tests.invariants import Items, Trace
+
+if TYPE_CHECKING:
+    from plutoc_runtime.model import Mission
+    from plutoc_runtime.session import Outcome
+
+EXAMPLES = Path(__file__).parents[1] / "examples"
+NAMES = sorted(path.parent.name for path in EXAMPLES.glob("*/app.pluto"))
+
+A_WEEK = 7 * 86_400.0
+"""Seconds. A mission that has not ended by then never will: its end is missed in the trace."""
+
+MISHAPS = {"crash": 0.10, "link": 0.05, "action": 0.05}
+"""What `--fail crash=10%,link=5%,action=5%` lets go wrong."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Flown:
+    """What came of one run."""
+
+    outcome: Outcome
+    trace: Trace
+
+    @property
+    def ends(self) -> list[tuple[str, str]]:
+        """How each mission ended, and why if it failed."""
+        return [(mission.status.value, mission.reason) for mission in self.outcome.missions]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Example:
+    """An example's package, imported, with its own two files."""
+
+    name: str
+    package: Path
+    missions: Sequence[Mission[Any]]
+    items: Items
+    fleet: Any
+
+    def fly(self, seed: int, mishaps: Mapping[str, float] | None = None) -> Flown:
+        """Simulate the missions to their end."""
+        session = self._module("session")
+        faults = self._module("simulation.faults").Faults(**(mishaps or {}))
+        trace: list[Mapping[str, object]] = []
+        outcome = session.simulate(
+            import_module(f"{self.name}.flow").APP,
+            deepcopy(self.missions),
+            self.fleet,
+            seed=seed,
+            faults=faults,
+            until=A_WEEK,
+            on_event=trace.append,
+        )
+        return Flown(outcome=outcome, trace=trace)
+
+    def _module(self, name: str) -> Any:
+        return import_module(f"{self.name}._runtime.{name}")
+
+
+def compiled(name: str, into: Path) -> Path:
+    """Compile an example as a person would, and return the package's folder."""
+    package = into / name
+    with redirect_stdout(StringIO()):
+        code = main(["compile", str(EXAMPLES / name / "app.pluto"), "-o", str(package)])
+    if code != 0:
+        raise AssertionError(f"plutoc compile of {name} ended with {code}")
+    return package
+
+
+def built(name: str, into: Path) -> Example:
+    """Compile and import an example, and read its missions and its fleet."""
+    package = compiled(name, into)
+    forgotten = [known for known in sys.modules if known.split(".")[0] == name]
+    for module in forgotten:
+        del sys.modules[module]
+    sys.path.insert(0, str(package / "src"))
+    try:
+        app = import_module(f"{name}.flow").APP
+        files = import_module(f"{name}._runtime.files.fleet")
+        fleet = files.load_fleet(EXAMPLES / name / "fleet.toml", app)
+        files = import_module(f"{name}._runtime.files.missions")
+        missions = files.load_missions(EXAMPLES / name / "missions.toml", app, fleet.airspace)
+        for module in ("session", "simulation.faults"):
+            import_module(f"{name}._runtime.{module}")
+    finally:
+        sys.path.remove(str(package / "src"))
+    return Example(
+        name=name, package=package, missions=missions, items=items_of(missions), fleet=fleet
+    )
+
+
+def items_of(missions: Sequence[Mission[Any]]) -> Items:
+    """Return which trips of a plan pick items, and which release them."""
+    items: dict[str, dict[str, str]] = {}
+    for mission in missions:
+        picked = ""
+        for trip in mission.trips:
+            if trip.action == "pick_item":
+                picked = trip.name
+            elif trip.action == "release_item":
+                items.setdefault(mission.name, {})[picked] = trip.name
+    return items
