@@ -18,7 +18,7 @@ from pathlib import Path
 SOURCE = """\
 pluto 1
 app experiment "The thesis's experiment" {
-  category quick(speed: 10 m/s)
+  category quick(speed: 10 m/s) can take_photo
   create = MissionCreator
   allocate = DroneAllocator(policy: first)
   launch = TripLauncher
