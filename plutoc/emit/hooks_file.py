@@ -208,7 +208,8 @@ def _modifier(hook: Hook, checked: Checked, taken: set[str]) -> Stub:
     lines = [_log(hook.name)]
     doc = ["Change the mission, or look at it; its status stays."]
     if hook.emits:
-        declared = " or ".join(status.name for status in hook.emits)
+        *most, last = (status.name for status in hook.emits)
+        declared = f"{', '.join(most)} or {last}" if most else last
         doc = [f"Say with which status the mission goes on: {declared}."]
         if waits:
             lines.append("await context.trip_ended(mission.current)")

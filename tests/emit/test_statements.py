@@ -254,7 +254,7 @@ def agree(body: Body, script: list[Status]) -> None:
     )
 
 
-@given(bodies(4).map(whole), SCRIPTS)
+@given(bodies(3).map(whole), SCRIPTS)
 def test_structured_flow_does_what_its_plan_says(body: Body, script: list[Status]) -> None:
     """Loops, switches, forks and early ways out visit the same blocks with the same statuses."""
     agree(body, script)
