@@ -16,8 +16,10 @@ from plutoc.plan.model import Arm, Body, Break, Continue, End, Goto, Loop, Step
 from plutoc.plan.shape import Shape
 from plutoc_runtime.status import IN_GRAPH
 
-DEPTH = 12
+LOOPS = 12
 """Loops in loops; Python itself compiles no more than twenty."""
+ARMS = 40
+"""Arms in arms; Python itself indents no more than a hundred times."""
 PATIENCE = 50
 """How often each spot may be tried in one place or another before we give up."""
 
@@ -44,7 +46,9 @@ class Around:
     """Spots that are written in another place, behind a loop or as a case."""
     labels: frozenset[Spot] = frozenset()
     """Spots that `Goto` leads to."""
-    depth: int = 0
+    loops: int = 0
+    arms: int = 0
+    """How many there are around this piece."""
 
 
 @dataclass(kw_only=True)
@@ -91,10 +95,8 @@ class Writer:
             return self.switching(ways, (), spot, around), None
         written: Body = ()
         # nothing may fall off the end, so all ways but one are written as arms that leave
-        ordered = sorted(ways, key=lambda way: self.inlined(way, spot, around))
-        if not self.inlined(ordered[-1], spot, around):
-            ordered.sort(key=lambda way: way.target is not None and way.target == around.head)
-        *early, last = ordered
+        *early, last = sorted(ways, key=lambda way: self.weight(way, spot, around))
+        early = [way for way in ways if way in early]
         if early:
             arms = [self.arm(way, spot, around) for way in early]
             written = switch([*arms, Arm(statuses=last.statuses, body=(), to=last.to)])
@@ -165,7 +167,9 @@ class Writer:
 
     def arm(self, way: Way, spot: Spot, around: Around) -> Arm:
         if way.target is not None and self.inlined(way, spot, around):
-            written = self.body(way.target, around)
+            if around.arms == ARMS:
+                raise Hopeless
+            written = self.body(way.target, replace(around, arms=around.arms + 1))
         else:
             written = self.jump(way.target, around)
         return Arm(statuses=way.statuses, body=written, to=way.to)
@@ -178,6 +182,15 @@ class Writer:
             and way.target not in self.shape.merges
             and way.target not in around.elsewhere
         )
+
+    def weight(self, way: Way, spot: Spot, around: Around) -> tuple[bool, int]:
+        """How much is written where the way leads; of mere jumps, going round weighs most.
+
+        The heaviest way becomes the main line. So arms are short, and few stand in each other.
+        """
+        if way.target is None or not self.inlined(way, spot, around):
+            return way.target is not None and way.target == around.head, 0
+        return True, len(self.shape.below[way.target])
 
     def reaches(self, way: Way, spot: Spot) -> bool:
         return way.target is not None and spot in self.shape.ahead[way.target]
@@ -201,7 +214,7 @@ class Writer:
 
     def loop(self, head: Spot, around: Around) -> tuple[Body, Spot | None]:
         """Write a loop; return the spot to go on with behind it."""
-        if around.depth == DEPTH:
+        if around.loops == LOOPS:
             raise Hopeless
         for out in self.outs(head, around):
             ours = out is not None and self.ours(out, head, around)
@@ -211,7 +224,8 @@ class Writer:
                     head=head,
                     out=out,
                     elsewhere=around.elsewhere | {spot for spot in (out,) if spot is not None},
-                    depth=around.depth + 1,
+                    loops=around.loops + 1,
+                    arms=around.arms,
                 )
                 written = without_last_continue(self.plain(head, within))
             except Unstructured:
@@ -255,5 +269,5 @@ class Writer:
         ]
         around_it = [spot for spot in exits if not self.ours(spot, head, around)]
         meeting = [spot for spot in inside if spot in self.shape.merges]
-        found = dict.fromkeys((*around_it, *meeting, *led_to, *inside))
+        found = dict.fromkeys((*around_it, *meeting, *inside, *led_to))
         return (*found, None)

@@ -1,0 +1,358 @@
+"""Plans as text: what a graph becomes, step by step."""
+
+from __future__ import annotations
+
+from plutoc.plan.build import build
+from plutoc.plan.show import show
+from tests.check.graphs import checked
+from tests.plan.graphs import GRAPHS
+
+
+def shown(name: str) -> str:
+    return "\n" + show(build(checked(GRAPHS[name])))
+
+
+def test_alfalfa() -> None:
+    """The sample of the language: one loop, what is rare indented, what is usual flat."""
+    assert shown("alfalfa") == """
+plan app
+  call create
+  call wait
+  loop allocate
+    call allocate
+    call launch
+    join launch -> first
+      branch _watch: launch -> watch -> first
+        call watch
+        end
+      branch _timer: launch -> timer -> first
+        call timer
+        end
+    switch
+      STANDBY -> allocate: continue
+      FAILED -> retry:
+        call retry
+        switch
+          FAILED -> end: end
+          STANDBY -> allocate: go on
+        continue
+      COMPLETED -> judge: go on
+    call judge
+    switch
+      STANDBY -> allocate: continue
+      FAILED -> end: end
+      COMPLETED -> again: go on
+    call again
+    switch
+      COMPLETED -> end: end
+      STANDBY -> allocate: go on
+"""
+
+
+def test_nested_loops() -> None:
+    """The inner loop is left by `break`, which is to begin the outer one again."""
+    assert shown("nested loops") == """
+plan app
+  call create
+  loop wait
+    call wait
+    loop allocate
+      call allocate
+      call launch
+      call watch
+      switch
+        STANDBY -> wait: break
+        COMPLETED -> end: end
+        FAILED -> retry: go on
+      call retry
+      switch
+        FAILED -> end: end
+        STANDBY -> allocate: go on
+"""
+
+
+def test_a_gate_that_forks_at_once() -> None:
+    """The gate's status is taken by an edge to one side, by a fork to the other."""
+    assert shown("a gate that forks at once") == """
+plan app
+  call create
+  loop allocate
+    call allocate
+    call launch
+    join launch -> first
+      branch _watch: launch -> watch -> first
+        call watch
+        end
+      branch _timer: launch -> timer -> first
+        call timer
+        end
+    switch
+      COMPLETED -> end: end
+      FAILED -> retry:
+        call retry
+        switch
+          FAILED -> end: end
+          STANDBY -> allocate: go on
+        continue
+      STANDBY -> [left, right]: go on
+    join first -> both
+      branch _left: first -> left -> both
+        call left
+        end
+      branch _right: first -> right -> both
+        call right
+        end
+"""
+
+
+def test_a_fork_in_a_branch_of_a_fork() -> None:
+    """A branch that forks is written like the flow itself.
+
+    Three forks with the same branches are one join.
+    """
+    assert shown("a fork in a branch of a fork") == """
+plan app
+  call create
+  loop allocate
+    call allocate
+    call launch
+    join launch -> first
+      branch _watch: launch -> watch -> ... -> first
+        call watch
+        join watch -> both
+          branch _left: watch -> left -> both
+            call left
+            end
+          branch _right: watch -> right -> both
+            call right
+            end
+        end
+      branch _timer: launch -> timer -> first
+        call timer
+        end
+    switch
+      STANDBY -> allocate: continue
+      COMPLETED -> end: end
+      FAILED -> retry: go on
+    call retry
+    switch
+      FAILED -> end: end
+      STANDBY -> allocate: go on
+"""
+
+
+def test_one_gate_that_closes_two_forks_in_turn() -> None:
+    """Two forks meet behind their gate: a loop can begin there."""
+    assert shown("one gate that closes two forks in turn") == """
+plan app
+  call create
+  join create -> both
+    branch _left: create -> left -> both
+      call left
+      end
+    branch _right: create -> right -> both
+      call right
+      end
+  loop both
+    loop allocate
+      call allocate
+      call launch
+      call watch
+      switch
+        STANDBY -> [left, right]: break
+        COMPLETED -> end: end
+        FAILED -> retry: go on
+      call retry
+      switch
+        FAILED -> end: end
+        STANDBY -> allocate: go on
+    join watch -> both
+      branch _left_2: watch -> left -> both
+        call left
+        end
+      branch _right_2: watch -> right -> both
+        call right
+        end
+"""
+
+
+def test_ways_that_meet_again() -> None:
+    """What two arms lead to stands once, behind them; what a loop is left for, behind it."""
+    assert shown("ways that meet again") == """
+plan app
+  call create
+  loop a
+    call a
+    switch
+      FAILED -> end: end
+      STANDBY -> b:
+        call b
+      COMPLETED -> c:
+        call c
+    call d
+    switch
+      COMPLETED, FAILED -> e: break
+      STANDBY -> a: go on
+  call e
+  end
+"""
+
+
+def test_two_meetings_one_in_an_arm() -> None:
+    """Ways that meet earlier than others share an arm."""
+    assert shown("two meetings, one in an arm") == """
+plan app
+  call create
+  call a
+  switch
+    STANDBY, COMPLETED -> b, c:
+      switch
+        STANDBY -> b:
+          call b
+        COMPLETED -> c:
+          call c
+      call m
+    FAILED -> d:
+      call d
+  call g
+  call h
+  end
+"""
+
+
+def test_ways_that_cross() -> None:
+    """A last block that nothing but the end follows is written twice rather than jumped to."""
+    assert shown("ways that cross") == """
+plan app
+  call create
+  call a
+  switch
+    FAILED -> g:
+      call g
+      end
+    STANDBY -> b:
+      call b
+      switch
+        COMPLETED -> g:
+          call g
+          end
+        STANDBY -> e: go on
+    COMPLETED -> c:
+      call c
+      switch
+        COMPLETED -> g:
+          call g
+          end
+        STANDBY -> e: go on
+  call e
+  call f
+  call g
+  end
+"""
+
+
+def test_a_loop_with_two_entries() -> None:
+    """What has no structure is a dispatch.
+
+    What one arrow leads to stays where it is led to.
+    """
+    assert shown("a loop with two entries") == """
+plan app
+  dispatch from create
+    case create
+      call create
+      call a
+      switch
+        COMPLETED -> b: goto b
+        FAILED -> c: go on
+      goto c
+    case c
+      call c
+      switch
+        STANDBY -> b: goto b
+        FAILED -> end: go on
+      end
+    case b
+      call b
+      switch
+        STANDBY -> c: goto c
+        COMPLETED -> end: go on
+      end
+"""
+
+
+def test_a_loop_left_to_two_places_that_others_come_to_as_well() -> None:
+    """Python has no `break` to two places."""
+    assert shown("a loop left to two places that others come to as well") == """
+plan app
+  dispatch from create
+    case create
+      call create
+      goto a
+    case a
+      call a
+      switch
+        STANDBY -> b: goto b
+        FAILED -> d: go on
+      goto d
+    case b
+      call b
+      switch
+        FAILED -> b: goto b
+        COMPLETED -> a: goto a
+        STANDBY -> d: go on
+      goto d
+    case d
+      call d
+      switch
+        STANDBY -> a: goto a
+        FAILED -> end: go on
+      end
+"""
+
+
+def test_a_branch_without_a_block() -> None:
+    """A branch may lead straight to its gate."""
+    assert shown("a branch without a block") == """
+plan app
+  call create
+  loop allocate
+    call allocate
+    call launch
+    join launch -> first
+      branch _watch: launch -> watch -> first
+        call watch
+        end
+      branch _timer: launch -> timer -> first
+        call timer
+        end
+    switch
+      COMPLETED, FAILED -> end: end
+      STANDBY -> tell: go on
+    call tell
+    join tell -> all
+      branch _note: tell -> note -> all
+        call note
+        end
+      branch _all: tell -> all
+        end
+"""
+
+
+def test_a_block_in_two_branches() -> None:
+    """Each branch has its own call of a block that they share."""
+    assert shown("a block in two branches") == """
+plan app
+  call create
+  join create -> both
+    branch _left: create -> left -> note -> both
+      call left
+      call note
+      end
+    branch _right: create -> right -> note -> both
+      call right
+      call note
+      end
+  call done
+  end
+"""

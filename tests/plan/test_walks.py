@@ -1,0 +1,66 @@
+"""A mission does in its plan what it does in its graph, whatever happens to it."""
+
+from __future__ import annotations
+
+from collections import Counter
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from plutoc.check.model import Checked
+from plutoc.check.run import check
+from plutoc.diagnostic import Rejected
+from plutoc.plan.build import build
+from plutoc.plan.model import Plan
+from plutoc.plan.show import show
+from plutoc.plan.verify import verify
+from tests.check import graphs
+from tests.check.test_walks import edited
+from tests.plan.graphs import GRAPHS, random_graphs
+from tests.plan.walks import along_graph, kept, through_plan
+
+
+def compare(checked: Checked, plan: Plan, seeds: range) -> None:
+    verify(plan)
+    for seed in seeds:
+        wanted = kept(lambda diary: along_graph(checked, diary), seed)
+        assert kept(lambda diary: through_plan(plan, diary), seed) == wanted
+
+
+@pytest.mark.parametrize("name", GRAPHS)
+def test_a_plan_visits_the_blocks_that_the_graph_does(name: str) -> None:
+    """The same blocks, branches and gates, in the same order, with the same statuses."""
+    checked = graphs.checked(GRAPHS[name])
+    compare(checked, build(checked), range(40))
+
+
+def test_plans_of_random_graphs_do_what_the_graphs_do() -> None:
+    """Blocks that route and fork wherever they like; and all that a plan can hold turned up."""
+    seen: Counter[str] = Counter()
+
+    @settings(max_examples=250, deadline=None, derandomize=True, database=None)
+    @given(text=random_graphs(), seed=st.integers(0, 1000))
+    def each(text: str, seed: int) -> None:
+        try:
+            checked = graphs.checked(text)
+        except Rejected:
+            return
+        plan = build(checked)
+        compare(checked, plan, range(seed, seed + 6))
+        shown = show(plan)
+        seen.update(word for word in ("call", "loop", "break", "join", "goto") if word in shown)
+
+    each()
+    assert all(seen[word] > 2 for word in ("call", "loop", "break", "join", "goto")), seen
+
+
+@settings(max_examples=60, deadline=None)
+@given(text=edited(), seed=st.integers(0, 1000))
+def test_plans_of_edited_graphs_do_what_the_graphs_do(text: str, seed: int) -> None:
+    """A sound graph with a line bent: if it passes the checks, its plan is right."""
+    try:
+        checked, _ = check(graphs.build(text))
+    except Rejected:
+        return
+    compare(checked, build(checked), range(seed, seed + 6))

@@ -1,0 +1,150 @@
+"""Two walks of one mission, with the same luck: along the graph, and through the plan.
+
+Neither knows anything of how plans are made. Each notes every block, every branch and every gate
+that it comes to, with the status there.
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field
+
+from plutoc.block import Gate
+from plutoc.check.model import Checked
+from plutoc.graph.model import END, START, Node
+from plutoc.plan.model import (
+    Body,
+    Break,
+    Call,
+    Continue,
+    Dispatch,
+    End,
+    Goto,
+    Join,
+    Loop,
+    Plan,
+    Step,
+    Switch,
+)
+from plutoc_runtime.status import IN_GRAPH, WORST_FIRST, Status
+
+
+class Enough(Exception):
+    """The walk is long enough."""
+
+
+@dataclass(kw_only=True)
+class Diary:
+    """What happened, and what will: the same seed chooses the same."""
+
+    luck: random.Random
+    steps: int
+    lines: list[str] = field(default_factory=list)
+
+    def note(self, what: str, status: Status) -> None:
+        self.lines.append(f"{what} {status.value}")
+        if len(self.lines) == self.steps:
+            raise Enough
+
+    def call(self, node: Node, status: Status) -> Status:
+        self.note(node.name, status)
+        emitted = node.emitted(status)
+        return self.luck.choice([s for s in IN_GRAPH if s in emitted])
+
+    def close(self, gate: Node, brought: Sequence[Status]) -> Status:
+        if gate.block.gate is Gate.ALL:
+            return self.call(gate, min(brought, key=WORST_FIRST.index))
+        return self.call(gate, self.luck.choice(list(brought)))
+
+
+def kept(walk: Callable[[Diary], None], seed: int, steps: int = 80) -> list[str]:
+    """Return the diary of a walk that this seed chooses."""
+    diary = Diary(luck=random.Random(seed), steps=steps)
+    with suppress(Enough):
+        walk(diary)
+    return diary.lines
+
+
+def along_graph(checked: Checked, diary: Diary) -> None:
+    """Walk the graph."""
+    (first,) = checked.graph.outgoing[START]
+    _from(checked, first.target, Status.UNEXECUTED, END, diary)
+
+
+def _from(checked: Checked, name: str, status: Status, to: str, diary: Diary) -> Status:
+    gates = {(fork.node, fork.status): fork.gate for fork in checked.forks}
+    closed = False
+    while closed or name not in (to, END):
+        node = checked.graph.node[name]
+        if not closed:
+            status = diary.call(node, status)
+        closed = False
+        taken = [e for e in checked.graph.outgoing[name] if status in e.takes]
+        if len(taken) > 1:
+            gate = gates[name, status]
+            brought = []
+            for edge in taken:
+                diary.note(f"branch to {edge.target}", status)
+                brought.append(_from(checked, edge.target, status, gate, diary))
+            status = diary.close(checked.graph.node[gate], brought)
+            name, closed = gate, True
+        else:
+            name = taken[0].target if taken else END
+    diary.note(f"at {name}", status)
+    return status
+
+
+def through_plan(plan: Plan, diary: Diary) -> None:
+    """Walk the plan."""
+    _function(plan.body, Status.UNEXECUTED, END, diary)
+
+
+def _function(body: Body, status: Status, to: str, diary: Diary) -> Status:
+    jump, status = _body(body, status, diary)
+    assert isinstance(jump, End)
+    diary.note(f"at {to}", status)
+    return status
+
+
+def _body(body: Body, status: Status, diary: Diary) -> tuple[Step | None, Status]:
+    """Walk a body; return the jump that leaves it, if one does, and the status."""
+    for step in body:
+        jump, status = _step(step, status, diary)
+        if jump is not None:
+            return jump, status
+    return None, status
+
+
+def _step(step: Step, status: Status, diary: Diary) -> tuple[Step | None, Status]:
+    match step:
+        case Call():
+            return None, diary.call(step.node, status)
+        case Join():
+            brought = []
+            for branch in step.branches:
+                diary.note(f"branch to {branch.path.split(' -> ')[1]}", status)
+                brought.append(_function(branch.body, status, step.gate.name, diary))
+            return None, diary.close(step.gate, brought)
+        case Switch():
+            # the last arm takes what is left, as generated code will do it
+            taken = [arm for arm in step.arms[:-1] if status in arm.statuses]
+            return _body((taken or [step.arms[-1]])[0].body, status, diary)
+        case Loop():
+            while True:
+                jump, status = _body(step.body, status, diary)
+                if isinstance(jump, Break):
+                    return None, status
+                if jump is not None and not isinstance(jump, Continue):
+                    return jump, status
+        case Dispatch():
+            bodies = {case.label: case.body for case in step.cases}
+            label = step.start
+            while True:
+                jump, status = _body(bodies[label], status, diary)
+                if not isinstance(jump, Goto):
+                    return jump, status
+                label = jump.label
+        case _:
+            return step, status
