@@ -14,8 +14,8 @@ from plutoc.graph.model import Graph, Node
 RESERVED = frozenset(
     {
         *("APP", "Action", "App", "BUILT_IN", "CATEGORIES", "FIELDS", "Mission", "Parameter"),
-        *("Run", "Status", "Trip", "Type", "at", "flow", "hooks", "mission", "partial", "run"),
-        *("dict", "frozenset", "status", "str"),
+        *("Run", "Status", "Trip", "Type", "at", "flow", "hooks", "mission", "partial"),
+        *("run", "status"),
     }
 )
 """The names that `flow.py` gives to other things."""

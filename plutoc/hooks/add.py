@@ -6,7 +6,8 @@ import ast
 import re
 
 from plutoc.check.model import Checked
-from plutoc.emit.hooks_file import stub, stubs
+from plutoc.emit.hooks_file import stub
+from plutoc.emit.stubs import stubs
 from plutoc.hooks.check import missing
 from plutoc.hooks.module import read
 from plutoc.source import Source

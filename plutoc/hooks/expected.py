@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from plutoc.block import HookKind
 from plutoc.check.model import Checked
-from plutoc.emit.hooks_file import Stub, stubs
+from plutoc.emit.stubs import Stub, stubs
 from plutoc.graph.model import Action, Hook, Parameter
 from plutoc.source import Span
 

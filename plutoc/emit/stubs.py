@@ -1,0 +1,165 @@
+"""The stubs of hooks: typed and documented, and right at once where nobody writes more."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from plutoc.block import HookKind
+from plutoc.check.model import Checked
+from plutoc.emit.python import annotation, literal
+from plutoc.emit.statements import status_tuple
+from plutoc.graph.model import Action, Graph, Hook, Parameter
+from plutoc_runtime.quantities import PYTHON, Type
+from plutoc_runtime.status import IN_GRAPH, Status
+
+UNITS = {
+    Type.MASS: "in kilograms",
+    Type.LENGTH: "in metres",
+    Type.TIME: "in seconds",
+    Type.ANGLE: "in radians",
+    Type.PERCENT: "a share from 0 to 1",
+    Type.SPEED: "in metres a second",
+    Type.TEMPERATURE: "in kelvin",
+}
+OUTCOMES = (Status.STANDBY, Status.COMPLETED, Status.FAILED)
+"""How a mission can stand when its trip is over."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Stub:
+    """One hook as it is first written."""
+
+    name: str
+    coroutine: str
+    signature: str
+    doc: list[str]
+    lines: list[str]
+    uses: tuple[str, ...]
+    """The types of the package that it names."""
+
+
+def stubs(checked: Checked) -> list[Stub]:
+    """Return the stubs of all hooks, in the order in which the app declares them."""
+    graph = checked.graph
+    taken = set(in_order(graph))
+    made = {action.name: _action(action, taken) for action in graph.actions}
+    made |= {hook.name: _hook(hook, checked, taken) for hook in graph.hooks}
+    return [made[name] for name in in_order(graph)]
+
+
+def in_order(graph: Graph) -> list[str]:
+    """Return the names of all hooks, actions among them, as the app declares them."""
+    actions = [(action.span.start, action.name) for action in graph.actions]
+    hooks = [(hook.span.start, hook.name) for hook in graph.hooks]
+    return [name for _, name in sorted(actions + hooks)]
+
+
+def _action(action: Action, taken: set[str]) -> Stub:
+    returns = annotation("object", taken)
+    fixed = "drone: Drone, trip: Trip, context: Context"
+    return Stub(
+        name=action.name,
+        coroutine="async ",
+        signature=f"({fixed}{_keywords(action.parameters, taken)}) -> {returns}",
+        doc=[
+            f"Do the action {action.name}: the drone hovers at the trip's target.",
+            "",
+            *_units(action.parameters),
+            "What it returns goes to the result store; raise ActionFailed if it cannot be done.",
+        ],
+        lines=[_log(action.name), "return None"],
+        uses=("Context", "Drone", "Trip"),
+    )
+
+
+def _hook(hook: Hook, checked: Checked, taken: set[str]) -> Stub:
+    match hook.kind:
+        case HookKind.EVALUATOR:
+            return Stub(
+                name=hook.name,
+                coroutine="",
+                signature="(mission: Mission, results: Results) -> Verdict",
+                doc=["Judge a finished mission by what its actions gave."],
+                lines=[f"return Verdict(ok=True, log=({literal(_all_pass(hook.name))},))"],
+                uses=("Mission", "Results", "Verdict"),
+            )
+        case HookKind.POLICY:
+            return Stub(
+                name=hook.name,
+                coroutine="",
+                signature="(trip: Trip, candidates: Sequence[Drone]) -> Drone | None",
+                doc=["Choose the drone for a trip, of those that could fly it now; None waits."],
+                lines=["return candidates[0]"],
+                uses=("Drone", "Sequence", "Trip"),
+            )
+        case _:
+            return _modifier(hook, checked, taken)
+
+
+def _modifier(hook: Hook, checked: Checked, taken: set[str]) -> Stub:
+    fixed = "mission: Mission, context: Context"
+    keywords = _keywords(hook.parameters, taken)
+    arriving = _arriving(hook, checked)
+    waits = bool(hook.emits) and Status.RUNNING in arriving and Status.RUNNING not in hook.emits
+    lines = [_log(hook.name)]
+    doc = ["Change the mission, or look at it; its status stays."]
+    if hook.emits:
+        *most, last = (status.name for status in hook.emits)
+        declared = f"{', '.join(most)} or {last}" if most else last
+        doc = [f"Say with which status the mission goes on: {declared}."]
+        if waits:
+            lines.append("await context.trip_ended(mission.current)")
+            arriving = frozenset((*OUTCOMES, *(arriving - {Status.RUNNING})))
+        lines.append(f"return {_outcome(hook, arriving)}")
+    if _units(hook.parameters):
+        doc += ["", *_units(hook.parameters)]
+    return Stub(
+        name=hook.name,
+        coroutine="async " if waits else "",
+        signature=f"({fixed}{keywords}) -> {'Status' if hook.emits else 'None'}",
+        doc=doc,
+        lines=lines,
+        uses=("Context", "Mission", *(("Status",) if hook.emits else ())),
+    )
+
+
+def _arriving(hook: Hook, checked: Checked) -> frozenset[Status]:
+    """Return the statuses that missions can have where the hook is called."""
+    blocks = [node.name for node in checked.graph.nodes if node.hook is hook]
+    found = frozenset(status for name in blocks for status in checked.arrives[name])
+    return found or frozenset((Status.RUNNING,))
+
+
+def _outcome(hook: Hook, possible: frozenset[Status]) -> str:
+    """Return what the stub returns: how the mission stands, where that is declared."""
+    if possible <= frozenset(hook.emits):
+        return "mission.status"
+    kept = tuple(status for status in IN_GRAPH if status in possible and status in hook.emits)
+    last = Status.FAILED if Status.FAILED in hook.emits else hook.emits[0]
+    if kept in ((), (last,)):
+        return f"Status.{last.name}"
+    return f"mission.status if mission.status in {status_tuple(kept)} else Status.{last.name}"
+
+
+def _keywords(parameters: tuple[Parameter, ...], taken: set[str]) -> str:
+    if not parameters:
+        return ""
+    typed = (f"{p.name}: {annotation(PYTHON[p.type], taken)}" for p in parameters)
+    return f", *, {', '.join(typed)}"
+
+
+def _units(parameters: tuple[Parameter, ...]) -> list[str]:
+    with_units = [f"`{p.name}` is {UNITS[p.type]}" for p in parameters if p.type in UNITS]
+    return [f"{', '.join(with_units)}."] if with_units else []
+
+
+def _yet(name: str) -> str:
+    return f"{name} does nothing yet: write it in hooks.py"
+
+
+def _all_pass(name: str) -> str:
+    return f"{name} accepts every mission as yet: write it in hooks.py"
+
+
+def _log(name: str) -> str:
+    return f"context.log({literal(_yet(name))})"
