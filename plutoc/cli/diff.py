@@ -1,4 +1,4 @@
-"""What would change, as `diff -u` writes it."""
+"""What would change, as `git diff` writes it: `git apply` and `patch` understand it."""
 
 from __future__ import annotations
 
@@ -21,8 +21,11 @@ def _of(change: Change) -> Iterator[str]:
     before, after = _lines(change.before), _lines(change.after)
     old = "/dev/null" if change.before is None else f"a/{change.path}"
     new = "/dev/null" if change.after is None else f"b/{change.path}"
-    if not before and not after:  # an empty file comes or goes
-        yield from (f"--- {old}", f"+++ {new}")
+    yield f"diff --git a/{change.path} b/{change.path}"
+    if change.before is None:
+        yield "new file mode 100644"
+    if change.after is None:
+        yield "deleted file mode 100644"
     for line in unified_diff(before, after, old, new):
         yield line[:-1] if line.endswith("\n") else line + _NO_END
 

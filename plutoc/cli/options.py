@@ -13,7 +13,7 @@ from plutoc.cli.endings import USAGE
 PICTURES = ("mermaid", "dot", "svg", "json")
 
 
-@dataclass(slots=True)
+@dataclass  # no slots: argparse puts what it does not know into the object's own dictionary
 class Options:
     """What was asked for."""
 

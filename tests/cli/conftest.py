@@ -1,0 +1,115 @@
+"""An app in a folder of its own, and the command line as a person would call it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import black
+import pytest
+
+from plutoc.cli import main
+
+APP = """pluto 1
+
+app crop "Crop watch" {
+  category scout can take_photo, pollinate
+
+  action pollinate(dose: mass = 50 mg)
+  evaluator find_blooms
+
+  create = MissionCreator
+  allocate = DroneAllocator
+  launch = TripLauncher
+  watch = TripMonitor
+  retry = PriorityManager(max_attempts: 3)
+  judge = MissionEvaluator(hook: find_blooms)
+
+  start -> create -> allocate -> launch -> watch
+  watch -> allocate when STANDBY
+  watch -> retry when FAILED
+  watch -> judge when COMPLETED
+  retry -> allocate when STANDBY
+  judge -> allocate when STANDBY
+  judge -> end otherwise
+  retry -> end otherwise
+}
+"""
+
+MISSIONS = """
+[[mission]]
+name = "North"
+  [[mission.trip]]
+  action = "take_photo"
+  target = [2, 3]
+"""
+
+
+@pytest.fixture(autouse=True, scope="session")
+def formatted_once() -> Iterator[None]:
+    """Remember what Black made of a text: it takes most of the time of these tests."""
+    known: dict[tuple[str, str], str] = {}
+    real = black.format_str
+
+    def format_str(text: str, *, mode: black.Mode) -> str:
+        key = (text, mode.get_cache_key())
+        if key not in known:
+            known[key] = real(text, mode=mode)
+        return known[key]
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(black, "format_str", format_str)
+        yield
+
+
+@dataclass(frozen=True, slots=True)
+class Said:
+    """What a command ended with, and what it printed."""
+
+    code: int
+    out: str
+    err: str
+
+
+Call = Callable[..., Said]
+
+
+@pytest.fixture
+def plutoc(capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Call:
+    """Call the command line in this process."""
+    for name in ("NO_COLOR", "FORCE_COLOR", "PLUTO_DEBUG"):
+        monkeypatch.delenv(name, raising=False)
+
+    def call(*arguments: str | Path) -> Said:
+        capfd.readouterr()
+        code = main([str(argument) for argument in arguments])
+        return Said(code, *capfd.readouterr())
+
+    return call
+
+
+@pytest.fixture
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """An empty folder, and we are in it."""
+    folder = tmp_path / "work"
+    folder.mkdir()
+    monkeypatch.chdir(folder)
+    return folder
+
+
+@pytest.fixture
+def app(here: Path) -> Path:
+    """An app with two hooks and a missions file, in a folder that we are in."""
+    (here / "crop.pluto").write_text(APP)
+    (here / "missions.toml").write_text(MISSIONS)
+    return Path("crop.pluto")
+
+
+def tree(folder: Path) -> dict[str, bytes]:
+    """Return every file below a folder; links and folders by their kind."""
+    return {
+        path.relative_to(folder).as_posix(): path.read_bytes() if path.is_file() else b"a folder"
+        for path in sorted(folder.rglob("*"))
+        if "__pycache__" not in path.parts
+    }

@@ -1,0 +1,67 @@
+"""`plutoc new`, as a person calls it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tests.cli.conftest import Call, tree
+
+
+def test_a_new_app_compiles_and_flies(
+    plutoc: Call, here: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The commands that it prints are right."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(here.parent / "cache"))
+    said = plutoc("new", "crop_watch")
+    assert (said.code, said.err) == (0, "")
+    assert "cd crop_watch" in said.out
+    assert sorted(tree(here / "crop_watch")) == ["crop_watch.pluto", "fleet.toml", "missions.toml"]
+    monkeypatch.chdir("crop_watch")
+    commands = [
+        line.partition("#")[0].split() for line in said.out.splitlines() if "  plutoc " in line
+    ]
+    assert [command[1] for command in commands] == ["check", "run", "compile"]
+    for _, *arguments in commands:
+        said = plutoc(*arguments)
+        assert (said.code, said.err) == (0, "")
+
+
+@pytest.mark.parametrize(
+    ("name", "why"),
+    [
+        ("CropWatch", "write `crop_watch`"),
+        ("json", "a module of Python's standard library"),
+        ("nul", "a device on Windows"),
+        ("../up", "is not a name"),
+        ("a b", "is not a name"),
+        ("match", "a word of Python"),
+        ("", "is not a name"),
+        ("x" * 64, "63 are the most"),
+    ],
+)
+def test_what_the_language_refuses_as_a_name_is_refused(
+    plutoc: Call, here: Path, name: str, why: str
+) -> None:
+    """By the same rule, with the same words."""
+    said = plutoc("new", name)
+    assert said.code == 2
+    assert why in said.err
+    assert not list(here.iterdir())
+
+
+def test_a_folder_with_something_in_it_is_refused(plutoc: Call, here: Path) -> None:
+    """And what is no folder; an empty one will do."""
+    Path("full").mkdir()
+    Path("full/mine").touch()
+    Path("file").touch()
+    Path("link").symlink_to(here.parent)
+    before = tree(here)
+    for name, why in {"full": "is not empty", "file": "no folder", "link": "no folder"}.items():
+        said = plutoc("new", name)
+        assert said.code == 2
+        assert why in said.err
+    assert tree(here) == before
+    Path("empty").mkdir()
+    assert plutoc("new", "empty").code == 0

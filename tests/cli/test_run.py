@@ -1,0 +1,107 @@
+"""`plutoc run`, as a person calls it."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from tests.cli.conftest import APP, MISSIONS, Call, tree
+
+
+@pytest.fixture(autouse=True)
+def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A cache folder for this test only."""
+    folder = tmp_path / "cache"
+    monkeypatch.setenv("XDG_CACHE_HOME", str(folder))
+    return folder
+
+
+def test_missions_fly_and_nothing_is_left_beside_the_app(
+    plutoc: Call, app: Path, here: Path, cache: Path
+) -> None:
+    """The package goes to the user's cache."""
+    before = tree(here)
+    said = plutoc("run", app)
+    assert said.code == 0
+    assert "1 of 1 missions completed" in said.out or "1 of 1 mission completed" in said.out
+    assert tree(here) == before
+    assert len(list((cache / "pluto" / "run").iterdir())) == 1
+
+
+def test_json_and_seed_are_passed_on(plutoc: Call, app: Path) -> None:
+    """And what is printed is the app's own."""
+    said = plutoc("run", app, "--json", "--seed", "7", "--missions", "missions.toml")
+    facts = json.loads(said.out)
+    assert (facts["app"], facts["seed"], facts["missions"][0]["status"]) == ("crop", 7, "COMPLETED")
+
+
+def test_bad_missions_end_with_2(plutoc: Call, app: Path) -> None:
+    """The app's own exit code is passed on, and its message."""
+    Path("missions.toml").write_text(MISSIONS.replace("take_photo", "take_foto"))
+    said = plutoc("run", app)
+    assert said.code == 2
+    assert "missions.toml" in said.err
+    assert "take_photo" in said.err
+
+
+def test_without_missions_there_is_nothing_to_fly(plutoc: Call, app: Path) -> None:
+    """The message says which flag helps."""
+    Path("missions.toml").unlink()
+    said = plutoc("run", app)
+    assert said.code == 2
+    assert "--missions" in said.err
+
+
+def test_a_fleet_beside_the_app_is_flown(plutoc: Call, app: Path) -> None:
+    """Unless another one is named."""
+    drone = '[map]\nsize = [9, 9]\n[[drone]]\nid = "{}"\ncategory = "scout"\nhome = [1, 1]\n'
+    Path("fleet.toml").write_text(drone.format("mine"))
+    Path("other.toml").write_text(drone.format("other"))
+    assert json.loads(plutoc("run", app, "--json").out)["drones"][0]["id"] == "mine"
+    said = plutoc("run", app, "--json", "--fleet", "other.toml")
+    assert json.loads(said.out)["drones"][0]["id"] == "other"
+
+
+JUDGE = """from . import Verdict
+from .words import WORD
+
+async def pollinate(drone, trip, context, *, dose):
+    return dose
+
+def find_blooms(mission, results):
+    return Verdict(ok=True, log=(WORD,))
+"""
+
+
+def test_the_hooks_that_count_are_always_the_newest(plutoc: Call, app: Path, here: Path) -> None:
+    """The package's own with its neighbours, else those beside the app."""
+    said = plutoc("run", app)
+    assert "write it in hooks.py" in said.out
+    Path("hooks.py").write_text(JUDGE.replace("from .words import WORD", 'WORD = "beside"'))
+    assert "beside" in plutoc("run", app).out
+    Path("hooks.py").unlink()
+    assert "write it in hooks.py" in plutoc("run", app).out
+    plutoc("compile", app)
+    Path("crop/src/crop/hooks.py").write_text(JUDGE)
+    Path("crop/src/crop/words.py").write_text('WORD = "the first word"\n')
+    assert "the first word" in plutoc("run", app).out
+    Path("crop/src/crop/words.py").write_text('WORD = "another word"\n')
+    assert "another word" in plutoc("run", app).out
+
+
+def test_errors_end_with_1_and_nothing_flies(plutoc: Call, app: Path) -> None:
+    """As with the other commands."""
+    app.write_text(APP.replace("-> judge", "-> juge"))
+    said = plutoc("run", app)
+    assert said.code == 1
+    assert not said.out
+
+
+def test_a_cache_that_others_can_write_is_not_used(plutoc: Call, app: Path, cache: Path) -> None:
+    """What is in it gets run."""
+    (cache / "pluto").mkdir(parents=True)
+    (cache / "pluto").chmod(0o777)
+    assert plutoc("run", app).code == 0
+    assert not list((cache / "pluto").iterdir())
