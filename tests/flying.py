@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Mapping, Sequence
-from contextlib import redirect_stdout
+from contextlib import redirect_stderr, redirect_stdout
 from copy import deepcopy
 from dataclasses import dataclass
 from importlib import import_module
@@ -75,10 +75,11 @@ class Example:
 def compiled(name: str, into: Path) -> Path:
     """Compile an example as a person would, and return the package's folder."""
     package = into / name
-    with redirect_stdout(StringIO()):
+    said = StringIO()
+    with redirect_stdout(said), redirect_stderr(said):
         code = main(["compile", str(EXAMPLES / name / "app.pluto"), "-o", str(package)])
     if code != 0:
-        raise AssertionError(f"plutoc compile of {name} ended with {code}")
+        raise AssertionError(f"plutoc compile of {name} ended with {code}:\n{said.getvalue()}")
     return package
 
 
