@@ -19,7 +19,7 @@ from plutoc.emit.errors import never_written, outdated, place_of
 from plutoc.emit.write import CannotWrite, Changes, compare, write
 from plutoc.source import Source
 from plutoc_runtime.cli import output
-from plutoc_runtime.words import counted
+from plutoc_runtime.words import counted, printable
 
 
 def compile_(options: Options) -> int:
@@ -43,7 +43,7 @@ def compile_(options: Options) -> int:
         elif not options.diff:
             write(changes)
     except CannotWrite as error:
-        raise Unusable(f"{shown(Path(error.path))}: {error.why}; nothing was changed") from None
+        raise Unusable(f"{printable(str(error))}; nothing was changed") from None
     if options.format == "text" and not options.diff:
         _tell(compiled, changes)
     return CLEAN

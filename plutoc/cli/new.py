@@ -14,6 +14,7 @@ from plutoc.graph.scope import check_app_name
 from plutoc.source import Source, Span
 from plutoc.syntax.tree import Name
 from plutoc_runtime.cli import output
+from plutoc_runtime.words import printable
 
 _IN_STARTER = "my_app"
 """The app's name in the files of the starter."""
@@ -31,7 +32,7 @@ def new(options: Options) -> int:
             raise Unusable(f"the folder {name} is not empty: choose another name")
         create(folder, _starter(name))
     except CannotWrite as error:
-        raise Unusable(f"{error.path}: {error.why}; nothing was changed") from None
+        raise Unusable(f"{printable(str(error))}; nothing was changed") from None
     output.line(
         f"{name}/ is ready: an app, its missions and a fleet.\n\n"
         f"  cd {name}\n"

@@ -25,6 +25,7 @@ from plutoc.emit.package import Package
 from plutoc.emit.write import CannotWrite, compare, write
 from plutoc.source import Source
 from plutoc_runtime.cli import output
+from plutoc_runtime.words import printable
 
 MISSIONS, FLEET = "missions.toml", "fleet.toml"
 
@@ -47,7 +48,7 @@ def run(options: Options) -> int:
         try:
             write(compare(package, folder, place_of(compiled.checked.graph), force=True))
         except CannotWrite as error:
-            raise Unusable(f"{error.path}: {error.why}") from None
+            raise Unusable(f"the cache cannot be written: {printable(str(error))}") from None
         arguments = ["simulate", os.fspath(missions)]
         arguments += ["--fleet", os.fspath(fleet)] if fleet else []
         arguments += ["--seed", str(options.seed)] if options.seed is not None else []

@@ -39,9 +39,9 @@ class CannotWrite(Exception):
     """The disk says no. Nothing was changed."""
 
     def __init__(self, error: OSError, folder: Path) -> None:
-        self.path = error.filename if isinstance(error.filename, str) else str(folder)
-        self.why = error.strerror or str(error)
-        super().__init__(f"{self.path}: {self.why}")
+        name = error.filename
+        told = isinstance(name, str) and _ASIDE not in name  # our own names mean nothing to a user
+        super().__init__(f"{name if told else folder}: {error.strerror or error}")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
