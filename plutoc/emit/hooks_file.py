@@ -50,9 +50,9 @@ class HooksTest:
     """What the template of the tests places."""
 
     app: str
-    imports: list[str]
-    judges: list[str]
-    others: list[str]
+    judge: str
+    """An evaluator to show an example with; empty where there is none."""
+    hooks: list[str]
 
 
 def hooks_file(checked: Checked) -> str:
@@ -77,19 +77,8 @@ def hooks_file(checked: Checked) -> str:
 def hooks_test(graph: Graph) -> str:
     """Return the text of `tests/test_hooks.py`."""
     judges = [hook.name for hook in graph.hooks if hook.kind is HookKind.EVALUATOR]
-    others = [name for name in in_order(graph) if name not in judges]
-    wanted = ("Mission", "Results") if judges else ()
-    return formatted(
-        render(
-            "test_hooks.py",
-            HooksTest(
-                app=graph.name,
-                imports=[f"from {graph.name} import {', '.join((*wanted, 'hooks'))}"],
-                judges=judges,
-                others=others,
-            ),
-        )
-    )
+    view = HooksTest(app=graph.name, judge="".join(judges[:1]), hooks=in_order(graph))
+    return formatted(render("test_hooks.py", view))
 
 
 def stub(checked: Checked, name: str) -> str:
