@@ -8,11 +8,13 @@ import os
 import subprocess
 import sys
 import tomllib
+from pathlib import Path
+from xml.etree import ElementTree
 
 import pytest
 
 from plutoc.cli import main
-from tests.flying import EXAMPLES, MISHAPS, NAMES, Example
+from tests.flying import EXAMPLES, MISHAPS, NAMES, Example, compiled
 from tests.invariants import violations
 
 SEEDS = range(10)
@@ -57,6 +59,31 @@ def test_folders_are_whole(name: str) -> None:
     assert f"app {name} " in (folder / "app.pluto").read_text(encoding="utf-8")
     fleet = tomllib.loads((folder / "fleet.toml").read_text(encoding="utf-8"))
     assert (folder / fleet["map"]["image"]).is_file()
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_floor_plan_is_as_large_as_the_map(name: str) -> None:
+    """A metre is a unit of the picture, so that whoever draws on it need not scale."""
+    folder = EXAMPLES / name
+    fleet = tomllib.loads((folder / "fleet.toml").read_text(encoding="utf-8"))
+    picture = ElementTree.parse(folder / "map.svg").getroot()
+    assert [float(n) for n in picture.attrib["viewBox"].split()] == [0, 0, *fleet["map"]["size"]]
+
+
+def test_hooks_of_the_examples_are_typed(tmp_path: Path) -> None:
+    """mypy --strict accepts each hooks.py inside its package."""
+    names = [name for name in NAMES if (EXAMPLES / name / "hooks.py").exists()]
+    sources = [compiled(name, tmp_path) / "src" for name in names]
+    modules = [word for name in names for word in ("-m", f"{name}.hooks")]
+    run = subprocess.run(
+        [sys.executable, "-m", "mypy", "--strict", "--config-file=", *modules],
+        cwd=tmp_path,
+        env={**os.environ, "MYPYPATH": os.pathsep.join(map(str, sources)), "PYTHONPATH": ""},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert run.returncode == 0, run.stdout + run.stderr
 
 
 def test_hooks_of_an_example_become_the_packages(example: Example) -> None:

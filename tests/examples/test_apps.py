@@ -1,0 +1,187 @@
+"""Each example does what its page says that it does."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+
+import pytest
+
+from plutoc.cli import main
+from tests.flying import EXAMPLES, MISHAPS, Example, built
+from tests.invariants import Event, Trace
+
+SEEDS = range(10)
+
+
+@pytest.fixture(scope="session")
+def apps(tmp_path_factory: pytest.TempPathFactory) -> Mapping[str, Example]:
+    """Return the examples that these tests look into."""
+    names = ("aerial_mapping", "alfalfa", "drugs_distribution_retry", "object_finder", "pm10")
+    folder = tmp_path_factory.mktemp("apps")
+    return {name: built(name, folder) for name in (*names, "warehouse_item_finder")}
+
+
+def events(trace: Trace, kind: str, **facts: object) -> list[Event]:
+    """Return the events of a kind, with these facts."""
+    return [e for e in trace if e["event"] == kind and facts.items() <= e.items()]
+
+
+def time(event: Event) -> float:
+    """Return when an event was."""
+    return float(str(event["t"]))
+
+
+def test_keys_are_found_and_brought_once(apps: Mapping[str, Example]) -> None:
+    """Whatever the photos are like, what was seen comes home, and nobody else goes for it."""
+    for seed in SEEDS:
+        flown = apps["object_finder"].fly(seed)
+        log = flown.outcome.log
+        assert log.count("keys brought back") == log.count("book brought back") == 1
+        assert log.count("keys not found here") == 1
+        assert "keys seen: worktop" in log
+
+
+def test_a_blurred_photo_is_taken_again(apps: Mapping[str, Example]) -> None:
+    """A place is not given up because of a photo that shows nothing at all."""
+    logs = [line for seed in SEEDS for line in apps["object_finder"].fly(seed).outcome.log]
+    assert any("blurred photos: looking again" in line for line in logs)
+
+
+def test_lifters_carry_what_light_drones_cannot(apps: Mapping[str, Example]) -> None:
+    """Weakest first: heavy items go with lifters, and the others do not."""
+    flown = apps["warehouse_item_finder"].fly(0)
+    carrier = {str(e["mission"]): str(e["drone"]) for e in events(flown.trace, "trip.launched")}
+    assert carrier["battery"].startswith("lifter") and carrier["motor"].startswith("lifter")
+    assert all(carrier[item].startswith("light") for item in ("screws", "fuse", "label", "sensor"))
+
+
+def test_blooms_are_pollinated_once_and_sick_plants_reported(apps: Mapping[str, Example]) -> None:
+    """Three places bloom; two rounds warn of the same pest and the same disease."""
+    flown = apps["alfalfa"].fly(0)
+    added = [name for e in events(flown.trace, "mission.extended") for name in _names(e["add"])]
+    assert sorted(added) == ["pollinate A", "pollinate A", "pollinate B"]
+    warnings = [line for line in flown.outcome.log if line.startswith("WARNING")]
+    assert sorted(warnings) == [
+        *["WARNING: disease at (14.8, 5.2)"] * 2,
+        *["WARNING: pest at (8.7, 1.7)"] * 2,
+    ]
+    assert all(mission.round == 1 for mission in flown.outcome.missions)
+
+
+def test_rounds_begin_a_quarter_of_an_hour_apart(apps: Mapping[str, Example]) -> None:
+    """The Clock holds the second round back."""
+    launched = events(apps["alfalfa"].fly(0).trace, "trip.launched", mission="North arc", trip="A")
+    assert [time(event) for event in launched] == [0.0, 900.0]
+
+
+@pytest.mark.parametrize(("name", "default"), [("aerial_mapping", 30.0), ("pm10", 60.0)])
+def test_no_gap_is_longer_than_allowed(
+    name: str, default: float, apps: Mapping[str, Example]
+) -> None:
+    """Two actions in a row lie within the gap, or a failed flight lies between them."""
+    example = apps[name]
+    gaps = {(m.name, t.name): t.gap for m in example.missions for t in m.trips}
+    kept = overdue = 0
+    for seed in SEEDS:
+        trace = example.fly(seed, MISHAPS).trace
+        overdue += sum(
+            "was not done within" in str(e["reason"]) for e in events(trace, "trip.failed")
+        )
+        for before, after in in_a_row(trace):
+            limit = gaps.get((str(after["mission"]), str(after["trip"]))) or default
+            assert time(after) - time(before) <= limit + 1e-6
+            kept += 1
+    assert kept > 100
+    assert overdue > 0, "no seed shows the monitor at work"
+
+
+def in_a_row(trace: Trace) -> Iterator[tuple[Event, Event]]:
+    """Yield each two actions of a mission with no failed flight in between."""
+    last: dict[object, Event] = {}
+    for event in trace:
+        if event["event"] == "trip.failed":
+            last.pop(event["mission"], None)
+        elif event["event"] == "trip.completed":
+            if event["mission"] in last:
+                yield last[event["mission"]], event
+            last[event["mission"]] = event
+
+
+def test_maps_end_sharp(apps: Mapping[str, Example]) -> None:
+    """What is blurred or off its place is retaken, until each strip's photos fit."""
+    retaken = 0
+    for seed in SEEDS:
+        flown = apps["aerial_mapping"].fly(seed)
+        assert flown.outcome.log.count("6 photos fit the map") == 4
+        retaken += sum("it is taken again" in line for line in flown.outcome.log)
+        for mission in flown.outcome.missions:
+            assert mission.attempts >= len(mission.completed_trips)
+    assert retaken > 0
+
+
+def test_gradients_are_followed_and_bounded(apps: Mapping[str, Example]) -> None:
+    """Each mission looks more closely at no more than four places, and some do."""
+    for seed in SEEDS:
+        flown = apps["pm10"].fly(seed)
+        added = [sum(t.added for t in m.completed_trips) for m in flown.outcome.missions]
+        assert sum(added) > 0 and max(added) <= 4
+        places = [t.target for m in flown.outcome.missions for t in m.completed_trips if t.added]
+        # The clouds stand around (12, 8) and (5.5, 3.5): nobody looks closely anywhere else.
+        assert all(min(off(p, (12, 8)), off(p, (5.5, 3.5))) < 3.5 for p in places)
+
+
+def off(point: tuple[float, float, float], middle: tuple[float, float]) -> float:
+    """Return how far a point is from a place on the ground."""
+    return float(((point[0] - middle[0]) ** 2 + (point[1] - middle[1]) ** 2) ** 0.5)
+
+
+def test_delays_count_from_the_trip_before(apps: Mapping[str, Example]) -> None:
+    """Trip B of the first mission may start half a minute after A is done, and C a minute after B."""
+    trace = apps["drugs_distribution_retry"].fly(0).trace
+    for before, after, delay in (("A", "B", 30.0), ("B", "C", 60.0)):
+        (done,) = events(trace, "trip.completed", mission="Mission 1", trip=before)
+        (start,) = events(trace, "trip.launched", mission="Mission 1", trip=after)
+        (wait,) = events(trace, "trip.delayed", mission="Mission 1", trip=after)
+        assert wait["until"] == pytest.approx(time(done) + delay)
+        assert time(start) >= time(done) + delay - 1e-6, "and then it needs a drone"
+
+
+def test_a_tighter_limit_calls_drones_back(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """With `limit: 20 s`, as the page proposes, trips are called back, retried and given up."""
+    name = "drugs_distribution_timer"
+    folder = tmp_path / name
+    shutil.copytree(EXAMPLES / name, folder, ignore=shutil.ignore_patterns(name))
+    app = folder / "app.pluto"
+    text = app.read_text(encoding="utf-8")
+    assert text.count("limit: 2 min") == 1
+    app.write_text(text.replace("limit: 2 min", "limit: 20 s"), encoding="utf-8")
+    assert main(["compile", str(app)]) == 0
+    capsys.readouterr()
+    command = ["simulate", "missions.toml", "--fleet", "fleet.toml", "--json"]
+    run = subprocess.run(
+        [sys.executable, "-m", name, *command],
+        cwd=folder,
+        env={**os.environ, "PYTHONPATH": str(folder / name / "src")},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert run.returncode == 1, run.stderr
+    said = json.loads(run.stdout)
+    assert "trip B is called back after 20 s" in said["log"]
+    first = said["missions"][0]
+    assert first["status"] == "FAILED" and first["completed_trips"] == ["A"]
+    assert first["attempts"] == 4, "A once, B three times"
+
+
+def _names(value: object) -> list[str]:
+    assert isinstance(value, list)
+    return [str(name) for name in value]
