@@ -7,25 +7,43 @@ from collections.abc import Sequence
 from .airspace import Airspace
 from .app import App
 from .energy import needed
-from .model import Drone, Trip
+from .model import Category, Drone, Point, Trip
 from .plan_check import stops_of, why_not
 
+NO_WAY = 2.0
+"""A battery level that no drone ever has."""
 
-class Eligibility:
-    """Answers for one app on one map. A chain is the head trip, and with a pick all to its release."""
 
-    def __init__(self, app: App, airspace: Airspace) -> None:
+class Demand:
+    """What a chain of trips asks of a drone: the head trip, and with a pick all to its release."""
+
+    def __init__(self, app: App, airspace: Airspace, chain: Sequence[Trip]) -> None:
+        self.chain = chain
         self._app, self._airspace = app, airspace
+        self._stops = stops_of(app, airspace, chain)
+        self._never: dict[tuple[Category, Point], str | None] = {}
+        self._from: dict[tuple[Category, Point, Point], float] = {}
 
-    def never(self, drone: Drone, chain: Sequence[Trip]) -> str | None:
+    def never(self, drone: Drone) -> str | None:
         """Return why a drone cannot fly the chain even with a full battery; None: it can."""
-        return why_not(self._app, self._airspace, drone.category, drone.home, chain)
+        key = (drone.category, drone.home)
+        if key not in self._never:
+            self._never[key] = why_not(self._app, self._airspace, *key, self.chain)
+        return self._never[key]
 
-    def battery(self, drone: Drone, chain: Sequence[Trip]) -> float:
-        """Return the battery level that the chain takes, the way home and the reserve included.
+    def battery(self, drone: Drone) -> float:
+        """Return the battery level that it takes, the way home and the reserve included.
 
         More than 1 where no permitted way leads there.
         """
-        stops = stops_of(self._app, self._airspace, chain)
-        share = needed(drone.category, self._airspace, drone.location, stops, drone.home)
-        return 2.0 if share is None else share + drone.category.reserve
+        key = (drone.category, drone.home, drone.location)
+        level = self._from.get(key)
+        if level is None:
+            share = needed(drone.category, self._airspace, drone.location, self._stops, drone.home)
+            level = NO_WAY if share is None else share + drone.category.reserve
+            self._from[key] = level
+        return level
+
+    def met_by(self, drone: Drone) -> bool:
+        """Say whether a drone can fly the chain now."""
+        return self.never(drone) is None and drone.battery_level >= self.battery(drone)

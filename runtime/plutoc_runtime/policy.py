@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -29,23 +29,20 @@ class Decision:
     fault: HookFault | None = None
 
 
-Policy = Callable[[Sequence[Offer]], Sequence[Decision]]
-"""Shares free drones out among trips of equal priority; a trip without a decision waits."""
+Policy = Callable[[Iterable[Offer]], Iterable[Decision]]
+"""Shares free drones out among trips of equal priority; a trip without a decision waits.
 
-Chooser = Callable[[Trip, Sequence[Drone]], "tuple[Drone, str] | None"]
+The offers come one by one: each has the drones that are left after the decisions so far.
+"""
+
+Chooser = Callable[[Trip, Sequence[Drone]], tuple[Drone, str]]
 
 
-def one_by_one(offers: Sequence[Offer], choose: Chooser) -> list[Decision]:
+def one_by_one(offers: Iterable[Offer], choose: Chooser) -> Iterator[Decision]:
     """Serve the trips in their order, each from the drones that are left."""
-    taken: set[Drone] = set()
-    decisions = []
     for offer in offers:
-        left = [drone for drone in offer.candidates if drone not in taken]
-        chosen = choose(offer.trip, left) if left else None
-        if chosen is not None:
-            taken.add(chosen[0])
-            decisions.append(Decision(offer=offer, drone=chosen[0], why=chosen[1]))
-    return decisions
+        drone, why = choose(offer.trip, offer.candidates)
+        yield Decision(offer=offer, drone=drone, why=why)
 
 
 def own_policy(hook: Callable[[Any, Sequence[Drone]], Drone | None]) -> Policy:
@@ -59,25 +56,17 @@ class OwnPolicy:
 
     hook: Callable[[Any, Sequence[Drone]], Drone | None]
 
-    def __call__(self, offers: Sequence[Offer]) -> list[Decision]:
+    def __call__(self, offers: Iterable[Offer]) -> Iterator[Decision]:
         """Ask the hook for each trip in turn."""
-        taken: set[Drone] = set()
-        decisions = []
-        for offer in offers:
-            left = tuple(drone for drone in offer.candidates if drone not in taken)
-            decision = self._ask(offer, left) if left else None
-            if decision is not None:
-                decisions.append(decision)
-                taken.update((decision.drone,) if decision.drone else ())
-        return decisions
-
-    def _ask(self, offer: Offer, left: tuple[Drone, ...]) -> Decision | None:
         name = hook_name(self.hook)
-        try:
-            drone = self._answer(name, offer.trip, left)
-        except HookFault as fault:
-            return Decision(offer=offer, fault=fault)
-        return Decision(offer=offer, drone=drone, why=f"chosen by {name}") if drone else None
+        for offer in offers:
+            try:
+                drone = self._answer(name, offer.trip, offer.candidates)
+            except HookFault as fault:
+                yield Decision(offer=offer, fault=fault)
+            else:
+                if drone is not None:
+                    yield Decision(offer=offer, drone=drone, why=f"chosen by {name}")
 
     def _answer(self, name: str, trip: Trip, left: tuple[Drone, ...]) -> Drone | None:
         try:

@@ -9,7 +9,6 @@ from typing import Any
 from .allocation import Queue
 from .app import App
 from .core import Core
-from .eligibility import Eligibility
 from .engine import Engine
 from .files.fleet import FleetFile
 from .fleet import Fleet
@@ -89,7 +88,7 @@ class Session:
             for drone in simulated
         )
         self.trace, results = Trace(kernel, listener), ResultStore()
-        queue = Queue(kernel, self.drones, Eligibility(app, fleet.airspace), fleet.max_airborne)
+        queue = Queue(kernel, app, fleet.airspace, self.drones, fleet.max_airborne)
         self.core = Core(
             app=app,
             kernel=kernel,

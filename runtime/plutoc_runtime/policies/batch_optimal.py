@@ -7,7 +7,7 @@ out of reach, so that as many trips as can be get a drone, and among those the d
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from math import inf
 
 from ..policy import Decision, Offer
@@ -15,8 +15,9 @@ from ..policy import Decision, Offer
 _FORBIDDEN = 1e7  # metres: farther than any drone flies, near enough to keep its decimals
 
 
-def batch_optimal(offers: Sequence[Offer]) -> list[Decision]:
+def batch_optimal(waiting: Iterable[Offer]) -> list[Decision]:
     """Share the free drones out so that their way to all trips together is shortest."""
+    offers = list(waiting)
     drones = sorted(
         {drone for offer in offers for drone in offer.candidates}, key=lambda drone: drone.index
     )

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from ..model import Drone, Trip
 from ..policy import Decision, Offer, one_by_one
 
 
-def least_used(offers: Sequence[Offer]) -> list[Decision]:
+def least_used(offers: Iterable[Offer]) -> Iterator[Decision]:
     """Give each trip, in turn, the free drone with the fewest trips behind it."""
     return one_by_one(offers, _freshest)
 

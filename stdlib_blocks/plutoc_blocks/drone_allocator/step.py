@@ -43,7 +43,7 @@ async def allocate_drone(
             if not await core.kernel.within(request.answer, until, Kind.ALLOCATE, run.key):
                 raise MissionFailed(
                     f"trip {trip.name} had no drone within {duration(allocate_within)}: "
-                    f"{request.waits_because}"
+                    f"waits for a drone ({core.fleet.queue.standing()})"
                 )
         decision = await request.answer
     finally:
