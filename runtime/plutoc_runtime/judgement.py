@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from .actions import PICK, RELEASE
@@ -32,7 +32,8 @@ def apply(run: Run[Any], hook: Callable[..., object], verdict: object) -> Status
                 f"evaluator {name} asks to redo a trip that mission {mission.name} "
                 f"has not completed: {getattr(trip, 'name', trip)!r}"
             )
-    added = tuple(_accepted(core, mission, name, trip) for trip in verdict.add)
+    added = tuple(_accepted(core, mission, name, trip) for trip in dict.fromkeys(verdict.add))
+    _name(mission, added)
     if not (verdict.redo or added):
         return Status.COMPLETED
     core.transitions.redo(mission, tuple(dict.fromkeys(verdict.redo)), added)
@@ -47,12 +48,18 @@ def _accepted(core: Core, mission: Mission[Any], evaluator: str, trip: Trip) -> 
     parameters = core.app.actions[trip.action].parameters
     defaults = {p.name: p.default for p in parameters if p.default is not None}
     trip.parameters = {**defaults, **trip.parameters}
-    taken = {known.name for known in (*mission.trips, *mission.completed_trips)}
-    name, number = trip.name, 1
-    while trip.name in taken:
-        number += 1
-        trip.name = f"{name} {number}"
     return trip
+
+
+def _name(mission: Mission[Any], added: Sequence[Trip]) -> None:
+    """Give each new trip a name of its own: it tells its flights and results from all others."""
+    taken = {known.name for known in (*mission.trips, *mission.completed_trips)}
+    for trip in added:
+        name, number = trip.name, 1
+        while trip.name in taken:
+            number += 1
+            trip.name = f"{name} {number}"
+        taken.add(trip.name)
 
 
 def _problem(core: Core, mission: Mission[Any], trip: object) -> str | None:

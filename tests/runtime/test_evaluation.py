@@ -70,6 +70,15 @@ def test_added_trips_of_one_name_get_names_of_their_own() -> None:
     assert [trip.name for trip in mission.completed_trips] == ["A", "A 2", "A 3"]
 
 
+def test_trips_of_one_name_that_are_added_together_get_names_of_their_own() -> None:
+    def add_two(mission: Mission[apps.Trip], results: Results) -> Verdict:
+        twins = tuple(apps.trip("A", 5.0) for _ in range(2))
+        return Verdict(add=twins if len(mission.completed_trips) < 3 else ())
+
+    (mission,) = judged(add_two).missions
+    assert [trip.name for trip in mission.completed_trips] == ["A", "A 2", "A 3"]
+
+
 def test_an_evaluator_sees_what_is_new_of_its_mission_and_everything_of_all() -> None:
     seen: list[tuple[str, int, int]] = []
 
