@@ -58,7 +58,7 @@ def model_file(graph: Graph) -> str:
 def _imports(fields: tuple[Field, ...]) -> list[Import]:
     imports = [
         *names("dataclasses", "dataclass"),
-        *names("._runtime", "model"),
+        *names("._runtime", "model", "results"),
         *names("._runtime.fields", "Field"),
         *names("._runtime.model", "Category"),
     ]

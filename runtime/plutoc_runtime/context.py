@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from .core import Core
 from .kernel import Kind, Signal
 from .model import Trip
@@ -23,7 +25,7 @@ class Context:
         return self._core.kernel.now
 
     @property
-    def results(self) -> tuple[Result, ...]:
+    def results(self) -> tuple[Result[Any, Any], ...]:
         """What every action of the app has given so far."""
         return tuple(self._core.results.results)
 

@@ -40,7 +40,7 @@ def test_a_rejected_mission_has_failed_with_the_reason(verdict: Verdict, reason:
 
 
 def test_trips_to_redo_fly_again_as_a_further_attempt() -> None:
-    def once_more(mission: Mission[apps.Trip], results: Results) -> Verdict:
+    def once_more(mission: Mission[apps.Trip], results: Results[Any, Any]) -> Verdict:
         first = [r.trip for r in results.new if r.attempt == 1]
         return Verdict(ok=not first, redo=tuple(first))
 
@@ -50,7 +50,7 @@ def test_trips_to_redo_fly_again_as_a_further_attempt() -> None:
 
 
 def test_added_trips_fly_and_are_not_repeated_by_a_further_round() -> None:
-    def add_one(mission: Mission[apps.Trip], results: Results) -> Verdict:
+    def add_one(mission: Mission[apps.Trip], results: Results[Any, Any]) -> Verdict:
         if mission.round == 0 and len(mission.completed_trips) == 1:
             return Verdict(add=(apps.trip("extra", 5.0),))
         return Verdict()
@@ -61,7 +61,7 @@ def test_added_trips_fly_and_are_not_repeated_by_a_further_round() -> None:
 
 
 def test_added_trips_of_one_name_get_names_of_their_own() -> None:
-    def add_two(mission: Mission[apps.Trip], results: Results) -> Verdict:
+    def add_two(mission: Mission[apps.Trip], results: Results[Any, Any]) -> Verdict:
         if len(mission.completed_trips) < 3:
             return Verdict(add=(apps.trip("A", 5.0),))
         return Verdict()
@@ -71,7 +71,7 @@ def test_added_trips_of_one_name_get_names_of_their_own() -> None:
 
 
 def test_trips_of_one_name_that_are_added_together_get_names_of_their_own() -> None:
-    def add_two(mission: Mission[apps.Trip], results: Results) -> Verdict:
+    def add_two(mission: Mission[apps.Trip], results: Results[Any, Any]) -> Verdict:
         twins = tuple(apps.trip("A", 5.0) for _ in range(2))
         return Verdict(add=twins if len(mission.completed_trips) < 3 else ())
 
@@ -82,7 +82,7 @@ def test_trips_of_one_name_that_are_added_together_get_names_of_their_own() -> N
 def test_an_evaluator_sees_what_is_new_of_its_mission_and_everything_of_all() -> None:
     seen: list[tuple[str, int, int]] = []
 
-    def look(mission: Mission[apps.Trip], results: Results) -> Verdict:
+    def look(mission: Mission[apps.Trip], results: Results[Any, Any]) -> Verdict:
         seen.append((mission.name, len(results.new), len(results.all)))
         return Verdict()
 
@@ -122,7 +122,7 @@ def test_a_verdict_that_cannot_be_followed_fails_the_mission(returned: object, s
 
 
 def test_an_evaluator_that_raises_fails_its_mission_and_no_other() -> None:
-    def broken(mission: Mission[apps.Trip], results: Results) -> Verdict:
+    def broken(mission: Mission[apps.Trip], results: Results[Any, Any]) -> Verdict:
         if mission.name == "bad":
             raise KeyError("no such photo")
         return Verdict()

@@ -11,10 +11,9 @@ if TYPE_CHECKING:
     from ._runtime.context import Context
     from ._runtime.errors import ActionFailed
     from ._runtime.model import Category, Drone, Item, Photo, Point
-    from ._runtime.results import Result, Results
     from ._runtime.status import Status
     from ._runtime.verdict import Verdict
-    from .model import Mission, Trip
+    from .model import Mission, Result, Results, Trip
 
 __all__ = [
     "ActionFailed",
@@ -42,8 +41,8 @@ if not TYPE_CHECKING:
         "Mission": ".model",
         "Photo": "._runtime.model",
         "Point": "._runtime.model",
-        "Result": "._runtime.results",
-        "Results": "._runtime.results",
+        "Result": ".model",
+        "Results": ".model",
         "Status": "._runtime.status",
         "Trip": ".model",
         "Verdict": "._runtime.verdict",

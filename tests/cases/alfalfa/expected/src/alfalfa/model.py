@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ._runtime import model
+from ._runtime import model, results
 from ._runtime.fields import Entity, Field, FieldType
 from ._runtime.model import Category
 
@@ -36,6 +36,12 @@ class Mission(model.Mission[Trip]):
     repeat: int | bool = 0
     """How many more rounds to fly after the first; true: until it is stopped."""
 
+
+Result = results.Result[Mission, Trip]
+"""What one action of this app gave."""
+
+Results = results.Results[Mission, Trip]
+"""What an evaluator of this app gets to judge."""
 
 FIELDS: tuple[Field, ...] = (
     Field(
