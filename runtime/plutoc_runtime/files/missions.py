@@ -37,12 +37,11 @@ def _mission(
     table: Table, index: int, app: App, airspace: Airspace, names: dict[str, Table]
 ) -> Mission[Any]:
     table.who = f"mission {index + 1}"
-    name = table.read("name", values.name, required=True)
-    if name is not None:
-        table.who = f"mission {quoted(name)}"
-        other = names.setdefault(name, table)
-        if other is not table:
-            table.problem(errors.not_unique("mission", name, other.line("name")), "name")
+    name = table.read("name", values.name) or str(index + 1)
+    table.who = f"mission {quoted(name)}"
+    other = names.setdefault(name, table)
+    if other is not table:
+        table.problem(errors.not_unique("mission", name, other.line("name")), "name")
     given = read_fields(table, app, Entity.MISSION, ("name", "trip"))
     trips = read_trips(table, app, airspace)
-    return app.mission(name=name or "", trips=trips, index=index, **given)
+    return app.mission(name=name, trips=trips, index=index, **given)

@@ -176,6 +176,11 @@ def test_a_file_that_holds_no_plan_is_refused(tmp_path: Path, text: str, said: l
     assert problems(tmp_path, text) == said
 
 
+def test_a_mission_without_a_name_is_called_by_its_number(tmp_path: Path) -> None:
+    nameless = f"[[mission]]\n[[mission.trip]]\n{PHOTO}"
+    assert [mission.name for mission in load(tmp_path, nameless * 2)] == ["1", "2"]
+
+
 def test_names_must_differ(tmp_path: Path) -> None:
     """Missions in a file, trips in a mission; a trip without a name is called by its number."""
     text = trip(f'name = "2"\n{PHOTO}[[mission.trip]]\n{PHOTO}') + trip(PHOTO)
