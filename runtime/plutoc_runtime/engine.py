@@ -41,7 +41,8 @@ class Engine:
         reason = ""
         try:
             status = await state.task.done
-            reason = mission.reason if status is Status.FAILED else ""
+            if status is Status.FAILED:
+                reason = mission.reason or "the graph ended it as FAILED"
         except MissionFailed as error:
             status, reason = Status.FAILED, str(error)
         except Cancelled:

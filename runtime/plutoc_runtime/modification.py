@@ -36,8 +36,9 @@ def settle(
         raise HookFault(f"modifier {name} returned {returned.value}, but {lie}")
     if returned is Status.FAILED:
         abort(run.core, run.state, f"modifier {name} failed the trip")
-    elif returned is not run.mission.status:
-        run.core.transitions.modify(run.mission, returned)
+    if returned is not run.mission.status:
+        reason = f"modifier {name} failed the mission" if returned is Status.FAILED else ""
+        run.core.transitions.modify(run.mission, returned, reason)
     return returned
 
 

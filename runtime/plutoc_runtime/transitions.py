@@ -114,10 +114,12 @@ class Transitions:
         self._standby(mission)
         self._trace.note("mission.repeated", mission=mission.name, round=mission.round)
 
-    def modify(self, mission: Mission[Any], status: Status) -> None:
+    def modify(self, mission: Mission[Any], status: Status, reason: str) -> None:
         """A modifier says how a mission stands."""
-        mission.status, mission.reason = status, ""
-        self._trace.note("mission.modified", mission=mission.name, status=status.value)
+        mission.status, mission.reason = status, reason
+        self._trace.note(
+            "mission.modified", mission=mission.name, status=status.value, reason=reason
+        )
 
     def judge_failed(self, mission: Mission[Any], reason: str) -> None:
         """A finished mission was judged and found wanting."""

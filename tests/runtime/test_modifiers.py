@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 
+from plutoc_blocks.mission_modifier.step import modify_mission
 from plutoc_runtime.context import Context
 from plutoc_runtime.model import Mission
+from plutoc_runtime.run import Run
 from plutoc_runtime.status import Status, TripStatus
 from tests.runtime import apps
 
@@ -71,6 +75,25 @@ def test_a_status_that_cannot_be_fails_the_mission(hook: object, says: str) -> N
     assert mission.status is Status.FAILED
     assert says in mission.reason
     assert outcome.drones[0].status.value == "FREE", "its drone was called home"
+
+
+def test_a_modifier_may_fail_a_mission_that_does_not_fly_and_the_reason_says_so() -> None:
+    async def refuse(mission: Mission[apps.Trip], context: Context) -> Status:
+        await context.trip_ended(mission.current)
+        return Status.FAILED
+
+    async def watch_then_refuse(run: Run[Any], status: Status) -> Status:
+        status = await apps.watched(run, status)
+        return await modify_mission(run, status, hook=refuse, emits=(Status.FAILED,))
+
+    outcome = apps.fly(
+        apps.app(apps.flow(watch=watch_then_refuse)), apps.mission("m", apps.trip("A", 2.0))
+    )
+    (mission,) = outcome.missions
+    assert (mission.status, mission.reason) == (
+        Status.FAILED,
+        "modifier refuse failed the mission",
+    )
 
 
 def test_a_modifier_without_emits_changes_the_mission_and_not_its_status() -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from ..app import App
 from ..errors import BadInput
@@ -12,10 +12,21 @@ from . import output
 BAD_INPUT, INTERNAL, INTERRUPTED, CLOSED_PIPE = 2, 70, 130, 141
 
 
+def start(name: str, load: Callable[[], App]) -> int:
+    """Load an app and run the command that the program was called with."""
+    app: App | None = None
+    ending = _Ending(name)
+    with ending:
+        from .loading import loaded
+
+        app = loaded(load)
+    return main(app) if app is not None else ending.code
+
+
 def main(app: App, argv: Sequence[str] | None = None) -> int:
     """Run one command of the app and return its exit code; `argv` is without the program."""
     output.prepare()
-    ending = _Ending(app)
+    ending = _Ending(app.name)
     with ending:
         ending.code = _command(app, argv)
         output.flush()
@@ -25,15 +36,15 @@ def main(app: App, argv: Sequence[str] | None = None) -> int:
 class _Ending:
     """Turns whatever a command ends with into an exit code, and into a message."""
 
-    def __init__(self, app: App) -> None:
+    def __init__(self, name: str) -> None:
         self.code = 0
-        self._app = app
+        self._name = name
 
     def __enter__(self) -> None:
         pass
 
     def __exit__(self, kind: object, error: BaseException | None, trace: object) -> bool:
-        name = self._app.name
+        name = self._name
         match error:
             case None:
                 return True

@@ -7,12 +7,19 @@ from __future__ import annotations
 import sys
 
 from ._runtime import cli
-from .flow import APP
+from ._runtime.app import App
 
 
 def main() -> int:
     """Run one command and return its exit code."""
-    return cli.main(APP)
+    return cli.start("alfalfa", _load)
+
+
+def _load() -> App:
+    """Load the app and its hooks; what keeps them from being loaded is told, not raised."""
+    from .flow import APP
+
+    return APP
 
 
 if __name__ == "__main__":

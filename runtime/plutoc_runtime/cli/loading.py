@@ -1,0 +1,44 @@
+"""Loads the app, its developer's own code with it, and says what keeps it from being loaded."""
+
+from __future__ import annotations
+
+import traceback
+from collections.abc import Callable
+from pathlib import PurePath
+from types import ModuleType
+
+from ..app import App
+from ..errors import BadInput
+
+HOOKS = "hooks.py"
+
+
+def loaded(load: Callable[[], App]) -> App:
+    """Return the app; raise `BadInput` with the place where its hooks cannot be loaded."""
+    try:
+        return load()
+    except Exception as error:
+        said = _explained(error)
+        if said is None:
+            raise
+        raise BadInput(said) from error
+
+
+def _explained(error: Exception) -> str | None:
+    """Return what is wrong with the hooks; None: something else is wrong."""
+    if isinstance(error, AttributeError) and isinstance(error.obj, ModuleType):
+        file = error.obj.__file__ or ""
+        if PurePath(file).name == HOOKS:
+            return f"{file} has no {error.name}: write it; plutoc compile --add-stubs adds a stub"
+    if isinstance(error, SyntaxError) and PurePath(error.filename or "").name == HOOKS:
+        return f"{error.filename}:{error.lineno}: {error.msg}"
+    frames = [f for f in traceback.extract_tb(error.__traceback__) if _is_hooks(f.filename)]
+    if not frames:
+        return None
+    place = f"{frames[-1].filename}:{frames[-1].lineno}"
+    return f"{place}: the hooks cannot be loaded: {type(error).__name__}: {error}"
+
+
+def _is_hooks(filename: str) -> bool:
+    path = PurePath(filename)
+    return path.name == HOOKS and path.parent.name != "_runtime"

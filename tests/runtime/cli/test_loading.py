@@ -1,0 +1,64 @@
+"""An app whose hooks cannot be loaded says so, with the place, and without a traceback."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterator
+from importlib import import_module, invalidate_caches
+from pathlib import Path
+
+import pytest
+
+from plutoc_runtime.app import App
+from plutoc_runtime.cli import start
+
+
+@pytest.fixture
+def load_with(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[[str], int]]:
+    """Start an app whose hooks.py holds this text."""
+    monkeypatch.syspath_prepend(str(tmp_path))
+    folder = tmp_path / "tried"
+    folder.mkdir()
+    (folder / "__init__.py").touch()
+    (folder / "flow.py").write_text("from . import hooks\nAPP = hooks.judge\n")
+
+    def start_it(text: str) -> int:
+        (folder / "hooks.py").write_text(text)
+        invalidate_caches()
+        return start("tried", load)
+
+    def load() -> App:
+        app: App = import_module("tried.flow").APP
+        return app
+
+    yield start_it
+    for name in [name for name in sys.modules if name.partition(".")[0] == "tried"]:
+        del sys.modules[name]
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("import no_such_module\n", "hooks.py:1: the hooks cannot be loaded: ModuleNotFoundError"),
+        ("def judge():\n  return 1 +\n", "hooks.py:2: invalid syntax"),
+        ("\n\nundefined\n", "hooks.py:3: the hooks cannot be loaded: NameError"),
+        ("def judges():\n  pass\n", "hooks.py has no judge: write it"),
+    ],
+)
+def test_what_is_wrong_with_the_hooks_is_told_with_its_place(
+    text: str, said: str, load_with: Callable[[str], int], capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert load_with(text) == 2
+    printed = capsys.readouterr()
+    assert said in printed.err
+    assert "Traceback" not in printed.err
+
+
+def test_a_mistake_of_ours_is_not_blamed_on_the_hooks(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    def load() -> App:
+        raise KeyError("ours")
+
+    assert start("tried", load) == 70
+    assert "internal error" in capsys.readouterr().err
