@@ -60,7 +60,7 @@ def test_the_same_seed_gives_the_same_trace_and_another_seed_another(tmp_path: P
 
     def trace(hash_seed: str, seed: int) -> bytes:
         file = tmp_path / f"{hash_seed}-{seed}.jsonl"
-        plan = [example / "missions.toml", "--fleet", example / "fleet.toml"]
+        plan: list[str | Path] = [example / "missions.toml", "--fleet", example / "fleet.toml"]
         command = ["-m", "alfalfa", "simulate", *plan, "--seed", str(seed)]
         run(hash_seed, *command, "--fail", FAULTS, "--trace", file, path=str(package / "src"))
         return file.read_bytes()

@@ -131,7 +131,8 @@ def bodies(draw: st.DrawFn, depth: int, jumps: tuple[Step, ...] = ()) -> Body:
             steps.append(draw(NODES))
         if leaves(tuple(steps)):
             return tuple(steps)
-    if jumps and draw(st.booleans()):
+    ends = st.booleans() if jumps else st.just(False)
+    if draw(ends):
         steps.append(draw(st.sampled_from(jumps)))
     return tuple(steps)
 

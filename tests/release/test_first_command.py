@@ -17,7 +17,7 @@ def test_the_readmes_first_command_ends_with_a_flown_mission_on_the_screen(
     checkout = tmp_path / "checkout"
     shutil.copytree(ROOT, checkout, ignore=NOT_SOURCES)
     readme = (ROOT / "README.md").read_text()
-    commands = re.findall(r"^```\n(python3 .*)\n```$", readme, re.M)
+    commands = re.findall(r"^```\n(python3 .*)\n```$", readme, re.MULTILINE)
     out = succeed("bash", "-c", commands[0], cwd=checkout)
     assert "Mission 3: COMPLETED" in out
     assert "3 of 3 missions completed" in out.splitlines()[-1]

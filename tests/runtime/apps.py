@@ -28,11 +28,12 @@ from plutoc_runtime.model import Category, Item, Point
 from plutoc_runtime.policies.nearest import nearest
 from plutoc_runtime.policy import Policy
 from plutoc_runtime.run import Run
-from plutoc_runtime.session import Outcome as Outcome
-from plutoc_runtime.session import simulate
+from plutoc_runtime.session import Outcome, simulate
 from plutoc_runtime.simulation.faults import Faults
 from plutoc_runtime.status import Status
 from plutoc_runtime.trace import Event
+
+__all__ = ["Outcome"]
 
 Way = Callable[[Run[Any], Status], Coroutine[Any, Any, Status]]
 NO_FAULTS = Faults()

@@ -1,5 +1,5 @@
 """Blocks for surveys: what a package of somebody else's looks like."""
 
-from pluto_survey.grid_scan import GRID_SCAN
+from .grid_scan import GRID_SCAN
 
 BLOCKS = (GRID_SCAN,)
