@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from plutoc.check.branches import Astray, Branch
-from plutoc.check.flow import Way, ordered
+from plutoc.check.flow import Fork, Way, ordered
 from plutoc.check.words import (
     accepts,
     arrows,
@@ -157,6 +157,36 @@ def stuck(
             if edge.takes
         ),
         help=f"{taken_by(node, statuses[0], taker)}. {there(way)}",
+    )
+
+
+def stuck_in_fork(
+    graph: Graph,
+    fork: Fork,
+    left: Sequence[tuple[Node, Sequence[Status]]],
+    gate: str | None,
+    way: Way,
+) -> Diagnostic:
+    node, statuses = left[0]
+    if gate is None:
+        meet = "let its branches meet at a gate"
+    else:
+        guard = f" when {', '.join(s.value for s in statuses)}" if graph.outgoing[node.name] else ""
+        meet = f"lead its branches to `{gate}`: add `{node.name} -> {gate}{guard}`"
+    return error(
+        "P2009",
+        (graph, node.name_span),
+        f"a mission that leaves `{node.name}` {listed(statuses, 'or')} is stuck, "
+        f"and {fork_of(fork)} is not closed",
+        label="no arrow takes it",
+        related=tuple(
+            related_to(
+                graph, other.name_span, f"nothing takes {listed(stays, 'or')} from here, either"
+            )
+            for other, stays in left[1:]
+        ),
+        help=f"{meet}; or, if only one of the arrows from `{fork[0]}` was meant to take "
+        f"{fork[1].value}, guard the others with `when`. {there(way)}",
     )
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 import networkx as nx
 
 from plutoc.check import errors
@@ -11,12 +13,17 @@ from plutoc.diagnostic import Diagnostic
 from plutoc.graph.model import END, START, Edge, Graph
 
 
-def unreached(flow: Flow, creator: str) -> list[Diagnostic]:
-    """Find blocks to which no path leads, one message for what hangs together."""
+def unreached(flow: Flow, creator: str, told: Collection[str]) -> list[Diagnostic]:
+    """Find blocks to which no path leads, one message for what hangs together.
+
+    What only those in `told` lead to is not reported: they have a message already.
+    """
     graph = flow.graph
     arrows = nx.DiGraph([(edge.source, edge.target) for edge in flow.edges])
     arrows.add_nodes_from((creator, *graph.node))
     reached = nx.descendants(arrows, creator) | {creator}
+    for name in told:
+        reached |= nx.descendants(arrows, name) | {name}
     lost = {
         name: tuple(e.target for e in graph.outgoing[name] if e.target not in reached)
         for name in graph.node

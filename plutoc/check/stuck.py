@@ -3,26 +3,54 @@
 from __future__ import annotations
 
 from plutoc.check import errors
-from plutoc.check.flow import Flow, Place, is_final
+from plutoc.check.branches import Branch, Branches
+from plutoc.check.flow import Flow, Fork, Place, is_final
+from plutoc.check.forks import gates_of
 from plutoc.diagnostic import Diagnostic
 from plutoc.graph.model import Node
 from plutoc_runtime.status import IN_GRAPH, Status
 
+Left = tuple[Node, tuple[Status, ...], Place]
+"""A block, the statuses of it that no edge takes, and where it is left with the first of them."""
 
-def stuck(flow: Flow) -> list[Diagnostic]:
-    """Find where missions are left, one message a block."""
-    found = []
+
+def stuck(flow: Flow, found: Branches) -> list[Diagnostic]:
+    """Find where missions are left: one message a block, or for all that a fork leaves open."""
+    diagnostics = []
     walked = set(flow.edges)
     # an arrow that must not be there has its own message, and was meant to take something
     wrong = {edge.source for edge in flow.graph.edges if edge not in walked}
+    open_forks: dict[Fork, list[Left]] = {}
     for node in flow.graph.nodes:
         left = _left(flow, node)
-        if left and node.name not in wrong:
-            place, status = next(iter(left.values()))
-            statuses = tuple(s for s in IN_GRAPH if s in left)
-            way = flow.way(place, status)
-            found.append(errors.stuck(flow.graph, node, statuses, way, _taker(flow, node, status)))
-    return found
+        if not left or node.name in wrong:
+            continue
+        statuses = tuple(s for s in IN_GRAPH if s in left)
+        place = left[statuses[0]]
+        if place.frame is not None:
+            open_forks.setdefault(place.frame.split.fork, []).append((node, statuses, place))
+        else:
+            taker = _taker(flow, node, statuses[0])
+            way = flow.way(place, statuses[0])
+            diagnostics.append(errors.stuck(flow.graph, node, statuses, way, taker))
+    for fork, lost in open_forks.items():
+        _, statuses, place = lost[0]
+        blocks = [(node, left) for node, left, _ in lost]
+        way = flow.way(place, statuses[0])
+        gate = _gate(flow, found[fork])
+        diagnostics.append(errors.stuck_in_fork(flow.graph, fork, blocks, gate, way))
+    return diagnostics
+
+
+def forgotten_gates(flow: Flow, found: Branches) -> tuple[str, ...]:
+    """Return the gates that nothing reaches and that a fork stops before: one mistake, not two."""
+    forks = dict.fromkeys(
+        place.frame.split.fork
+        for place, status in flow.loose
+        if place.frame is not None and not is_final(status)
+    )
+    gates = (_gate(flow, found[fork]) for fork in forks)
+    return tuple(gate for gate in gates if gate is not None and not flow.arrives[gate])
 
 
 def ends(flow: Flow) -> list[Diagnostic]:
@@ -46,12 +74,19 @@ def implicit_ends(flow: Flow) -> tuple[tuple[str, Status], ...]:
     return tuple((name, s) for name in flow.graph.node for s in IN_GRAPH if (name, s) in left)
 
 
-def _left(flow: Flow, node: Node) -> dict[Status, tuple[Place, Status]]:
-    left: dict[Status, tuple[Place, Status]] = {}
+def _left(flow: Flow, node: Node) -> dict[Status, Place]:
+    """Where missions are left at a block, by the status that no edge takes."""
+    left: dict[Status, Place] = {}
     for place, status in flow.loose:
         if place.node == node.name and not is_final(status):
-            left.setdefault(status, (place, status))
+            left.setdefault(status, place)
     return left
+
+
+def _gate(flow: Flow, branches: tuple[Branch, ...]) -> str | None:
+    """The gate that a fork most likely should close at: its other branches', or one left over."""
+    spare = (n.name for n in flow.graph.nodes if n.block.gate and not flow.arrives[n.name])
+    return next(iter((*gates_of(branches), *spare)), None)
 
 
 def _taker(flow: Flow, node: Node, status: Status) -> str | None:

@@ -112,6 +112,24 @@ MISTAKES = {
             "    [watch, timer] -> allocate when STANDBY\n    [watch, timer] -> end"
         ),
     ),
+    "branches that stop before their gate": (
+        "P2009",
+        "watch = ",
+        f"{OPEN}{OUT}",
+    ),
+    "branches that stop where there is no gate": (
+        "P2009",
+        "watch = ",
+        (
+            f"{BASIC}    timer = TimerMonitor\n"
+            "    start -> create -> allocate -> launch -> [watch, timer]"
+        ),
+    ),
+    "a branch that stops beside one that closes": (
+        "P2009",
+        "timer = ",
+        f"{OPEN}    watch -> first\n{OUT}",
+    ),
     "a branch that is launched in parallel": (
         "P2012",
         "create -> [allocate, note]",
@@ -247,6 +265,33 @@ def test_a_stuck_mission_is_shown_the_way_out_and_the_way_there() -> None:
         "add `watch -> allocate when STANDBY`. "
         "The shortest way: create → allocate → launch (RUNNING) → watch (STANDBY)"
     )
+
+
+@pytest.mark.parametrize(
+    ("name", "meet"),
+    [
+        ("branches that stop before their gate", "to `first`: add `watch -> first`;"),
+        ("a branch that stops beside one that closes", "to `first`: add `timer -> first`;"),
+        ("branches that stop where there is no gate", "let its branches meet at a gate;"),
+    ],
+)
+def test_a_mission_stuck_in_a_fork_is_shown_the_gate(name: str, meet: str) -> None:
+    """Any other way out would be refused: a branch must close at its gate first."""
+    (found,) = errors(MISTAKES[name][2])
+    assert found.help is not None
+    assert meet in found.help
+
+
+def test_the_status_to_take_is_the_one_that_the_way_shows() -> None:
+    """Of several statuses that are left, the arrow that is proposed can take the one it names."""
+    text = f"""{BASIC}
+    note = MissionModifier emits RUNNING, STANDBY, COMPLETED
+    start -> create -> allocate -> launch -> watch -> note
+    note -> end"""
+    (found,) = errors(text)
+    assert found.help is not None
+    assert found.help.startswith("add `note -> watch when RUNNING`.")
+    assert found.help.endswith("watch (STANDBY) → note (RUNNING)")
 
 
 def test_a_way_through_a_gate_goes_back_to_the_fork_it_came_from() -> None:
