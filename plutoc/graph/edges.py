@@ -40,7 +40,7 @@ def edges(
     found: list[Diagnostic],
 ) -> tuple[Edge, ...]:
     """Resolve all edges, in the order of the source."""
-    _check_stops(source, flows, scope, found)
+    _check_stops(source, flows, scope, nodes, found)
     resolved: list[Edge] = []
     for flow in flows:
         given = flow.guard
@@ -105,7 +105,11 @@ def _accepts(target: str, nodes: Mapping[str, Node]) -> frozenset[Status]:
 
 
 def _check_stops(
-    source: Source, flows: Sequence[FlowDecl], scope: Scope, found: list[Diagnostic]
+    source: Source,
+    flows: Sequence[FlowDecl],
+    scope: Scope,
+    nodes: Mapping[str, Node],
+    found: list[Diagnostic],
 ) -> None:
     """Check that every stop is a block, or `start` at a beginning, or `end` at an end."""
     blocks = [name for name, declared in scope.items() if declared.role == BLOCK]
@@ -121,7 +125,9 @@ def _check_stops(
                 elif name.text == END:
                     if i < len(flow.stops) - 1:
                         found.append(errors.out_of_end(source, name))
-                elif (declared is None or declared.role != BLOCK) and name.text not in hopeless:
+                elif name.text in hopeless or name.text in nodes:
+                    continue  # a block that has another thing's name is told as that
+                elif declared is None or declared.role != BLOCK:
                     role = declared.role if declared else None
                     meant = near(name.text, blocks) if told < _MOST_PROPOSALS else []
                     told += 1

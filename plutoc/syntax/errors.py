@@ -62,9 +62,12 @@ _MEANT = {
     "—": "write a minus or an arrow with the ordinary `-`",
     "−": "write a minus or an arrow with the ordinary `-`",
     "\u00a0": "write an ordinary space",
+    "\r": "end the lines as Unix or Windows does: an editor can convert them",
+    "°": "degrees Celsius are written `C`, those of an angle `deg`",
     "/": "a comment begins with `#`",
     ">": "an arrow is written `->`",
-    "-": "an arrow is written `->`; a negative number has no space behind its `-`",
+    "-": "an arrow is written `->`, a part of a name `_`; "
+    "a negative number has no space behind its `-`",
 }
 
 

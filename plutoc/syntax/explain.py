@@ -108,7 +108,10 @@ def _help(
         return "to go on in the next line, begin that one with `->`", None
     if token.type == "QUANTITY" and NAME in accepts:
         return "a name begins with a letter", None
+    arrow = token.type == NAME and token[:1].islower()  # a block, where a kind may be meant, too
     for kind, text in _ADDABLE.items():
+        if kind == EQUAL and arrow:
+            continue
         if kind in accepts and would_feed(state, [made_up(kind, text), *tokens[i : i + 2]]):
             at = tokens[i - 1].end_pos or 0
             return f"write `{text}` before it", Fix(span=Span(at, at), text=text)

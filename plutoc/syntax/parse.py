@@ -10,7 +10,7 @@ from plutoc.diagnostic import Diagnostic, Rejected, accept_or_raise
 from plutoc.source import Source, Span
 from plutoc.syntax import build, errors
 from plutoc.syntax.grammar import parser
-from plutoc.syntax.newlines import CLOSING, END, OPENING
+from plutoc.syntax.newlines import CLOSING, END, NEWLINE, OPENING
 from plutoc.syntax.recover import diagnose
 from plutoc.syntax.state import beginning, span
 from plutoc.syntax.texts import HIDDEN, wrong_escapes
@@ -30,6 +30,7 @@ def parse(source: Source) -> File:
     if len(source.text.encode("utf-8", "surrogatepass")) > LARGEST:
         raise Rejected((errors.too_large(source, LARGEST),))
     tokens = _tokens(source.text)
+    _check_version(source, tokens)
     found = [
         *_hidden_characters(source, tokens),
         *_wrong_escapes(source, tokens),
@@ -41,7 +42,6 @@ def parse(source: Source) -> File:
         found.extend(diagnose(source, tokens))
     accept_or_raise(found)
     assert lark_tree is not None, "what the parser refuses has a diagnostic"
-    _check_version(source, tokens[1])
     return build.file(source, lark_tree)
 
 
@@ -106,10 +106,12 @@ def _too_deep(source: Source, tokens: Sequence[Token]) -> Iterator[Diagnostic]:
                 yield errors.too_deep(source, span(token), DEEPEST)
         elif token.type in CLOSING:
             depth -= 1
-        elif token.type == "_NL":
+        elif token.type == NEWLINE:
             depth = 0
 
 
-def _check_version(source: Source, token: Token) -> None:
-    if token != "1":
-        raise Rejected((errors.unknown_version(source, span(token)),))
+def _check_version(source: Source, tokens: Sequence[Token]) -> None:
+    """Refuse another version first: what else this compiler cannot read may be right in that one."""
+    header = [token.type for token in tokens[:3]]
+    if header in (["PLUTO", "NUMBER", NEWLINE], ["PLUTO", "NUMBER", END]) and tokens[1] != "1":
+        raise Rejected((errors.unknown_version(source, span(tokens[1])),))

@@ -56,6 +56,8 @@ def diagnose(source: Source, tokens: Sequence[Token]) -> list[Diagnostic]:
         choices = state.choices()
         if "PLUTO" in choices:
             i = _behind_line(tokens, i)
+            if any(token.type == "LBRACE" for token in tokens[line:i]):
+                break  # the whole app, on the first line
             _feed_made_up(state, _HEADER)
         elif "APP" in choices:
             i = _enter_app(state, tokens, line)
