@@ -79,10 +79,20 @@ class Queue:
         if self._requests and (self._round is None or self._round.call is None):
             self._round = self._kernel.at(self._kernel.now, Kind.ALLOCATE, FLEET, self._serve)
 
+    @property
+    def waiting(self) -> bool:
+        """Whether anybody waits."""
+        return bool(self._requests)
+
     def standing(self) -> str:
         """Say what the drones are doing: why a mission waits."""
         count = Counter(drone.status for drone in self._drones)
         return ", ".join(f"{count[s]} {s.value.lower()}" for s in DroneStatus if count[s])
+
+    @property
+    def room(self) -> bool:
+        """Whether one more drone may fly."""
+        return self._places() > 0
 
     def too_low(self) -> Iterator[Drone]:
         """Give the free drones that waiting missions could use if they were charged."""
@@ -149,7 +159,10 @@ class Queue:
                 )
 
     def _look_again_when_charged(self, free: Iterable[Drone], high: Sequence[Drone]) -> None:
-        """A docked drone that is too low for what waits will be high enough at a known time."""
+        """A docked drone that is too low for what waits will be high enough at a known time.
+
+        One that is high enough and was not given (no more may fly, a policy wants it not) stays so.
+        """
         fresh = [request for request in self._requests if request.fresh]
         for drone in free:
             known, asking = (inf, self._requests) if drone in high else (self._low[drone], fresh)
@@ -159,7 +172,8 @@ class Queue:
             request.fresh = False
         if self._recheck is not None:
             self._recheck.cancel()
-        soonest = min(self._low.values(), default=inf)
+        later = (until for until in self._low.values() if until > self._kernel.now)
+        soonest = min(later, default=inf)
         if soonest < inf:
             self._recheck = self._kernel.at(soonest, Kind.CLOCK, FLEET, self.changed)
 
@@ -182,8 +196,8 @@ def _offers(
 
 
 def _charging(drone: Drone, demand: Demand) -> float:
-    """Return the seconds until a drone in its dock has charged enough; it need not: infinite."""
+    """Return the seconds until a drone in its dock has charged enough; never: infinite."""
     if demand.never(drone) is not None:
         return inf
     missing = demand.battery(drone) - drone.battery_level
-    return missing * drone.category.charge_time + 0.001 if missing > 0 else inf
+    return missing * drone.category.charge_time + 0.001 if missing > 0 else 0.0

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import isfinite
 from typing import Any
 
 from .core import Core
@@ -31,11 +32,12 @@ class Context:
 
     def log(self, text: str) -> None:
         """Write a line on the console."""
-        self._core.log(text, self._state.mission.name)
+        self._core.log(str(text), self._state.mission.name)
 
     async def sleep(self, seconds: float) -> None:
         """Wait for so many seconds, simulated or real."""
         kernel, over = self._core.kernel, Signal[None]()
+        _must_be_finite(seconds)
         timer = kernel.at(kernel.now + seconds, Kind.CLOCK, self._key, lambda: over.set(None))
         try:
             await kernel.offer(over)
@@ -59,6 +61,7 @@ class Context:
         flight.ended.watch(wake)
         timer = None
         if within is not None:
+            _must_be_finite(within)
             until = (trip.start_time or 0.0) + within
             timer = kernel.at(until, Kind.TIMER, self._key, wake)
         try:
@@ -72,3 +75,9 @@ class Context:
     @property
     def _key(self) -> tuple[int, ...]:
         return (self._state.mission.index,)
+
+
+def _must_be_finite(seconds: float) -> None:
+    """A hook that waits for ever would keep its mission for ever."""
+    if not isfinite(seconds):
+        raise ValueError(f"{seconds} seconds is no time to wait for")

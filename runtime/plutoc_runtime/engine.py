@@ -74,8 +74,8 @@ class Engine:
         if state.allocated is not None:
             fleet.never_flew(state.allocated)
         if state.carrier is not None:
-            fleet.send_home(state.carrier)
-        state.allocated = state.carrier = None
+            fleet.recover(state.carrier)  # somebody must take off what it carries
+        state.allocated = state.carrier = state.carries = None
         self._core.transitions.end(mission, status, reason)
         del self._living[mission]
         if not self._living:

@@ -14,7 +14,7 @@ from .airspace import Airspace
 from .allocation import Queue
 from .energy import docked
 from .errors import Failure, FlightFailed
-from .kernel import FLEET, Kernel, Key, Kind, Task
+from .kernel import FLEET, Kernel, Key, Kind, Signal, Task
 from .model import Drone, Point
 from .navigation import Navigation
 from .status import DroneStatus
@@ -47,6 +47,8 @@ class Fleet:
         self._kernel, self._trace, self._airspace = kernel, trace, airspace
         self._navigation, self._after_trip = navigation, after_trip
         self._errands: dict[Drone, Task[None]] = {}
+        self._change: Signal[None] = Signal()
+        """The next change of any drone."""
         queue.served = self._fetch_what_is_low
 
     async def go_to(self, drone: Drone, target: Point) -> None:
@@ -65,9 +67,20 @@ class Fleet:
         if errand is not None:
             errand.cancel()
 
-    def keep(self, drone: Drone) -> None:
-        """A drone with an item aboard lands where it is and waits for its mission."""
-        self._send(drone, DroneStatus.BUSY, self._land, "waits with its item")
+    def keep(self, drone: Drone, lose: Callable[[str], None]) -> None:
+        """A drone with an item aboard lands where it is and waits for its mission.
+
+        If it cannot, its mission loses it: `lose` is told why.
+        """
+
+        async def land(drone: Drone) -> None:
+            try:
+                await self._navigation.land(drone.id)
+            except FlightFailed as error:
+                lose(str(error))
+                await self._bring_back(drone)
+
+        self._send(drone, DroneStatus.BUSY, land, "waits with its item")
 
     def dismiss(self, drone: Drone) -> None:
         """A drone has done what it was allocated for."""
@@ -86,7 +99,7 @@ class Fleet:
 
     def never_flew(self, drone: Drone) -> None:
         """A drone was allocated and is not needed after all."""
-        self._send(drone, DroneStatus.BUSY, self._settle, "is not needed")
+        self._send(drone, DroneStatus.BUSY, self._stay, "is not needed")
 
     async def all_down(self) -> None:
         """Wait until every drone has done what it does for itself: return, land, recover."""
@@ -133,6 +146,8 @@ class Fleet:
                 battery=round(drone.battery_level, 4),
                 at=[round(value, 3) for value in drone.location],
             )
+        change, self._change = self._change, Signal()
+        change.set(None)
         self.queue.changed()
 
     async def _land(self, drone: Drone) -> None:
@@ -150,7 +165,10 @@ class Fleet:
         await self._settle(drone)
         if self._after_trip is AfterTrip.NEXT:
             await self._kernel.sleep(0, Kind.ALLOCATE, self._key(drone))
-            if drone.status is DroneStatus.FREE and not self._is_docked(drone):
+            while self._is_stray(drone) and not self.queue.room:
+                await self._change
+                await self._kernel.sleep(0, Kind.ALLOCATE, self._key(drone))
+            if self._is_stray(drone):
                 self._become(drone, DroneStatus.RETURNING)
                 await self._return(drone)
 
@@ -192,12 +210,15 @@ class Fleet:
     def _fetch_what_is_low(self) -> None:
         """Missions wait for drones that stand away from home with too little in their batteries."""
         for drone in self.queue.too_low():
-            if not self._is_docked(drone):
+            if not self._is_docked(drone) and self.queue.room:
                 self.send_home(drone)
 
     def _is_low(self, drone: Drone) -> bool:
         """Whether there is little more in it than the way home takes."""
         return drone.battery_level < drone.category.reserve + 0.2
+
+    def _is_stray(self, drone: Drone) -> bool:
+        return drone.status is DroneStatus.FREE and not self._is_docked(drone)
 
     def _is_docked(self, drone: Drone) -> bool:
         return drone.telemetry.landed and docked(drone.location, drone.home)

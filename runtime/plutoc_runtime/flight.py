@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 
 from .actions import PICK, RELEASE, Action
 from .context import Context
@@ -87,6 +88,9 @@ async def _act(core: Core, state: State, trip: Trip, drone: Drone, action: Actio
 def complete(core: Core, state: State, flight: Flight, value: object) -> None:
     """A trip is over, and went well; its drone is free to go, unless it carries an item."""
     mission, trip = state.mission, flight.trip
+    if trip not in mission.trips:
+        fail(core, state, flight, "a hook took it from the mission's trips", mends=False)
+        return
     if trip.action == PICK:
         state.carries, state.carrier = trip.item, flight.drone
     elif trip.action == RELEASE:
@@ -96,8 +100,16 @@ def complete(core: Core, state: State, flight: Flight, value: object) -> None:
     if state.carrier is None:
         core.fleet.dismiss(flight.drone)
     else:
-        core.fleet.keep(flight.drone)
+        core.fleet.keep(flight.drone, partial(_lose, state))
     flight.ended.set(mission.status)
+
+
+def _lose(state: State, reason: str) -> None:
+    """The drone that the mission keeps cannot fly on; neither it nor the item is the mission's."""
+    if state.carries is not None:
+        reason = f"{reason}, with {state.carries.name} aboard"
+    state.carries = state.carrier = state.allocated = None
+    state.doom.set(reason)
 
 
 def fail(core: Core, state: State, flight: Flight, reason: str, *, mends: bool = True) -> None:

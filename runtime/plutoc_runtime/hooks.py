@@ -4,23 +4,32 @@ from __future__ import annotations
 
 import traceback
 from collections.abc import Callable
+from contextlib import suppress
 
 from .errors import ActionFailed, HookFault
-from .kernel import Kernel
+from .kernel import Cancelled, Kernel
 
 Hook = Callable[..., object]
 
 
 async def call_hook(kernel: Kernel, hook: Hook, /, *args: object, **named: object) -> object:
-    """Call a hook; whatever it raises, `ActionFailed` aside, is a fault of the hook."""
+    """Call a hook; whatever it raises, `ActionFailed` aside, is a fault of the hook.
+
+    Even `SystemExit` is: it would end the flights of all others. An interrupt is the user's.
+    """
     try:
         return await kernel.call_hook(hook, *args, **named)
-    except ActionFailed:
+    except (ActionFailed, Cancelled, GeneratorExit, KeyboardInterrupt):
         raise
-    except Exception as error:
-        raise HookFault(
-            f"hook {hook_name(hook)} raised {type(error).__name__}: {error}", trace_of(error)
-        ) from error
+    except BaseException as error:
+        raise HookFault(f"hook {hook_name(hook)} raised {said(error)}", trace_of(error)) from error
+
+
+def said(error: BaseException) -> str:
+    """Return an error's type and its text, if it has any to give."""
+    with suppress(Exception):
+        return f"{type(error).__name__}: {error}".removesuffix(": ")
+    return type(error).__name__
 
 
 def hook_name(hook: Hook) -> str:

@@ -12,7 +12,8 @@ from .hooks import hook_name
 from .model import Mission, Trip
 from .plan_check import why_not
 from .run import Run
-from .status import Status
+from .soundness import unsound
+from .status import Status, TripStatus
 from .verdict import Verdict
 
 
@@ -21,23 +22,40 @@ def apply(run: Run[Any], hook: Callable[..., object], verdict: object) -> Status
     mission, core, name = run.mission, run.core, hook_name(hook)
     if not isinstance(verdict, Verdict):
         raise HookFault(f"evaluator {name} must return a Verdict, not {type(verdict).__name__}")
-    for line in verdict.log:
+    if mission.trips:
+        raise HookFault(f"evaluator {name} changed the mission's trips: that is what `add` is for")
+    redo, add = _listed(name, "redo", verdict.redo), _listed(name, "add", verdict.add)
+    for line in _listed(name, "log", verdict.log):
         core.log(str(line), mission.name)
-    if verdict.fail is not None or not (verdict.ok or verdict.redo or verdict.add):
-        core.transitions.judge_failed(mission, verdict.fail or f"{name} did not accept it")
+    if verdict.fail is not None or not (verdict.ok or redo or add):
+        reason = "" if verdict.fail is None else str(verdict.fail).strip()
+        core.transitions.judge_failed(mission, reason or f"{name} did not accept it")
         return Status.FAILED
-    for trip in verdict.redo:
+    for trip in redo:
         if trip not in mission.completed_trips:
             raise HookFault(
                 f"evaluator {name} asks to redo a trip that mission {mission.name} "
                 f"has not completed: {getattr(trip, 'name', trip)!r}"
             )
-    added = tuple(_accepted(core, mission, name, trip) for trip in dict.fromkeys(verdict.add))
+    added = tuple(_accepted(core, mission, name, trip) for trip in _once_each(add))
     _name(mission, added)
-    if not (verdict.redo or added):
+    if not (redo or added):
         return Status.COMPLETED
-    core.transitions.redo(mission, tuple(dict.fromkeys(verdict.redo)), added)
+    core.transitions.redo(mission, tuple(_once_each(redo)), added)
     return Status.STANDBY
+
+
+def _listed(evaluator: str, field: str, value: object) -> Sequence[Any]:
+    if isinstance(value, (tuple, list)):
+        return value
+    raise HookFault(
+        f"evaluator {evaluator} must give `{field}` as a tuple, not as {type(value).__name__}"
+    )
+
+
+def _once_each(trips: Sequence[Any]) -> list[Any]:
+    """Leave out what is asked for twice; what is no trip at all need not be hashable."""
+    return list({id(trip): trip for trip in trips}.values())
 
 
 def _accepted(core: Core, mission: Mission[Any], evaluator: str, trip: Trip) -> Trip:
@@ -62,25 +80,16 @@ def _name(mission: Mission[Any], added: Sequence[Trip]) -> None:
         taken.add(trip.name)
 
 
-def _problem(core: Core, mission: Mission[Any], trip: object) -> str | None:
-    if not isinstance(trip, core.app.trip):
-        return f"it must be a Trip of this app, not {type(trip).__name__}"
-    if trip in mission.completed_trips or trip in mission.trips:
+def _problem(core: Core, mission: Mission[Any], trip: Trip) -> str | None:
+    problem = unsound(core, trip)
+    if problem is not None:
+        return problem
+    if trip in mission.completed_trips:
         return f"trip {trip.name} is the mission's already: ask to redo it"
-    action = core.app.actions.get(trip.action)
-    if action is None:
-        return f"there is no action {trip.action!r}"
+    if trip.now is not None or trip.status is not TripStatus.WAITING:
+        return f"trip {trip.name} has been used already: make a new Trip each time"
     if trip.action in (PICK, RELEASE):
         return "items are planned by the user: pick and release cannot be added"
-    known = {parameter.name for parameter in action.parameters}
-    needed = {parameter.name for parameter in action.parameters if parameter.default is None}
-    for name in (*sorted(trip.parameters.keys() - known), *sorted(needed - trip.parameters.keys())):
-        what = "has no parameter" if name not in known else "needs the parameter"
-        return f"{trip.action} {what} {name!r}"
-    for point in (trip.source, trip.target):
-        outside = None if point is None else core.airspace.problem(point)
-        if outside is not None:
-            return outside
     reasons = [
         why_not(core.app, core.airspace, drone.category, drone.home, (trip,))
         for drone in core.fleet.drones

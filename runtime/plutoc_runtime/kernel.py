@@ -110,16 +110,19 @@ class Timer:
         self.call = None
 
 
-class _Ending:
-    """Keeps whatever a coroutine ends with: its task hands it on to those who wait for it."""
+class Ending:
+    """Keeps whatever something ends with, to be handed on to those who wait for it."""
 
     error: BaseException
+
+    def __init__(self, passing: tuple[type[BaseException], ...] = (KeyboardInterrupt,)) -> None:
+        self._passing = passing
 
     def __enter__(self) -> None:
         pass
 
     def __exit__(self, kind: object, error: BaseException | None, trace: object) -> bool:
-        if error is None or isinstance(error, (KeyboardInterrupt, SystemExit)):
+        if error is None or isinstance(error, self._passing):
             return False
         self.error = error
         return True
@@ -150,7 +153,7 @@ class Task(Generic[T]):
 
     def _step(self, advance: Callable[[], object]) -> None:
         """Let the coroutine run up to its next wait."""
-        end = _Ending()
+        end = Ending((KeyboardInterrupt, SystemExit))
         with end:
             waits_for = advance()
             while not isinstance(waits_for, Signal):
@@ -209,10 +212,10 @@ class Kernel:
         raise NotImplementedError
 
     def at(self, when: float, kind: Kind, key: Key, call: Callable[[], None]) -> Timer:
-        """Call this at a time; a time that has passed means now."""
+        """Call this at a time; a time that has passed, or is none, means now."""
         timer = Timer(call)
         self._count += 1
-        heappush(self._heap, (max(when, self.now), kind, key, self._count, timer))
+        heappush(self._heap, (max(self.now, when), kind, key, self._count, timer))
         return timer
 
     def spawn(self, coroutine: Coroutine[Any, Any, T], key: Key, name: str) -> Task[T]:

@@ -12,6 +12,7 @@ from math import dist
 from typing import Generic, Protocol, TypeVar
 
 from .actions import Plain
+from .errors import MissionFailed
 from .status import DroneStatus, Status, TripStatus
 
 Point = tuple[float, float, float]
@@ -188,4 +189,6 @@ class Mission(Generic[AnyTrip]):
     @property
     def current(self) -> AnyTrip:
         """The trip that flies now, or flies next; when none is left, the one flown last."""
+        if not (self.trips or self.completed_trips):
+            raise MissionFailed("no trip is left to fly")
         return self.trips[0] if self.trips else self.completed_trips[-1]

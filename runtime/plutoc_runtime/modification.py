@@ -9,6 +9,7 @@ from .errors import HookFault
 from .flight import abort
 from .hooks import hook_name
 from .run import Run
+from .soundness import unsound
 from .state import State
 from .status import Status, TripStatus
 
@@ -22,6 +23,7 @@ def settle(
 ) -> Status:
     """Return the status with which the mission goes on; one that cannot be is a fault."""
     name = hook_name(hook)
+    _check_trips(run, name)
     if not emits:
         if returned is not None:
             raise HookFault(
@@ -40,6 +42,28 @@ def settle(
         reason = f"modifier {name} failed the mission" if returned is Status.FAILED else ""
         run.core.transitions.modify(run.mission, returned, reason)
     return returned
+
+
+def _check_trips(run: Run[Any], name: str) -> None:
+    """A modifier may change what is still to do; what comes of it must be trips."""
+    mission, flying = run.mission, run.state.in_flight
+    if not isinstance(mission.trips, list):
+        raise HookFault(
+            f"modifier {name} made mission.trips {type(mission.trips).__name__}, not a list"
+        )
+    if flying is not None and mission.trips[:1] != [flying.trip]:
+        raise HookFault(
+            f"modifier {name} took trip {flying.trip.name}, which is flying, from its place"
+        )
+    for number, trip in enumerate(mission.trips, start=1):
+        problem = unsound(run.core, trip)
+        if problem is None and trip in mission.trips[: number - 1]:
+            problem = "it is in the list twice"
+        if problem is not None:
+            called = getattr(trip, "name", number)
+            raise HookFault(
+                f"modifier {name} left a trip that cannot be flown, {called}: {problem}"
+            )
 
 
 def _contradiction(state: State, status: Status) -> str | None:

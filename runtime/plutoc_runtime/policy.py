@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from .errors import HookFault
-from .hooks import hook_name, trace_of
+from .hooks import hook_name, said, trace_of
 from .model import Drone, Trip
 
 
@@ -71,10 +71,10 @@ class OwnPolicy:
     def _answer(self, name: str, trip: Trip, left: tuple[Drone, ...]) -> Drone | None:
         try:
             drone = self.hook(trip, left)
-        except Exception as error:
-            raise HookFault(
-                f"policy {name} raised {type(error).__name__}: {error}", trace_of(error)
-            ) from error
+        except KeyboardInterrupt:
+            raise
+        except BaseException as error:
+            raise HookFault(f"policy {name} raised {said(error)}", trace_of(error)) from error
         if drone is not None and drone not in left:
             raise HookFault(
                 f"policy {name} must return one of the candidates or None, not {drone!r}"

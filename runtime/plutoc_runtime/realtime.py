@@ -5,11 +5,13 @@ from __future__ import annotations
 import asyncio
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from functools import partial
-from inspect import iscoroutinefunction
-from typing import TypeVar
+from inspect import iscoroutine, iscoroutinefunction
+from threading import Thread
+from typing import NoReturn, TypeVar
 
-from .kernel import Kernel, Key, Kind, Signal, Timer
+from .kernel import Ending, Kernel, Key, Kind, Signal, Timer
 
 T = TypeVar("T")
 
@@ -50,10 +52,11 @@ class RealTime(Kernel):
 
     async def run(self, done: Signal[T]) -> T:
         """Go on until it is done."""
-        self._over.clear()
         done.watch(self._over.set)
         self._arm()
-        await self._over.wait()
+        while not (done.is_set or self.crashed):  # what was waited for before may end meanwhile
+            self._over.clear()
+            await self._over.wait()
         if self.crashed is not None:
             raise self.crashed
         return done.result()
@@ -72,7 +75,7 @@ class RealTime(Kernel):
         self._frozen = self._loop.time() - self._start
         try:
             while (when := self.next_time()) is not None and when <= self._frozen:
-                self.take()
+                self._take()
                 if self.crashed is not None:
                     self._over.set()
                     return
@@ -80,31 +83,60 @@ class RealTime(Kernel):
             self._frozen = None
         self._arm()
 
+    def _take(self) -> None:
+        """Take the next event; an error there must not leave everybody waiting for ever."""
+        end = Ending()
+        with end:
+            self.take()
+            return
+        self.crash(end.error)
+
     async def call_hook(
         self, hook: Callable[..., object], /, *args: object, **named: object
     ) -> object:
         """Run a hook beside the missions: `async def` as a task, `def` in a thread."""
-        call = partial(hook, *args, **named)
-        if iscoroutinefunction(hook):
-            running: asyncio.Future[object] = asyncio.ensure_future(hook(*args, **named))
-        else:
-            running = self._loop.run_in_executor(None, call)
         result: Signal[object] = Signal()
-
-        def finished(future: asyncio.Future[object]) -> None:
-            if future.cancelled():
-                return
-            error = future.exception()
-            if error is not None:
-                self.post(partial(result.fail, error))
-            else:
-                self.post(partial(result.set, future.result()))
-
-        running.add_done_callback(finished)
+        running = asyncio.ensure_future(self._answer(hook, partial(hook, *args, **named), result))
         try:
             return await result
         finally:
             running.cancel()
+
+    async def _answer(
+        self, hook: Callable[..., object], call: Callable[[], object], result: Signal[object]
+    ) -> None:
+        """Wait for a hook, and post what it ends with, whatever that is."""
+        end = Ending()
+        with end:
+            returned = call() if iscoroutinefunction(hook) else await self._in_thread(call)
+            if iscoroutine(returned):
+                returned = await returned
+            self.post(partial(result.set, returned))
+            return
+        self.post(partial(result.fail, end.error))
+
+    async def _in_thread(self, call: Callable[[], object]) -> object:
+        """Call this in a thread of its own: one that never comes back keeps nobody from leaving."""
+        ended: asyncio.Future[Callable[[], object]] = self._loop.create_future()
+
+        def finish(end: Callable[[], object]) -> None:
+            if not ended.done():
+                ended.set_result(end)
+
+        def tell(end: Callable[[], object]) -> None:
+            with suppress(RuntimeError):  # the loop is closed: nobody waits any longer
+                self._loop.call_soon_threadsafe(finish, end)
+
+        def work() -> None:
+            end = Ending(())
+            with end:
+                returned = call()
+                tell(lambda: returned)
+                return
+            tell(partial(_raise, end.error))
+
+        Thread(target=work, name="hook", daemon=True).start()
+        return (await ended)()
 
     async def offer(self, signal: Signal[T]) -> T:
         """Return what a hook, an asyncio task here, may await for this signal."""
@@ -115,3 +147,7 @@ class RealTime(Kernel):
         finally:
             signal.unwatch(happened.set)
         return signal.result()
+
+
+def _raise(error: BaseException) -> NoReturn:
+    raise error

@@ -7,8 +7,8 @@ from typing import Any, Generic, TypeVar
 
 from .context import Context
 from .core import Core
-from .errors import HookFault
-from .hooks import call_hook
+from .errors import ActionFailed, HookFault
+from .hooks import call_hook, hook_name, trace_of
 from .kernel import Key, Task
 from .model import Mission
 from .state import State
@@ -30,10 +30,19 @@ class Run(Generic[M]):
     async def hook(self, hook: Callable[..., object], *args: object) -> object:
         """Call a hook of the app's with these arguments; its faults end the mission."""
         try:
-            return await call_hook(self.core.kernel, hook, *args)
+            return await self._called(hook, args)
         except HookFault as fault:
             self.core.log(fault.detail, self.mission.name)
             raise
+
+    async def _called(self, hook: Callable[..., object], args: Sequence[object]) -> object:
+        try:
+            return await call_hook(self.core.kernel, hook, *args)
+        except ActionFailed as error:
+            reason = (
+                f"hook {hook_name(hook)} raised ActionFailed, which only an action may: {error}"
+            )
+            raise HookFault(reason, trace_of(error)) from error
 
     @property
     def context(self) -> Context:

@@ -10,6 +10,7 @@ from .allocation import Queue
 from .app import App
 from .core import Core
 from .engine import Engine
+from .errors import BadInput
 from .files.fleet import FleetFile
 from .fleet import Fleet
 from .kernel import FLEET, Kernel, Task
@@ -21,7 +22,8 @@ from .simulation.world import World
 from .status import Status
 from .trace import Event, Trace
 from .transitions import Transitions
-from .virtual import VirtualTime
+from .virtual import Stuck, VirtualTime
+from .words import duration
 
 Listener = Callable[[Event], None]
 
@@ -150,6 +152,14 @@ def simulate(
     over = session.start(missions).done
     try:
         ended = over.result() if kernel.run(over, until) else kernel.now
+    except Stuck:
+        queue = session.core.fleet.queue
+        if not queue.waiting:
+            raise
+        raise BadInput(
+            f"{app.name}: the simulation stops at {duration(kernel.now)}: missions wait for ever, "
+            f"because the policy gives them none of the drones ({queue.standing()})"
+        ) from None
     finally:
         kernel.close()
     return session.outcome(missions, ended)

@@ -9,6 +9,7 @@ from .model import Drone, Mission, Trip
 from .results import ResultStore
 from .status import Status, TripStatus
 from .trace import Trace
+from .words import shown
 
 
 class Transitions:
@@ -35,7 +36,7 @@ class Transitions:
 
     def launch(self, mission: Mission[Any], trip: Trip, drone: Drone) -> None:
         """A trip's drone leaves for it."""
-        trip.status = TripStatus.EXECUTING
+        trip.status, trip.now = TripStatus.EXECUTING, self._now
         trip.start_time, trip.end_time, trip.reason = self._kernel.now, None, ""
         mission.status, mission.reason = Status.RUNNING, ""
         mission.attempts += 1
@@ -56,7 +57,7 @@ class Transitions:
         mission.completed_trips.append(trip)
         mission.status = Status.STANDBY if mission.trips else Status.COMPLETED
         self._results.add(mission, trip, value)
-        self._ended(mission, trip, "trip.completed", {"value": repr(value)})
+        self._ended(mission, trip, "trip.completed", {"value": shown(value)})
 
     def fail(self, mission: Mission[Any], trip: Trip, reason: str) -> None:
         """A trip has failed: it stays first in the list."""
@@ -81,6 +82,8 @@ class Transitions:
     def put_back(self, mission: Mission[Any]) -> None:
         """The trip that failed will be tried again."""
         trip = mission.current
+        if trip.status is TripStatus.WAITING:  # it failed before it could be launched
+            trip.attempt += 1
         trip.reset()
         self._standby(mission)
         self._trace.note("trip.reset", mission=mission.name, trip=trip.name, attempt=trip.attempt)

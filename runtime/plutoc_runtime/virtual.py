@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Coroutine, Generator
+from contextlib import suppress
+from functools import partial
 from inspect import iscoroutine
-from typing import TypeVar
+from types import coroutine
+from typing import Any, TypeVar
 
-from .kernel import ForeignAwait, Kernel, Signal
+from .kernel import Cancelled, ForeignAwait, Kernel, Signal
 
 T = TypeVar("T")
 
@@ -52,11 +55,14 @@ class VirtualTime(Kernel):
         self, hook: Callable[..., object], /, *args: object, **named: object
     ) -> object:
         """Run a hook here and now; an `async def` may await only what its context offers."""
-        result = hook(*args, **named)
+        try:
+            result = hook(*args, **named)
+        except (Cancelled, GeneratorExit) as error:
+            raise _not_its_own(error) from error
         if not iscoroutine(result):
             return result
         try:
-            return await result
+            return await _called_off_for_good(result)
         except RuntimeError as error:
             if isinstance(error, ForeignAwait) or "no running event loop" in str(error):
                 raise RuntimeError(
@@ -68,3 +74,33 @@ class VirtualTime(Kernel):
     async def offer(self, signal: Signal[T]) -> T:
         """Return what a hook may await for this signal."""
         return await signal
+
+
+@coroutine
+def _called_off_for_good(hook: Coroutine[Any, Any, T]) -> Generator[Any, Any, T]:
+    """Let a hook run inside this coroutine; one that is called off cannot hold on, or go on."""
+    step: Callable[[], object] = partial(hook.send, None)
+    while True:
+        try:
+            waits_for = step()
+        except StopIteration as end:
+            returned: T = end.value
+            return returned
+        except (Cancelled, GeneratorExit) as error:
+            raise _not_its_own(error) from error
+        try:
+            yield waits_for
+            step = partial(hook.send, None)
+        except ForeignAwait as error:
+            step = partial(hook.throw, error)
+        except BaseException as error:
+            # whatever it does about it, nobody wants it any longer
+            with suppress(Exception, Cancelled, GeneratorExit, StopIteration):
+                hook.throw(error)
+            with suppress(Exception, Cancelled, GeneratorExit):
+                hook.close()
+            raise
+
+
+def _not_its_own(error: BaseException) -> RuntimeError:
+    return RuntimeError(f"it may not raise {type(error).__name__}")

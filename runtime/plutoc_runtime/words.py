@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import re
+from reprlib import Repr
+
 from .model import Point
 
 LONGEST = 60
@@ -56,3 +59,21 @@ def counted(count: int, one: str, many: str | None = None) -> str:
 def printable(text: str) -> str:
     """Escape what a terminal would take as a command."""
     return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in text)
+
+
+def shown(value: object) -> str:
+    """Write any value so that it is the same text in every run."""
+    return _ADDRESS.sub("", _EVERYTHING.repr(value))
+
+
+class _Everything(Repr):
+    """Like `repr`, but sets are sorted, and an error of an object's own is no error here."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.maxlevel = 20
+        self.maxtuple = self.maxlist = self.maxdict = self.maxset = self.maxfrozenset = 10_000
+        self.maxarray = self.maxdeque = self.maxstring = self.maxlong = self.maxother = 100_000
+
+
+_EVERYTHING, _ADDRESS = _Everything(), re.compile(r" at 0x[0-9A-Fa-f]+")

@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from plutoc_runtime.errors import BadInput
 from plutoc_runtime.fleet import AfterTrip
 from plutoc_runtime.model import Category, Drone, Trip
 from plutoc_runtime.policies.batch_optimal import assign, batch_optimal
@@ -179,3 +180,67 @@ def test_drones_go_where_the_fleet_file_says(after: AfterTrip) -> None:
     assert outcome.flown["cf1"] == pytest.approx(
         {"home": 24.8, "stay": 10.3, "next": 18.2}[after.value], abs=0.01
     )
+
+
+def test_a_drone_that_is_free_is_given_even_to_who_does_not_wait() -> None:
+    outcome = apps.fly(apps.app(apps.flow(within=0.0)), apps.mission("m", apps.trip("A", 3.0)))
+    assert outcome.completed
+
+
+def test_a_drone_that_comes_free_at_the_very_limit_is_given() -> None:
+    def two(within: float | None) -> apps.Outcome:
+        return apps.fly(
+            apps.app(apps.flow(within=within)),
+            apps.mission("a", apps.trip("A", 3.0)),
+            apps.mission("b", apps.trip("B", 3.0)),
+        )
+
+    exact = exactly_free(two(None))
+    assert two(exact).completed
+    assert not two(exact - 0.001).completed
+
+
+def exactly_free(outcome: apps.Outcome) -> float:
+    """When the second mission got its drone, to the last digit."""
+    (second,) = outcome.missions[1].completed_trips
+    return float(str(second.start_time))
+
+
+def test_a_drone_on_its_way_home_after_next_counts_as_airborne() -> None:
+    missions = [apps.mission("a", apps.trip("A", 3.0)), apps.mission("b", apps.trip("B", 17.0))]
+    outcome = apps.fly(
+        apps.app(apps.flow()),
+        *missions,
+        on=apps.fleet(HOMES[0], HOMES[2], after=AfterTrip.NEXT, max_airborne=1),
+    )
+    assert outcome.completed
+    airborne: set[object] = set()
+    for event in outcome.events:
+        if event["event"] in ("trip.launched", "drone.returning"):
+            airborne.add(event["drone"])
+        elif event["event"] == "drone.free":
+            airborne.discard(event["drone"])
+        assert len(airborne) <= 1, event
+    assert [drone.location[0] for drone in outcome.drones] == [0.5, 18.5]
+
+
+def test_a_drone_that_was_not_given_is_offered_again() -> None:
+    """Not only to missions that come later."""
+    asked: list[list[str]] = []
+
+    def second_thoughts(trip: Trip, candidates: Sequence[Drone]) -> Drone | None:
+        asked.append([drone.id for drone in candidates])
+        return candidates[0] if trip.name == "A" or len(asked) > 2 else None
+
+    outcome = fly(
+        own_policy(second_thoughts),
+        apps.mission("a", apps.trip("A", 3.0)),
+        apps.mission("b", apps.trip("B", 3.0)),
+    )
+    assert outcome.completed
+    assert asked[:3] == [["cf1", "cf2", "cf3"], ["cf2", "cf3"], ["cf2", "cf3"]]
+
+
+def test_a_policy_that_never_gives_a_drone_stops_the_simulation_with_the_reason() -> None:
+    with pytest.raises(BadInput, match=r"gives them none of the drones \(3 free\)"):
+        fly(own_policy(lambda trip, drones: None), apps.mission("a", apps.trip("A", 3.0)))

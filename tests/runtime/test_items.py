@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from plutoc_runtime.actions import Action
+from plutoc_runtime.context import Context
 from plutoc_runtime.errors import ActionFailed
+from plutoc_runtime.model import Drone
 from plutoc_runtime.simulation.faults import Faults
 from plutoc_runtime.status import Status
 from tests.runtime import apps
@@ -65,3 +67,38 @@ def test_a_failure_before_the_pick_is_retried() -> None:
     )
     failed_trip = apps.events(outcome, "trip.failed")[0]["trip"]
     assert outcome.completed == (failed_trip == "A")
+
+
+def test_what_is_aboard_when_a_mission_ends_is_taken_off_before_the_drone_is_free() -> None:
+    def breaks(mission: apps.Mission, context: object) -> None:
+        if mission.name == "m" and mission.completed_trips:
+            raise ValueError("no")
+
+    def two() -> tuple[apps.Trip, apps.Trip]:
+        return apps.pick("A", 3.0), apps.release("B", 9.0)
+
+    outcome = apps.fly(
+        apps.app(apps.flow(prepare=breaks)), apps.mission("m", *two()), apps.mission("n", *two())
+    )
+    assert [mission.status for mission in outcome.missions] == [Status.FAILED, Status.COMPLETED]
+    free, *_ = apps.times(outcome, "drone.free")
+    assert apps.times(outcome, "trip.launched")[1] >= free > apps.times(outcome, "mission.ended")[0]
+
+
+def test_a_drone_that_fails_as_it_waits_with_an_item_is_lost_to_its_mission() -> None:
+    async def lingers(drone: Drone, trip: apps.Trip, context: Context) -> None:
+        await context.sleep(drone.battery_level * drone.category.flight_time - 2.0)
+
+    linger = Action(name="linger", hook=lingers)
+    trips = (apps.pick("A", 3.0), apps.trip("B", 3.0, action="linger"), apps.release("C", 9.0))
+    trips[2].delay = 1000.0
+    outcome = apps.fly(
+        apps.app(apps.flow(clock=True), actions=[linger]),
+        apps.mission("m", *trips),
+        apps.mission("other", apps.trip("X", 3.0)),
+    )
+    mission, other = outcome.missions
+    assert mission.status is Status.FAILED
+    assert mission.reason.startswith("cf1 ran out of battery at (3, 0.5), with pills aboard")
+    assert other.status is Status.COMPLETED
+    assert apps.times(outcome, "mission.ended")[0] < 500.0

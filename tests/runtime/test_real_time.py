@@ -3,7 +3,12 @@
 from __future__ import annotations
 
 import asyncio
+import subprocess
+import sys
 import threading
+from collections.abc import Callable, Coroutine
+from functools import wraps
+from typing import Any
 
 import pytest
 
@@ -97,3 +102,134 @@ def test_an_interrupted_flight_lands_every_drone_and_ends() -> None:
 
     asyncio.run(main())
     assert landed == [True]
+
+
+def hooked(hook: Callable[..., object]) -> str:
+    """Fly a mission with this action, and say why it failed or what it gave."""
+    seen: list[Event] = []
+    mission = apps.mission("m", low("A", 3.0))
+    asyncio.run(
+        fly_simulated(
+            apps.app(
+                apps.flow(),
+                categories=[FAST],
+                actions=[Action(name="blink", hook=hook, seconds=0.01)],
+            ),
+            [mission],
+            apps.fleet(airspace=LOW),
+            seed=0,
+            faults=Faults(),
+            on_event=seen.append,
+        )
+    )
+    return mission.reason or next(
+        str(event["value"]) for event in seen if event["event"] == "trip.completed"
+    )
+
+
+@pytest.mark.parametrize(
+    ("error", "says"),
+    [
+        (StopIteration(), "raised StopIteration"),
+        (SystemExit(3), "hook raises raised SystemExit: 3"),
+        (asyncio.CancelledError(), "hook raises raised CancelledError"),
+    ],
+)
+def test_whatever_a_hook_raises_ends_its_mission_and_never_hangs(
+    error: BaseException, says: str
+) -> None:
+    def raises(drone: Drone, trip: apps.Trip, context: Context) -> None:
+        raise error
+
+    assert says in hooked(raises)
+
+
+def test_an_async_hook_whose_own_work_was_called_off_fails_its_mission() -> None:
+    async def loses_its_work(drone: Drone, trip: apps.Trip, context: Context) -> None:
+        work = asyncio.ensure_future(asyncio.sleep(60))
+        work.cancel()
+        await work
+
+    assert hooked(loses_its_work) == "hook loses_its_work raised CancelledError"
+
+
+def test_a_hook_behind_a_plain_function_is_awaited_as_in_a_simulation() -> None:
+    def plainly(
+        hook: Callable[..., Coroutine[Any, Any, object]],
+    ) -> Callable[..., Coroutine[Any, Any, object]]:
+        @wraps(hook)
+        def called(*args: object, **named: object) -> Coroutine[Any, Any, object]:
+            return hook(*args, **named)
+
+        return called
+
+    @plainly
+    async def seven(drone: Drone, trip: apps.Trip, context: Context) -> int:
+        await context.sleep(0.001)
+        return 7
+
+    assert hooked(seven) == "7"
+
+
+def test_an_interrupt_on_the_way_home_waits_for_the_landing_too() -> None:
+    async def main() -> bool:
+        seen: list[Event] = []
+        mission = apps.mission("a", low("A", 3.0))
+        high = Airspace(cruise_height=0.05)
+        mission.current.target = (0.5, 0.5, 0.05)
+        flying = asyncio.ensure_future(
+            fly_simulated(
+                apps.app(
+                    apps.flow(), categories=[FAST], actions=[Action(name="blink", hook=blink)]
+                ),
+                [mission],
+                apps.fleet(airspace=high),
+                seed=0,
+                faults=Faults(),
+                on_event=seen.append,
+            )
+        )
+        while not any(event["event"] == "mission.ended" for event in seen):
+            await asyncio.sleep(0)
+        (drone,) = (trip.drone for trip in mission.completed_trips)
+        assert drone is not None
+        assert not drone.telemetry.landed
+        flying.cancel()
+        with pytest.raises(asyncio.CancelledError):
+            await flying
+        return drone.telemetry.landed
+
+    assert asyncio.run(main())
+
+
+STUCK = """
+import asyncio, threading
+from plutoc_runtime.realtime import RealTime
+
+async def main():
+    kernel = RealTime()
+    inside = threading.Event()
+
+    def stuck():
+        inside.set()
+        threading.Event().wait()
+
+    task = kernel.spawn(kernel.call_hook(stuck), (0,), "hook")
+    running = asyncio.ensure_future(kernel.run(task.done))
+    while not inside.is_set():
+        await asyncio.sleep(0)
+    running.cancel()
+    kernel.close()
+
+asyncio.run(main())
+print("left")
+"""
+
+
+def test_a_hook_that_never_comes_back_keeps_nobody_from_leaving() -> None:
+    path = [*sys.path]
+    code = f"import sys; sys.path[:0] = {path!r}\n{STUCK}"
+    ended = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, timeout=20, check=False
+    )
+    assert (ended.stdout, ended.stderr) == ("left\n", "")

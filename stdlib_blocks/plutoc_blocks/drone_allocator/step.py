@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from plutoc_runtime.errors import MissionFailed
-from plutoc_runtime.kernel import Kind
+from plutoc_runtime.kernel import FLEET, Kind
 from plutoc_runtime.plan_check import chain_of
 from plutoc_runtime.policy import Policy
 from plutoc_runtime.run import Run
@@ -40,7 +40,8 @@ async def allocate_drone(
     try:
         if allocate_within is not None:
             until = core.kernel.now + allocate_within
-            if not await core.kernel.within(request.answer, until, Kind.ALLOCATE, run.key):
+            key = (*FLEET, *run.key)  # after the queue is served: who gets a drone then has one
+            if not await core.kernel.within(request.answer, until, Kind.ALLOCATE, key):
                 raise MissionFailed(
                     f"trip {trip.name} had no drone within {duration(allocate_within)}: "
                     f"waits for a drone ({core.fleet.queue.standing()})"

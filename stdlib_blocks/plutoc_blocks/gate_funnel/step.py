@@ -2,18 +2,35 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from functools import partial
 from typing import Any
 
+from plutoc_runtime.kernel import Signal, Task
 from plutoc_runtime.run import Branch, Run
 from plutoc_runtime.status import WORST_FIRST, Status
 
 
 async def wait_for_all(run: Run[Any], status: Status, *branches: Branch[Any]) -> Status:
-    """Send a clone into every branch; go on when all have arrived, with the worst status."""
+    """Send a clone into every branch; go on when all have arrived, with the worst status.
+
+    What goes wrong in one branch is not kept waiting for the others.
+    """
     clones = run.fork(status, branches)
+    over: Signal[None] = Signal()
+    for clone in clones:
+        clone.done.watch(partial(_arrived, clones, clone, over))
     try:
-        arrived = {await clone.done for clone in clones}
+        await over
+        arrived = {clone.done.result() for clone in clones}
     finally:
         for clone in clones:
             clone.cancel()
     return min(arrived, key=WORST_FIRST.index)
+
+
+def _arrived(clones: Sequence[Task[Status]], clone: Task[Status], over: Signal[None]) -> None:
+    if clone.done.error is not None:
+        over.fail(clone.done.error)
+    elif all(other.done.is_set for other in clones):
+        over.set(None)
