@@ -18,8 +18,11 @@ class Leg:
     arrives: float
 
     def at(self, now: float) -> Point:
-        """Return the place at a time; before and after it, nothing moves."""
-        if now >= self.arrives:
+        """Return the place at a time; before and after it, nothing moves.
+
+        A leg of no duration may be asked for a moment before it: sums of floats are not exact.
+        """
+        if now >= self.arrives or self.arrives <= self.leaves:
             return self.end
         part = max(0.0, now - self.leaves) / (self.arrives - self.leaves)
         (ax, ay, az), (bx, by, bz) = self.start, self.end

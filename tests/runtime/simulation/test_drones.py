@@ -16,6 +16,7 @@ from plutoc_runtime.model import Category, Item, Photo, Point
 from plutoc_runtime.navigation import Navigation
 from plutoc_runtime.realtime import RealTime
 from plutoc_runtime.simulation.drones import SimulatedNavigation
+from plutoc_runtime.simulation.motion import standing
 from plutoc_runtime.virtual import VirtualTime
 from tests.runtime.simulation.flights import (
     CLIMB,
@@ -357,3 +358,8 @@ def test_the_same_drones_fly_in_real_time() -> None:
         await kernel.run(kernel.spawn(flight(kernel, team(kernel)), FLEET, "flight").done)
 
     asyncio.run(main())
+
+
+def test_who_stands_somewhere_from_a_moment_to_come_is_there_already() -> None:
+    """A mishap may be due the last digit of a float after the event that brings it."""
+    assert standing((1.0, 2.0, 0.0), 5.0).at(4.9999999) == (1.0, 2.0, 0.0)
