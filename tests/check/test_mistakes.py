@@ -282,6 +282,12 @@ def test_a_mission_stuck_in_a_fork_is_shown_the_gate(name: str, meet: str) -> No
     assert meet in found.help
 
 
+def test_what_follows_an_open_fork_is_not_guessed() -> None:
+    """That no block retries is not said where a branch stops before the gate that leads there."""
+    text = f"{OPEN}    first -> allocate when STANDBY, FAILED\n    first -> end"
+    assert [found.code for found in findings(text)] == ["P2009"]
+
+
 def test_the_status_to_take_is_the_one_that_the_way_shows() -> None:
     """Of several statuses that are left, the arrow that is proposed can take the one it names."""
     text = f"""{BASIC}
