@@ -15,6 +15,7 @@ from math import inf
 from .airspace import Airspace
 from .app import App
 from .eligibility import Demand
+from .energy import docked
 from .errors import MissionFailed
 from .kernel import FLEET, Kernel, Kind, Signal, Timer
 from .model import Drone, Trip
@@ -200,4 +201,7 @@ def _charging(drone: Drone, demand: Demand) -> float:
     if demand.never(drone) is not None:
         return inf
     missing = demand.battery(drone) - drone.battery_level
-    return missing * drone.category.charge_time + 0.001 if missing > 0 else 0.0
+    if missing <= 0:
+        return 0.0
+    charges = docked(drone.location, drone.home)
+    return missing * drone.category.charge_time + 0.001 if charges else inf
