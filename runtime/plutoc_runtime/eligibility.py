@@ -6,9 +6,9 @@ from collections.abc import Sequence
 
 from .airspace import Airspace
 from .app import App
+from .capability import stops_of, why_not
 from .energy import needed
 from .model import Category, Drone, Point, Trip
-from .plan_check import stops_of, why_not
 
 NO_WAY = 2.0
 """A battery level that no drone ever has."""

@@ -6,11 +6,11 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from .actions import PICK, RELEASE
+from .capability import why_not
 from .core import Core
 from .errors import HookFault
 from .hooks import hook_name
 from .model import Mission, Trip
-from .plan_check import why_not
 from .run import Run
 from .soundness import unsound
 from .status import Status, TripStatus

@@ -5,9 +5,10 @@ from __future__ import annotations
 import pytest
 
 from plutoc_runtime.airspace import Airspace
+from plutoc_runtime.capability import chain_of, why_not
 from plutoc_runtime.files.fleet import DroneEntry, FleetFile
 from plutoc_runtime.model import Category, Item, Point
-from plutoc_runtime.plan_check import chain_of, endless, problems, why_not
+from plutoc_runtime.plan_check import endless, problems
 from tests.runtime.files.an_app import APP, FieldMission, FieldTrip
 
 SCOUT, CARRIER = APP.categories

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
+from plutoc_runtime.capability import chain_of
 from plutoc_runtime.errors import MissionFailed
 from plutoc_runtime.kernel import FLEET, Kind
-from plutoc_runtime.plan_check import chain_of
 from plutoc_runtime.policy import Policy
 from plutoc_runtime.run import Run
 from plutoc_runtime.status import Status

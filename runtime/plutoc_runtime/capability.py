@@ -1,0 +1,119 @@
+"""What a drone must be able to do for a trip, and what it lacks: by its category and its home."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import IntEnum
+
+from .actions import PICK, RELEASE
+from .airspace import Airspace
+from .app import App
+from .energy import CLIMB_SPEED, needed
+from .model import Category, Point, Trip
+from .words import mass, percent, place
+
+
+class Lacks(IntEnum):
+    """What a drone lacks for a trip, the farthest from doing it first."""
+
+    ACTION = 0
+    PAYLOAD = 1
+    WAY = 2
+    ENERGY = 3
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Miss:
+    """How far a drone is from being able."""
+
+    lacks: Lacks
+    by: float
+    """How much is lacking: of two alike the smaller is nearer."""
+    reason: str
+
+
+def chain_of(trips: Sequence[Trip]) -> Sequence[Trip]:
+    """Return the trips that one drone must fly: the first, and from a pick all to its release."""
+    if trips and trips[0].action == PICK:
+        for place_, trip in enumerate(trips):
+            if trip.action == RELEASE and place_ > 0:
+                return trips[: place_ + 1]
+        return trips
+    return trips[:1]
+
+
+def why_not(
+    app: App, airspace: Airspace, category: Category, home: Point, chain: Sequence[Trip]
+) -> str | None:
+    """Return why a drone of this category and home can never fly the chain; None: it can."""
+    miss = miss_of(app, airspace, category, home, chain)
+    return miss.reason if miss else None
+
+
+def miss_of(
+    app: App, airspace: Airspace, category: Category, home: Point, chain: Sequence[Trip]
+) -> Miss | None:
+    """Return what a drone of this category and home lacks for the chain; None: nothing."""
+    for trip in chain:
+        if not category.can(trip.action):
+            return Miss(lacks=Lacks.ACTION, by=0.0, reason=f"{category.name} cannot {trip.action}")
+    for trip in chain:
+        if trip.item is not None and trip.item.mass > category.payload:
+            return _too_heavy(category, trip.item.mass)
+    stops = stops_of(app, airspace, chain)
+    share = needed(category, airspace, home, stops, home)
+    if share is None:
+        return _no_way(category, airspace, home, stops)
+    if share + category.reserve > 1:
+        return _too_far(category, home, share)
+    return None
+
+
+def stops_of(app: App, airspace: Airspace, chain: Sequence[Trip]) -> list[tuple[Point, float]]:
+    """Return where a chain leads, with the seconds that the drone is busy there.
+
+    Between two trips of a chain it lands with its item, and rises again.
+    """
+    stops: list[tuple[Point, float]] = []
+    for place_, trip in enumerate(chain, start=1):
+        if trip.source is not None:
+            stops.append((trip.source, 0.0))
+        busy = app.actions[trip.action].seconds
+        if place_ < len(chain):
+            busy += (trip.target[2] + airspace.cruise_height) / CLIMB_SPEED
+        stops.append((trip.target, busy))
+    return stops
+
+
+def _too_heavy(category: Category, weight: float) -> Miss:
+    return Miss(
+        lacks=Lacks.PAYLOAD,
+        by=weight - category.payload,
+        reason=f"{category.name} carries at most {mass(category.payload)}, "
+        f"the item weighs {mass(weight)}",
+    )
+
+
+def _no_way(
+    category: Category, airspace: Airspace, home: Point, stops: Sequence[tuple[Point, float]]
+) -> Miss:
+    here = home
+    for point, _ in [*stops, (home, 0.0)]:
+        if airspace.route(here, point) is None:
+            break
+        here = point
+    return Miss(
+        lacks=Lacks.WAY,
+        by=0.0,
+        reason=f"{category.name} finds no permitted way from {place(here)} to {place(point)}",
+    )
+
+
+def _too_far(category: Category, home: Point, share: float) -> Miss:
+    return Miss(
+        lacks=Lacks.ENERGY,
+        by=share + category.reserve - 1,
+        reason=f"{category.name} would need {percent(share)} of a full battery from its home "
+        f"{place(home)} and back, and {percent(category.reserve)} must be left",
+    )
