@@ -131,20 +131,21 @@ class Ending:
 class Task(Generic[T]):
     """A coroutine on its way."""
 
-    __slots__ = ("_coroutine", "_kernel", "_waits_for", "done", "key", "name")
+    __slots__ = ("_coroutine", "_kernel", "_turn", "_waits_for", "done", "key", "name")
 
     def __init__(
         self, kernel: Kernel, coroutine: Coroutine[Any, Any, T], key: Key, name: str
     ) -> None:
         self._kernel, self._coroutine = kernel, coroutine
         self._waits_for: Signal[Any] | None = None
+        self._turn: Timer | None = None
         self.key, self.name = key, name
         self.done: Signal[T] = Signal()
         kernel.tasks[self] = None
 
     def wake(self) -> None:
         """Go on, when its turn comes."""
-        self._kernel.at(self._kernel.now, Kind.READY, self.key, self._resume)
+        self._turn = self._kernel.at(self._kernel.now, Kind.READY, self.key, self._resume)
 
     def _resume(self) -> None:
         if not self.done.is_set:
@@ -177,6 +178,8 @@ class Task(Generic[T]):
         if self._waits_for is not None:
             self._waits_for.unwatch(self.wake)
             self._waits_for = None
+        if self._turn is not None:
+            self._turn.cancel()  # it may wait once more, to clean up: not for this any longer
         self._step(lambda: self._coroutine.throw(Cancelled()))
 
     async def ended(self) -> None:

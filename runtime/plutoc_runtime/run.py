@@ -7,7 +7,7 @@ from typing import Any, Generic, TypeVar
 
 from .context import Context
 from .core import Core
-from .errors import ActionFailed, HookFault
+from .errors import ActionFailed, HookFault, MissionFailed
 from .hooks import call_hook, hook_name, trace_of
 from .kernel import Key, Task
 from .model import Mission
@@ -29,6 +29,10 @@ class Run(Generic[M]):
 
     async def hook(self, hook: Callable[..., object], *args: object) -> object:
         """Call a hook of the app's with these arguments; its faults end the mission."""
+        if self.state.goes_round(self.core.kernel.now):
+            raise MissionFailed(
+                f"it goes round in its graph for ever without time passing, by hook {hook_name(hook)}"
+            )
         try:
             return await self._called(hook, args)
         except HookFault as fault:

@@ -9,6 +9,9 @@ from .kernel import Signal, Task
 from .model import Drone, Item, Mission, Trip
 from .status import Status, TripStatus
 
+HOOKS_AT_ONCE = 100_000
+"""No graph has so many blocks in a row: a mission that calls so many hooks is in a loop."""
+
 
 @dataclass(slots=True, kw_only=True, eq=False)
 class Flight:
@@ -48,6 +51,14 @@ class State:
     """(block, trip, round, attempt) of every delay that is over."""
     doom: Signal[str] = field(default_factory=Signal)
     """Set, with the reason, by a failure that no retry can mend."""
+    hooks_at: tuple[float, int] = (0.0, 0)
+    """When its last hook was called, and how many were at that instant."""
+
+    def goes_round(self, now: float) -> bool:
+        """Count a call of a hook; say whether the mission goes round and round without time."""
+        when, count = self.hooks_at
+        self.hooks_at = (now, count + 1 if now == when else 1)
+        return self.hooks_at[1] > HOOKS_AT_ONCE
 
     def begin_flight(self, drone: Drone, now: float) -> Flight:
         """The allocated drone leaves for the next trip."""

@@ -75,6 +75,29 @@ def test_a_cancelled_coroutine_stops_where_it_waits_and_cleans_up() -> None:
         task.done.result()
 
 
+def test_a_coroutine_that_is_cancelled_in_its_turn_may_still_wait_to_clean_up() -> None:
+    kernel, seen = VirtualTime(), list[float]()
+    signal: Signal[None] = Signal()
+
+    async def wait() -> None:
+        try:
+            await signal
+        finally:
+            await kernel.sleep(2.0)
+            seen.append(kernel.now)
+
+    task = kernel.spawn(wait(), (1,), "waiter")
+
+    def happen_and_cancel() -> None:
+        signal.set(None)  # its turn comes at this instant
+        task.cancel()
+
+    kernel.at(3.0, Kind.CLOCK, (0,), happen_and_cancel)
+    over = kernel.spawn(kernel.sleep(10.0), (2,), "clock")
+    kernel.run(over.done)
+    assert seen == [5.0]
+
+
 def test_an_error_that_nobody_awaits_stops_the_run() -> None:
     kernel = VirtualTime()
 

@@ -124,3 +124,20 @@ def test_a_trip_is_reset_only_when_it_is_over() -> None:
     trip.status = TripStatus.FAILED
     trip.reset()
     assert (trip.status, trip.attempt) == (TripStatus.WAITING, 2)
+
+
+def test_a_mission_that_goes_round_without_time_passing_fails_with_the_reason() -> None:
+    def look(mission: Mission[apps.Trip], context: Context) -> None:
+        return None
+
+    async def round_and_round(run: Run[Any], status: Status) -> Status:
+        while True:
+            status = await modify_mission(run, status, hook=look)
+
+    outcome = apps.fly(
+        apps.app(apps.flow(watch=round_and_round)), apps.mission("m", apps.trip("A", 2.0))
+    )
+    (mission,) = outcome.missions
+    assert mission.status is Status.FAILED
+    assert "goes round in its graph for ever" in mission.reason
+    assert outcome.drones[0].status.value == "FREE"
