@@ -7,7 +7,7 @@ code is never used twice, not even after its diagnostic is gone.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 
 from plutoc.source import Source, Span
@@ -50,6 +50,46 @@ class Diagnostic:
     related: tuple[Related, ...] = ()
     help: str | None = None
     fix: Fix | None = None
+
+
+def error(
+    code: str,
+    message: str,
+    source: Source,
+    span: Span,
+    *,
+    label: str = "",
+    related: tuple[Related, ...] = (),
+    help: str | None = None,
+    fix: Fix | None = None,
+) -> Diagnostic:
+    """Return an error of these facts."""
+    return Diagnostic(
+        code=code,
+        severity=Severity.ERROR,
+        message=message,
+        source=source,
+        span=span,
+        label=label,
+        related=related,
+        help=help,
+        fix=fix,
+    )
+
+
+def warning(
+    code: str,
+    message: str,
+    source: Source,
+    span: Span,
+    *,
+    label: str = "",
+    related: tuple[Related, ...] = (),
+    help: str | None = None,
+) -> Diagnostic:
+    """Return a warning of these facts."""
+    found = error(code, message, source, span, label=label, related=related, help=help)
+    return replace(found, severity=Severity.WARNING)
 
 
 class Rejected(Exception):

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
+from plutoc import diagnostic
 from plutoc.check.branches import Astray
 from plutoc.check.flow import Fork, Way, ordered
-from plutoc.diagnostic import Diagnostic, Related, Severity
+from plutoc.diagnostic import Diagnostic, Related
 from plutoc.graph.model import END, Edge, Graph, Node
 from plutoc.source import Span
 from plutoc_runtime.status import Status
@@ -64,15 +64,9 @@ def error(
     help: str,
 ) -> Diagnostic:
     """An error of these facts."""
-    return Diagnostic(
-        code=code,
-        severity=Severity.ERROR,
-        message=message,
-        source=at[0].source,
-        span=at[1],
-        label=label,
-        related=related,
-        help=help.rstrip(),
+    source, span = at[0].source, at[1]
+    return diagnostic.error(
+        code, message, source, span, label=label, related=related, help=help.rstrip()
     )
 
 
@@ -86,8 +80,10 @@ def warning(
     help: str,
 ) -> Diagnostic:
     """A warning of these facts."""
-    found = error(code, at, message, label=label, related=related, help=help)
-    return replace(found, severity=Severity.WARNING)
+    source, span = at[0].source, at[1]
+    return diagnostic.warning(
+        code, message, source, span, label=label, related=related, help=help.rstrip()
+    )
 
 
 def related_to(graph: Graph, span: Span, label: str) -> Related:

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
+from shlex import quote
 
-from plutoc.diagnostic import Diagnostic, Related, Severity
+from plutoc.diagnostic import Diagnostic, Related, error
 from plutoc.graph.model import Graph
 from plutoc.source import Source, Span
 
@@ -26,7 +28,7 @@ def place_of(graph: Graph) -> Place:
 def edited(place: Place, path: str, text: str, wanted: str | None) -> Diagnostic:
     """A file that is made of the app, and that somebody changed."""
     gone = "" if wanted is not None else ", and the app does not need this file any more"
-    return _error(
+    return error(
         "P4001",
         f"`{path}` was edited by hand{gone}",
         Source(path, text),
@@ -40,7 +42,7 @@ def edited(place: Place, path: str, text: str, wanted: str | None) -> Diagnostic
 
 def somebody_elses_file(place: Place, path: str) -> Diagnostic:
     """A file that we never wrote, where one of ours would go."""
-    return _error(
+    return error(
         "P4002",
         f"`{path}` was not written by plutoc, and the package needs a file of this name",
         place.source,
@@ -52,7 +54,7 @@ def somebody_elses_file(place: Place, path: str) -> Diagnostic:
 
 def not_ours(place: Place, folder: str) -> Diagnostic:
     """A folder with other things in it."""
-    return _error(
+    return error(
         "P4003",
         f"`{folder}` is not empty, and no package of plutoc's",
         place.source,
@@ -64,7 +66,7 @@ def not_ours(place: Place, folder: str) -> Diagnostic:
 
 def another_app(place: Place, folder: str, other: str) -> Diagnostic:
     """A folder with another app's package."""
-    return _error(
+    return error(
         "P4004",
         f"`{folder}` is the package of another app, `{other}`",
         place.source,
@@ -77,7 +79,7 @@ def another_app(place: Place, folder: str, other: str) -> Diagnostic:
 
 def damaged_lock(place: Place, path: str, why: str) -> Diagnostic:
     """A record of what was written that cannot be read."""
-    return _error(
+    return error(
         "P4005",
         f"`{path}` is damaged: {why}",
         place.source,
@@ -90,7 +92,7 @@ def damaged_lock(place: Place, path: str, why: str) -> Diagnostic:
 
 def in_the_way(place: Place, path: str, what: str, wanted: str) -> Diagnostic:
     """A link, a folder or a file where something else must be."""
-    return _error(
+    return error(
         "P4006",
         f"`{path}` is {what}, and {wanted} must be there",
         place.source,
@@ -102,13 +104,13 @@ def in_the_way(place: Place, path: str, what: str, wanted: str) -> Diagnostic:
 
 def never_written(place: Place, folder: str) -> Diagnostic:
     """`--check` of a package that does not exist."""
-    return _error(
+    return error(
         "P4007",
         f"there is no package in `{folder}` yet",
         place.source,
         place.span,
         label="nothing was generated of this app",
-        help=f"run `plutoc compile {place.source.path}`",
+        help=f"run {_compiling(place, folder)}",
     )
 
 
@@ -117,13 +119,13 @@ def outdated(place: Place, folder: str, paths: Sequence[str]) -> Diagnostic:
     files = "1 file" if len(paths) == 1 else f"{len(paths)} files"
     shown = "\n".join(f"  {path}" for path in paths[:_SHOWN])
     more = f"\n  … and {len(paths) - _SHOWN} more" if len(paths) > _SHOWN else ""
-    return _error(
+    return error(
         "P4008",
         f"`{folder}` is out of date: {files} would change",
         place.source,
         place.span,
         label="its package",
-        help=f"run `plutoc compile {place.source.path}`; `--diff` shows what would change in\n"
+        help=f"run {_compiling(place, folder)}; `--diff` shows what would change in\n"
         f"{shown}{more}",
     )
 
@@ -131,9 +133,17 @@ def outdated(place: Place, folder: str, paths: Sequence[str]) -> Diagnostic:
 _SHOWN = 8
 
 
+def _compiling(place: Place, folder: str) -> str:
+    """Return the command that writes the package, into this very folder."""
+    source = place.source
+    usual = Path(source.path).parent / source.text[place.span.start : place.span.end]
+    where = "" if folder == str(usual) else f" -o {quote(folder)}"
+    return f"`plutoc compile {quote(source.path)}{where}`"
+
+
 def not_embeddable(place: Place, sentence: str) -> Diagnostic:
     """A block whose code cannot be carried along."""
-    return _error(
+    return error(
         "P4009",
         f"the package cannot carry this app's blocks along: {sentence}",
         place.source,
@@ -159,25 +169,3 @@ def _first_difference(text: str, wanted: str | None) -> Span:
 
 def _made_of(place: Place) -> Related:
     return Related(source=place.source, span=place.span, label="made of this app")
-
-
-def _error(
-    code: str,
-    message: str,
-    source: Source,
-    span: Span,
-    *,
-    label: str = "",
-    related: tuple[Related, ...] = (),
-    help: str | None = None,
-) -> Diagnostic:
-    return Diagnostic(
-        code=code,
-        severity=Severity.ERROR,
-        message=message,
-        source=source,
-        span=span,
-        label=label,
-        related=related,
-        help=help,
-    )

@@ -4,17 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from plutoc.diagnostic import Diagnostic
-from plutoc.graph.names import LONGEST, Style, in_snake_case
+from plutoc.diagnostic import Diagnostic, error, warning
+from plutoc.graph.names import LONGEST, Style, in_plain_letters, in_snake_case
 from plutoc.graph.wording import (
     all_of,
     alternatives,
     either,
-    error,
     meant,
     related,
     there_are,
-    warning,
 )
 from plutoc.source import Source, Span
 from plutoc.syntax.tree import Name
@@ -26,9 +24,12 @@ def malformed_name(source: Source, name: Name) -> Diagnostic:
     """A name with other characters, or too many."""
     if len(name.text) > LONGEST:
         message = f"this name has {len(name.text)} characters; {LONGEST} are the most"
+        help = "choose a shorter one"
     else:
         message = f"`{name.text}` is not a name: names have only the letters a to z, digits and `_`"
-    return error("P1001", message, source, name.span, help="choose a shorter, plain name")
+        plain = in_plain_letters(name.text)
+        help = f"for instance `{plain}`" if plain else "choose a plain name"
+    return error("P1001", message, source, name.span, help=help)
 
 
 def wrong_style(source: Source, name: Name, role: str, style: Style) -> Diagnostic:

@@ -6,6 +6,7 @@ import difflib
 import keyword
 import re
 import sys
+import unicodedata
 from collections.abc import Iterable
 from enum import Enum
 
@@ -60,6 +61,13 @@ def in_snake_case(name: str) -> str:
     """Return the name as snake_case: `TakePhoto2` as `take_photo2`."""
     parts = re.sub(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", "_", name)
     return re.sub(r"_+", "_", parts).lower()
+
+
+def in_plain_letters(name: str) -> str | None:
+    """Return the name as it can be written: `Blüten-Suche` as `Bluten_Suche`; None: it cannot."""
+    letters = unicodedata.normalize("NFKD", name).encode("ascii", "ignore").decode()
+    plain = re.sub(r"[^A-Za-z0-9]+", "_", letters).strip("_")
+    return plain if is_well_formed(plain) else None
 
 
 def reserved(name: str) -> str | None:

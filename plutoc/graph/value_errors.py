@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from plutoc.diagnostic import Diagnostic
-from plutoc.graph.wording import a_kind, either, error, meant, related, there_are
+from plutoc.diagnostic import Diagnostic, error
+from plutoc.graph.wording import a_kind, either, meant, related, there_are
 from plutoc.source import Source, Span
 from plutoc.syntax.tree import Name
 from plutoc_runtime.quantities import Type, units_of

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from plutoc.diagnostic import Diagnostic, Related, Severity
+from plutoc.diagnostic import Related
 from plutoc.graph.names import near
 from plutoc.source import Source, Span
 from plutoc_runtime.quantities import Type
@@ -45,47 +45,3 @@ def article(word: str) -> str:
 
 def related(source: Source, span: Span, label: str) -> Related:
     return Related(source=source, span=span, label=label)
-
-
-def error(
-    code: str,
-    message: str,
-    source: Source,
-    span: Span,
-    *,
-    label: str = "",
-    related: tuple[Related, ...] = (),
-    help: str | None = None,
-) -> Diagnostic:
-    return Diagnostic(
-        code=code,
-        severity=Severity.ERROR,
-        message=message,
-        source=source,
-        span=span,
-        label=label,
-        related=related,
-        help=help,
-    )
-
-
-def warning(
-    code: str,
-    message: str,
-    source: Source,
-    span: Span,
-    *,
-    label: str = "",
-    related: tuple[Related, ...] = (),
-    help: str | None = None,
-) -> Diagnostic:
-    return Diagnostic(
-        code=code,
-        severity=Severity.WARNING,
-        message=message,
-        source=source,
-        span=span,
-        label=label,
-        related=related,
-        help=help,
-    )

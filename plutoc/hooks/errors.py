@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from plutoc.diagnostic import Diagnostic, Related, Severity
+from plutoc.diagnostic import Diagnostic, Related, error
 from plutoc.hooks.expected import Expected
 from plutoc.source import Source, Span
 
 
 def not_python(hooks: Source, span: Span, why: str) -> Diagnostic:
     """A hooks.py that Python itself would refuse."""
-    return _error(
+    return error(
         "P3001",
         f"this is not Python: {why}",
         hooks,
@@ -23,13 +23,13 @@ def not_python(hooks: Source, span: Span, why: str) -> Diagnostic:
 
 def unreadable(hooks: Source, why: str) -> Diagnostic:
     """A hooks.py that cannot be read at all."""
-    return _error("P3002", f"`{hooks.path}` cannot be read: {why}", hooks, Span(0, 0))
+    return error("P3002", f"`{hooks.path}` cannot be read: {why}", hooks, Span(0, 0))
 
 
 def missing(app: Source, hook: Expected, path: str, near: str | None) -> Diagnostic:
     """A hook that the app declares and hooks.py does not define."""
     similar = f"there is a `{near}`: rename it if it is meant, or " if near else ""
-    return _error(
+    return error(
         "P3003",
         f"`{path}` has no `{hook.name}`",
         app,
@@ -157,7 +157,7 @@ def generator(app: Source, hooks: Source, hook: Expected, span: Span) -> Diagnos
 def _on_hook(
     code: str, message: str, app: Source, hooks: Source, hook: Expected, span: Span, *, label: str
 ) -> Diagnostic:
-    return _error(
+    return error(
         code,
         message,
         hooks,
@@ -176,25 +176,3 @@ def _a(hook: Expected) -> str:
 def _listed(names: Sequence[str]) -> str:
     quoted = [f"`{name}`" for name in names]
     return " and ".join([", ".join(quoted[:-1]), quoted[-1]] if len(quoted) > 1 else quoted)
-
-
-def _error(
-    code: str,
-    message: str,
-    source: Source,
-    span: Span,
-    *,
-    label: str = "",
-    related: tuple[Related, ...] = (),
-    help: str | None = None,
-) -> Diagnostic:
-    return Diagnostic(
-        code=code,
-        severity=Severity.ERROR,
-        message=message,
-        source=source,
-        span=span,
-        label=label,
-        related=related,
-        help=help,
-    )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import unicodedata
 
-from plutoc.diagnostic import Diagnostic, Fix, Related, Severity
+from plutoc.diagnostic import Diagnostic, Fix, Related, error
 from plutoc.source import Source, Span
 from plutoc.syntax.words import shortened
 
@@ -13,7 +13,7 @@ def unexpected(
     source: Source, span: Span, expected: str, found: str, help: str | None, fix: Fix | None
 ) -> Diagnostic:
     """Something else should stand here."""
-    return _error(
+    return error(
         "P0001",
         f"expected {expected}, found {found}",
         source,
@@ -26,7 +26,7 @@ def unexpected(
 
 def open_text(source: Source, span: Span) -> Diagnostic:
     """A text without its second quote."""
-    return _error(
+    return error(
         "P0002",
         "this text has no closing quote",
         source,
@@ -41,7 +41,7 @@ def unknown_character(source: Source, span: Span) -> Diagnostic:
     char = source.quote(span)
     # The name, too: a no-break space or a typographic dash cannot be told from the right one.
     plain = char if char.isascii() and char.isprintable() else _described(char)
-    return _error(
+    return error(
         "P0003",
         f"{plain if len(plain) > 1 else f'`{plain}`'} is not part of the language",
         source,
@@ -74,7 +74,7 @@ _MEANT = {
 def hidden_character(source: Source, span: Span) -> Diagnostic:
     """A character in a text or a comment that a screen does not show."""
     char = source.quote(span)
-    return _error(
+    return error(
         "P0004",
         f"{_described(char)} is not allowed in a text or a comment",
         source,
@@ -86,7 +86,7 @@ def hidden_character(source: Source, span: Span) -> Diagnostic:
 
 def unknown_escape(source: Source, span: Span) -> Diagnostic:
     """A backslash before something else than a quote or a backslash."""
-    return _error(
+    return error(
         "P0005",
         f"`{source.quote(span)}` means nothing in a text",
         source,
@@ -97,7 +97,7 @@ def unknown_escape(source: Source, span: Span) -> Diagnostic:
 
 def too_large(source: Source, limit: int) -> Diagnostic:
     """A file that nobody wrote."""
-    return _error(
+    return error(
         "P0006",
         f"this file is larger than {limit // 1024} KiB",
         source,
@@ -108,7 +108,7 @@ def too_large(source: Source, limit: int) -> Diagnostic:
 
 def too_deep(source: Source, span: Span, limit: int) -> Diagnostic:
     """Lists in lists in lists."""
-    return _error(
+    return error(
         "P0007",
         f"brackets are nested more than {limit} deep",
         source,
@@ -120,7 +120,7 @@ def too_deep(source: Source, span: Span, limit: int) -> Diagnostic:
 
 def unknown_version(source: Source, span: Span) -> Diagnostic:
     """A version of the language that this compiler does not know."""
-    return _error(
+    return error(
         "P0008",
         f"this compiler reads version 1 of the language, not {shortened(source.quote(span))}",
         source,
@@ -132,7 +132,7 @@ def unknown_version(source: Source, span: Span) -> Diagnostic:
 
 def no_header(source: Source, span: Span) -> Diagnostic:
     """A file that does not begin with the language's version."""
-    return _error(
+    return error(
         "P0009",
         "a file begins with the version of the language, `pluto 1`",
         source,
@@ -145,7 +145,7 @@ def no_header(source: Source, span: Span) -> Diagnostic:
 
 def wrong_header(source: Source, span: Span) -> Diagnostic:
     """A first line that means to be the language's version."""
-    return _error(
+    return error(
         "P0016",
         "a file begins with the version of the language, `pluto 1`",
         source,
@@ -159,7 +159,7 @@ def wrong_header(source: Source, span: Span) -> Diagnostic:
 def reserved_word(source: Source, span: Span) -> Diagnostic:
     """One of the language's words where a name should be."""
     word = source.quote(span)
-    return _error(
+    return error(
         "P0010",
         f"`{word}` is a word of the language and cannot be a name",
         source,
@@ -173,7 +173,7 @@ def never_closed(source: Source, bracket: Span, end: Span) -> Diagnostic:
     """A bracket that nothing closes."""
     opening = source.quote(bracket)
     closing = {"(": ")", "[": "]", "{": "}"}[opening]
-    return _error(
+    return error(
         "P0011",
         f"this `{opening}` is never closed",
         source,
@@ -186,7 +186,7 @@ def never_closed(source: Source, bracket: Span, end: Span) -> Diagnostic:
 
 def unwritable_number(source: Source, span: Span, digits: int) -> Diagnostic:
     """A number with more digits than a computer keeps."""
-    return _error(
+    return error(
         "P0012",
         f"this number has more than {digits} digits",
         source,
@@ -197,7 +197,7 @@ def unwritable_number(source: Source, span: Span, digits: int) -> Diagnostic:
 
 def second_app(source: Source, span: Span, first: Span) -> Diagnostic:
     """A file with two apps."""
-    return _error(
+    return error(
         "P0013",
         "a file holds one app",
         source,
@@ -210,7 +210,7 @@ def second_app(source: Source, span: Span, first: Span) -> Diagnostic:
 
 def late_use(source: Source, span: Span) -> Diagnostic:
     """A `use` behind the beginning of the app."""
-    return _error(
+    return error(
         "P0014",
         "`use` stands before the app",
         source,
@@ -222,7 +222,7 @@ def late_use(source: Source, span: Span) -> Diagnostic:
 
 def no_app(source: Source, span: Span) -> Diagnostic:
     """A file without an app."""
-    return _error(
+    return error(
         "P0015",
         "this file has no app",
         source,
@@ -236,27 +236,3 @@ def _described(char: str) -> str:
     """Say which character it is: "U+00A0 (NO-BREAK SPACE)"."""
     name = "tab" if char == "\t" else unicodedata.name(char, "").lower()
     return f"the character U+{ord(char):04X}" + (f" ({name})" if name else "")
-
-
-def _error(
-    code: str,
-    message: str,
-    source: Source,
-    span: Span,
-    *,
-    label: str = "",
-    related: tuple[Related, ...] = (),
-    help: str | None = None,
-    fix: Fix | None = None,
-) -> Diagnostic:
-    return Diagnostic(
-        code=code,
-        severity=Severity.ERROR,
-        message=message,
-        source=source,
-        span=span,
-        label=label,
-        related=related,
-        help=help,
-        fix=fix,
-    )

@@ -79,7 +79,18 @@ def test_check_of_what_was_never_generated_ends_with_1(plutoc: Call, app: Path) 
     said = plutoc("compile", app, "--check")
     assert said.code == 1
     assert "[P4007]: there is no package in `crop` yet" in said.err
+    assert "help: run `plutoc compile crop.pluto`\n" in said.err
     assert not Path("crop").exists()
+
+
+def test_check_of_another_folder_says_how_to_write_that_one(plutoc: Call, app: Path) -> None:
+    """With its `-o`, and so that a shell reads it."""
+    command = "`plutoc compile crop.pluto -o 'over there'`"
+    said = plutoc("compile", app, "-o", "over there", "--check")
+    assert f"help: run {command}\n" in said.err
+    plutoc("compile", app, "-o", "over there")
+    app.write_text(CHANGED)
+    assert f"help: run {command};" in plutoc("compile", app, "-o", "over there", "--check").err
 
 
 def test_diff_prints_a_patch_and_writes_nothing(plutoc: Call, app: Path, here: Path) -> None:

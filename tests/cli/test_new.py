@@ -35,9 +35,10 @@ def test_a_new_app_compiles_and_flies(
         ("json", "a module of Python's standard library"),
         ("nul", "a device on Windows"),
         ("../up", "is not a name"),
-        ("a b", "is not a name"),
+        ("a b", "help: for instance `a_b`"),
+        ("bl\u00fcten-suche", "help: for instance `bluten_suche`"),
         ("match", "a word of Python"),
-        ("", "is not a name"),
+        ("", "help: choose a plain name"),
         ("x" * 64, "63 are the most"),
     ],
 )
