@@ -236,7 +236,8 @@ def _replace(changes: Changes, aside: Path) -> None:
     folder, begun, made = changes.folder, list[Change](), list[Path]()
     with _undone_unless_finished(made):
         try:
-            for change in changes.files:
+            # The lock last: until then, what is half done is still known as ours.
+            for change in sorted(changes.files, key=lambda change: change.path == LOCK):
                 begun.append(change)
                 if change.after is None:
                     (folder / change.path).unlink()

@@ -93,6 +93,40 @@ def test_a_failure_between_two_renames_puts_all_back(
     assert tree(folder) == before
 
 
+class Killed(BaseException):
+    """Ends everything at once, and whatever would tidy up after it."""
+
+
+@pytest.mark.parametrize("after", [0, 1, 2, 3, 4])
+def test_what_a_kill_leaves_half_done_the_next_run_finishes(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, after: int
+) -> None:
+    """Nothing of it looks as if it had been edited by hand."""
+    changes, left = compare(package(NEW), folder, PLACE), after
+    replace, unlink = os.replace, Path.unlink
+
+    def replacing(source: Path, target: Path) -> None:
+        live()
+        replace(source, target)
+
+    def unlinking(path: Path, missing_ok: bool = False) -> None:
+        live()
+        unlink(path, missing_ok)
+
+    def live() -> None:
+        nonlocal left
+        left -= 1
+        if left < 0:
+            raise Killed
+
+    with monkeypatch.context() as patched, pytest.raises(Killed):
+        patched.setattr(os, "replace", replacing)
+        patched.setattr(Path, "unlink", unlinking)
+        write(changes)
+    write(compare(package(NEW), folder, PLACE))
+    assert not compare(package(NEW), folder, PLACE).files
+
+
 def test_writing_replaces_adds_and_removes(folder: Path) -> None:
     """And takes empty folders away."""
     write(compare(package(NEW), folder, PLACE))
