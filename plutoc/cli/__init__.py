@@ -68,7 +68,7 @@ class _Ending:
 def _command(argv: Sequence[str] | None) -> int:
     try:
         options = parse(argv)
-    except SystemExit as end:  # argparse has printed the help, or what is wrong
+    except SystemExit as end:  # the help or the version is printed, or what is wrong
         return end.code if isinstance(end.code, int) else USAGE
     try:
         return _run(options)

@@ -42,7 +42,8 @@ def _installed(broken: list[str]) -> Iterator[tuple[str, Block]]:
 
 def _page(kind: str, found: dict[str, Block]) -> str:
     if kind not in found:
-        meant = near(kind, found)
+        part = [name for name in found if len(kind) > 2 and kind.lower() in name.lower()]
+        meant = part or near(kind, found)
         raise Unusable(
             f"there is no block `{kind}`"
             + (f"; did you mean {' or '.join(meant)}?" if meant else ": `plutoc blocks` lists them")

@@ -12,6 +12,8 @@ from plutoc.syntax.parse import LARGEST
 from plutoc_runtime.words import printable
 
 HOOKS = "hooks.py"
+_OTHER_FILES = (".toml", ".py")
+"""What lies beside an app, and is easily given in its place."""
 
 
 def shown(path: Path) -> str:
@@ -21,6 +23,8 @@ def shown(path: Path) -> str:
 
 def read_app(path: Path) -> Source:
     """Read a `.pluto` file; raise `Unusable` where there is nothing to parse."""
+    if path.suffix.lower() in _OTHER_FILES:
+        raise Unusable(f"{shown(path)} is no app: an app is a file whose name ends with .pluto")
     return Source(shown(path), _text(path))
 
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from plutoc.cli.endings import USAGE
+from plutoc_runtime.cli import output
 
 PICTURES = ("mermaid", "dot", "svg", "json")
 
@@ -78,9 +79,9 @@ class _Version(Action):
         from importlib.metadata import PackageNotFoundError, version
 
         try:
-            print(f"plutoc {version('plutoc')}")
+            output.line(f"plutoc {version('plutoc')}")
         except PackageNotFoundError:
-            print("plutoc, from a checkout that is not installed")
+            output.line("plutoc, from a checkout that is not installed")
         parser.exit()
 
 

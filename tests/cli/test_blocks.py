@@ -61,6 +61,7 @@ def test_an_unknown_block_ends_with_2(plutoc: Call) -> None:
     said = plutoc("blocks", "TimeMonitor")
     assert said.code == 2
     assert "did you mean TimerMonitor" in said.err
+    assert "did you mean GateFIFO or GateFunnel?" in plutoc("blocks", "gate").err
 
 
 def test_a_broken_package_is_named_and_the_others_are_listed(

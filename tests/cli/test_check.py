@@ -30,6 +30,15 @@ def test_errors_end_with_1_and_stand_on_standard_error(plutoc: Call, app: Path) 
     assert not said.out
 
 
+@pytest.mark.parametrize("name", ["missions.toml", "hooks.py"])
+def test_what_lies_beside_an_app_is_no_app(plutoc: Call, here: Path, name: str) -> None:
+    """It is not parsed: what that would say helps nobody."""
+    Path(name).touch()
+    said = plutoc("check", name)
+    assert said.code == 2
+    assert f"plutoc: {name} is no app: an app is a file whose name ends with .pluto" in said.err
+
+
 def test_warnings_end_with_0(plutoc: Call, app: Path) -> None:
     """They are said, and are no errors."""
     app.write_text(ENDLESS)

@@ -159,12 +159,17 @@ def test_a_closed_pipe_is_silent(app: Path) -> None:
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="only Linux has a disk that is full")
-def test_a_full_disk_behind_standard_output_is_said(app: Path) -> None:
+@pytest.mark.parametrize("arguments", [["graph", "crop.pluto"], ["--version"]])
+@pytest.mark.parametrize("unbuffered", ["", "1"])
+def test_a_full_disk_behind_standard_output_is_said(
+    app: Path, arguments: list[str], unbuffered: str
+) -> None:
     """What cannot be printed is an error, not a traceback."""
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
+    environment["PYTHONUNBUFFERED"] = unbuffered
     with open("/dev/full", "w") as full:
         done = subprocess.run(
-            [sys.executable, "-m", "plutoc", "graph", "crop.pluto"],
+            [sys.executable, "-m", "plutoc", *arguments],
             env=environment,
             stdout=full,
             stderr=subprocess.PIPE,
