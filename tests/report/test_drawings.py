@@ -63,9 +63,9 @@ def test_graphviz_marks_branches_gates_and_unsaid_ends() -> None:
     lines = [line.strip() for line in dot(check(build(APP))[0]).splitlines()]
     assert lines[0] == 'digraph "app" {'
     assert '"first" [shape=hexagon, label="first\\nGateFIFO"];' in lines
-    assert '"launch" -> "watch" [label="RUNNING", style=bold];' in lines
-    assert '"first" -> "end" [label="FAILED", style=dashed];' in lines
-    assert '"allocate" -> "launch" [label="UNEXECUTED\\nSTANDBY", style=solid];' in lines
+    assert '"launch" -> "watch" [label=" RUNNING ", style=bold];' in lines
+    assert '"first" -> "end" [label=" FAILED ", style=dashed];' in lines
+    assert '"allocate" -> "launch" [label=" UNEXECUTED \\n STANDBY ", style=solid];' in lines
 
 
 def test_json_tells_blocks_lines_and_statuses() -> None:

@@ -35,7 +35,7 @@ def _box(box: Box) -> str:
 
 def _arrow(arrow: Arrow) -> str:
     style = "dashed" if arrow.implicit or not arrow.statuses else "bold" if arrow.fork else "solid"
-    label = "\\n".join(arrow.statuses)
+    label = "\\n".join(f" {status} " for status in arrow.statuses)  # apart from the line
     return f'{_quoted(arrow.source)} -> {_quoted(arrow.target)} [label="{label}", style={style}];'
 
 
