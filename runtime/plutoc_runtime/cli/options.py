@@ -45,7 +45,9 @@ def parse(app: App, argv: Sequence[str] | None) -> Options:
     _files(command("check", "Say whether the fleet can fly the missions; nothing flies."))
     fly = command("fly", "Fly the missions in real time.")
     _files(fly, fleet_needed=True)
-    fly.add_argument("--sim", action="store_true", help="with simulated drones")
+    fly.add_argument(
+        "--sim", action="store_true", help="with simulated drones; real ones cannot be flown yet"
+    )
     options = parser.parse_args(argv, namespace=Options())
     if options.trace is not None and options.runs is not None:
         simulate.error("--trace writes down one run: it does not go with --runs")

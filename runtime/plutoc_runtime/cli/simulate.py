@@ -149,5 +149,7 @@ def _in_words(runs: list[Run]) -> str:
         f"{len(good)} of {counted(len(runs), 'run')} succeeded ({percent(len(good) / len(runs))})"
     )
     if good:
-        text += f"; they took {duration(min(good))} to {duration(max(good))}"
+        least, most = duration(min(good)), duration(max(good))
+        who = "it" if len(good) == 1 else "each" if least == most else "they"
+        text += f"; {who} took {least}" + (f" to {most}" if least != most else "")
     return text

@@ -119,6 +119,15 @@ def test_many_runs_have_a_summary(missions: Path, command: Command) -> None:
     assert f"\n\n{4 - len(bad)} of 4 runs succeeded" in text
 
 
+def test_runs_that_took_the_same_are_not_given_a_range(missions: Path, command: Command) -> None:
+    """Nor is a single one."""
+    words = command("simulate", missions, "--runs", 1)[1].splitlines()[-1]
+    assert "1 of 1 run succeeded (100 %); it took " in words
+    assert " to " not in words
+    words = command("simulate", missions, "--runs", 2)[1].splitlines()[-1]
+    assert "2 of 2 runs succeeded (100 %); each took " in words
+
+
 def test_the_trace_has_every_event(missions: Path, command: Command, tmp_path: Path) -> None:
     """One JSON object a line, in order; an older trace is replaced."""
     trace = tmp_path / "trace.jsonl"
