@@ -45,7 +45,7 @@ def who_saw_it(mission: Mission, results: Results) -> Verdict:
         if photo.sharpness < SHARP and result.attempt < LOOKS
     )
     if blurred:
-        return Verdict(redo=blurred, log=(f"{len(blurred)} blurred photos: looking again",))
+        return Verdict(redo=blurred, log=(f"looking again, blurred photos: {len(blurred)}",))
     return Verdict(log=(f"{thing} not found here",))
 
 
