@@ -44,7 +44,7 @@ def parse(app: App, argv: Sequence[str] | None) -> Options:
     _simulation(simulate)
     _files(command("check", "Say whether the fleet can fly the missions; nothing flies."))
     fly = command("fly", "Fly the missions in real time.")
-    _files(fly, fleet_needed=True)
+    _files(fly)
     fly.add_argument(
         "--sim", action="store_true", help="with simulated drones; real ones cannot be flown yet"
     )
@@ -59,15 +59,13 @@ def _plain(parser: ArgumentParser) -> ArgumentParser:
     return parser
 
 
-def _files(parser: ArgumentParser, *, fleet_needed: bool = False) -> None:
+def _files(parser: ArgumentParser) -> None:
     parser.add_argument("missions", metavar="M.toml", type=Path, help="the missions file")
     parser.add_argument(
         "--fleet",
         metavar="F.toml",
         type=Path,
-        required=fleet_needed,
-        help="the map and the drones"
-        + ("" if fleet_needed else "; default: five drones on a plain of 20 × 20 m"),
+        help="the map and the drones; default: five drones on a plain of 20 × 20 m",
     )
 
 

@@ -50,7 +50,7 @@ def test_real_drones_are_not_there_yet(missions: Path, command: Command) -> None
         ("", "the following arguments are required: COMMAND"),
         ("soar m.toml", "argument COMMAND: invalid choice: 'soar'"),
         ("simulate", "the following arguments are required: M.toml"),
-        ("fly m.toml", "the following arguments are required: --fleet"),
+        ("fly", "the following arguments are required: M.toml"),
         ("check m.toml --seed 1", "unrecognized arguments: --seed 1"),
         ("simulate m.toml --unt 3", "unrecognized arguments: --unt 3"),
         ("simulate m.toml --seed x", 'argument --seed: "x" is not a whole number'),
