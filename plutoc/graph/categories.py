@@ -16,7 +16,7 @@ IMPLICIT = "drone"
 """The name of the category of an app that declares none."""
 
 PARAMS = (
-    Param(name="payload", type=Type.MASS, doc="What it can carry.", default=0.01),
+    Param(name="payload", type=Type.MASS, doc="What it can carry.", default=0.01, least=0.0),
     Param(name="speed", type=Type.SPEED, doc="How fast it flies.", default=0.5),
     Param(name="flight_time", type=Type.TIME, doc="From a full battery.", default=420.0),
     Param(name="charge_time", type=Type.TIME, doc="To a full battery.", default=1200.0),
@@ -60,6 +60,8 @@ def _is_possible(
 ) -> bool:
     if param.type is Type.PERCENT:
         possible, rule = value < 1, "less than 100 %"
+    elif param.least is not None:
+        possible, rule = value >= param.least, f"{param.least:g} or more"
     else:
         possible, rule = value > 0, "more than 0"
     if not possible:

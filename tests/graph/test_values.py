@@ -113,11 +113,16 @@ def test_category_defaults() -> None:
 
 
 @pytest.mark.parametrize(
-    "argument", ["payload: 0 g", "speed: -1 m/s", "flight_time: 0 s", "reserve: 100 %"]
+    "argument", ["payload: -1 g", "speed: -1 m/s", "flight_time: 0 s", "reserve: 100 %"]
 )
 def test_impossible_category_is_refused(argument: str) -> None:
-    """Everything must be more than nothing, and the reserve less than all."""
+    """All but the payload must be more than nothing, and the reserve less than all."""
     assert [f.split()[0] for f in codes(f"category c({argument}) can measure")] == ["P1020"]
+
+
+def test_a_drone_may_carry_nothing() -> None:
+    (category,) = graph("category c(payload: 0 g) can measure").categories
+    assert category.payload == 0.0
 
 
 def test_action_takes_its_words() -> None:
