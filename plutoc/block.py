@@ -148,8 +148,6 @@ class Block:
     bound: str | None = None
     """The parameter that bounds how often it does so; 0 is no bound."""
     gate: Gate | None = None
-    resumes: bool = False
-    """A mission that was stopped may go on from here."""
 
     @property
     def accepts(self) -> frozenset[Status]:

@@ -130,8 +130,6 @@ class Graph:
     hooks: tuple[Hook, ...]
     nodes: tuple[Node, ...]
     edges: tuple[Edge, ...]
-    end_span: Span
-    """The closing brace of the app."""
 
     @cached_property
     def node(self) -> dict[str, Node]:

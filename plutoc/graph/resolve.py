@@ -14,7 +14,7 @@ from plutoc.graph.packages import packages_of
 from plutoc.graph.scope import check_app_name, scope_of
 from plutoc.graph.values import written
 from plutoc.registry import Blocks
-from plutoc.source import Source, Span
+from plutoc.source import Source
 from plutoc.syntax.tree import (
     ActionDecl,
     BlockDecl,
@@ -78,7 +78,6 @@ def resolve(file: File, blocks: Blocks) -> tuple[Graph, tuple[Diagnostic, ...]]:
         hooks=tuple(app_hooks),
         nodes=tuple(nodes),
         edges=edges(source, flows, scope, by_name, found),
-        end_span=Span(file.app.span.end - 1, file.app.span.end),
     )
     found.extend(_unused_hooks(source, app_hooks, nodes, block_decls))
     found.extend(_unused_actions(source, actions, category_decls, block_decls))

@@ -150,17 +150,17 @@ class Fleet:
         change.set(None)
         self.queue.changed()
 
-    async def _land(self, drone: Drone) -> None:
+    async def _land(self, drone: Drone) -> bool:
+        """Land a drone where it is, and say whether it could; it is brought home otherwise."""
         try:
             await self._navigation.land(drone.id)
         except FlightFailed:
             await self._bring_back(drone)
+            return False
+        return True
 
     async def _stay(self, drone: Drone) -> None:
-        try:
-            await self._navigation.land(drone.id)
-        except FlightFailed:
-            await self._bring_back(drone)
+        if not await self._land(drone):
             return
         await self._settle(drone)
         if self._after_trip is AfterTrip.NEXT:

@@ -84,7 +84,6 @@ def build(text: str, title: str = "") -> Graph:
         hooks=tuple(node.hook for node in nodes.values() if node.hook),
         nodes=tuple(nodes.values()),
         edges=tuple(edges),
-        end_span=Span(len(text), len(text)),
     )
 
 

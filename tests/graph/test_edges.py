@@ -90,4 +90,3 @@ def test_spans_point_at_names_and_guards() -> None:
     quote = app.source.quote
     assert (quote(one.span), quote(two.span)) == ("a -> [b", "a -> [b, c")
     assert one.guard_span and quote(one.guard_span) == "when FAILED"
-    assert quote(app.end_span) == "}"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json as standard
 import re
 import shutil
+from pathlib import Path
 
 import pytest
 
@@ -106,6 +107,21 @@ def test_without_graphviz_the_message_says_what_to_install(
     monkeypatch.setenv("PATH", "")
     with pytest.raises(NoGraphviz, match="install Graphviz"):
         dot_to_svg("digraph {}")
+
+
+def test_the_picture_is_what_graphviz_makes_of_the_text(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A program in its place shows how it is called, and what becomes of its failure."""
+    program = tmp_path / "dot"
+    program.write_text(
+        '#!/bin/sh\nread -r line\n[ "$line" != bad ] || exit 1\necho "<svg $1 $line>"\n'
+    )
+    program.chmod(0o755)
+    monkeypatch.setenv("PATH", str(tmp_path))
+    assert dot_to_svg("digraph {}") == "<svg -Tsvg digraph {}>\n"
+    with pytest.raises(NoGraphviz, match="could not draw"):
+        dot_to_svg("bad")
 
 
 @pytest.mark.skipif(shutil.which("dot") is None, reason="Graphviz is not installed")

@@ -40,5 +40,4 @@ CLOCK = Block(
     ),
     named=True,
     holds=True,
-    resumes=True,
 )

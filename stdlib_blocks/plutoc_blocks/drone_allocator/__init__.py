@@ -45,5 +45,4 @@ DRONE_ALLOCATOR = Block(
     ),
     uses=("priority",),
     allocates=True,
-    resumes=True,
 )
