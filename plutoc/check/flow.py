@@ -25,6 +25,9 @@ class Facts:
     """It got a drone, and has not been launched since."""
     launched: bool = False
     """It was launched at least once."""
+    outcome: Status | None = None
+    """How the trip in flight will end. Every branch of a fork sees that same end, so it is chosen
+    at the launch, once for all of them; None before the first launch and once the trip is over."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

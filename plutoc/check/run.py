@@ -6,7 +6,7 @@ from plutoc.check import ending, failures, flights, forks, gates, order, paralle
 from plutoc.check.branches import branches
 from plutoc.check.entry import entry
 from plutoc.check.model import Checked
-from plutoc.check.statuses import explore
+from plutoc.check.statuses import creation, explore
 from plutoc.diagnostic import Diagnostic, Rejected, accept_or_raise
 from plutoc.graph.model import Graph
 
@@ -19,7 +19,7 @@ def check(graph: Graph) -> tuple[Checked, tuple[Diagnostic, ...]]:
     creator, edges, found = entry(graph)
     if creator is None:  # nothing moves: there is nothing else to say
         raise Rejected(found)
-    flow = explore(graph, creator.name, edges)
+    flow = explore(graph, edges, (creation(creator.name),))
     parallels = branches(flow)
     found += reach.unreached(flow, creator.name, stuck.forgotten_gates(flow, parallels))
     found += reach.starved(flow)

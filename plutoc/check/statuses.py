@@ -1,17 +1,20 @@
-"""Walk the graph with every status until nothing new turns up: a monotone fixpoint.
+"""Explore every state that a mission can be in, until nothing new turns up.
 
-The walk keeps, beside block and status, the innermost branch that a clone is in and what the
-mission has behind it. So a gate gives back to a mission just what its own branches brought, forks
-may nest, and a loop with forks in it stays small: no stack of branches is ever unrolled.
+A state is a block, a status, the innermost branch that a clone is in, and what the mission has
+behind it. What the branches of a fork have in common is the end of the trip in flight, and that is
+chosen at the launch. Given it they know nothing of each other, so what a gate lets through depends
+only on what each of them can bring: no product of branches is ever built, forks may nest, and the
+exploration is exact however many branches there are.
 """
 
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 from plutoc.block import Block, Gate
-from plutoc.check.flow import Facts, Flow, Fork, Frame, Place, Split, Step, ordered
+from plutoc.check.flow import Facts, Flow, Frame, Place, Split, Step, ordered
 from plutoc.graph.model import END, START, Edge, Graph
 from plutoc_runtime.status import WORST_FIRST, Status
 
@@ -19,20 +22,20 @@ Places = dict[Place, None]
 """An ordered set."""
 
 
-def explore(graph: Graph, creator: str, edges: tuple[Edge, ...]) -> Flow:
-    """Return where missions can be, from the creator on, along these edges.
+OUTCOMES = (Status.STANDBY, Status.COMPLETED, Status.FAILED)
+"""How a trip can end: well with more to fly, well as the last one, or not well."""
 
-    A gate that waits for a branch that never arrives would hide all that is behind it. Such gates
-    are found first, and then walked as if they did not wait: one mistake, one message.
-    """
-    hasty: frozenset[Fork] = frozenset()
-    while True:
-        walk = _Walk(graph=graph, edges=edges, hasty=hasty)
-        walk.run(creator)
-        stuck = hasty | walk.waiting()
-        if stuck == hasty:
-            return walk.flow()
-        hasty = stuck
+
+def explore(graph: Graph, edges: tuple[Edge, ...], beginnings: Iterable[Place]) -> Flow:
+    """Return where missions can be, from these places on, along these edges."""
+    walk = _Walk(graph=graph, edges=edges)
+    walk.run(beginnings)
+    return walk.flow()
+
+
+def creation(creator: str) -> Place:
+    """Return where a mission comes into being."""
+    return Place(frame=None, node=creator, status=Status.UNEXECUTED, facts=Facts())
 
 
 @dataclass(kw_only=True)
@@ -41,8 +44,8 @@ class _Walk:
 
     graph: Graph
     edges: tuple[Edge, ...]
-    hasty: frozenset[Fork]
-    """Forks whose gate does not wait for branches that do not arrive."""
+    hasty: dict[Split, None] = field(default_factory=dict)
+    """Forks whose gate has stopped waiting for a branch that never arrives."""
     outgoing: dict[str, list[Edge]] = field(default_factory=dict)
     queue: deque[Place] = field(default_factory=deque)
     places: dict[Place, Step | None] = field(default_factory=dict)
@@ -52,21 +55,25 @@ class _Walk:
     closes: dict[Split, dict[str, dict[int, Places]]] = field(default_factory=dict)
     through: dict[Split, dict[tuple[str, Status], Place]] = field(default_factory=dict)
     """What each fork's gate has let through, and the arrival that brought it."""
+    waiting: dict[Split, None] = field(default_factory=dict)
+    """Forks with a clone at a gate that has let nothing through yet."""
     strays: dict[Split, Places] = field(default_factory=dict)
     arrives: dict[str, set[Status]] = field(default_factory=dict)
     leaves: dict[str, set[Status]] = field(default_factory=dict)
     carries: dict[Edge, set[Status]] = field(default_factory=dict)
 
-    def run(self, creator: str) -> None:
+    def run(self, beginnings: Iterable[Place]) -> None:
         for edge in self.edges:
             self.outgoing.setdefault(edge.source, []).append(edge)
             if edge.source == START:
                 self.carries[edge] = {Status.UNEXECUTED}
-        first = Place(frame=None, node=creator, status=Status.UNEXECUTED, facts=Facts())
-        self.places[first] = None
-        self.queue.append(first)
+        for place in beginnings:
+            self.places[place] = None
+            self.queue.append(place)
         while self.queue:
-            self.visit(self.queue.popleft())
+            while self.queue:
+                self.visit(self.queue.popleft())
+            self.stop_waiting()
 
     def visit(self, place: Place) -> None:
         self.arrives.setdefault(place.node, set()).add(place.status)
@@ -80,9 +87,12 @@ class _Walk:
             if node.block.allocates or node.block.launches:
                 self.stray(place, place.frame.split)
                 return
-        facts = _behind(node.block, place.facts)
-        for status in ordered(node.emitted(place.status)):
-            self.leave(place, status, facts)
+        emitted = ordered(node.emitted(place.status))
+        if node.block.watches and place.facts.outcome in emitted:
+            emitted = (place.facts.outcome,)
+        for status in emitted:
+            for facts in _behind(node.block, place.facts):
+                self.leave(place, status, facts)
 
     def reach(self, place: Place, step: Step) -> None:
         self.after.setdefault(step.before, {})[place] = None
@@ -118,12 +128,20 @@ class _Walk:
         """A clone arrives at the gate of its fork."""
         branches = self.closes.setdefault(frame.split, {}).setdefault(place.node, {})
         branches.setdefault(frame.branch, {})[place] = None
-        passed = self.through.setdefault(frame.split, {})
-        for status, arrival in self.passing(frame.split, gate, branches).items():
-            if (place.node, status) not in passed:
-                passed[place.node, status] = arrival
-                for entry in tuple(self.entries[frame.split]):
+        self.let_through(frame.split, place.node, gate)
+
+    def let_through(self, split: Split, name: str, gate: Gate) -> None:
+        """Let missions go on behind a gate, as far as its branches have come."""
+        passed = self.through.setdefault(split, {})
+        for status, arrival in self.passing(split, gate, self.closes[split][name]).items():
+            if (name, status) not in passed:
+                passed[name, status] = arrival
+                for entry in tuple(self.entries[split]):
                     self.go_on(arrival, status, entry)
+        if passed:
+            self.waiting.pop(split, None)
+        else:
+            self.waiting[split] = None
 
     def passing(self, split: Split, gate: Gate, branches: dict[int, Places]) -> dict[Status, Place]:
         """Return what a gate lets through, given what each branch has brought so far."""
@@ -133,7 +151,7 @@ class _Walk:
                 brought.setdefault(arrival.status, arrival)
         if gate is Gate.FIRST:
             return brought
-        if len(branches) < self.width(split) and split.fork not in self.hasty:
+        if len(branches) < self.width(split) and split not in self.hasty:
             return {}
         # at best, every branch brings the best that it can: nothing better than that passes
         floor = min(max(_goodness(a.status) for a in arrivals) for arrivals in branches.values())
@@ -155,14 +173,14 @@ class _Walk:
     def width(self, split: Split) -> int:
         return sum(split.status in e.takes for e in self.outgoing[split.node])
 
-    def waiting(self) -> frozenset[Fork]:
-        """Forks whose gate has let nothing through, for want of a branch."""
-        return frozenset(
-            split.fork
-            for split, gates in self.closes.items()
-            for branches in gates.values()
-            if len(branches) < self.width(split) and not self.through.get(split)
-        )
+    def stop_waiting(self) -> None:
+        """A gate that waits in vain would hide all that is behind it: one mistake, one message."""
+        for split in tuple(self.waiting):
+            self.hasty[split] = None
+            for name in self.closes[split]:
+                gate = self.graph.node[name].block.gate
+                assert gate is not None, "only a gate closes a branch"
+                self.let_through(split, name, gate)
 
     def flow(self) -> Flow:
         return Flow(
@@ -185,10 +203,10 @@ def _goodness(status: Status) -> int:
     return WORST_FIRST.index(status)
 
 
-def _behind(block: Block, facts: Facts) -> Facts:
-    """What a mission has behind it after a block."""
+def _behind(block: Block, facts: Facts) -> tuple[Facts, ...]:
+    """What a mission can have behind it after a block."""
     if block.launches:
-        return Facts(allocated=False, launched=True)
+        return tuple(Facts(launched=True, outcome=outcome) for outcome in OUTCOMES)
     if block.allocates:
-        return Facts(allocated=True, launched=facts.launched)
-    return facts
+        return (Facts(allocated=True, launched=facts.launched),)
+    return (facts,)
