@@ -102,6 +102,10 @@ def _run(options: Options) -> int:
             from plutoc.cli.graph import graph
 
             return graph(options)
+        case "explain":
+            from plutoc.cli.explain import explain
+
+            return explain(options)
         case _:
             from plutoc.cli.blocks import blocks
 

@@ -36,6 +36,7 @@ class Options:
     seed: int | None = None
     json: bool = False
     kind: str | None = None
+    code: str | None = None
 
 
 def parse(argv: Sequence[str] | None) -> Options:
@@ -62,6 +63,7 @@ def parse(argv: Sequence[str] | None) -> Options:
     _run(command("run", "Compile an app and simulate its missions at once."))
     _graph(command("graph", "Print the picture of an app, with the statuses on every edge."))
     _blocks(command("blocks", "List the blocks that are installed, or explain one."))
+    _explain(command("explain", "Say what the code of an error or a warning means."))
     arguments = sys.argv[1:] if argv is None else list(argv)
     if not arguments:
         parser.print_help(sys.stderr)
@@ -175,6 +177,12 @@ def _graph(parser: ArgumentParser) -> None:
 
 def _blocks(parser: ArgumentParser) -> None:
     parser.add_argument("kind", metavar="KIND", nargs="?", help="one block, to read about it")
+
+
+def _explain(parser: ArgumentParser) -> None:
+    parser.add_argument(
+        "code", metavar="CODE", nargs="?", help="such as P1003; without one, all are listed"
+    )
 
 
 def _whole(text: str) -> int:

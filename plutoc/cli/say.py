@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Sequence
+from typing import TextIO
 
 from plutoc.diagnostic import Diagnostic
 from plutoc_runtime.cli import output
@@ -20,13 +21,13 @@ def say(diagnostics: Sequence[Diagnostic], format: str = "text") -> None:
     elif diagnostics:
         from plutoc.report.text import render
 
-        output.tell(render(diagnostics, colour=_in_colour()).rstrip("\n"))
+        output.tell(render(diagnostics, colour=in_colour(sys.stderr)).rstrip("\n"))
 
 
-def _in_colour() -> bool:
+def in_colour(stream: TextIO | None) -> bool:
     """Follow no-color.org and force-color.org; else colour is for terminals."""
     if os.environ.get("NO_COLOR"):
         return False
     if os.environ.get("FORCE_COLOR"):
         return True
-    return os.environ.get("TERM") != "dumb" and sys.stderr is not None and sys.stderr.isatty()
+    return os.environ.get("TERM") != "dumb" and stream is not None and stream.isatty()

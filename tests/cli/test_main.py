@@ -21,7 +21,9 @@ def test_alone_it_prints_the_help_and_is_wrong_usage(plutoc: Call) -> None:
     assert not said.out
 
 
-@pytest.mark.parametrize("command", ["new", "check", "compile", "run", "graph", "blocks"])
+@pytest.mark.parametrize(
+    "command", ["new", "check", "compile", "run", "graph", "blocks", "explain"]
+)
 def test_every_command_has_help(plutoc: Call, command: str) -> None:
     """`--help` ends with 0."""
     said = plutoc(command, "--help")
