@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from plutoc.check.branches import Astray, Branch
 from plutoc.check.flow import Fork, Way, ordered
@@ -20,7 +21,6 @@ from plutoc.check.words import (
     taken_by,
     there,
     warning,
-    way_of,
 )
 from plutoc.diagnostic import Diagnostic
 from plutoc.graph.model import Edge, Graph, Node
@@ -93,7 +93,11 @@ def unreached(graph: Graph, node: Node, behind: Sequence[str]) -> Diagnostic:
 
 
 def starved(
-    graph: Graph, node: Node, edges: Sequence[Edge], leaving: Mapping[str, Sequence[Status]]
+    graph: Graph,
+    node: Node,
+    edges: Sequence[Edge],
+    leaving: Mapping[str, Sequence[Status]],
+    way: Way,
 ) -> Diagnostic:
     return error(
         "P2007",
@@ -103,18 +107,18 @@ def starved(
             related_to(graph, edge.span, f"`{edge.source}` emits {listed(leaving[edge.source])}")
             for edge in edges
         ),
-        help="lead an arrow here from a block that emits what it accepts",
+        help=f"lead an arrow here from a block that emits what it accepts{there(way)}",
     )
 
 
-def untaken(graph: Graph, edge: Edge, leaving: Sequence[Status]) -> Diagnostic:
+def untaken(graph: Graph, edge: Edge, leaving: Sequence[Status], way: Way) -> Diagnostic:
     return error(
         "P2008",
         (graph, edge.guard_span or edge.span),
         f"no mission ever takes the arrow `{edge.source} -> {edge.target}`",
         label=f"takes {listed(ordered(edge.takes))}" if edge.takes else "nothing is left for it",
         related=(emits_here(graph, edge, leaving),),
-        help="remove the arrow, or let it take what the block emits",
+        help=f"remove the arrow, or let it take what the block emits{there(way)}",
     )
 
 
@@ -156,7 +160,7 @@ def stuck(
             for edge in graph.outgoing[node.name]
             if edge.takes
         ),
-        help=f"{taken_by(node, statuses[0], taker)}. {there(way)}",
+        help=f"{taken_by(node, statuses[0], taker)}{there(way)}",
     )
 
 
@@ -186,17 +190,17 @@ def stuck_in_fork(
             for other, stays in left[1:]
         ),
         help=f"{meet}; or, if only one of the arrows from `{fork[0]}` was meant to take "
-        f"{fork[1].value}, guard the others with `when`. {there(way)}",
+        f"{fork[1].value}, guard the others with `when`{there(way)}",
     )
 
 
-def implicit_end(graph: Graph, node: Node, statuses: Sequence[Status]) -> Diagnostic:
+def implicit_end(graph: Graph, node: Node, statuses: Sequence[Status], way: Way) -> Diagnostic:
     return warning(
         "P2051",
         (graph, node.name_span),
         f"a mission that leaves `{node.name}` {listed(statuses, 'or')} ends here: "
         "no arrow takes it",
-        help=f"to say so, add `{node.name} -> end when {', '.join(s.value for s in statuses)}`",
+        help=f"to say so, add `{node.name} -> end when {', '.join(s.value for s in statuses)}`{there(way)}",
     )
 
 
@@ -206,7 +210,7 @@ def endless(graph: Graph, head: Node, way: Way, round_: Sequence[str]) -> Diagno
         (graph, head.name_span),
         f"a mission that comes to `{head.name}` can never end",
         label="no way leads from here to an end",
-        help=f"it goes round {arrows((*round_, round_[0]))}: lead an arrow out of this loop. "
+        help=f"it goes round {arrows((*round_, round_[0]))}: lead an arrow out of this loop"
         f"{there(way)}",
     )
 
@@ -232,7 +236,7 @@ def astray(
             for branch, other in branches[1:]
         ),
         help=f"{meet}; or, if only one of the arrows was meant to take {first.fork[1].value}, "
-        f"guard the others with `when`. {there(way)}",
+        f"guard the others with `when`{there(way)}",
     )
 
 
@@ -252,7 +256,7 @@ def different_gates(
         f"{fork_of(branches[0].fork)} closes at different gates: {names(gates)}",
         label=closing[0].label,
         related=tuple(closing[1:]),
-        help="lead all branches to one gate. The ways: " + "; ".join(way_of(way) for way in ways),
+        help=f"lead all branches to one gate{there(*ways)}",
     )
 
 
@@ -262,7 +266,7 @@ def never_closes(graph: Graph, branch: Branch, gates: Sequence[str], way: Way | 
         (graph, branch.edge.span),
         f"the branch to `{branch.edge.target}` of {fork_of(branch.fork)} can go round for ever",
         label="it does not always close",
-        help=f"lead every way through it to {f'`{gates[0]}`' if gates else 'a gate'}. "
+        help=f"lead every way through it to {f'`{gates[0]}`' if gates else 'a gate'}"
         f"{there(way)}",
     )
 
@@ -277,7 +281,7 @@ def waits_in_vain(graph: Graph, branch: Branch, gate: str, way: Way | None) -> D
                 graph, branch.edge.span, f"the branch to `{branch.edge.target}` never gets there"
             ),
         ),
-        help=f"lead the branch to `{gate}`. {there(way)}",
+        help=f"lead the branch to `{gate}`{there(way)}",
     )
 
 
@@ -286,7 +290,7 @@ def outside_fork(graph: Graph, node: Node, way: Way) -> Diagnostic:
         "P2016",
         (graph, node.name_span),
         f"a mission can come to `{node.name}` outside of the fork that closes there",
-        help=f"lead this way past the gate. {there(way)}",
+        help=f"lead this way past the gate{there(way)}",
     )
 
 
@@ -295,7 +299,7 @@ def closes_nothing(graph: Graph, node: Node, way: Way) -> Diagnostic:
         "P2017",
         (graph, node.name_span),
         f"`{node.name}` closes no fork: a gate needs at least two branches",
-        help="fork before it (two arrows that take the same status), or remove the gate. "
+        help="fork before it (two arrows that take the same status), or remove the gate"
         f"{there(way)}",
     )
 
@@ -305,12 +309,12 @@ def breeds(graph: Graph, first: Branch, way: Way) -> Diagnostic:
         "P2018",
         (graph, first.edge.span),
         f"{fork_of(first.fork)} comes round to itself before it closes: its clones multiply without end",
-        help=f"close it at a gate before the way leads back. {there(way)}",
+        help=f"close it at a gate before the way leads back{there(way)}",
     )
 
 
 def shared_gate(
-    graph: Graph, outer: Sequence[Branch], inner: Sequence[Branch], gate: str
+    graph: Graph, outer: Sequence[Branch], inner: Sequence[Branch], gate: str, way: Way
 ) -> Diagnostic:
     return error(
         "P2019",
@@ -321,11 +325,11 @@ def shared_gate(
             related_to(graph, outer[0].edge.span, "the fork around it"),
             related_to(graph, graph.node[gate].name_span, "the gate of both"),
         ),
-        help=f"give the fork inside a gate of its own, and lead that gate to `{gate}`",
+        help=f"give the fork inside a gate of its own, and lead that gate to `{gate}`{there(way)}",
     )
 
 
-def written_twice(graph: Graph, first: Node, second: Node, attribute: str) -> Diagnostic:
+def written_twice(graph: Graph, first: Node, second: Node, attribute: str, way: Way) -> Diagnostic:
     return error(
         "P2020",
         (graph, second.name_span),
@@ -336,7 +340,7 @@ def written_twice(graph: Graph, first: Node, second: Node, attribute: str) -> Di
         ),
         label="who comes last would win",
         related=(related_to(graph, first.name_span, "written here"),) if first != second else (),
-        help="let one of them write it, or put one behind the other",
+        help=f"let one of them write it, or put one behind the other{there(way)}",
     )
 
 
@@ -346,7 +350,7 @@ def unwatched_limit(graph: Graph, node: Node, way: Way) -> Diagnostic:
         (graph, node.name_span),
         f"`{node.name}` sets a limit to a flight, but no block beside it watches the flight",
         help="fork: put it on one branch, a block that only watches on another, and let them meet "
-        f"at a gate. {there(way)}",
+        f"at a gate{there(way)}",
     )
 
 
@@ -358,7 +362,7 @@ def no_allocation(graph: Graph, node: Node, way: Way) -> Diagnostic:
         "P2021",
         (graph, node.name_span),
         f"a mission can come to `{node.name}` without a drone allocated since its last launch",
-        help=f"lead the way through a block that allocates a drone. {there(way)}",
+        help=f"lead the way through a block that allocates a drone{there(way)}",
     )
 
 
@@ -367,7 +371,17 @@ def no_launch(graph: Graph, node: Node, way: Way) -> Diagnostic:
         "P2022",
         (graph, node.name_span),
         f"a mission can come to `{node.name}` though no trip was launched before",
-        help=f"lead the way through a block that launches the trip. {there(way)}",
+        help=f"lead the way through a block that launches the trip{there(way)}",
+    )
+
+
+def after_a_stop(wrong: Diagnostic) -> Diagnostic:
+    return replace(
+        wrong,
+        code="P2024",
+        message=f"after a Stop, {wrong.message}",
+        help=f"a stopped mission goes on at the nearest block behind it that waits or allocates, "
+        f"STANDBY if it has flown\n{wrong.help}",
     )
 
 
@@ -376,7 +390,7 @@ def drone_held(graph: Graph, node: Node, way: Way) -> Diagnostic:
         "P2054",
         (graph, node.name_span),
         f"a mission waits in `{node.name}` with a drone allocated, which nobody else can use",
-        help=f"put `{node.name}` before the block that allocates. {there(way)}",
+        help=f"put `{node.name}` before the block that allocates{there(way)}",
     )
 
 

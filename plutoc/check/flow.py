@@ -103,6 +103,8 @@ class Flow:
     """Places left with a status that no edge takes."""
     entries: Mapping[Split, tuple[Place, ...]]
     """The places where each fork begins."""
+    nearest: Mapping[str, Place]
+    """The place of each block that is reached by the shortest way."""
     arrives: Mapping[str, frozenset[Status]]
     leaves: Mapping[str, frozenset[Status]]
     carries: Mapping[Edge, frozenset[Status]]
@@ -110,6 +112,13 @@ class Flow:
     def branches(self, node: str, status: Status) -> tuple[Edge, ...]:
         """The edges that take this status from this block."""
         return tuple(e for e in self.edges if e.source == node and status in e.takes)
+
+    def way_to(self, node: str, leaving: Status | None = None) -> Way:
+        """Return the shortest way to a block, and on with that status if one is given."""
+        if leaving is None:
+            return self.way(self.nearest[node])
+        lost = (p for p, s in self.loose if p.node == node and s is leaving)
+        return self.way(next(lost, self.nearest[node]), leaving)
 
     def way(self, place: Place, leaving: Status | None = None) -> Way:
         """Return the shortest way to a place, from where missions are made."""

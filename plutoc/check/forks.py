@@ -54,7 +54,8 @@ def _shared(flow: Flow, found: Branches, branches: Branched) -> Diagnostic | Non
         for inner in filter(lambda fork: _sound(found[fork]), branch.inner):
             for gate in gates_of(found[inner]):
                 if gate in gates:
-                    return errors.shared_gate(flow.graph, branches, found[inner], gate)
+                    way = flow.way(next(b.gates[gate] for b in found[inner] if gate in b.gates))
+                    return errors.shared_gate(flow.graph, branches, found[inner], gate, way)
     return None
 
 

@@ -35,3 +35,7 @@ class Checked:
     forks: tuple[Fork, ...]
     implicit_ends: tuple[tuple[str, Status], ...]
     """Where a mission ends without an edge to `end`."""
+    resumes: Mapping[str, tuple[str, ...]]
+    """Where a mission goes on that was stopped at each block: the way it came decides which."""
+    explored: int
+    """How many states of a mission were explored: the whole cost of the checks hangs on it."""

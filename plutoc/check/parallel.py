@@ -21,7 +21,10 @@ def written_twice(flow: Flow, found: Branches) -> list[Diagnostic]:
                     for attribute in _common(first, second):
                         key = (first.name, second.name, attribute)
                         diagnostics.setdefault(
-                            key, errors.written_twice(flow.graph, first, second, attribute)
+                            key,
+                            errors.written_twice(
+                                flow.graph, first, second, attribute, flow.way_to(second.name)
+                            ),
                         )
     return list(diagnostics.values())
 

@@ -68,7 +68,9 @@ def starved(flow: Flow) -> list[Diagnostic]:
         edges = [e for e in flow.edges if e.target == node.name and flow.leaves.get(e.source)]
         if edges and not all(is_stuck(flow, edge.source) for edge in edges):
             leaving = {edge.source: ordered(flow.leaves[edge.source]) for edge in edges}
-            found.append(errors.starved(flow.graph, node, edges, leaving))
+            found.append(
+                errors.starved(flow.graph, node, edges, leaving, flow.way_to(edges[0].source))
+            )
     return found
 
 
@@ -86,7 +88,7 @@ def untaken(flow: Flow) -> list[Diagnostic]:
         elif edge.otherwise:
             found.append(errors.idle_otherwise(flow.graph, edge, leaving))
         elif _blames_edge(flow, edge):
-            found.append(errors.untaken(flow.graph, edge, leaving))
+            found.append(errors.untaken(flow.graph, edge, leaving, flow.way_to(edge.source)))
     return found
 
 

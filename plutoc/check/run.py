@@ -2,12 +2,25 @@
 
 from __future__ import annotations
 
-from plutoc.check import ending, failures, flights, forks, gates, order, parallel, reach, stuck
-from plutoc.check.branches import branches
+from plutoc.check import (
+    ending,
+    errors,
+    failures,
+    flights,
+    forks,
+    gates,
+    order,
+    parallel,
+    reach,
+    resume,
+    stuck,
+)
+from plutoc.check.branches import Branches, branches
 from plutoc.check.entry import entry
+from plutoc.check.flow import Flow
 from plutoc.check.model import Checked
 from plutoc.check.statuses import creation, explore
-from plutoc.diagnostic import Diagnostic, Rejected, accept_or_raise
+from plutoc.diagnostic import Diagnostic, Rejected, Severity, accept_or_raise
 from plutoc.graph.model import Graph
 
 
@@ -21,22 +34,19 @@ def check(graph: Graph) -> tuple[Checked, tuple[Diagnostic, ...]]:
         raise Rejected(found)
     flow = explore(graph, edges, (creation(creator.name),))
     parallels = branches(flow)
+    found += _in_flight(flow, parallels)
     found += reach.unreached(flow, creator.name, stuck.forgotten_gates(flow, parallels))
     found += reach.starved(flow)
     found += reach.untaken(flow)
-    found += stuck.stuck(flow, parallels)
     found += stuck.ends(flow)
-    found += ending.endless(flow)
-    found += forks.unclosed(flow, parallels)
-    found += gates.idle(flow, parallels)
     found += parallel.written_twice(flow, parallels)
     found += parallel.unwatched_limits(flow, parallels)
-    found += flights.undrawn(flow)
-    found += flights.unlaunched(flow)
     found += flights.held(flow)
     found += failures.unmended(flow)
     found += failures.unbounded(flow)
     found += order.repeated_unjudged(flow)
+    if not any(d.severity is Severity.ERROR for d in found):
+        found += _after_a_stop(flow)
     warnings = accept_or_raise(found)
     checked = Checked(
         graph=graph,
@@ -45,5 +55,26 @@ def check(graph: Graph) -> tuple[Checked, tuple[Diagnostic, ...]]:
         carries=flow.carries,
         forks=forks.closed(parallels),
         implicit_ends=stuck.implicit_ends(flow),
+        resumes=resume.resume_points(flow),
+        explored=len(flow.places),
     )
     return checked, warnings
+
+
+def _in_flight(flow: Flow, parallels: Branches) -> list[Diagnostic]:
+    """Find what can happen to a mission on its way: each shown by the shortest way to it."""
+    return [
+        *stuck.stuck(flow, parallels),
+        *ending.endless(flow),
+        *forks.unclosed(flow, parallels),
+        *gates.idle(flow, parallels),
+        *flights.undrawn(flow),
+        *flights.unlaunched(flow),
+    ]
+
+
+def _after_a_stop(flow: Flow) -> list[Diagnostic]:
+    """Find what can happen only to missions that were stopped and go on."""
+    again = [place for place in resume.resumed(flow) if place not in flow.places]
+    stopped = explore(flow.graph, flow.edges, again)
+    return [errors.after_a_stop(wrong) for wrong in _in_flight(stopped, branches(stopped))]

@@ -190,6 +190,7 @@ class _Walk:
             after={place: tuple(self.after.get(place, ())) for place in self.places},
             loose=tuple(self.loose),
             entries={split: tuple(entries) for split, entries in self.entries.items()},
+            nearest={place.node: place for place in reversed(self.places)},
             arrives={name: frozenset(self.arrives.get(name, ())) for name in self._names()},
             leaves={name: frozenset(self.leaves.get(name, ())) for name in self.graph.node},
             carries={edge: frozenset(self.carries.get(edge, ())) for edge in self.graph.edges},

@@ -59,7 +59,9 @@ def ends(flow: Flow) -> list[Diagnostic]:
     for name, status in implicit_ends(flow):
         left.setdefault(name, []).append(status)
     return [
-        errors.implicit_end(flow.graph, flow.graph.node[name], statuses)
+        errors.implicit_end(
+            flow.graph, flow.graph.node[name], statuses, flow.way_to(name, statuses[0])
+        )
         for name, statuses in left.items()
     ]
 

@@ -6,11 +6,13 @@ from collections.abc import Sequence
 
 from plutoc import diagnostic
 from plutoc.check.branches import Astray
-from plutoc.check.flow import Fork, Way, ordered
+from plutoc.check.flow import Fork, Hop, Way, ordered
 from plutoc.diagnostic import Diagnostic, Related
 from plutoc.graph.model import END, Edge, Graph, Node
 from plutoc.source import Span
 from plutoc_runtime.status import Status
+
+_WIDEST_WAY = 88
 
 
 def listed(statuses: Sequence[Status], last: str = "and") -> str:
@@ -33,20 +35,29 @@ def arrows(blocks: Sequence[str]) -> str:
     return " → ".join(blocks)
 
 
-def way_of(way: Way) -> str:
-    """`create → allocate → launch (RUNNING) → watch`: a status stands where it changes."""
-    parts = []
-    before: Status | None = Status.UNEXECUTED
-    for hop in way:
-        changed = hop.leaving not in (None, before)
-        parts.append(f"{hop.node} ({hop.leaving.value})" if changed and hop.leaving else hop.node)
-        before = hop.leaving
-    return arrows(parts)
+def there(*ways: Way | None) -> str:
+    """The shortest ways that show it, on lines of their own, below what is to be done."""
+    shown = [way for way in ways if way is not None]
+    if not shown:
+        return ""
+    head = f"the shortest way{'s' if len(shown) > 1 else ''} there:"
+    return "\n".join(["", head, *(f"  {line}" for way in shown for line in _wrapped(way))])
 
 
-def there(way: Way | None) -> str:
-    """The shortest way that shows it, as a sentence."""
-    return f"The shortest way: {way_of(way)}" if way else ""
+def _wrapped(way: Way) -> list[str]:
+    lines = [""]
+    for hop in map(_hop, way):
+        step = f" → {hop}" if lines[-1] else hop
+        if len(lines[-1]) + len(step) > _WIDEST_WAY:
+            lines.append(f" {step}")
+        else:
+            lines[-1] += step
+    return lines
+
+
+def _hop(hop: Hop) -> str:
+    """`launch (RUNNING)`: a block, and how it is left."""
+    return f"{hop.node} ({hop.leaving.value})" if hop.leaving else hop.node
 
 
 def fork_of(fork: Fork) -> str:

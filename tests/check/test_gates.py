@@ -96,3 +96,22 @@ def test_a_gate_in_a_branch_gives_back_to_its_own_mission() -> None:
         ("watch", C),
         ("watch", F),
     }
+
+
+def test_branches_see_the_same_end_of_a_trip() -> None:
+    """One branch turns a failure into success and success into failure, the other leaves it.
+
+    Were the two independent, COMPLETED could leave the gate. As they see one end, only FAILED can.
+    """
+    text = f"""{BASIC}
+    timer = TimerMonitor
+    well = MissionModifier emits FAILED
+    badly = MissionModifier emits COMPLETED
+    both = GateFunnel
+    start -> create -> allocate -> launch -> [watch, timer]
+    timer -> both
+    watch -> well when STANDBY, COMPLETED
+    watch -> badly when FAILED
+    [well, badly] -> both
+    both -> allocate when FAILED"""
+    assert checked(text).leaves["both"] == {Status.FAILED}

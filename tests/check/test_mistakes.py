@@ -262,8 +262,9 @@ def test_a_stuck_mission_is_shown_the_way_out_and_the_way_there() -> None:
     """The help names the arrow to add, and the shortest way that shows it."""
     (found,) = errors(MISTAKES["no arrow takes STANDBY"][2])
     assert found.help == (
-        "add `watch -> allocate when STANDBY`. "
-        "The shortest way: create → allocate → launch (RUNNING) → watch (STANDBY)"
+        "add `watch -> allocate when STANDBY`\n"
+        "the shortest way there:\n"
+        "  create (UNEXECUTED) → allocate (UNEXECUTED) → launch (RUNNING) → watch (STANDBY)"
     )
 
 
@@ -296,8 +297,8 @@ def test_the_status_to_take_is_the_one_that_the_way_shows() -> None:
     note -> end"""
     (found,) = errors(text)
     assert found.help is not None
-    assert found.help.startswith("add `note -> watch when RUNNING`.")
-    assert found.help.endswith("watch (STANDBY) → note (RUNNING)")
+    assert found.help.startswith("add `note -> watch when RUNNING`\n")
+    assert found.help.endswith("watch (STANDBY)\n    → note (RUNNING)")
 
 
 def test_a_way_through_a_gate_goes_back_to_the_fork_it_came_from() -> None:
@@ -314,7 +315,8 @@ def test_a_way_through_a_gate_goes_back_to_the_fork_it_came_from() -> None:
     assert found.code == "P2009"
     assert found.help is not None
     assert found.help.endswith(
-        "create → one → gate → allocate → launch (RUNNING) → watch (STANDBY) → one → gate"
+        "  create (UNEXECUTED) → one (UNEXECUTED) → gate (UNEXECUTED) → allocate (UNEXECUTED)\n"
+        "    → launch (RUNNING) → watch (STANDBY) → one (STANDBY) → gate (STANDBY)"
     )
 
 

@@ -73,7 +73,12 @@ def test_json_tells_blocks_lines_and_statuses() -> None:
     """A program gets what a person sees."""
     found = standard.loads(json(check(build(APP))[0]))
     assert found["app"] == "app"
-    assert found["blocks"][0] == {"name": "create", "kind": "MissionCreator", "line": 2}
+    assert found["blocks"][0] == {
+        "name": "create",
+        "kind": "MissionCreator",
+        "line": 2,
+        "resumes_at": ["create"],
+    }
     assert {
         "from": "launch",
         "to": "timer",

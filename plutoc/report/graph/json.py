@@ -20,6 +20,7 @@ def json(checked: Checked) -> str:
                         "name": node.name,
                         "kind": node.block.name,
                         "line": graph.source.position(node.name_span.start)[0],
+                        "resumes_at": list(checked.resumes[node.name]),
                     }
                     for node in graph.nodes
                 ],
