@@ -10,6 +10,7 @@ from plutoc.emit.hooks_file import stub
 from plutoc.emit.stubs import stubs
 from plutoc.hooks.check import missing
 from plutoc.hooks.module import read
+from plutoc.hooks.python import parsed
 from plutoc.source import Source
 
 _BUILTINS = re.compile(r"\b(_?builtins)\.")
@@ -59,7 +60,7 @@ def _import_lines(checked: Checked, hooks: Source, names: tuple[str, ...]) -> li
 def _last_import(hooks: Source) -> int:
     """Return how many lines come before the code: a docstring and imports."""
     last = 0
-    for statement in ast.parse(hooks.text).body:
+    for statement in parsed(hooks).body:
         docstring = isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Constant)
         if not docstring and not isinstance(statement, ast.Import | ast.ImportFrom):
             break

@@ -10,15 +10,9 @@ from plutoc.diagnostic import Diagnostic, Rejected
 from plutoc.graph.names import near
 from plutoc.hooks import errors
 from plutoc.hooks.expected import Expected, expected
-from plutoc.hooks.module import (
-    Function,
-    Module,
-    Unreadable,
-    arg_span,
-    name_span,
-    read,
-    yields,
-)
+from plutoc.hooks.module import Function, Module, arg_span, name_span, read, waits, yields
+from plutoc.hooks.python import Unreadable, check_compiles
+from plutoc.hooks.types import of_types
 from plutoc.source import Source, Span
 
 
@@ -28,6 +22,8 @@ def check_hooks(checked: Checked, hooks: Source | None) -> tuple[Diagnostic, ...
     Without a hooks.py there is nothing to check: the first one will be written with all stubs.
     """
     found = [] if hooks is None else list(_found(checked, hooks))
+    if hooks is not None and not found:
+        found = list(_left(hooks))
     if found:
         raise Rejected(found)
     return ()
@@ -46,10 +42,7 @@ def _found(checked: Checked, hooks: Source) -> Iterator[Diagnostic]:
     try:
         module = read(hooks)
     except Unreadable as error:
-        if error.span is None:
-            yield errors.unreadable(hooks, error.why)
-        else:
-            yield errors.not_python(hooks, error.span, error.why)
+        yield _unreadable(hooks, error)
         return
     app, declared = checked.graph.source, expected(checked)
     free = [
@@ -62,7 +55,21 @@ def _found(checked: Checked, hooks: Source) -> Iterator[Diagnostic]:
             meant = next(iter(near(hook.name, free)), None)
             yield errors.missing(app, hook, hooks.path, meant)
         else:
-            yield from _of_definition(app, hooks, hook, module)
+            yield from _of_definition(checked, hooks, hook, module)
+
+
+def _left(hooks: Source) -> Iterator[Diagnostic]:
+    """Find what would keep Python from loading a file that it can read."""
+    try:
+        check_compiles(hooks)
+    except Unreadable as error:
+        yield _unreadable(hooks, error)
+
+
+def _unreadable(hooks: Source, error: Unreadable) -> Diagnostic:
+    if error.span is None:
+        return errors.unreadable(hooks, error.why)
+    return errors.not_python(hooks, error.span, error.why)
 
 
 def _is_missing(hook: Expected, module: Module) -> bool:
@@ -70,9 +77,10 @@ def _is_missing(hook: Expected, module: Module) -> bool:
 
 
 def _of_definition(
-    app: Source, hooks: Source, hook: Expected, module: Module
+    checked: Checked, hooks: Source, hook: Expected, module: Module
 ) -> Iterator[Diagnostic]:
     """What is imported, assigned or decorated can be anything: it is believed."""
+    app = checked.graph.source
     definition = module.defined.get(hook.name)
     if isinstance(definition, ast.ClassDef):
         yield errors.not_a_function(app, hooks, hook, name_span(hooks, definition))
@@ -82,7 +90,11 @@ def _of_definition(
             yield errors.may_not_wait(app, hooks, hook, span)
         elif yields(definition):
             yield errors.generator(app, hooks, hook, span)
-        yield from _of_parameters(app, hooks, hook, definition, span)
+        elif isinstance(definition, ast.FunctionDef) and waits(definition):
+            wrong = errors.must_wait if hook.may_wait else errors.policy_waits
+            yield wrong(app, hooks, hook, span)
+        mistakes = list(_of_parameters(app, hooks, hook, definition, span))
+        yield from mistakes or of_types(checked.graph, hooks, hook, definition, module)
 
 
 def _of_parameters(

@@ -154,6 +154,86 @@ def generator(app: Source, hooks: Source, hook: Expected, span: Span) -> Diagnos
     )
 
 
+def unknown_annotation(
+    app: Source,
+    hooks: Source,
+    hook: Expected,
+    span: Span,
+    name: str,
+    near: str | None,
+    exported: bool,
+) -> Diagnostic:
+    """A name in the types of a hook that the file does not have."""
+    label = f"did you mean `{near}`?" if near else "nothing of this name"
+    return _on_hook(
+        "P3012",
+        f"`{name}`, a type of `{hook.name}`, is neither imported nor defined in this file",
+        app,
+        hooks,
+        hook,
+        span,
+        label=f"write `from . import {name}`" if exported else label,
+    )
+
+
+def wrong_annotation(
+    app: Source, hooks: Source, hook: Expected, span: Span, name: str, written: str, gets: str
+) -> Diagnostic:
+    """A parameter with the type of something else than what arrives."""
+    return _on_hook(
+        "P3013",
+        f"`{name}` of `{hook.name}` is written as `{written}`, and gets {_article(gets)} `{gets}`",
+        app,
+        hooks,
+        hook,
+        span,
+        label=f"{_article(gets)} `{gets}` arrives here",
+    )
+
+
+def wrong_return(
+    app: Source, hooks: Source, hook: Expected, span: Span, written: str, wanted: str
+) -> Diagnostic:
+    """A hook that says that it returns what the app can do nothing with."""
+    nothing = f"{_a(hook)} without `emits` returns nothing"
+    return _on_hook(
+        "P3014",
+        f"`{hook.name}` returns `{written}`, and "
+        + (nothing if wanted == "None" else f"the app needs {_article(wanted)} `{wanted}`"),
+        app,
+        hooks,
+        hook,
+        span,
+        label=f"must be `{wanted}`",
+    )
+
+
+def must_wait(app: Source, hooks: Source, hook: Expected, span: Span) -> Diagnostic:
+    """A hook with an `await` that is no `async def`."""
+    return _on_hook(
+        "P3015",
+        f"`{hook.name}` waits for something, and only an `async def` can",
+        app,
+        hooks,
+        hook,
+        span,
+        label=f"needs `async def {hook.name}`",
+    )
+
+
+def policy_waits(app: Source, hooks: Source, hook: Expected, span: Span) -> Diagnostic:
+    """A policy with an `await`."""
+    return _on_hook(
+        "P3010",
+        f"{_a(hook)} answers at once: `{hook.name}` cannot wait for anything",
+        app,
+        hooks,
+        hook,
+        span,
+        label="waits",
+    )
+
+
 def _on_hook(
     code: str, message: str, app: Source, hooks: Source, hook: Expected, span: Span, *, label: str
 ) -> Diagnostic:
@@ -169,8 +249,11 @@ def _on_hook(
 
 
 def _a(hook: Expected) -> str:
-    word = hook.kind.value
-    return f"an {word}" if word[0] in "aeiou" else f"a {word}"
+    return f"{_article(hook.kind.value)} {hook.kind.value}"
+
+
+def _article(word: str) -> str:
+    return "an" if word[0] in "aeiou" else "a"
 
 
 def _listed(names: Sequence[str]) -> str:

@@ -29,6 +29,8 @@ class Expected:
     """What it gets by position."""
     own: tuple[Parameter, ...]
     """What it gets by name: the parameters that the app declares."""
+    returns: str
+    """The type of what it returns, `object` where that is free."""
     may_wait: bool
     """It may be an `async def`."""
     span: Span
@@ -61,8 +63,17 @@ def _expected(hook: Action | Hook, draft: Stub) -> Expected:
         name=hook.name,
         passed=_PASSED[kind],
         own=hook.parameters,
+        returns=_returns(hook),
         may_wait=kind is not HookKind.POLICY,
         span=hook.span,
         first_line=first_line,
         stub="\n    ".join([first_line, *draft.lines]),
     )
+
+
+def _returns(hook: Action | Hook) -> str:
+    if isinstance(hook, Action):
+        return "object"
+    if hook.kind is HookKind.MODIFIER:
+        return "Status" if hook.emits else "None"
+    return "Verdict" if hook.kind is HookKind.EVALUATOR else "Drone"

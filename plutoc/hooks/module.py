@@ -3,22 +3,14 @@
 from __future__ import annotations
 
 import ast
-import warnings
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 
+from plutoc.hooks.python import at, column_of, parsed
 from plutoc.source import Source, Span
 
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 Definition = Function | ast.ClassDef | None
-
-
-class Unreadable(Exception):
-    """It is not Python. Carries the place, if Python told one, and what it said."""
-
-    def __init__(self, why: str, span: Span | None) -> None:
-        super().__init__(why)
-        self.why, self.span = why, span
 
 
 @dataclass(slots=True)
@@ -28,8 +20,12 @@ class Module:
     source: Source
     defined: dict[str, Definition] = field(default_factory=dict)
     """By name, the last definition; None for a name that is imported or assigned."""
+    imported: dict[str, str] = field(default_factory=dict)
+    """What each imported name is: `typing.Any`, `.Mission` for one of the package itself."""
     imports_all: bool = False
-    """There is a `from … import *`: any name may be there."""
+    """There is a `from … import *`, or a `__getattr__`: any name may be there."""
+    late: bool = False
+    """`from __future__ import annotations`: Python does not look at them."""
 
 
 def read(source: Source) -> Module:
@@ -38,97 +34,114 @@ def read(source: Source) -> Module:
     The text's lines end with `\\n`, as Python reads them.
     """
     module = Module(source)
-    for statement in _all(_parsed(source).body):
+    for statement in _all(parsed(source)):
         _note(module, statement)
     return module
 
 
-def _parsed(source: Source) -> ast.Module:
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # a wrong escape: Python will say so when it flies
-            return ast.parse(source.text)
-    except SyntaxError as error:
-        raise Unreadable(error.msg, _place(source, error)) from None
-    except (RecursionError, MemoryError):
-        raise Unreadable("it is nested too deep", None) from None
-    except ValueError:  # before Python 3.12; since then it is a SyntaxError
-        raise Unreadable("it holds a null byte, which is no text", None) from None
-
-
-def _place(source: Source, error: SyntaxError) -> Span | None:
-    if error.lineno is None:
-        return None
-    lines = source.text.count("\n") + 1
-    number = min(max(error.lineno, 1), lines)
-    column = min(max(error.offset or 1, 1), len(source.line(number)) + 1)
-    return at(source, number, column - 1)
-
-
-def at(source: Source, line: int, column: int, length: int = 1) -> Span:
-    """Return a place by its line from 1 and its column from 0."""
-    start = sum(len(text) + 1 for text in source.text.split("\n")[: line - 1]) + column
-    return Span(start, start + length)
-
-
-def _all(statements: Iterable[ast.stmt]) -> Iterator[ast.stmt]:
+def _all(module: ast.Module) -> Iterator[ast.stmt]:
     """Go through a module's statements, and those that it may skip: `if`, `try`, `with`, loops."""
-    for statement in statements:
-        yield statement
-        if isinstance(statement, Function | ast.ClassDef):
-            continue
-        for child in ast.iter_child_nodes(statement):
-            if isinstance(child, ast.stmt):
-                yield from _all([child])
-            elif isinstance(child, ast.ExceptHandler | ast.match_case):
-                yield from _all(child.body)
+    waiting: list[ast.AST] = list(reversed(module.body))
+    while waiting:
+        node = waiting.pop()
+        if isinstance(node, ast.stmt):
+            yield node
+        if not isinstance(node, Function | ast.ClassDef):
+            inner = (ast.stmt, ast.ExceptHandler, ast.match_case)
+            children = [child for child in ast.iter_child_nodes(node) if isinstance(child, inner)]
+            waiting.extend(reversed(children))
 
 
 def _note(module: Module, statement: ast.stmt) -> None:
     match statement:
         case ast.FunctionDef() | ast.AsyncFunctionDef() | ast.ClassDef():
-            module.defined[statement.name] = statement
-        case ast.Import() | ast.ImportFrom():
+            module.imports_all |= statement.name == "__getattr__"
+            _define(module, statement.name, statement)
+        case ast.Import():
+            for alias in statement.names:
+                whole = alias.name if alias.asname else alias.name.partition(".")[0]
+                _define(module, alias.asname or whole, None, whole)
+        case ast.ImportFrom():
+            start = "." * statement.level + (statement.module or "")
+            start += "" if start.endswith(".") else "."
             for alias in statement.names:
                 module.imports_all |= alias.name == "*"
-                module.defined[alias.asname or alias.name.partition(".")[0]] = None
+                module.late |= (start, alias.name) == ("__future__.", "annotations")
+                _define(module, alias.asname or alias.name, None, start + alias.name)
         case ast.AnnAssign(value=None):
             pass  # only says what it would be
-        case ast.Assign() | ast.AnnAssign():
-            for node in ast.walk(statement):
-                if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
-                    module.defined[node.id] = None
+        case _:
+            for name in _bound(statement):
+                _define(module, name, None)
+
+
+def _define(module: Module, name: str, what: Definition, imported: str | None = None) -> None:
+    module.defined[name] = what
+    module.imported.pop(name, None)
+    if imported is not None:
+        module.imported[name] = imported
+
+
+def _bound(statement: ast.stmt) -> Iterator[str]:
+    """Yield the names that a statement gives a value, its inner statements left out."""
+    waiting: list[ast.AST] = [statement]
+    while waiting:
+        node = waiting.pop()
+        if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+            yield node.id
+        waiting.extend(
+            child
+            for child in ast.iter_child_nodes(node)
+            if not isinstance(child, ast.stmt | ast.ExceptHandler | ast.match_case)
+        )
 
 
 def name_span(source: Source, definition: Function | ast.ClassDef) -> Span:
     """Return the place of a definition's name."""
     line = source.line(definition.lineno)
     word = "class" if isinstance(definition, ast.ClassDef) else "def"
-    before = line.find(word, _column(line, definition.col_offset)) + len(word)
+    before = line.find(word, column_of(line, definition.col_offset)) + len(word)
     column = line.find(definition.name, before)
     if column < 0:  # the name stands in the next line, behind a backslash
-        return at(source, definition.lineno, _column(line, definition.col_offset))
+        return at(source, definition.lineno, column_of(line, definition.col_offset))
     return at(source, definition.lineno, column, len(definition.name))
 
 
 def arg_span(source: Source, arg: ast.arg) -> Span:
     """Return the place of a parameter's name."""
-    column = _column(source.line(arg.lineno), arg.col_offset)
-    return at(source, arg.lineno, column, len(arg.arg))
+    return at(source, *_start(source, arg), len(arg.arg))
 
 
-def _column(line: str, byte: int) -> int:
-    """Python counts columns in bytes of UTF-8."""
-    return len(line.encode("utf-8", "surrogatepass")[:byte].decode("utf-8", "ignore"))
+def node_span(source: Source, node: ast.expr) -> Span:
+    """Return the place of an expression, or of its first line."""
+    line, column = _start(source, node)
+    text = source.line(line)
+    end = len(text)
+    if node.end_lineno == line and node.end_col_offset is not None:
+        end = column_of(text, node.end_col_offset)
+    return at(source, line, column, max(end - column, 1))
+
+
+def _start(source: Source, node: ast.expr | ast.arg) -> tuple[int, int]:
+    return node.lineno, column_of(source.line(node.lineno), node.col_offset)
 
 
 def yields(function: Function) -> bool:
     """Say whether calling it gives a generator, and not what it returns."""
-    waiting: list[ast.AST] = list(function.body)
+    return any(isinstance(node, ast.Yield | ast.YieldFrom) for node in _own_nodes(function))
+
+
+def waits(function: Function) -> ast.AST | None:
+    """Return a place where it waits, if it does: `await`, `async for`, `async with`."""
+    asynchronous = (ast.Await, ast.AsyncFor, ast.AsyncWith)
+    return next((node for node in _own_nodes(function) if isinstance(node, asynchronous)), None)
+
+
+def _own_nodes(function: Function) -> Iterator[ast.AST]:
+    """Go through a function's body without the functions in it."""
+    waiting: list[ast.AST] = list(reversed(function.body))
     while waiting:
         node = waiting.pop()
-        if isinstance(node, ast.Yield | ast.YieldFrom):
-            return True
+        yield node
         if not isinstance(node, Function | ast.ClassDef | ast.Lambda):
-            waiting.extend(ast.iter_child_nodes(node))
-    return False
+            waiting.extend(reversed(list(ast.iter_child_nodes(node))))

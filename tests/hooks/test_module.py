@@ -8,7 +8,8 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from plutoc.hooks.module import Unreadable, arg_span, name_span, read, yields
+from plutoc.hooks.module import arg_span, name_span, read, yields
+from plutoc.hooks.python import Unreadable
 from plutoc.source import Source
 
 

@@ -1,0 +1,87 @@
+"""The types that a hook is written with, against what arrives and what is wanted."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from plutoc.diagnostic import Diagnostic
+from plutoc.graph.model import Graph
+from plutoc.graph.names import near
+from plutoc.hooks import errors
+from plutoc.hooks.annotations import Meaning, Scope, meaning, unknown_names
+from plutoc.hooks.expected import Expected
+from plutoc.hooks.module import Function, Module, node_span
+from plutoc.source import Source
+from plutoc.syntax.words import shortened
+from plutoc_runtime.quantities import PYTHON
+
+_ARRIVES = {
+    "drone": "Drone",
+    "trip": "Trip",
+    "context": "Context",
+    "mission": "Mission",
+    "results": "Results",
+    "candidates": "Sequence",
+}
+"""The types of what comes by position."""
+
+_TAKES = {
+    "bool": {"int", "float", "complex"},
+    "int": {"float", "complex"},
+    "float": {"complex"},
+    "Sequence": {"tuple", "list"},
+}
+"""Types besides its own that something can be taken for; every one can be for an object."""
+
+_NEVER_WRONG = "object"
+_LONGEST = 40
+
+
+def of_types(
+    graph: Graph, hooks: Source, hook: Expected, function: Function, module: Module
+) -> Iterator[Diagnostic]:
+    """Find types that nothing has, and those of something else; silent where it cannot be known."""
+    generic = frozenset(one.name for one in getattr(function, "type_params", ()))
+    scope = Scope(module=module, app=graph.name, parameters=generic)
+    app = graph.source
+    for annotation, name, arrives in _expected(hook, function):
+        unknown = list(unknown_names(annotation, scope))
+        for one in unknown:
+            meant = next(iter(near(one.name, one.options)), None)
+            span = node_span(hooks, one.place)
+            yield errors.unknown_annotation(app, hooks, hook, span, one.name, meant, one.exported)
+        allowed = _meaning(annotation, scope)
+        if unknown or arrives is None or allowed is None or _NEVER_WRONG in allowed:
+            continue
+        span = node_span(hooks, annotation)
+        written = shortened(hooks.quote(span), _LONGEST)
+        if name is None:
+            if arrives not in allowed:
+                yield errors.wrong_return(app, hooks, hook, span, written, arrives)
+        elif not allowed & {arrives, *_TAKES.get(arrives, ())}:
+            yield errors.wrong_annotation(app, hooks, hook, span, name, written, arrives)
+
+
+def _expected(
+    hook: Expected, function: Function
+) -> Iterator[tuple[ast.expr, str | None, str | None]]:
+    """Yield every annotation with its parameter, or None for the result, and with what arrives."""
+    arguments = function.args
+    by_place = [*arguments.posonlyargs, *arguments.args]
+    own = {parameter.name: PYTHON[parameter.type] for parameter in hook.own}
+    arrives = {arg: _ARRIVES[name] for arg, name in zip(by_place, hook.passed, strict=False)}
+    for arg in (*by_place, arguments.vararg, *arguments.kwonlyargs, arguments.kwarg):
+        if arg is not None and arg.annotation is not None:
+            several = arg in (arguments.vararg, arguments.kwarg)
+            yield arg.annotation, arg.arg, None if several else arrives.get(arg, own.get(arg.arg))
+    if function.returns is not None:
+        wanted = None if hook.returns == _NEVER_WRONG else hook.returns
+        yield function.returns, None, wanted
+
+
+def _meaning(annotation: ast.expr, scope: Scope) -> Meaning:
+    try:
+        return meaning(annotation, scope)
+    except RecursionError:  # a type of a thousand parts
+        return None

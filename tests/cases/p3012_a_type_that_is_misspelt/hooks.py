@@ -1,0 +1,5 @@
+from . import Mission, Results, Verdict
+
+
+def find_blooms(mission: Misson, results: Results) -> Verdict:
+    return Verdict(ok=True)

@@ -1,0 +1,2 @@
+def spray(drone, trip, context, *, dose: str):
+    context.log("sprayed " + dose)

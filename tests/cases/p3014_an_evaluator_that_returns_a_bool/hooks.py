@@ -1,0 +1,2 @@
+def find_blooms(mission, results) -> bool:
+    return len(results.new) > 3

@@ -1,0 +1,2 @@
+def settle(mission, context, *, rest):
+    await context.sleep(rest)
