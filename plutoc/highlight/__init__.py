@@ -1,0 +1,1 @@
+"""Colours for sources: one table of rules, for editors (TextMate) and for pages (Pygments)."""

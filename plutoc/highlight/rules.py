@@ -1,0 +1,63 @@
+"""What stands out in a source, as regular expressions: the first rule that fits a place wins.
+
+The words, units, types and statuses are the compiler's own lists. The expressions keep to what
+Python and Oniguruma, which editors use, both understand.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from enum import Enum
+
+from plutoc.graph.model import END, START
+from plutoc.syntax.newlines import WORDS
+from plutoc_runtime.quantities import UNITS, Type
+from plutoc_runtime.status import IN_GRAPH
+
+
+class Kind(Enum):
+    """What a piece of a source is."""
+
+    COMMENT = "comment"
+    TEXT = "text"
+    NUMBER = "number"
+    PARAMETER = "the name before a colon"
+    DECLARED = "the name before an equals sign"
+    WORD = "a word of the language"
+    CONSTANT = "a value, or how an action repeats"
+    STATUS = "a status"
+    TYPE = "a parameter's type"
+    TERMINAL = "start and end"
+    BLOCK = "a kind of block"
+    ARROW = "->"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Rule:
+    """A kind, and where it is found."""
+
+    kind: Kind
+    pattern: str
+
+
+def _one_of(words: tuple[str, ...]) -> str:
+    return rf"\b(?:{'|'.join(words)})\b"
+
+
+_UNITS = "|".join(re.escape(unit) for unit in sorted(UNITS, key=len, reverse=True))
+
+RULES = (
+    Rule(kind=Kind.COMMENT, pattern=r"#.*"),
+    Rule(kind=Kind.TEXT, pattern=r'"(?:[^"\\\n]|\\.)*"?'),
+    Rule(kind=Kind.NUMBER, pattern=rf"-?\b[0-9]+(?:\.[0-9]+)?(?:[ \t]*(?:{_UNITS})(?!\w))?"),
+    Rule(kind=Kind.PARAMETER, pattern=r"\b[A-Za-z]\w*(?=[ \t]*:)"),
+    Rule(kind=Kind.DECLARED, pattern=r"^[ \t]*[A-Za-z]\w*(?=[ \t]*=)"),
+    Rule(kind=Kind.WORD, pattern=_one_of(WORDS)),
+    Rule(kind=Kind.CONSTANT, pattern=_one_of(("yes", "no", "safe", "once", "ask"))),
+    Rule(kind=Kind.STATUS, pattern=_one_of(tuple(status.value for status in IN_GRAPH))),
+    Rule(kind=Kind.TYPE, pattern=_one_of(tuple(kind.value for kind in Type))),
+    Rule(kind=Kind.TERMINAL, pattern=_one_of((START, END))),
+    Rule(kind=Kind.BLOCK, pattern=r"\b[A-Z]\w*"),
+    Rule(kind=Kind.ARROW, pattern=r"->"),
+)

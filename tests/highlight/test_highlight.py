@@ -1,0 +1,84 @@
+"""Colours: every example is read without an error, and the files for editors are current."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from importlib import import_module
+from json import loads
+from pathlib import Path
+
+import pytest
+from pygments import token
+
+from plutoc.highlight.pygments_lexer import PlutoLexer
+from plutoc.highlight.rules import RULES
+from plutoc.highlight.textmate import SCOPES, grammar
+from plutoc.syntax.newlines import WORDS
+from plutoc_runtime.quantities import UNITS
+
+ROOT = Path(__file__).parents[2]
+EXAMPLES = sorted((ROOT / "examples").glob("*/*.pluto"))
+TEXTMATE = ROOT / "docs" / "editor" / "pluto.tmLanguage.json"
+
+
+def tokens(text: str) -> list[tuple[object, str]]:
+    """The tokens of a text that are not blank."""
+    return [(kind, said) for kind, said in PlutoLexer().get_tokens(text) if said.strip()]
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+def test_an_example_is_coloured_whole(path: Path) -> None:
+    text = path.read_text(encoding="utf-8")
+    found = list(PlutoLexer().get_tokens(text))
+    assert "".join(said for _, said in found) == text
+    assert token.Error not in {kind for kind, _ in found}
+    assert {token.Keyword, token.Operator, token.Name.Class} <= {kind for kind, _ in found}
+
+
+@pytest.mark.parametrize("word", WORDS)
+def test_each_word_of_the_language_is_a_keyword(word: str) -> None:
+    assert tokens(f"{word} x") == [(token.Keyword, word), (token.Name, "x")]
+
+
+@pytest.mark.parametrize("unit", UNITS)
+def test_a_quantity_is_one_number(unit: str) -> None:
+    assert tokens(f"(limit: -2.5 {unit})")[3] == (token.Number, f"-2.5 {unit}")
+
+
+def test_a_word_before_a_colon_is_a_parameter() -> None:
+    """Inside brackets the language's words are ordinary names."""
+    assert (token.Name.Attribute, "policy") in tokens("allocate = DroneAllocator(policy: nearest)")
+
+
+def test_a_sign_in_a_text_begins_no_comment() -> None:
+    assert tokens('app a "no # comment"  # one')[-2:] == [
+        (token.String.Double, '"no # comment"'),
+        (token.Comment.Single, "# one"),
+    ]
+
+
+def test_the_grammar_for_editors_is_current(update: bool) -> None:
+    if update:
+        TEXTMATE.write_text(grammar(), encoding="utf-8")
+    assert TEXTMATE.read_text(encoding="utf-8") == grammar()
+
+
+def test_the_grammar_for_editors_has_each_rule_once() -> None:
+    patterns = loads(grammar())["patterns"]
+    assert [one["match"] for one in patterns] == [rule.pattern for rule in RULES]
+    assert {one["name"] for one in patterns} == {f"{scope}.pluto" for scope in SCOPES.values()}
+    assert all(re.compile(one["match"]) for one in patterns)
+
+
+def test_pygments_finds_the_lexer_where_the_package_says() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    module, _, name = project["entry-points"]["pygments.lexers"]["pluto"].partition(":")
+    assert getattr(import_module(module), name) is PlutoLexer
+
+
+def test_the_extension_for_an_editor_names_files_that_are_there() -> None:
+    folder = TEXTMATE.parent
+    contributed = loads((folder / "package.json").read_text(encoding="utf-8"))["contributes"]
+    named = [contributed["languages"][0]["configuration"], contributed["grammars"][0]["path"]]
+    assert all(loads((folder / name).read_text(encoding="utf-8")) for name in named)
