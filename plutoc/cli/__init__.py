@@ -98,6 +98,10 @@ def _run(options: Options) -> int:
             from plutoc.cli.run import run
 
             return run(options)
+        case "fmt":
+            from plutoc.cli.fmt import fmt
+
+            return fmt(options)
         case "graph":
             from plutoc.cli.graph import graph
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 from pathlib import Path
 
 from plutoc.check.model import Checked
@@ -12,6 +13,7 @@ from plutoc.syntax.parse import LARGEST
 from plutoc_runtime.words import printable
 
 HOOKS = "hooks.py"
+STANDARD_INPUT = Path("-")
 _OTHER_FILES = (".toml", ".py")
 """What lies beside an app, and is easily given in its place."""
 
@@ -26,6 +28,18 @@ def read_app(path: Path) -> Source:
     if path.suffix.lower() in _OTHER_FILES:
         raise Unusable(f"{shown(path)} is no app: an app is a file whose name ends with .pluto")
     return Source(shown(path), _text(path))
+
+
+def read_standard_input() -> Source:
+    """Read an app from standard input; raise `Unusable` where there is nothing to parse."""
+    name = "standard input"
+    if sys.stdin is None:
+        raise Unusable(f"{name} is closed")
+    try:
+        data = sys.stdin.buffer.read(LARGEST + 1)
+    except (OSError, ValueError) as error:
+        raise Unusable(f"{name} cannot be read: {_why(error)}") from None
+    return Source("<stdin>", _decoded(data, name))
 
 
 def find_hooks(checked: Checked, file: Path, folder: Path) -> Source | None:
@@ -63,13 +77,17 @@ def _text(path: Path) -> str:
         raise Unusable(f"there is no file {shown(path)}") from None
     except (OSError, ValueError) as error:
         raise Unusable(f"{shown(path)} cannot be read: {_why(error)}") from None
+    return _decoded(data, shown(path))
+
+
+def _decoded(data: bytes, name: str) -> str:
     if len(data) > LARGEST:
-        raise Unusable(f"{shown(path)} is larger than {LARGEST // 1024} KiB")
+        raise Unusable(f"{name} is larger than {LARGEST // 1024} KiB")
     try:
         return data.decode("utf-8")
     except UnicodeDecodeError as error:
         line = data.count(b"\n", 0, error.start) + 1
-        raise Unusable(f"{shown(path)} is not UTF-8 text: see line {line}") from None
+        raise Unusable(f"{name} is not UTF-8 text: see line {line}") from None
 
 
 def _why(error: OSError | ValueError) -> str:

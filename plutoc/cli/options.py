@@ -61,6 +61,7 @@ def parse(argv: Sequence[str] | None) -> Options:
     _check(command("check", "Say what is wrong with an app; nothing is written."))
     _compile(command("compile", "Write the Python package of an app."))
     _run(command("run", "Compile an app and simulate its missions at once."))
+    _fmt(command("fmt", "Write sources in canonical form; comments and meaning are kept."))
     _graph(command("graph", "Print the picture of an app, with the statuses on every edge."))
     _blocks(command("blocks", "List the blocks that are installed, or explain one."))
     _explain(command("explain", "Say what the code of an error or a warning means."))
@@ -162,6 +163,22 @@ def _run(parser: ArgumentParser) -> None:
         "--seed", metavar="N", type=_whole, help="what chance depends on (default 0)"
     )
     parser.add_argument("--json", action="store_true", help="print one JSON object instead")
+
+
+def _fmt(parser: ArgumentParser) -> None:
+    parser.add_argument(
+        "files",
+        metavar="FILE",
+        type=Path,
+        nargs="+",
+        help="apps, .pluto files; - for standard input, with the result on standard output",
+    )
+    parser.add_argument(
+        "--check", action="store_true", help="write nothing; exit with 1 if something would change"
+    )
+    parser.add_argument(
+        "--diff", action="store_true", help="write nothing; print what would change"
+    )
 
 
 def _graph(parser: ArgumentParser) -> None:
