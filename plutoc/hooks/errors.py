@@ -17,13 +17,18 @@ def not_python(hooks: Source, span: Span, why: str) -> Diagnostic:
         hooks,
         span,
         label="Python stops here",
-        help="mend it first: hooks can only be checked in a file that Python can read",
+        help=_MEND_FIRST,
     )
 
 
 def unreadable(hooks: Source, why: str) -> Diagnostic:
     """A hooks.py that cannot be read at all."""
-    return error("P3002", f"`{hooks.path}` cannot be read: {why}", hooks, Span(0, 0))
+    return error(
+        "P3002", f"`{hooks.path}` cannot be read: {why}", hooks, Span(0, 0), help=_MEND_FIRST
+    )
+
+
+_MEND_FIRST = "mend it first: hooks can only be checked in a file that Python can read"
 
 
 def missing(app: Source, hook: Expected, path: str, near: str | None) -> Diagnostic:

@@ -14,6 +14,7 @@ from plutoc.source import Source, Span
 _COOKIE = re.compile(r"[ \t\f]*#.*?coding[:=][ \t]*([-\w.]+)", re.ASCII)
 _WORD = re.compile(r"[^\W\d]\w*|\.|[^\s\\]")
 _LONGEST_CHAIN = 200
+_NULL = "it holds a null byte, which is no text"
 
 
 class Unreadable(Exception):
@@ -29,6 +30,8 @@ def parsed(source: Source) -> ast.Module:
 
     The text's lines end with `\\n`, as Python reads them.
     """
+    if "\0" in source.text:  # Pythons differ in what they say of it
+        raise Unreadable(_NULL, None)
     _check_encoding(source)
     _check_chains(source.text)
     with _told(source):
@@ -62,7 +65,7 @@ def _told(source: Source) -> Iterator[None]:
     except (RecursionError, MemoryError):
         raise Unreadable("it is nested too deep", None) from None
     except ValueError:  # before Python 3.12; since then it is a SyntaxError
-        raise Unreadable("it holds a null byte, which is no text", None) from None
+        raise Unreadable(_NULL, None) from None
 
 
 def _place(source: Source, error: SyntaxError) -> Span | None:
