@@ -6,10 +6,13 @@ from dataclasses import dataclass, field
 from heapq import heappop, heappush
 from itertools import pairwise
 from math import dist, inf
+from typing import TYPE_CHECKING
 
 from .geometry import EPSILON, Corner, enters, inside, outlined, pushed_out
-from .model import Point
 from .words import number, place
+
+if TYPE_CHECKING:
+    from .model import Point
 
 MARGIN = 0.1
 """How far from the corner of a no-fly area a route turns, in metres."""

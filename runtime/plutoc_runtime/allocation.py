@@ -11,16 +11,19 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import groupby
 from math import inf
+from typing import TYPE_CHECKING
 
-from .airspace import Airspace
-from .app import App
 from .eligibility import Demand
 from .energy import docked
 from .errors import MissionFailed
 from .kernel import FLEET, Kernel, Kind, Signal, Timer
-from .model import Drone, Trip
 from .policy import Decision, Offer, Policy
 from .status import DroneStatus
+
+if TYPE_CHECKING:
+    from .airspace import Airspace
+    from .app import App
+    from .model import Drone, Trip
 
 _GONE = (DroneStatus.LOST, DroneStatus.OFFLINE)
 _IN_THE_AIR = (DroneStatus.BUSY, DroneStatus.RETURNING, DroneStatus.RECOVERING)

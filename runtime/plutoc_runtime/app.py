@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Coroutine, Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from .actions import Action
-from .fields import Field
-from .model import Category, Mission, Trip
 from .status import Status
+
+if TYPE_CHECKING:
+    from .actions import Action
+    from .fields import Field
+    from .model import Category, Mission, Trip
 
 Flow = Callable[[Any], Coroutine[Any, Any, Status]]
 """The coroutine function that takes one mission from start to end."""

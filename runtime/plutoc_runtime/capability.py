@@ -5,13 +5,16 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import IntEnum
+from typing import TYPE_CHECKING
 
 from .actions import PICK, RELEASE
-from .airspace import Airspace
-from .app import App
 from .energy import CLIMB_SPEED, needed
-from .model import Category, Point, Trip
 from .words import mass, percent, place
+
+if TYPE_CHECKING:
+    from .airspace import Airspace
+    from .app import App
+    from .model import Category, Point, Trip
 
 
 class Lacks(IntEnum):

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from math import isfinite
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from .core import Core
 from .kernel import Kind, Signal
-from .model import Trip
-from .results import Result
-from .state import State
+
+if TYPE_CHECKING:
+    from .core import Core
+    from .model import Trip
+    from .results import Result
+    from .state import State
 
 
 class Context:

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-from .airspace import Airspace
-from .app import App
-from .fleet import Fleet
-from .kernel import Kernel
-from .navigation import Navigation
-from .results import ResultStore
-from .trace import Trace
-from .transitions import Transitions
+if TYPE_CHECKING:
+    from .airspace import Airspace
+    from .app import App
+    from .fleet import Fleet
+    from .kernel import Kernel
+    from .navigation import Navigation
+    from .results import ResultStore
+    from .trace import Trace
+    from .transitions import Transitions
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

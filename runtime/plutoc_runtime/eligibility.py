@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
-from .airspace import Airspace
-from .app import App
 from .capability import stops_of, why_not
 from .energy import needed
-from .model import Category, Drone, Point, Trip
+
+if TYPE_CHECKING:
+    from .airspace import Airspace
+    from .app import App
+    from .model import Category, Drone, Point, Trip
 
 NO_WAY = 2.0
 """A battery level that no drone ever has."""

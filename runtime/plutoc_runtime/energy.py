@@ -7,9 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from math import dist, hypot, inf, isinf
+from typing import TYPE_CHECKING
 
-from .airspace import Airspace
-from .model import Category, Point
+if TYPE_CHECKING:
+    from .airspace import Airspace
+    from .model import Category, Point
 
 CLIMB_SPEED = 0.3
 """Metres a second, straight up and straight down."""

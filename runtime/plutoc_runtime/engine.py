@@ -4,16 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from .core import Core
 from .errors import MissionFailed
 from .flight import abort
 from .kernel import Cancelled, Kind, Signal
-from .model import Mission
 from .run import Run
 from .state import State
 from .status import Status
+
+if TYPE_CHECKING:
+    from .core import Core
+    from .model import Mission
 
 
 class Engine:

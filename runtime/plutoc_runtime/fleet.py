@@ -8,18 +8,20 @@ from __future__ import annotations
 from collections.abc import Callable, Coroutine, Sequence
 from enum import Enum
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from .airspace import Airspace
-from .allocation import Queue
 from .energy import docked
 from .errors import Failure, FlightFailed
 from .kernel import FLEET, Kernel, Key, Kind, Signal, Task
-from .model import Drone, Point
-from .navigation import Navigation
 from .status import DroneStatus
-from .trace import Trace
 from .words import place
+
+if TYPE_CHECKING:
+    from .airspace import Airspace
+    from .allocation import Queue
+    from .model import Drone, Point
+    from .navigation import Navigation
+    from .trace import Trace
 
 
 class AfterTrip(Enum):

@@ -4,18 +4,21 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import partial
+from typing import TYPE_CHECKING
 
 from .actions import PICK, RELEASE, Action
 from .context import Context
-from .core import Core
 from .energy import flight_seconds
 from .errors import ActionFailed, Failure, FlightFailed, HookFault
 from .hooks import call_hook
 from .kernel import Key, Kind, Signal
-from .model import Drone, Trip
 from .navigation import Order
-from .state import Flight, State
-from .status import Status
+
+if TYPE_CHECKING:
+    from .core import Core
+    from .model import Drone, Trip
+    from .state import Flight, State
+    from .status import Status
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from .app import App
-from .files.fleet import FleetFile
-from .model import Mission
 from .realtime import RealTime
 from .session import Listener, Outcome, Session
-from .simulation.faults import Faults
+
+if TYPE_CHECKING:
+    from .app import App
+    from .files.fleet import FleetFile
+    from .model import Mission
+    from .simulation.faults import Faults
 
 
 async def fly_simulated(

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from .actions import PICK, RELEASE
 from .capability import why_not
-from .core import Core
 from .errors import HookFault
 from .hooks import hook_name
-from .model import Mission, Trip
-from .run import Run
 from .soundness import unsound
 from .status import Status, TripStatus
 from .verdict import Verdict
+
+if TYPE_CHECKING:
+    from .core import Core
+    from .model import Mission, Trip
+    from .run import Run
 
 
 def apply(run: Run[Any], hook: Callable[..., object], verdict: object) -> Status:

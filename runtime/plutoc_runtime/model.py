@@ -9,11 +9,13 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from math import dist
-from typing import Generic, Protocol, TypeVar
+from typing import TYPE_CHECKING, Generic, Protocol, TypeVar
 
-from .actions import Plain
 from .errors import MissionFailed
 from .status import DroneStatus, Status, TripStatus
+
+if TYPE_CHECKING:
+    from .actions import Plain
 
 Point = tuple[float, float, float]
 

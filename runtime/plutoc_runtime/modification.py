@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from .errors import HookFault
 from .flight import abort
 from .hooks import hook_name
-from .run import Run
 from .soundness import unsound
-from .state import State
 from .status import Status, TripStatus
+
+if TYPE_CHECKING:
+    from .run import Run
+    from .state import State
 
 
 def settle(

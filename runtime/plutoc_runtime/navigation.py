@@ -9,10 +9,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
-from .actions import Plain
-from .model import Item, Point, Telemetry
+if TYPE_CHECKING:
+    from .actions import Plain
+    from .model import Item, Point, Telemetry
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from .airspace import Airspace
-from .app import App
 from .capability import Miss, chain_of, miss_of
 from .fields import Entity, FieldType
-from .files.fleet import FleetFile
-from .model import Category, Mission, Point, Trip
 from .words import quoted
+
+if TYPE_CHECKING:
+    from .airspace import Airspace
+    from .app import App
+    from .files.fleet import FleetFile
+    from .model import Category, Mission, Point, Trip
 
 
 def problems(

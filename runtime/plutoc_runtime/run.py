@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Coroutine, Sequence
-from typing import Any, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from .context import Context
-from .core import Core
 from .errors import ActionFailed, HookFault, MissionFailed
 from .hooks import call_hook, hook_name, trace_of
-from .kernel import Key, Task
 from .model import Mission
-from .state import State
 from .status import Status
+
+if TYPE_CHECKING:
+    from .core import Core
+    from .kernel import Key, Task
+    from .state import State
 
 M = TypeVar("M", bound=Mission[Any])
 

@@ -4,26 +4,28 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from .allocation import Queue
-from .app import App
 from .core import Core
 from .engine import Engine
 from .errors import BadInput
-from .files.fleet import FleetFile
 from .fleet import Fleet
 from .kernel import FLEET, Kernel, Task
 from .model import Drone, Mission
 from .results import ResultStore
 from .simulation.drones import SimulatedDrone, SimulatedNavigation
-from .simulation.faults import Faults
 from .simulation.world import World
 from .status import Status
 from .trace import Event, Trace
 from .transitions import Transitions
 from .virtual import Stuck, VirtualTime
 from .words import duration
+
+if TYPE_CHECKING:
+    from .app import App
+    from .files.fleet import FleetFile
+    from .simulation.faults import Faults
 
 Listener = Callable[[Event], None]
 

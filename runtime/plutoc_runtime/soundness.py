@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from math import isfinite
+from typing import TYPE_CHECKING
 
-from .airspace import Airspace
-from .core import Core
-from .model import Point, Trip
+if TYPE_CHECKING:
+    from .airspace import Airspace
+    from .core import Core
+    from .model import Point, Trip
 
 
 def unsound(core: Core, trip: object) -> str | None:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from .kernel import Signal, Task
-from .model import Drone, Item, Mission, Trip
 from .status import Status, TripStatus
+
+if TYPE_CHECKING:
+    from .model import Drone, Item, Mission, Trip
 
 HOOKS_AT_ONCE = 100_000
 """No graph has so many blocks in a row: a mission that calls so many hooks is in a loop."""

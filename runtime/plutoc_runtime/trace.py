@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING
 
-from .kernel import Kernel
+if TYPE_CHECKING:
+    from .kernel import Kernel
 
 Event = Mapping[str, object]
 """`t`, seconds; `event`, such as `trip.launched`; and its facts."""

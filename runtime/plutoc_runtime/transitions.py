@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from .kernel import Kernel
-from .model import Drone, Mission, Trip
-from .results import ResultStore
 from .status import Status, TripStatus
-from .trace import Trace
 from .words import shown
+
+if TYPE_CHECKING:
+    from .kernel import Kernel
+    from .model import Drone, Mission, Trip
+    from .results import ResultStore
+    from .trace import Trace
 
 
 class Transitions:

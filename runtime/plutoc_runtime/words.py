@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import re
 from reprlib import Repr
+from typing import TYPE_CHECKING
 
-from .model import Point
+if TYPE_CHECKING:
+    from .model import Point
 
 LONGEST = 60
 

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
 
-from ..app import App
 from ..errors import BadInput
 from . import output
+
+if TYPE_CHECKING:
+    from ..app import App
 
 BAD_INPUT, INTERNAL, INTERRUPTED, CLOSED_PIPE = 2, 70, 130, 141
 

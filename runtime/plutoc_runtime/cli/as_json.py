@@ -5,8 +5,10 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from math import isfinite
+from typing import TYPE_CHECKING
 
-from ..session import Outcome
+if TYPE_CHECKING:
+    from ..session import Outcome
 
 
 def outcome_data(name: str, seed: int, outcome: Outcome) -> dict[str, object]:

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-from ..app import App
+from typing import TYPE_CHECKING
+
 from ..words import counted
 from . import output
-from .options import Options
 from .plans import load
+
+if TYPE_CHECKING:
+    from ..app import App
+    from .options import Options
 
 
 def check(app: App, options: Options) -> int:

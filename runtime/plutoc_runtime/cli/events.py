@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING
 
-from ..trace import Event
 from ..words import printable
+
+if TYPE_CHECKING:
+    from ..trace import Event
 
 
 def line_of(event: Event) -> str | None:

@@ -5,19 +5,22 @@ from __future__ import annotations
 import asyncio
 import signal
 from contextlib import suppress
+from typing import TYPE_CHECKING
 
-from ..app import App
 from ..errors import BadInput
 from ..fly import fly_simulated
-from ..session import Outcome
 from ..simulation.faults import Faults
-from ..trace import Event
 from . import output
 from .events import line_of
-from .options import Options
 from .plans import Plan, load
 from .report import report
 from .verdict import exit_code
+
+if TYPE_CHECKING:
+    from ..app import App
+    from ..session import Outcome
+    from ..trace import Event
+    from .options import Options
 
 TERMINATED = 143
 

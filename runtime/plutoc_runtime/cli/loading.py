@@ -6,9 +6,12 @@ import traceback
 from collections.abc import Callable
 from pathlib import PurePath
 from types import ModuleType
+from typing import TYPE_CHECKING
 
-from ..app import App
 from ..errors import BadInput
+
+if TYPE_CHECKING:
+    from ..app import App
 
 HOOKS = "hooks.py"
 

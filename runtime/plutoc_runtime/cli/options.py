@@ -6,10 +6,13 @@ from argparse import ArgumentParser, ArgumentTypeError
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from ..app import App
 from ..quantities import Type, parse_quantity
 from ..words import quoted
+
+if TYPE_CHECKING:
+    from ..app import App
 
 FAULTS = ("crash", "link", "action", "battery")
 """What `--fail` can make go wrong."""

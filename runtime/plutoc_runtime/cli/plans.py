@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from ..app import App
 from ..errors import BadInput
 from ..files.fleet import FleetFile, default_fleet, load_fleet
 from ..files.missions import load_missions
 from ..files.reading import shortened
-from ..model import Mission
 from ..plan_check import endless, problems
-from .options import Options
+
+if TYPE_CHECKING:
+    from ..app import App
+    from ..model import Mission
+    from .options import Options
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

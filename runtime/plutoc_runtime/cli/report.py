@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from ..model import Mission
-from ..session import Outcome
 from ..status import Status
 from ..words import counted, duration, number, percent, printable
 from .as_json import trips_data
+
+if TYPE_CHECKING:
+    from ..model import Mission
+    from ..session import Outcome
 
 
 def report(outcome: Outcome) -> Iterator[str]:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from copy import deepcopy
+from typing import TYPE_CHECKING
 
-from ..app import App
 from ..errors import BadInput
 from ..session import Outcome
 from ..session import simulate as simulated
@@ -15,13 +15,16 @@ from ..words import counted, duration, percent
 from . import output
 from .as_json import dumped, outcome_data, trips_data
 from .events import line_of
-from .options import Options
 from .plans import Plan, load
 from .progress import Progress, on_terminal
 from .report import last_line, report
 from .summary import Run, summary
 from .trace_file import trace_file
 from .verdict import exit_code
+
+if TYPE_CHECKING:
+    from ..app import App
+    from .options import Options
 
 Listener = Callable[[Event], None]
 

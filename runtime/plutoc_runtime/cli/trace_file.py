@@ -6,10 +6,13 @@ import os
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from ..errors import BadInput
-from ..trace import Event
 from .as_json import dumped
+
+if TYPE_CHECKING:
+    from ..trace import Event
 
 
 @contextmanager

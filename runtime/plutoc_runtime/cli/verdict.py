@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
-from ..session import Outcome
+from typing import TYPE_CHECKING
+
 from ..status import Status
+
+if TYPE_CHECKING:
+    from ..session import Outcome
 
 _NEEDS_A_PERSON = (Status.UNCERTAIN, Status.HELD)
 _BAD = (Status.FAILED, Status.CANCELLED)

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from ..app import App
 from ..fields import Entity, FieldType
 from . import errors, values
-from .table import Table
+
+if TYPE_CHECKING:
+    from ..app import App
+    from .table import Table
 
 ELSEWHERE = {
     Entity.MISSION: ("safe_time", "repeat", "evaluator", "at", "every"),

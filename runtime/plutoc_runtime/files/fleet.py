@@ -7,19 +7,22 @@ from functools import partial
 from itertools import cycle, islice
 from math import dist
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from ..airspace import Airspace
-from ..app import App
 from ..fleet import AfterTrip
-from ..model import Point
 from ..quantities import Type
-from ..simulation.world import WorldData
 from ..words import quoted
 from . import errors, values
 from .map import read_map
 from .reading import read
 from .table import Table
 from .world import read_world
+
+if TYPE_CHECKING:
+    from ..app import App
+    from ..model import Point
+    from ..simulation.world import WorldData
 
 APART = 0.5
 """Metres: two Crazyflies nearer than that blow each other off course."""

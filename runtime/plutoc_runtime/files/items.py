@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from ..actions import PICK, RELEASE
-from ..model import Item, Trip
 from . import errors
-from .table import Table
+
+if TYPE_CHECKING:
+    from ..model import Item, Trip
+    from .table import Table
 
 
 def check_items(trips: Sequence[tuple[Trip, Table]]) -> None:

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from functools import partial
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
 from ..airspace import Airspace
-from ..geometry import Corner
 from ..quantities import Type
 from . import errors, values
-from .table import Table
+
+if TYPE_CHECKING:
+    from ..geometry import Corner
+    from .table import Table
 
 KEYS = ("size", "image", "cruise_height", "ceiling", "no_fly")
 

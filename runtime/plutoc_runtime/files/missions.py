@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from ..airspace import Airspace
-from ..app import App
 from ..fields import Entity
-from ..model import Mission
 from ..words import quoted
 from . import errors, values
 from .app_fields import read_fields
 from .reading import read
 from .table import Table
 from .trips import read_trips
+
+if TYPE_CHECKING:
+    from ..airspace import Airspace
+    from ..app import App
+    from ..model import Mission
 
 
 def load_missions(path: Path, app: App, airspace: Airspace) -> list[Mission[Any]]:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from . import errors
-from .reading import Document
-from .toml_places import Place
+
+if TYPE_CHECKING:
+    from .reading import Document
+    from .toml_places import Place
 
 T = TypeVar("T")
 

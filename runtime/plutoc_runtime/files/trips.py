@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from functools import partial
+from typing import TYPE_CHECKING
 
 from ..actions import PICK, RELEASE, Action, Plain
-from ..airspace import Airspace
-from ..app import App
 from ..fields import Entity
 from ..model import Item, Point, Trip
 from ..quantities import Type
@@ -14,7 +13,11 @@ from ..words import quoted
 from . import errors, values
 from .app_fields import read_fields
 from .items import check_items
-from .table import Table
+
+if TYPE_CHECKING:
+    from ..airspace import Airspace
+    from ..app import App
+    from .table import Table
 
 BASIC = ("name", "action", "target", "source", "parameters", "item")
 NOWHERE: Point = (0.0, 0.0, 0.0)

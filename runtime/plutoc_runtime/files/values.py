@@ -7,10 +7,13 @@ from collections.abc import Callable
 from datetime import time
 from functools import partial
 from math import isfinite
+from typing import TYPE_CHECKING
 
-from ..actions import Plain
 from ..fields import FieldType
 from ..quantities import QUANTITIES, Type, parse_quantity, units_of
+
+if TYPE_CHECKING:
+    from ..actions import Plain
 
 LARGEST = 1e9
 """No field needs more, and nothing that is computed from less overflows: 30 years, for a time."""

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from functools import partial
+from typing import TYPE_CHECKING
 
 from ..quantities import Type
 from ..simulation.world import Feature, Source, WorldData
 from . import values
-from .table import Table
+
+if TYPE_CHECKING:
+    from .table import Table
 
 
 def read_world(top: Table) -> WorldData | None:

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from typing import TYPE_CHECKING
 
-from ..model import Drone, Trip
 from ..policy import Decision, Offer, one_by_one
+
+if TYPE_CHECKING:
+    from ..model import Drone, Trip
 
 
 def first(offers: Iterable[Offer]) -> Iterator[Decision]:

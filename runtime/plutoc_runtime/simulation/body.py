@@ -9,14 +9,17 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import inf
+from typing import TYPE_CHECKING
 
 from ..energy import CLIMB_SPEED, docked
 from ..errors import Failure, FlightFailed
 from ..kernel import FLEET, Key
-from ..model import Category, Item, Point
 from ..words import place
 from .faults import Drawn
 from .motion import Charge, Leg, standing
+
+if TYPE_CHECKING:
+    from ..model import Category, Item, Point
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

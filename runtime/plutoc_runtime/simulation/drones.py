@@ -4,18 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from math import dist, inf
+from typing import TYPE_CHECKING
 
 from ..actions import BUILT_IN, PICK, RELEASE, Plain
-from ..airspace import Airspace
 from ..energy import CLIMB_SPEED
 from ..errors import Failure, FlightFailed
 from ..kernel import Kernel, Kind
-from ..model import Item, Point, Telemetry
-from ..navigation import Order
 from ..words import mass, place
 from .body import Body, SimulatedDrone
 from .faults import Faults, draw
-from .world import World
+
+if TYPE_CHECKING:
+    from ..airspace import Airspace
+    from ..model import Item, Point, Telemetry
+    from ..navigation import Order
+    from .world import World
 
 __all__ = ["SimulatedDrone", "SimulatedNavigation"]
 

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from random import Random
+from typing import TYPE_CHECKING
 
-from ..navigation import Order
+if TYPE_CHECKING:
+    from ..navigation import Order
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

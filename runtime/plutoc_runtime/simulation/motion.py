@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import dist, inf
+from typing import TYPE_CHECKING
 
-from ..model import Point
+if TYPE_CHECKING:
+    from ..model import Point
 
 
 @dataclass(frozen=True, slots=True)

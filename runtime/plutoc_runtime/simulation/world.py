@@ -6,11 +6,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import exp
 from random import Random
+from typing import TYPE_CHECKING
 
-from ..airspace import Airspace
-from ..geometry import Corner
-from ..model import Photo, Point
 from .photos import take
+
+if TYPE_CHECKING:
+    from ..airspace import Airspace
+    from ..geometry import Corner
+    from ..model import Photo, Point
 
 BACKGROUND: Mapping[str, float] = {"temperature": 21.0, "pm10": 20.0}
 """What is measured far from every source: °C, µg/m³. Any other quantity is 0 there."""

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from math import ceil
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.kernel import Kind
-from plutoc_runtime.run import Run
-from plutoc_runtime.status import Status
+
+if TYPE_CHECKING:
+    from plutoc_runtime.run import Run
+    from plutoc_runtime.status import Status
 
 DAY = 86_400.0
 

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.capability import chain_of
 from plutoc_runtime.errors import MissionFailed
 from plutoc_runtime.kernel import FLEET, Kind
-from plutoc_runtime.policy import Policy
-from plutoc_runtime.run import Run
 from plutoc_runtime.status import Status
 from plutoc_runtime.words import duration
+
+if TYPE_CHECKING:
+    from plutoc_runtime.policy import Policy
+    from plutoc_runtime.run import Run
 
 
 async def allocate_drone(

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.flight import Limit, outcome
-from plutoc_runtime.run import Run
-from plutoc_runtime.status import Status
 from plutoc_runtime.words import duration
+
+if TYPE_CHECKING:
+    from plutoc_runtime.run import Run
+    from plutoc_runtime.status import Status
 
 
 async def watch_gap(

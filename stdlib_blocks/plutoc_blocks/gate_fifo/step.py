@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.kernel import Signal, Task
-from plutoc_runtime.run import Branch, Run
-from plutoc_runtime.status import Status
+
+if TYPE_CHECKING:
+    from plutoc_runtime.run import Branch, Run
+    from plutoc_runtime.status import Status
 
 
 async def pass_first(run: Run[Any], status: Status, *branches: Branch[Any]) -> Status:

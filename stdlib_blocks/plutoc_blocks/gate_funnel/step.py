@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.kernel import Signal, Task
-from plutoc_runtime.run import Branch, Run
 from plutoc_runtime.status import WORST_FIRST, Status
+
+if TYPE_CHECKING:
+    from plutoc_runtime.run import Branch, Run
 
 
 async def wait_for_all(run: Run[Any], status: Status, *branches: Branch[Any]) -> Status:

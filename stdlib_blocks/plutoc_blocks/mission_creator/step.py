@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.run import Run
-from plutoc_runtime.status import Status
+if TYPE_CHECKING:
+    from plutoc_runtime.run import Run
+    from plutoc_runtime.status import Status
 
 
 def create_mission(run: Run[Any], status: Status) -> Status:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.judgement import apply
-from plutoc_runtime.run import Run
-from plutoc_runtime.status import Status
+
+if TYPE_CHECKING:
+    from plutoc_runtime.run import Run
+    from plutoc_runtime.status import Status
 
 
 async def evaluate_mission(

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.run import Run
 from plutoc_runtime.status import Status
+
+if TYPE_CHECKING:
+    from plutoc_runtime.run import Run
 
 
 def repeat_mission(run: Run[Any], status: Status, *, repeat: int | bool) -> Status:

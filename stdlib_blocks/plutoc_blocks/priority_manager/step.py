@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.errors import MissionFailed
-from plutoc_runtime.run import Run
 from plutoc_runtime.status import Status
+
+if TYPE_CHECKING:
+    from plutoc_runtime.run import Run
 
 
 def raise_priority(run: Run[Any], status: Status, *, max_attempts: int, priority: int) -> Status:
