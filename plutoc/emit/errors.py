@@ -56,7 +56,7 @@ def not_ours(place: Place, folder: str) -> Diagnostic:
     """A folder with other things in it."""
     return error(
         "P4003",
-        f"`{folder}` is not empty, and no package of plutoc's",
+        f"`{folder}` is not empty, and it is not a package that plutoc wrote",
         place.source,
         place.span,
         label="its package would go there",

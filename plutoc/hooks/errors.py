@@ -109,7 +109,7 @@ def unfilled_parameter(
     """A parameter that nobody gives a value."""
     return _on_hook(
         "P3008",
-        f"nothing gives `{name}` of `{hook.name}` a value",
+        f"`{hook.name}` asks for `{name}`, and nothing gives it a value",
         app,
         hooks,
         hook,
@@ -124,7 +124,7 @@ def by_position_only(
     """A parameter that is given by name and can only be given by its place."""
     return _on_hook(
         "P3009",
-        f"`{name}` of `{hook.name}` is given by name, and can be given only by its place",
+        f"`{hook.name}` takes `{name}` only by its place, and the app gives it by name",
         app,
         hooks,
         hook,
