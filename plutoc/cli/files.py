@@ -82,7 +82,7 @@ def _text(path: Path) -> str:
 
 def _decoded(data: bytes, name: str) -> str:
     if len(data) > LARGEST:
-        raise Unusable(f"{name} is larger than {LARGEST // 1024} KiB")
+        raise Unusable(f"{name} is larger than {LARGEST // 1024} KiB (P0006)")
     try:
         return data.decode("utf-8")
     except UnicodeDecodeError as error:

@@ -21,7 +21,7 @@ WITHOUT_EXAMPLES = "P9001"
 """Nobody can write an app that makes the compiler break: else it would be mended."""
 
 _FENCED = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
-_SECTION = re.compile(r"^## ([^\n]+)\n(.*?)(?=^## |\Z)", re.MULTILINE | re.DOTALL)
+_SECTION = re.compile(r"^## (.*?)(?=^## |\Z)", re.MULTILINE | re.DOTALL)
 _FILES = {"pluto": "app.pluto", "python": "hooks.py"}
 _PATHS = [str(ROOT), *(str(ROOT / name) for name in ("grammar", "runtime", "stdlib_blocks"))]
 
@@ -42,29 +42,33 @@ class Typed:
     shown: tuple[str, ...]
 
 
-def example(code: str, heading: str) -> Example:
-    """Return what a page has under a heading: once a language, but the app may stand above."""
-    sections = _SECTION.findall(page(code).text)
+def headings(code: str) -> list[str]:
+    """Return the headings below a page's title."""
+    return re.findall(r"^## (.+)$", page(code).text, re.MULTILINE)
+
+
+def example(code: str, *, mended: bool) -> Example:
+    """Return an example of a page; a file that the second does not show is as in the first."""
     files: dict[str, str] = {}
-    console = None
-    for name, section in sections:
+    for section in _SECTION.findall(page(code).text)[: 1 + mended]:
         blocks = _FENCED.findall(section)
-        assert len({language for language, _ in blocks}) == len(blocks), f"{code}: {name}"
+        assert len({language for language, _ in blocks}) == len(blocks), f"{code}: {section}"
         console = dict(blocks).get("console")
         files |= {_FILES[language]: text for language, text in blocks if language != "console"}
-        if name == heading:
-            return Example(files=files, console=console)
-    raise AssertionError(f"{code} has no `## {heading}`")
+    return Example(files=files, console=console)
 
 
-def said_of(shown: Example, folder: Path, capfd: pytest.CaptureFixture[str]) -> list[str]:
-    """Check an example in this process; return the code of each finding."""
+def said_of(
+    shown: Example, folder: Path, capfd: pytest.CaptureFixture[str]
+) -> set[tuple[str, str]]:
+    """Check an example in this process; return the severity and the code of each finding."""
     write(shown, folder)
     capfd.readouterr()
     main(["check", str(folder / "app.pluto"), "--format", "json"])
     said = capfd.readouterr()
     assert not said.err
-    return [json.loads(line)["code"] for line in said.out.splitlines()]
+    found = map(json.loads, said.out.splitlines())
+    return {(finding["severity"], finding["code"]) for finding in found}
 
 
 def write(shown: Example, folder: Path) -> None:

@@ -11,6 +11,7 @@ from tests.explain.examples import (
     CODE,
     WITHOUT_EXAMPLES,
     example,
+    headings,
     said_of,
     type_in,
     typed,
@@ -18,29 +19,29 @@ from tests.explain.examples import (
 )
 
 CODES = [code for code in codes() if code != WITHOUT_EXAMPLES]
-HEADINGS = [("Refused", True), ("Mended", False)]
+SEVERITY = {"Refused": "error", "Warned": "warning"}
 
 
-@pytest.mark.parametrize(("heading", "fails"), HEADINGS, ids=["Refused", "Mended"])
+@pytest.mark.parametrize("mended", [False, True], ids=["failing", "mended"])
 @pytest.mark.parametrize("code", CODES)
 def test_an_example_gives_its_code_and_no_other_and_nothing_once_it_is_mended(
-    code: str, heading: str, fails: bool, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+    code: str, mended: bool, tmp_path: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:
     """Warnings count as well. Where the app alone does not show it, the session is typed in."""
-    shown = example(code, heading)
-    assert "app.pluto" in shown.files
+    shown = example(code, mended=mended)
     if shown.console is None:
-        assert set(said_of(shown, tmp_path, capfd)) == ({code} if fails else set())
+        expected = set() if mended else {(SEVERITY[headings(code)[0]], code)}
+        assert said_of(shown, tmp_path, capfd) == expected
         return
     folder = tmp_path / "work"
     folder.mkdir()
     write(shown, folder)
     done = type_in(typed(shown.console), folder, tmp_path / "programs")
-    assert set(CODE.findall(done.stdout)) == ({code} if fails else set()), done.stdout
-    assert fails or done.returncode == 0, done.stdout
+    assert set(CODE.findall(done.stdout)) == (set() if mended else {code}), done.stdout
+    assert done.returncode == 0 or not mended, done.stdout
 
 
 @pytest.mark.parametrize("code", CODES)
 def test_the_two_examples_of_a_page_differ(code: str) -> None:
     """Something was mended."""
-    assert example(code, "Refused") != example(code, "Mended")
+    assert example(code, mended=False) != example(code, mended=True)
