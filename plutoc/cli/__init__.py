@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+import sys
 
 from plutoc.cli.endings import (
     CLEAN,
@@ -15,10 +15,13 @@ from plutoc.cli.endings import (
     USAGE,
     Unusable,
 )
-from plutoc.cli.options import Options, parse
-from plutoc.cli.say import say
-from plutoc.diagnostic import Rejected
 from plutoc_runtime.cli import output
+
+TYPE_CHECKING = False  # `typing` itself is slow to import, and `--version` does without
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from plutoc.cli.options import Options
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -66,8 +69,19 @@ class _Ending:
 
 
 def _command(argv: Sequence[str] | None) -> int:
+    """Import as little as will do: one who asks for the version shall not wait for the rest."""
+    arguments = sys.argv[1:] if argv is None else list(argv)
+    if arguments == ["--version"]:
+        from plutoc.cli.version import tell_version
+
+        tell_version()
+        return CLEAN
+    from plutoc.cli.options import parse
+    from plutoc.cli.say import say
+    from plutoc.diagnostic import Rejected
+
     try:
-        options = parse(argv)
+        options = parse(arguments)
     except SystemExit as end:  # the help or the version is printed, or what is wrong
         return end.code if isinstance(end.code, int) else USAGE
     try:

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from plutoc.cli.endings import USAGE
-from plutoc_runtime.cli import output
+from plutoc.cli.version import tell_version
 
 PICTURES = ("mermaid", "dot", "svg", "json")
 
@@ -39,7 +39,7 @@ class Options:
     code: str | None = None
 
 
-def parse(argv: Sequence[str] | None) -> Options:
+def parse(arguments: Sequence[str]) -> Options:
     """Read the command line; raise SystemExit, as argparse does, after help or an error."""
     parser = _plain(
         ArgumentParser(
@@ -65,7 +65,6 @@ def parse(argv: Sequence[str] | None) -> Options:
     _graph(command("graph", "Print the picture of an app, with the statuses on every edge."))
     _blocks(command("blocks", "List the blocks that are installed, or explain one."))
     _explain(command("explain", "Say what the code of an error or a warning means."))
-    arguments = sys.argv[1:] if argv is None else list(argv)
     if not arguments:
         parser.print_help(sys.stderr)
         raise SystemExit(USAGE)
@@ -73,18 +72,13 @@ def parse(argv: Sequence[str] | None) -> Options:
 
 
 class _Version(Action):
-    """Looks the version up only when somebody asks for it."""
+    """Not argparse's own: that one says nothing of a full disk."""
 
     def __init__(self, option_strings: Sequence[str], dest: str, help: str) -> None:
         super().__init__(option_strings, SUPPRESS, nargs=0, default=SUPPRESS, help=help)
 
     def __call__(self, parser: ArgumentParser, *_: object) -> None:
-        from importlib.metadata import PackageNotFoundError, version
-
-        try:
-            output.line(f"plutoc {version('plutoc')}")
-        except PackageNotFoundError:
-            output.line("plutoc, from a checkout that is not installed")
+        tell_version()
         parser.exit()
 
 

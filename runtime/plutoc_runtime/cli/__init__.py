@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING
 
 from ..errors import BadInput
 from . import output
 
+TYPE_CHECKING = False  # `typing` itself is slow to import, and plutoc's `--version` does without
 if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
     from ..app import App
 
 BAD_INPUT, INTERNAL, INTERRUPTED, CLOSED_PIPE = 2, 70, 130, 141
