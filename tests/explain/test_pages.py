@@ -36,9 +36,9 @@ def test_an_example_gives_its_code_and_no_other_and_nothing_once_it_is_mended(
     folder = tmp_path / "work"
     folder.mkdir()
     write(shown, folder)
-    done = type_in(typed(shown.console), folder, tmp_path / "programs")
-    assert set(CODE.findall(done.stdout)) == (set() if mended else {code}), done.stdout
-    assert done.returncode == 0 or not mended, done.stdout
+    done = type_in(typed(shown.console), folder, tmp_path / "programs", capfd)
+    assert set(CODE.findall(done.said)) == (set() if mended else {code}), done.said
+    assert done.code == 0 or not mended, done.said
 
 
 @pytest.mark.parametrize("code", CODES)
