@@ -10,7 +10,7 @@ from plutoc.check.model import Checked
 from plutoc.check.run import check
 from plutoc.diagnostic import Diagnostic, Rejected
 from plutoc.graph.resolve import resolve
-from plutoc.registry import blocks
+from plutoc.registry import blocks, standard
 from plutoc.source import Source
 from plutoc.syntax.parse import parse
 
@@ -45,7 +45,7 @@ def compile_source(source: Source, *, source_name: str, find_hooks: FindHooks) -
 def analyse(source: Source) -> tuple[Checked, Warnings]:
     """Return the checked graph of a source."""
     file = parse(source)
-    graph, of_names = resolve(file, blocks())
+    graph, of_names = resolve(file, blocks() if file.uses else standard())
     checked, of_graph = check(graph)
     return checked, of_names + of_graph
 

@@ -1,11 +1,15 @@
-"""The blocks that are installed: found by their packages' entry points, loaded when first used."""
+"""The blocks that are installed: found by their packages' entry points, loaded when first used.
+
+To look for entry points takes longer than to check an app. So it is done only where an app uses
+somebody's package: where ours are is known.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache
-from importlib.metadata import EntryPoint, entry_points
+from importlib import import_module
 from types import MappingProxyType
 
 from plutoc.block import Block
@@ -13,6 +17,8 @@ from plutoc.block import Block
 GROUP = "plutoc.blocks"
 STD = "std"
 """The package whose kinds need no prefix: ours."""
+OURS = "plutoc_blocks:BLOCKS"
+"""Its entry point."""
 
 
 class RegistryError(Exception):
@@ -33,6 +39,11 @@ def blocks() -> Blocks:
     return Blocks(packages=installed_packages(), of=blocks_of)
 
 
+def standard() -> Blocks:
+    """Return ours alone, for an app that uses no other package."""
+    return Blocks(packages=(STD,), of=blocks_of)
+
+
 def installed() -> Mapping[str, Mapping[str, Block]]:
     """Load every package: its name, then its kinds. One broken package fails the whole."""
     return {name: blocks_of(name) for name in installed_packages()}
@@ -40,6 +51,8 @@ def installed() -> Mapping[str, Mapping[str, Block]]:
 
 def installed_packages() -> tuple[str, ...]:
     """Return the names of the installed packages of blocks, ours first."""
+    from importlib.metadata import entry_points
+
     names = {point.name for point in entry_points(group=GROUP)} - {STD}
     return (STD, *sorted(names))
 
@@ -47,10 +60,11 @@ def installed_packages() -> tuple[str, ...]:
 @cache
 def blocks_of(package: str) -> Mapping[str, Block]:
     """Load a package's blocks, by kind; raise `RegistryError` where that fails."""
+    if package == STD:
+        return _loaded(package, OURS, _ours)
+    from importlib.metadata import entry_points
+
     points = list(entry_points(group=GROUP, name=package))
-    if package == STD and not points:
-        # A checkout that nobody has installed.
-        points = [EntryPoint(name=STD, value="plutoc_blocks:BLOCKS", group=GROUP)]
     if not points:
         raise RegistryError(f"no package of blocks named {package} is installed")
     values = {point.value for point in points}  # one may be found twice on the path
@@ -58,26 +72,32 @@ def blocks_of(package: str) -> Mapping[str, Block]:
         raise RegistryError(
             f"two installed packages call their blocks {package}: {', '.join(sorted(values))}"
         )
-    return _loaded(package, points[0])
+    return _loaded(package, points[0].value, points[0].load)
 
 
-def _loaded(package: str, point: EntryPoint) -> Mapping[str, Block]:
+def _ours() -> object:
+    module, _, attribute = OURS.partition(":")
+    declared: object = getattr(import_module(module), attribute)
+    return declared
+
+
+def _loaded(package: str, value: str, load: Callable[[], object]) -> Mapping[str, Block]:
     try:
-        declared: object = point.load()
+        declared = load()
     except Exception as error:  # it is somebody else's code: anything can come out of it
         raise RegistryError(
-            f"the blocks of {package} cannot be loaded from {point.value}:"
+            f"the blocks of {package} cannot be loaded from {value}:"
             f" {type(error).__name__}: {error}"
         ) from error
     if not isinstance(declared, Iterable):
         raise RegistryError(
-            f"{point.value} of {package} is of type {type(declared).__name__}, not a tuple of blocks"
+            f"{value} of {package} is of type {type(declared).__name__}, not a tuple of blocks"
         )
     found: dict[str, Block] = {}
     for block in declared:
         if not isinstance(block, Block):
             raise RegistryError(
-                f"{point.value} of {package} holds something of type {type(block).__name__}, not only blocks"
+                f"{value} of {package} holds something of type {type(block).__name__}, not only blocks"
             )
         if block.name in found:
             raise RegistryError(f"{package} declares {block.name} twice")
