@@ -41,6 +41,7 @@ def test_a_package_of_blocks_is_listed_compiled_carried_along_and_flown(tmp_path
     listed = succeed(programs / "plutoc", "blocks")
     assert "pluto_survey.GridScan" in listed
     assert "spacing" in succeed(programs / "plutoc", "blocks", "pluto_survey.GridScan")
+    assert "Mended" in succeed(programs / "plutoc", "explain", "P1009")  # the pages came along
 
     (tmp_path / "grid.pluto").write_text(SOURCE)
     (tmp_path / "missions.toml").write_text(MISSIONS)
