@@ -44,10 +44,24 @@ def read_standard_input() -> Source:
 
 def find_hooks(checked: Checked, file: Path, folder: Path) -> Source | None:
     """Return the hooks.py that counts: the package's own, else the one beside the app."""
-    for path in (folder / hooks_path(checked), file.parent / HOOKS):
+    own = folder / hooks_path(checked)
+    for path, top in ((own, folder), (file.parent / HOOKS, file.parent / HOOKS)):
         if path.is_file():
+            _refuse_links(checked, path, top)
             return read_module(path)
     return None
+
+
+def _refuse_links(checked: Checked, path: Path, top: Path) -> None:
+    """Follow no link: a stranger's folder could show, or take along, any file of the user's."""
+    for one in reversed((path, *path.parents)):
+        if one.is_relative_to(top) and one.is_symlink():
+            from plutoc.emit.errors import in_the_way, place_of
+            from plutoc.emit.write import Refused
+
+            wanted = "a file" if one == path else "a folder"
+            place = place_of(checked.graph)
+            raise Refused([in_the_way(place, shown(one), "a symbolic link", wanted)])
 
 
 def hooks_path(checked: Checked) -> str:
@@ -69,7 +83,7 @@ def read_module(path: Path) -> Source:
 def _text(path: Path) -> str:
     """Return a file's text, its line ends untouched."""
     try:
-        with path.open("rb") as file:
+        with open(path, "rb", opener=_opened) as file:
             data = file.read(LARGEST + 1)
     except IsADirectoryError:
         raise Unusable(f"{shown(path)} is a folder, not a file") from None
@@ -78,6 +92,15 @@ def _text(path: Path) -> str:
     except (OSError, ValueError) as error:
         raise Unusable(f"{shown(path)} cannot be read: {_why(error)}") from None
     return _decoded(data, shown(path))
+
+
+def _opened(path: str, flags: int) -> int:
+    """Open a file without waiting: a pipe that nobody writes into is empty."""
+    if not hasattr(os, "O_NONBLOCK"):
+        return os.open(path, flags)
+    descriptor = os.open(path, flags | os.O_NONBLOCK)
+    os.set_blocking(descriptor, True)  # one that somebody does write into is read to its end
+    return descriptor
 
 
 def _decoded(data: bytes, name: str) -> str:

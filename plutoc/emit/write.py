@@ -6,6 +6,7 @@ it, all of it or nothing. New texts are written aside and renamed, so no file is
 
 from __future__ import annotations
 
+import errno
 import os
 import shutil
 import tempfile
@@ -228,7 +229,7 @@ def _prepare(changes: Changes, aside: Path, save: Save) -> None:
         if change.before is not None:
             old = aside / "old" / change.path
             old.parent.mkdir(parents=True, exist_ok=True)
-            shutil.copy2(changes.folder / change.path, old)
+            shutil.copy2(changes.folder / change.path, old, follow_symlinks=False)
 
 
 def _replace(changes: Changes, aside: Path) -> None:
@@ -238,6 +239,7 @@ def _replace(changes: Changes, aside: Path) -> None:
         try:
             # The lock last: until then, what is half done is still known as ours.
             for change in sorted(changes.files, key=lambda change: change.path == LOCK):
+                _refuse_what_came_since(folder, change.path)
                 begun.append(change)
                 if change.after is None:
                     (folder / change.path).unlink()
@@ -255,6 +257,14 @@ def _replace(changes: Changes, aside: Path) -> None:
     for change in changes.files:
         if change.after is None:
             _remove_empty_folders((folder / change.path).parent, folder)
+
+
+def _refuse_what_came_since(folder: Path, path: str) -> None:
+    """What was no link when we compared may be one now, and lead anywhere."""
+    obstacle = folder if folder.is_symlink() else _obstacle(folder, path)
+    if obstacle is not None:
+        reason = f"{_kind(obstacle)} was put there meanwhile"
+        raise FileExistsError(errno.EEXIST, reason, str(obstacle))
 
 
 def _remove_empty_folders(path: Path, top: Path) -> None:

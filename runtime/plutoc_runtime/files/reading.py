@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import tomllib
 from collections.abc import Sequence
@@ -66,7 +67,7 @@ def read(path: Path) -> Document:
 
 def _text(path: Path) -> str:
     try:
-        with path.open("rb") as file:
+        with open(path, "rb", opener=_opened) as file:
             content = file.read(LARGEST + 1)
     except (OSError, ValueError) as error:  # ValueError: a NUL in the name
         raise BadInput(f"{path}: {errors.unreadable(error)}") from None
@@ -77,6 +78,15 @@ def _text(path: Path) -> str:
     except UnicodeDecodeError as error:
         line = content.count(b"\n", 0, error.start) + 1
         raise BadInput(f"{path}:{line}: {errors.not_utf_8()}") from None
+
+
+def _opened(path: str, flags: int) -> int:
+    """Open a file without waiting: a pipe that nobody writes into is empty."""
+    if not hasattr(os, "O_NONBLOCK"):
+        return os.open(path, flags)
+    descriptor = os.open(path, flags | os.O_NONBLOCK)
+    os.set_blocking(descriptor, True)  # one that somebody does write into is read to its end
+    return descriptor
 
 
 def _syntax(path: Path, text: str, message: str) -> str:
