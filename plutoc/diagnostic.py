@@ -86,10 +86,23 @@ def warning(
     label: str = "",
     related: tuple[Related, ...] = (),
     help: str | None = None,
+    fix: Fix | None = None,
 ) -> Diagnostic:
     """Return a warning of these facts."""
-    found = error(code, message, source, span, label=label, related=related, help=help)
+    found = error(code, message, source, span, label=label, related=related, help=help, fix=fix)
     return replace(found, severity=Severity.WARNING)
+
+
+def arranged(found: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
+    """Return findings as every report tells them: file by file, by place, each once.
+
+    The files keep the order in which they come.
+    """
+    once = tuple(dict.fromkeys(found))
+    files = {d.source.path: i for i, d in reversed(tuple(enumerate(once)))}
+    return tuple(
+        sorted(once, key=lambda d: (files[d.source.path], d.span.start, d.span.end, d.code))
+    )
 
 
 class Rejected(Exception):
@@ -102,7 +115,12 @@ class Rejected(Exception):
 
 def accept_or_raise(found: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
     """Return the warnings; raise `Rejected` with everything where there is an error among them."""
-    diagnostics = tuple(sorted(found, key=lambda d: (d.span.start, d.span.end, d.code)))
+    diagnostics = in_order(found)
     if any(d.severity is Severity.ERROR for d in diagnostics):
         raise Rejected(diagnostics)
     return diagnostics
+
+
+def in_order(found: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
+    """Sort diagnostics of one source by their places."""
+    return tuple(sorted(found, key=lambda d: (d.span.start, d.span.end, d.code)))

@@ -22,7 +22,8 @@ from plutoc.check.words import (
     there,
     warning,
 )
-from plutoc.diagnostic import Diagnostic
+from plutoc.diagnostic import Diagnostic, Fix
+from plutoc.edits import is_single, without_arrow
 from plutoc.graph.model import Edge, Graph, Node
 from plutoc_runtime.status import Status
 
@@ -131,7 +132,17 @@ def spare_guard(
         f"`{edge.source}` never emits {listed(spare, 'or')} here",
         related=(emits_here(graph, edge, leaving),),
         help=f"leave {listed(spare)} out of the guard",
+        fix=_without_spare(graph, edge, spare),
     )
+
+
+def _without_spare(graph: Graph, edge: Edge, spare: Sequence[Status]) -> Fix | None:
+    """The guard without statuses, unless it guards other arrows, too, which may need them."""
+    alone = is_single(graph.source, (edge.source, edge.target), edge.span)
+    if edge.guard_span is None or not alone:
+        return None
+    kept = ", ".join(status.value for status in edge.guard or () if status not in spare)
+    return Fix(span=edge.guard_span, text=f"when {kept}")
 
 
 def idle_otherwise(graph: Graph, edge: Edge, leaving: Sequence[Status]) -> Diagnostic:
@@ -142,6 +153,7 @@ def idle_otherwise(graph: Graph, edge: Edge, leaving: Sequence[Status]) -> Diagn
         label="takes what no other arrow takes",
         related=(emits_here(graph, edge, leaving),),
         help="remove it: the other arrows take every status",
+        fix=without_arrow(graph.source, (edge.source, edge.target), edge.span, edge.guard_span),
     )
 
 

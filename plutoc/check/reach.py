@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
-
-import networkx as nx
+from collections.abc import Collection, Container
 
 from plutoc.check import errors
-from plutoc.check.components import components
+from plutoc.check.components import behind, components
 from plutoc.check.flow import Flow, is_final, ordered
 from plutoc.diagnostic import Diagnostic
 from plutoc.graph.model import END, START, Edge, Graph
@@ -19,11 +17,10 @@ def unreached(flow: Flow, creator: str, told: Collection[str]) -> list[Diagnosti
     What only those in `told` lead to is not reported: they have a message already.
     """
     graph = flow.graph
-    arrows = nx.DiGraph([(edge.source, edge.target) for edge in flow.edges])
-    arrows.add_nodes_from((creator, *graph.node))
-    reached = nx.descendants(arrows, creator) | {creator}
-    for name in told:
-        reached |= nx.descendants(arrows, name) | {name}
+    after: dict[str, list[str]] = {}
+    for edge in flow.edges:
+        after.setdefault(edge.source, []).append(edge.target)
+    reached = behind(after, (creator, *told))
     lost = {
         name: tuple(e.target for e in graph.outgoing[name] if e.target not in reached)
         for name in graph.node
@@ -41,14 +38,12 @@ def unreached(flow: Flow, creator: str, told: Collection[str]) -> list[Diagnosti
 
 
 def _behind(lost: dict[str, tuple[str, ...]], first: str) -> tuple[str, ...]:
-    """The other blocks that only this one leads to."""
-    found = [first]
-    for name in found:
-        found.extend(t for t in lost.get(name, ()) if t in lost and t not in found)
-    return tuple(name for name in lost if name in found[1:])
+    """The other blocks that this one leads to."""
+    follow = behind(lost, [first])
+    return tuple(name for name in lost if name in follow and name != first)
 
 
-def _creator_leads(graph: Graph, reached: set[str], part: tuple[str, ...]) -> bool:
+def _creator_leads(graph: Graph, reached: Container[str], part: tuple[str, ...]) -> bool:
     """Does an unreached creator lead here? Then its own message says enough."""
     return any(
         edge.source != START
@@ -74,15 +69,19 @@ def starved(flow: Flow) -> list[Diagnostic]:
     return found
 
 
-def untaken(flow: Flow) -> list[Diagnostic]:
-    """Find edges that no status can take, and guards that say more than can happen."""
+def untaken(flow: Flow, stopped: Flow) -> list[Diagnostic]:
+    """Find edges that no status can take, and guards that say more than can happen.
+
+    What happens only to missions that were stopped happens, too.
+    """
     found = []
     for edge in flow.edges:
         if edge.source == START or not flow.leaves[edge.source]:
             continue
-        leaving = ordered(flow.leaves[edge.source])
-        if flow.carries[edge]:
-            spare = tuple(s for s in edge.guard or () if s not in flow.leaves[edge.source])
+        leaves = flow.leaves[edge.source] | stopped.leaves[edge.source]
+        leaving = ordered(leaves)
+        if flow.carries[edge] or stopped.carries[edge]:
+            spare = tuple(s for s in edge.guard or () if s not in leaves)
             if spare:
                 found.append(errors.spare_guard(flow.graph, edge, spare, leaving))
         elif edge.otherwise:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from plutoc.check import (
     ending,
     errors,
@@ -37,7 +39,6 @@ def check(graph: Graph) -> tuple[Checked, tuple[Diagnostic, ...]]:
     found += _in_flight(flow, parallels)
     found += reach.unreached(flow, creator.name, stuck.forgotten_gates(flow, parallels))
     found += reach.starved(flow)
-    found += reach.untaken(flow)
     found += stuck.ends(flow)
     found += parallel.written_twice(flow, parallels)
     found += parallel.unwatched_limits(flow, parallels)
@@ -45,8 +46,13 @@ def check(graph: Graph) -> tuple[Checked, tuple[Diagnostic, ...]]:
     found += failures.unmended(flow)
     found += failures.unbounded(flow)
     found += order.repeated_unjudged(flow)
-    if not any(d.severity is Severity.ERROR for d in found):
-        found += _after_a_stop(flow)
+    stopped = _after_a_stop(flow)
+    found += reach.untaken(flow, stopped)
+    if not _has_errors(found):
+        wrong = _in_flight(stopped, branches(stopped))
+        found += map(errors.after_a_stop, wrong)
+    if _has_errors(found):  # what is not needed now may be once the errors are mended
+        found = [replace(d, fix=None) for d in found]
     warnings = accept_or_raise(found)
     checked = Checked(
         graph=graph,
@@ -73,8 +79,11 @@ def _in_flight(flow: Flow, parallels: Branches) -> list[Diagnostic]:
     ]
 
 
-def _after_a_stop(flow: Flow) -> list[Diagnostic]:
-    """Find what can happen only to missions that were stopped and go on."""
+def _after_a_stop(flow: Flow) -> Flow:
+    """Follow missions that were stopped and go on, where that is another way than before."""
     again = [place for place in resume.resumed(flow) if place not in flow.places]
-    stopped = explore(flow.graph, flow.edges, again)
-    return [errors.after_a_stop(wrong) for wrong in _in_flight(stopped, branches(stopped))]
+    return explore(flow.graph, flow.edges, again)
+
+
+def _has_errors(found: list[Diagnostic]) -> bool:
+    return any(d.severity is Severity.ERROR for d in found)

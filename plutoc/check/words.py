@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from plutoc import diagnostic
 from plutoc.check.branches import Astray
 from plutoc.check.flow import Fork, Hop, Way, ordered
-from plutoc.diagnostic import Diagnostic, Related
+from plutoc.diagnostic import Diagnostic, Fix, Related
 from plutoc.graph.model import END, Edge, Graph, Node
 from plutoc.source import Span
 from plutoc_runtime.status import Status
@@ -89,11 +89,12 @@ def warning(
     label: str = "",
     related: tuple[Related, ...] = (),
     help: str,
+    fix: Fix | None = None,
 ) -> Diagnostic:
     """A warning of these facts."""
     source, span = at[0].source, at[1]
     return diagnostic.warning(
-        code, message, source, span, label=label, related=related, help=help.rstrip()
+        code, message, source, span, label=label, related=related, help=help.rstrip(), fix=fix
     )
 
 

@@ -2,39 +2,82 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 
 from plutoc.cli.endings import CLEAN, ERRORS, USAGE, Unusable
-from plutoc.cli.files import default_folder, find_hooks, read_app, shown
+from plutoc.cli.files import (
+    STANDARD_INPUT,
+    default_folder,
+    find_hooks,
+    read_app,
+    read_standard_input,
+)
 from plutoc.cli.options import Options
 from plutoc.cli.say import say
 from plutoc.compile import analyse, check_hooks
-from plutoc.diagnostic import Diagnostic, Rejected
+from plutoc.diagnostic import Diagnostic, Rejected, Severity
+from plutoc.source import Source
 from plutoc_runtime.cli import output
 
 
 def check(options: Options) -> int:
     """Check every file, and say what was found in all of them."""
     found: list[Diagnostic] = []
-    code = CLEAN
-    for file in options.files:
+    troubles: list[str] = []
+    for file in dict.fromkeys(options.files):
         try:
-            warnings = _warnings(file)
+            found += _check(file, options, troubles)
         except Unusable as error:
-            output.tell(f"plutoc: {error}")
-            code = USAGE
-        except Rejected as rejected:
-            found += rejected.diagnostics
-            code = max(code, ERRORS)
-        else:
-            found += warnings
-            if options.format == "text":
-                output.line(f"{shown(file)}: no errors")
-    say(found, options.format)
-    return code
+            troubles.append(str(error))
+    for sentence in troubles:
+        output.tell(f"plutoc: {sentence}")
+    say(found, options.format, troubles)
+    if troubles:
+        return USAGE
+    return ERRORS if _have_errors(found) else CLEAN
 
 
-def _warnings(file: Path) -> tuple[Diagnostic, ...]:
-    checked, warnings = analyse(read_app(file))
-    hooks = find_hooks(checked, file, default_folder(file, checked))
-    return warnings + check_hooks(checked, hooks)
+def _check(file: Path, options: Options, troubles: list[str]) -> tuple[Diagnostic, ...]:
+    """Return what is wrong with a file; with --fix, what is still wrong."""
+    source = read_standard_input() if file == STANDARD_INPUT else read_app(file)
+    found = _findings(file, source)
+    if options.fix and any(diagnostic.fix for diagnostic in found):
+        try:
+            found = _fixed(file, source, options)
+        except Unusable as error:  # what is wrong with it is told all the same
+            troubles.append(str(error))
+    if options.format == "text" and not _have_errors(found):
+        output.line(f"{source.path}: no errors")
+    return found
+
+
+def _findings(file: Path, source: Source) -> tuple[Diagnostic, ...]:
+    """Return what is wrong with an app, and with the developer's code where there is any."""
+    try:
+        checked, warnings = analyse(source)
+        if file == STANDARD_INPUT:  # nothing lies beside it
+            return warnings
+        hooks = find_hooks(checked, file, default_folder(file, checked))
+        return warnings + check_hooks(checked, hooks)
+    except Rejected as rejected:
+        return rejected.diagnostics
+
+
+def _fixed(file: Path, source: Source, options: Options) -> tuple[Diagnostic, ...]:
+    """Mend a file, say what was mended, and return what is left."""
+    from plutoc.cli.fix import mended, summary
+    from plutoc.cli.rewrite import rewrite
+
+    if file == STANDARD_INPUT:
+        raise Unusable("--fix changes files, and standard input is none")
+    done = mended(source, lambda mended: _findings(file, mended))
+    if done.fixed:
+        rewrite(file, source.text, done.source.text)
+        tell = output.line if options.format == "text" else output.tell
+        tell(summary(done))
+    return done.left
+
+
+def _have_errors(found: Iterable[Diagnostic]) -> bool:
+    return any(diagnostic.severity is Severity.ERROR for diagnostic in found)

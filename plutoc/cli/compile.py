@@ -3,41 +3,68 @@
 from __future__ import annotations
 
 import os
-from dataclasses import replace
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from shlex import quote
 
 from plutoc.check.model import Checked
 from plutoc.cli.diff import diff
-from plutoc.cli.endings import CLEAN, Unusable
+from plutoc.cli.endings import CLEAN, ERRORS, REFUSED, Unusable
 from plutoc.cli.files import default_folder, find_hooks, hooks_path, read_app, shown
 from plutoc.cli.options import Options
 from plutoc.cli.say import say
 from plutoc.compile import Compiled, analyse, compile_source, planned
-from plutoc.diagnostic import Rejected
+from plutoc.diagnostic import Diagnostic, Rejected
 from plutoc.emit.errors import never_written, outdated, place_of
-from plutoc.emit.write import CannotWrite, Changes, compare, write
+from plutoc.emit.write import CannotWrite, Changes, Refused, compare, write
 from plutoc.source import Source
 from plutoc_runtime.cli import output
 from plutoc_runtime.words import counted, printable
 
 
+@dataclass(slots=True)
+class _Said:
+    """What there is to say, gathered: some formats are one document."""
+
+    found: list[Diagnostic] = field(default_factory=list)
+    lines: list[str] = field(default_factory=list)
+
+
 def compile_(options: Options) -> int:
     """Write an app's package, or say what would be written."""
+    said, code = _Said(), CLEAN
+    try:
+        _compile(options, said)
+    except Rejected as rejected:
+        said.found += rejected.diagnostics
+        code = REFUSED if isinstance(rejected, Refused) else ERRORS
+    except Unusable as error:
+        say(said.found, options.format, [str(error)])
+        raise
+    say(said.found, options.format)
+    # Other formats have standard output for themselves.
+    tell = output.line if options.format == "text" else output.tell
+    for line in said.lines:
+        tell(line)
+    return code
+
+
+def _compile(options: Options, said: _Said) -> None:
     source = read_app(options.file)
     if options.show is not None:
-        return _show(source, options)
+        _show(source, options.show, said)
+        return
     compiled = compile_source(
         source,
         source_name=options.file.name,
         find_hooks=lambda checked: _hooks(options, checked),
     )
-    say(compiled.warnings, options.format)
+    said.found += compiled.warnings
     try:
         changes = _changes(options, compiled)
         if options.diff:
-            for line in diff(changes):
-                output.line(line)
+            said.lines += diff(changes)
         if options.check:
             _refuse(compiled.checked, changes)
         elif not options.diff:
@@ -45,14 +72,13 @@ def compile_(options: Options) -> int:
     except CannotWrite as error:
         raise Unusable(f"{printable(str(error))}; nothing was changed") from None
     if options.format == "text" and not options.diff:
-        _tell(compiled, changes)
-    return CLEAN
+        said.lines += _outcome(compiled, changes)
 
 
-def _show(source: Source, options: Options) -> int:
+def _show(source: Source, what: str, said: _Said) -> None:
     checked, warnings = analyse(source)
-    say(warnings, options.format)
-    if options.show == "graph":
+    said.found += warnings
+    if what == "graph":
         from plutoc.report.graph import mermaid
 
         text = mermaid(checked)
@@ -60,8 +86,7 @@ def _show(source: Source, options: Options) -> int:
         from plutoc.plan.show import show
 
         text = show(planned(checked))
-    output.line(text.rstrip("\n"))
-    return CLEAN
+    said.lines.append(text.rstrip("\n"))
 
 
 def _folder(options: Options, checked: Checked) -> Path:
@@ -99,21 +124,21 @@ def _refuse(checked: Checked, changes: Changes) -> None:
         raise Rejected([outdated(place, folder, [change.path for change in changes.files])])
 
 
-def _tell(compiled: Compiled, changes: Changes) -> None:
+def _outcome(compiled: Compiled, changes: Changes) -> Iterator[str]:
     folder = shown(changes.folder)
     if changes.first:
-        output.line(f"{folder}: a new package of {counted(len(changes.files), 'file')}")
+        yield f"{folder}: a new package of {counted(len(changes.files), 'file')}"
         graph = compiled.checked.graph
         own = f"{folder}/{hooks_path(compiled.checked)}"
         if compiled.hooks is not None:
-            output.line(f"  {compiled.hooks.path} was copied to {own}: edit that one from now on")
+            yield f"  {compiled.hooks.path} was copied to {own}: edit that one from now on"
         elif graph.hooks or graph.actions:
-            output.line(f"  your own code goes into {own}")
-        output.line(f"  install it with: pip install {quote(os.path.join('.', changes.folder))}")
+            yield f"  your own code goes into {own}"
+        yield f"  install it with: pip install {quote(os.path.join('.', changes.folder))}"
     elif changes.files:
-        output.line(f"{folder}: {counted(len(changes.files), 'file')} changed")
+        yield f"{folder}: {counted(len(changes.files), 'file')} changed"
         for change in changes.files:
             mark = "+" if change.before is None else "-" if change.after is None else "~"
-            output.line(f"  {mark} {shown(Path(change.path))}")
+            yield f"  {mark} {shown(Path(change.path))}"
     else:
-        output.line(f"{folder}: up to date")
+        yield f"{folder}: up to date"

@@ -11,6 +11,7 @@ from pathlib import Path
 from plutoc.cli.endings import USAGE
 from plutoc.cli.version import tell_version
 
+FORMATS = ("text", "json", "github", "sarif")
 PICTURES = ("mermaid", "dot", "svg", "json")
 
 
@@ -27,6 +28,7 @@ class Options:
     folder: Path | None = None
     check: bool = False
     diff: bool = False
+    fix: bool = False
     force: bool = False
     add_stubs: bool = False
     plain: bool = False
@@ -58,7 +60,7 @@ def parse(arguments: Sequence[str]) -> Options:
         return _plain(commands.add_parser(name, help=what, description=what, allow_abbrev=False))
 
     _new(command("new", "Make a folder with a small app to begin with."))
-    _check(command("check", "Say what is wrong with an app; nothing is written."))
+    _check(command("check", "Say what is wrong with apps; with --fix, mend what is certain."))
     _compile(command("compile", "Write the Python package of an app."))
     _run(command("run", "Compile an app and simulate its missions at once."))
     _fmt(command("fmt", "Write sources in canonical form; comments and meaning are kept."))
@@ -94,9 +96,9 @@ def _file(parser: ArgumentParser) -> None:
 def _format(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--format",
-        choices=("text", "json"),
-        default="text",
-        help="how to report: text on standard error (default), or JSON lines on standard output",
+        choices=FORMATS,
+        default=FORMATS[0],
+        help="how to report: text on standard error (default), or for programs on standard output",
     )
 
 
@@ -105,7 +107,16 @@ def _new(parser: ArgumentParser) -> None:
 
 
 def _check(parser: ArgumentParser) -> None:
-    parser.add_argument("files", metavar="FILE", type=Path, nargs="+", help="apps, .pluto files")
+    parser.add_argument(
+        "files",
+        metavar="FILE",
+        type=Path,
+        nargs="+",
+        help="apps, .pluto files; - for standard input",
+    )
+    parser.add_argument(
+        "--fix", action="store_true", help="change what can be mended for certain, then check"
+    )
     _format(parser)
 
 

@@ -1,4 +1,4 @@
-"""Diagnostics on their way out: text on standard error, JSON on standard output."""
+"""Diagnostics on their way out: text on standard error, all else on standard output."""
 
 from __future__ import annotations
 
@@ -7,21 +7,47 @@ import sys
 from collections.abc import Sequence
 from typing import TextIO
 
-from plutoc.diagnostic import Diagnostic
+from plutoc.diagnostic import Diagnostic, arranged
 from plutoc_runtime.cli import output
 
 
-def say(diagnostics: Sequence[Diagnostic], format: str = "text") -> None:
-    """Print what the compiler found."""
-    if format == "json":
-        from plutoc.report.json import render_line
+def say(
+    diagnostics: Sequence[Diagnostic], format: str = "text", troubles: Sequence[str] = ()
+) -> None:
+    """Print what the compiler found; once a run, for one of the formats is a single document.
 
-        for diagnostic in diagnostics:
-            output.line(render_line(diagnostic))
-    elif diagnostics:
-        from plutoc.report.text import render
+    `troubles` are what kept files from being read. A person is told of them on standard error, by
+    whoever met them; here they are told to programs.
+    """
+    found = arranged(diagnostics)
+    match format:
+        case "json":
+            from plutoc.report import json
 
-        output.tell(render(diagnostics, colour=in_colour(sys.stderr)).rstrip("\n"))
+            for diagnostic in found:
+                output.line(json.render_line(diagnostic))
+        case "github":
+            from plutoc.report import github
+
+            for sentence in troubles:
+                output.line(github.render_trouble(sentence))
+            for diagnostic in found:
+                output.line(github.render_line(diagnostic))
+        case "sarif":
+            from plutoc import __version__
+            from plutoc.report import sarif
+
+            output.line(sarif.render(found, troubles, version=__version__, title=_title))
+        case _ if found:
+            from plutoc.report.text import render
+
+            output.tell(render(found, colour=in_colour(sys.stderr)).rstrip("\n"))
+
+
+def _title(code: str) -> str | None:
+    from plutoc.explain.pages import codes, page
+
+    return page(code).title if code in codes() else None
 
 
 def in_colour(stream: TextIO | None) -> bool:

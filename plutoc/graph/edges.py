@@ -163,4 +163,4 @@ def _check_twice(source: Source, resolved: Sequence[Edge], found: list[Diagnosti
         before = first.setdefault((edge.source, edge.target, guard, edge.otherwise), edge)
         if before is not edge:
             names = (edge.source, edge.target)
-            found.append(errors.edge_twice(source, edge.span, before.span, names))
+            found.append(errors.edge_twice(source, edge.span, edge.guard_span, before.span, names))

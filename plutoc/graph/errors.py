@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from plutoc.diagnostic import Diagnostic, error, warning
+from plutoc.edits import without_arrow, without_item, without_statement
 from plutoc.graph.names import LONGEST, Style, in_plain_letters, in_snake_case
 from plutoc.graph.wording import (
     all_of,
@@ -142,6 +143,7 @@ def unused_package(source: Source, name: Name, span: Span) -> Diagnostic:
         span,
         label="not needed",
         help="remove this line",
+        fix=without_statement(source, span),
     )
 
 
@@ -194,6 +196,7 @@ def named_twice(source: Source, name: Name, first: Name) -> Diagnostic:
         label="the second time",
         related=(related(source, first.span, "the first time"),),
         help="remove one of them",
+        fix=without_item(source, name.span),
     )
 
 
@@ -314,7 +317,9 @@ def out_of_end(source: Source, name: Name) -> Diagnostic:
     )
 
 
-def edge_twice(source: Source, span: Span, first: Span, names: tuple[str, str]) -> Diagnostic:
+def edge_twice(
+    source: Source, span: Span, guard: Span | None, first: Span, names: tuple[str, str]
+) -> Diagnostic:
     """The same edge twice."""
     return error(
         "P1035",
@@ -324,6 +329,7 @@ def edge_twice(source: Source, span: Span, first: Span, names: tuple[str, str]) 
         label="the second time",
         related=(related(source, first, "the first time"),),
         help="remove one of them",
+        fix=without_arrow(source, names, span, guard),
     )
 
 

@@ -44,7 +44,7 @@ def test_version_is_printed(plutoc: Call) -> None:
         ["fly"],
         ["check"],
         ["compile"],
-        ["check", "a.pluto", "--format", "sarif"],
+        ["check", "a.pluto", "--format", "xml"],
         ["graph", "a.pluto", "--format", "png"],
         ["compile", "a.pluto", "--chek"],
         ["run", "a.pluto", "--seed", "many"],
