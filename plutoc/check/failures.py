@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from plutoc.check import errors
-from plutoc.check.components import loops, round_of
+from plutoc.check.components import loops, round_of, trimmed
 from plutoc.check.flow import Flow, Place, blocks_of
 from plutoc.diagnostic import Diagnostic
 from plutoc.graph.model import Node
@@ -26,20 +28,29 @@ def unmended(flow: Flow) -> list[Diagnostic]:
 
 def unbounded(flow: Flow) -> list[Diagnostic]:
     """Warn of loops that a trip which always fails would go round for ever."""
-    after = {
-        place: tuple(t for t in targets if _is_failure(flow, place, t))
-        for place, targets in flow.after.items()
-    }
+    after = trimmed(
+        {
+            place: tuple(t for t in targets if _is_failure(flow, place, t))
+            for place, targets in flow.after.items()
+        }
+    )
+    if not any(_is_mended(place, targets) for place, targets in after.items()):
+        return []
     found: dict[str, Diagnostic] = {}
     for part in loops(after):
         inside = set(part)
         for place in part:
             node = flow.graph.node[place.node]
-            mended = any(t in inside and t.status is not Status.FAILED for t in after[place])
-            if place.status is Status.FAILED and mended and node.name not in found:
+            mended = _is_mended(place, [t for t in after[place] if t in inside])
+            if mended and node.name not in found:
                 names = blocks_of(round_of(after, part, place))
                 found[node.name] = errors.fails_forever(flow.graph, node, names)
     return list(found.values())
+
+
+def _is_mended(place: Place, targets: Iterable[Place]) -> bool:
+    """Does a failed mission leave this place in a better state?"""
+    return place.status is Status.FAILED and any(t.status is not Status.FAILED for t in targets)
 
 
 def _mends(flow: Flow, node: Node) -> bool:

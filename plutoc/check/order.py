@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import networkx as nx
-
 from plutoc.check import errors
+from plutoc.check.components import behind
 from plutoc.check.flow import Flow
 from plutoc.diagnostic import Diagnostic
 
@@ -12,19 +11,16 @@ from plutoc.diagnostic import Diagnostic
 def repeated_unjudged(flow: Flow) -> list[Diagnostic]:
     """Warn where a mission is repeated before it was judged."""
     graph = flow.graph
-    arrows = nx.DiGraph()
-    arrows.add_nodes_from(graph.node)
-    arrows.add_edges_from(
-        (edge.source, edge.target)
-        for edge in flow.edges
+    after: dict[str, list[str]] = {}
+    for edge in flow.edges:
         # behind a launch it is another flight that is judged
-        if flow.carries[edge] and not _launches(flow, edge.source)
-    )
+        if flow.carries[edge] and not _launches(flow, edge.source):
+            after.setdefault(edge.source, []).append(edge.target)
     found = []
     for node in graph.nodes:
         if node.block.repeats and flow.arrives[node.name]:
-            behind = nx.descendants(arrows, node.name)
-            judges = [n for n in graph.nodes if n.block.evaluates and n.name in behind]
+            follow = behind(after, [node.name])
+            judges = [n for n in graph.nodes if n.block.evaluates and n.name in follow]
             if judges:
                 found.append(errors.repeated_unjudged(graph, node, judges[0]))
     return found
