@@ -7,6 +7,8 @@ from pathlib import Path
 import pytest
 
 from plutoc.explain.pages import codes
+from plutoc.format.run import format_source
+from plutoc.source import Source
 from tests.explain.examples import (
     CODE,
     WITHOUT_EXAMPLES,
@@ -45,3 +47,10 @@ def test_an_example_gives_its_code_and_no_other_and_nothing_once_it_is_mended(
 def test_the_two_examples_of_a_page_differ(code: str) -> None:
     """Something was mended."""
     assert example(code, mended=False) != example(code, mended=True)
+
+
+@pytest.mark.parametrize("code", CODES)
+def test_a_mended_example_is_in_canonical_form(code: str) -> None:
+    """What people copy from a page is as `plutoc fmt` writes it."""
+    text = example(code, mended=True).files["app.pluto"]
+    assert format_source(Source("app.pluto", text)) == text
