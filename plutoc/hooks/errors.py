@@ -223,6 +223,7 @@ def must_wait(app: Source, hooks: Source, hook: Expected, span: Span) -> Diagnos
         hook,
         span,
         label=f"needs `async def {hook.name}`",
+        waits=True,
     )
 
 
@@ -240,8 +241,18 @@ def policy_waits(app: Source, hooks: Source, hook: Expected, span: Span) -> Diag
 
 
 def _on_hook(
-    code: str, message: str, app: Source, hooks: Source, hook: Expected, span: Span, *, label: str
+    code: str,
+    message: str,
+    app: Source,
+    hooks: Source,
+    hook: Expected,
+    span: Span,
+    *,
+    label: str,
+    waits: bool = False,
 ) -> Diagnostic:
+    """An error in a function, with the first line that it should have."""
+    line = hook.first_line
     return error(
         code,
         message,
@@ -249,7 +260,8 @@ def _on_hook(
         span,
         label=label,
         related=(Related(source=app, span=hook.span, label="declared here"),),
-        help=f"the app calls it like this:\n{hook.first_line}",
+        help="let it begin like this:\n"
+        + (f"async {line}" if waits and not line.startswith("async ") else line),
     )
 
 
