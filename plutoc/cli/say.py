@@ -42,6 +42,7 @@ def say(
             from plutoc.report.text import render
 
             output.tell(render(found, colour=in_colour(sys.stderr)).rstrip("\n"))
+            output.tell(f"`plutoc explain {found[0].code}` tells more")
 
 
 def _title(code: str) -> str | None:

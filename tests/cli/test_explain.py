@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
 from plutoc.explain.pages import GROUPS, codes, page
@@ -70,3 +72,11 @@ def test_colour_follows_the_usual_variables(plutoc: Call, monkeypatch: pytest.Mo
     assert "\033[1m" in plutoc("explain").out
     monkeypatch.setenv("NO_COLOR", "1")
     assert plutoc("explain", "P1003").out == plain
+
+
+def test_a_report_ends_with_how_to_read_more(plutoc: Call, here: Path) -> None:
+    """Once, for the first of its diagnostics; programs are not told."""
+    (here / "a.pluto").write_text("app a {\n  end = Clock\n}\n")
+    assert plutoc("check", "a.pluto").err.endswith("\n`plutoc explain P0009` tells more\n")
+    said = plutoc("check", "a.pluto", "--format", "json")
+    assert "plutoc explain" not in said.out + said.err
