@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 
 from plutoc.check.model import Checked
 from plutoc.check.run import check
-from plutoc.diagnostic import Diagnostic, Rejected
-from plutoc.graph.resolve import resolve
+from plutoc.diagnostic import Diagnostic, Rejected, accept_or_raise
+from plutoc.graph.resolve import resolved
 from plutoc.registry import blocks, standard
 from plutoc.source import Source
-from plutoc.syntax.parse import parse
+from plutoc.syntax.parse import read
 
 if TYPE_CHECKING:
     from plutoc.emit.package import Package
@@ -44,10 +44,11 @@ def compile_source(source: Source, *, source_name: str, find_hooks: FindHooks) -
 
 def analyse(source: Source) -> tuple[Checked, Warnings]:
     """Return the checked graph of a source."""
-    file = parse(source)
-    graph, of_names = resolve(file, blocks() if file.uses else standard())
+    file, of_syntax = read(source)
+    graph, of_names = resolved(file, blocks() if file.uses else standard())
+    warnings = accept_or_raise((*of_syntax, *of_names))
     checked, of_graph = check(graph)
-    return checked, of_names + of_graph
+    return checked, warnings + of_graph
 
 
 def check_hooks(checked: Checked, hooks: Source | None) -> Warnings:

@@ -7,6 +7,7 @@ from plutoc.diagnostic import Diagnostic
 from plutoc.graph import errors, value_errors
 from plutoc.graph.arguments import once_each
 from plutoc.graph.model import Category
+from plutoc.graph.unclear import Unclear
 from plutoc.graph.values import typed
 from plutoc.source import Source
 from plutoc.syntax.tree import Argument, CategoryDecl
@@ -31,25 +32,33 @@ def implicit() -> Category:
 
 
 def category(
-    source: Source, declared: CategoryDecl, actions: dict[str, None], found: list[Diagnostic]
+    source: Source,
+    declared: CategoryDecl,
+    actions: dict[str, None],
+    unclear: Unclear,
+    found: list[Diagnostic],
 ) -> Category:
     """Resolve a category; `actions` are the names of all there are."""
     values: dict[str, float] = {}
+    given = {argument.name.text for argument in declared.arguments}
     owner = f"category `{declared.name.text}`"
     for argument in once_each(source, declared.arguments, found):
         param = _BY_NAME.get(argument.name.text)
         if param is None:
             found.append(
-                value_errors.unknown_argument(source, argument.name, owner, list(_BY_NAME))
+                value_errors.unknown_argument(source, argument.name, owner, list(_BY_NAME), given)
             )
             continue
         value = typed(source, param.name, argument.value, param.type, found)
         if isinstance(value, float) and _is_possible(source, param, argument, value, found):
             values[param.name] = value
+    named = {name.text for name in declared.can}
     for i, name in enumerate(declared.can):
         first = next(other for other in declared.can if other.text == name.text)
         if name.text not in actions:
-            found.append(errors.unknown_action(source, name, list(actions)))
+            if not unclear.may_declare(name.text):
+                others = [each for each in actions if each not in named]
+                found.append(errors.unknown_action(source, name, others))
         elif first is not declared.can[i]:
             found.append(errors.named_twice(source, name, first))
     return _category(declared.name.text, values, tuple(dict.fromkeys(n.text for n in declared.can)))

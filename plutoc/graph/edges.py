@@ -10,8 +10,9 @@ from plutoc.diagnostic import Diagnostic
 from plutoc.graph import errors
 from plutoc.graph.hooks import statuses
 from plutoc.graph.model import END, START, Edge, Node
-from plutoc.graph.names import near
-from plutoc.graph.scope import BLOCK, Scope
+from plutoc.graph.scope import Scope
+from plutoc.graph.stops import check_stops
+from plutoc.graph.unclear import Unclear
 from plutoc.source import Source
 from plutoc.syntax.tree import FlowDecl, Guard, Name
 from plutoc_runtime.status import Status
@@ -19,8 +20,8 @@ from plutoc_runtime.status import Status
 END_ACCEPTS = frozenset({Status.COMPLETED, Status.FAILED})
 
 
-_MOST_PROPOSALS = 100
-"""Near names are looked for so often: it takes long among many, and nobody reads more."""
+MOST_EDGES = 100_000
+"""Of an app: brackets of a thousand names each make a million of them, which nobody meant."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -37,12 +38,19 @@ def edges(
     flows: Sequence[FlowDecl],
     scope: Scope,
     nodes: Mapping[str, Node],
+    unclear: Unclear,
     found: list[Diagnostic],
 ) -> tuple[Edge, ...]:
     """Resolve all edges, in the order of the source."""
-    _check_stops(source, flows, scope, nodes, found)
+    check_stops(source, flows, scope, nodes, unclear, found)
     resolved: list[Edge] = []
+    of_flow: list[FlowDecl] = []
+    left = MOST_EDGES
     for flow in flows:
+        left -= sum(len(one.names) * len(other.names) for one, other in pairwise(flow.stops))
+        if left < 0:
+            found.append(errors.too_many_edges(source, flow.span, MOST_EDGES))
+            break
         given = flow.guard
         guard = statuses(source, given.statuses, found) if given else []
         if given and any(name.text == START for name in flow.stops[-2].names):
@@ -52,8 +60,9 @@ def edges(
         taken = frozenset(status for _, status in guard)
         for arrow in _arrows(flow):
             if _is_possible(arrow, nodes):
+                of_flow.append(flow)
                 resolved.append(_edge(arrow, tuple(status for _, status in guard), taken, nodes))
-    _check_twice(source, resolved, found)
+    _check_twice(source, resolved, of_flow, found)
     taken_from: dict[str, set[Status]] = {}
     for edge in resolved:
         if not edge.otherwise:
@@ -104,38 +113,6 @@ def _accepts(target: str, nodes: Mapping[str, Node]) -> frozenset[Status]:
     return END_ACCEPTS if target == END else nodes[target].block.accepts
 
 
-def _check_stops(
-    source: Source,
-    flows: Sequence[FlowDecl],
-    scope: Scope,
-    nodes: Mapping[str, Node],
-    found: list[Diagnostic],
-) -> None:
-    """Check that every stop is a block, or `start` at a beginning, or `end` at an end."""
-    blocks = [name for name, declared in scope.items() if declared.role == BLOCK]
-    told = 0
-    hopeless: set[str] = set()  # told once: a block that is missing, not a slip of the pen
-    for flow in flows:
-        for i, stop in enumerate(flow.stops):
-            for name in stop.names:
-                declared = scope.get(name.text)
-                if name.text == START:
-                    if i > 0:
-                        found.append(errors.into_start(source, name))
-                elif name.text == END:
-                    if i < len(flow.stops) - 1:
-                        found.append(errors.out_of_end(source, name))
-                elif name.text in hopeless or name.text in nodes:
-                    continue  # a block that has another thing's name is told as that
-                elif declared is None or declared.role != BLOCK:
-                    role = declared.role if declared else None
-                    meant = near(name.text, blocks) if told < _MOST_PROPOSALS else []
-                    told += 1
-                    found.append(errors.unknown_block(source, name, meant, role))
-                    if not meant:
-                        hopeless.add(name.text)
-
-
 def _check_guard(
     source: Source,
     guard: Sequence[tuple[Name, Status]],
@@ -156,11 +133,16 @@ def _check_guard(
     )
 
 
-def _check_twice(source: Source, resolved: Sequence[Edge], found: list[Diagnostic]) -> None:
+def _check_twice(
+    source: Source, resolved: Sequence[Edge], of_flow: Sequence[FlowDecl], found: list[Diagnostic]
+) -> None:
+    """Find edges that are there twice; of a statement that repeats many, the first."""
     first: dict[tuple[str, str, frozenset[Status] | None, bool], Edge] = {}
-    for edge in resolved:
+    told: FlowDecl | None = None
+    for edge, flow in zip(resolved, of_flow, strict=True):
         guard = frozenset(edge.guard) if edge.guard is not None else None
         before = first.setdefault((edge.source, edge.target, guard, edge.otherwise), edge)
-        if before is not edge:
+        if before is not edge and flow is not told:
+            told = flow
             names = (edge.source, edge.target)
             found.append(errors.edge_twice(source, edge.span, edge.guard_span, before.span, names))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 
 from plutoc.diagnostic import Diagnostic, error, warning
 from plutoc.edits import without_arrow, without_item, without_statement
@@ -19,6 +20,7 @@ from plutoc.source import Source, Span
 from plutoc.syntax.tree import Name
 from plutoc_runtime.quantities import Type
 from plutoc_runtime.status import IN_GRAPH, Status
+from plutoc_runtime.words import counted
 
 
 def malformed_name(source: Source, name: Name) -> Diagnostic:
@@ -295,6 +297,17 @@ def unknown_block(
     return error("P1032", message, source, name.span, help=meant(name.text, blocks) or help)
 
 
+def kind_in_a_flow(source: Source, name: Name, kind: Name) -> Diagnostic:
+    """A declaration of a block, written with an arrow."""
+    return error(
+        "P1032",
+        f"`{kind.text}` is a kind of block, and an arrow leads to a block",
+        source,
+        kind.span,
+        help=f"to declare a block, write `{name.text} = {kind.text}`",
+    )
+
+
 def into_start(source: Source, name: Name) -> Diagnostic:
     """An edge to where missions come from."""
     return error(
@@ -333,6 +346,18 @@ def edge_twice(
     )
 
 
+def too_many_edges(source: Source, span: Span, most: int) -> Diagnostic:
+    """Brackets that make more edges than anybody can mean."""
+    return error(
+        "P1039",
+        f"an app has at most {most:,} edges, and with these it has more",
+        source,
+        span,
+        label="each name in brackets leads to each in the next",
+        help="let brackets of many names meet at a block, from which one edge goes on",
+    )
+
+
 def refused_status(
     source: Source, name: Name, target: str, kind: str | None, accepted: Iterable[Status]
 ) -> Diagnostic:
@@ -357,3 +382,31 @@ def guarded_start(source: Source, span: Span) -> Diagnostic:
         span,
         help="remove the guard",
     )
+
+
+_OF_THE_APP = frozenset({"P1011", "P1021", "P1022", "P1024", "P1032"})
+"""Codes of names that an app declares itself: one missing declaration is one mistake."""
+_MOST_PLACES = 3
+
+
+def each_name_once(found: Iterable[Diagnostic]) -> list[Diagnostic]:
+    """Tell of a name that is declared nowhere once, with the places where it is used besides."""
+    once: dict[tuple[str, str] | int, list[Diagnostic]] = {}
+    for i, diagnostic in enumerate(found):
+        shared = diagnostic.code in _OF_THE_APP
+        key = (diagnostic.code, diagnostic.message) if shared else i
+        once.setdefault(key, []).append(diagnostic)
+    return [_with_places(first, more) for first, *more in once.values()]
+
+
+def _with_places(first: Diagnostic, more: Sequence[Diagnostic]) -> Diagnostic:
+    if not more:
+        return first
+    left = len(more) - _MOST_PLACES
+    labels = ["here, too"] * min(len(more), _MOST_PLACES)
+    if left > 0:
+        labels[-1] = f"here, too, and in {counted(left, 'more place')}"
+    places = tuple(
+        related(other.source, other.span, label) for other, label in zip(more, labels, strict=False)
+    )
+    return replace(first, related=(*first.related, *places))

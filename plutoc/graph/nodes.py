@@ -10,8 +10,10 @@ from plutoc.diagnostic import Diagnostic
 from plutoc.graph import value_errors
 from plutoc.graph.arguments import once_each
 from plutoc.graph.model import Choose, Hook, Node, Parameter, Plain
+from plutoc.graph.names import near
 from plutoc.graph.packages import Packages, find
 from plutoc.graph.scope import ACTION, HOOK_ROLES, Scope
+from plutoc.graph.unclear import Unclear
 from plutoc.graph.values import EXAMPLES, at_least, typed, written
 from plutoc.source import Source
 from plutoc.syntax.tree import Argument, BlockDecl, Bool, Name, Value
@@ -30,34 +32,48 @@ class Place:
     partial: frozenset[str]
     """Hooks with a mistake in their declaration: what parameters they take is not certain."""
     packages: Packages
+    unclear: Unclear
     found: list[Diagnostic]
 
 
 def node(place: Place, declared: BlockDecl) -> Node | None:
     """Resolve a block, or give None where its kind does not exist."""
-    kind = find(place.source, declared, place.packages, place.found)
+    kind = find(place.source, declared, place.packages, place.unclear, place.found)
     if kind is None:
         return None
     package, block = kind
     given = {a.name.text: a for a in once_each(place.source, declared.arguments, place.found)}
     hook_param = next((p for p in block.params if isinstance(p, HookParam)), None)
-    hook = _hook(place, declared, hook_param, given) if hook_param else None
+    own = [param.name for param in block.params]
+    strange = {name: argument.name for name, argument in given.items() if name not in own}
+    hook = None
+    if hook_param:
+        slip = _slip(hook_param.name, strange) if hook_param.name not in given else None
+        if slip and hook_param.required:
+            unknown = value_errors.unknown_argument(
+                place.source, slip, f"`{block.name}`", own, given
+            )
+            place.found.append(unknown)
+            del strange[slip.text]
+        else:
+            hook = _hook(place, declared, hook_param, given)
     passes = hook_param is not None and hook_param.passes
     passed = hook.parameters if passes and hook and hook.name not in place.partial else ()
     uncertain = passes and (hook is None or hook.name in place.partial)
+    for param in passed:
+        strange.pop(param.name, None)
     if not uncertain:
-        known = [*(param.name for param in block.params), *(param.name for param in passed)]
+        known = [*own, *(param.name for param in passed)]
         place.found.extend(
-            value_errors.unknown_argument(place.source, argument.name, f"`{block.name}`", known)
-            for name, argument in given.items()
-            if name not in known
+            value_errors.unknown_argument(place.source, name, f"`{block.name}`", known, given)
+            for name in strange.values()
         )
     return Node(
         name=declared.name.text,
         block=block,
         package=package,
         values=tuple(
-            (param.name, _value(place, declared, param, given.get(param.name)))
+            (param.name, _value(place, declared, param, given.get(param.name), strange))
             for param in block.params
             if isinstance(param, Param)
         ),
@@ -67,7 +83,7 @@ def node(place: Place, declared: BlockDecl) -> Node | None:
             if isinstance(param, Choice)
         ),
         hook=hook,
-        passed=_passed(place, declared, passed, given),
+        passed=_passed(place, declared, passed, given, strange),
         declaration=_declaration(declared),
         span=declared.span,
         name_span=declared.name.span,
@@ -75,10 +91,14 @@ def node(place: Place, declared: BlockDecl) -> Node | None:
 
 
 def _value(
-    place: Place, declared: BlockDecl, param: Param, argument: Argument | None
+    place: Place,
+    declared: BlockDecl,
+    param: Param,
+    argument: Argument | None,
+    strange: Mapping[str, Name],
 ) -> Plain | None:
     if argument is None:
-        if param.required:
+        if param.required and not _slip(param.name, strange):
             _missing(place, declared, param.name, EXAMPLES[param.type])
         return param.default
     value = typed(place.source, param.name, argument.value, param.type, place.found)
@@ -107,6 +127,8 @@ def _choose(place: Place, param: Choice, argument: Argument | None) -> Choose:
         return Choose(name=name.text, hook=None)
     if param.hook and name.text in place.hooks:
         return Choose(name=name.text, hook=_of_kind(place, name, param.hook))
+    if param.hook and place.unclear.may_declare(name.text):
+        return default
     hook = param.hook.value if param.hook else None
     hooks = [each.name for each in place.hooks.values() if each.kind is param.hook]
     place.found.append(
@@ -144,6 +166,8 @@ def _of_kind(place: Place, name: Name, kind: HookKind) -> Hook | None:
     hook, declared = place.hooks.get(name.text), place.scope.get(name.text)
     if hook and hook.kind is kind:
         return hook
+    if place.unclear.may_declare(name.text):
+        return None
     if declared:
         place.found.append(
             value_errors.wrong_hook(
@@ -163,6 +187,7 @@ def _passed(
     declared: BlockDecl,
     parameters: Sequence[Parameter],
     given: Mapping[str, Argument],
+    strange: Mapping[str, Name],
 ) -> tuple[tuple[str, Plain], ...]:
     """Resolve the hook's own parameters, written beside it."""
     passed = []
@@ -171,11 +196,17 @@ def _passed(
         value = parameter.default
         if argument:
             value = typed(place.source, parameter.name, argument.value, parameter.type, place.found)
-        elif value is None:
+        elif value is None and not _slip(parameter.name, strange):
             _missing(place, declared, parameter.name, EXAMPLES[parameter.type])
         if value is not None:
             passed.append((parameter.name, value))
     return tuple(passed)
+
+
+def _slip(name: str, strange: Mapping[str, Name]) -> Name | None:
+    """Return an argument that means this parameter and is misspelt: told as that."""
+    meant = near(name, strange)
+    return strange[meant[0]] if meant else None
 
 
 def _missing(place: Place, declared: BlockDecl, name: str, example: str) -> None:

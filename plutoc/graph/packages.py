@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from plutoc.block import Block
 from plutoc.diagnostic import Diagnostic
 from plutoc.graph import errors
+from plutoc.graph.unclear import Unclear
 from plutoc.registry import STD, Blocks, RegistryError
 from plutoc.source import Source
 from plutoc.syntax.tree import BlockDecl, File, Name, Use
@@ -36,12 +37,16 @@ def packages_of(file: File, blocks: Blocks, found: list[Diagnostic]) -> Packages
         elif package not in kinds:
             kinds[package] = _load(package, file.source, use.package, blocks, found)
         names.setdefault((use.alias or use.package).text, package)
-    found.extend(
+    return Packages(names=names, kinds=kinds)
+
+
+def unused_packages(file: File) -> list[Diagnostic]:
+    """Find what is used for nothing."""
+    return [
         errors.unused_package(file.source, use.package, use.span)
         for use in file.uses
-        if kinds[use.package.text] is not None and not _is_used(use, file)
-    )
-    return Packages(names=names, kinds=kinds)
+        if not _is_used(use, file)
+    ]
 
 
 def _load(
@@ -63,12 +68,18 @@ def _is_used(use: Use, file: File) -> bool:
 
 
 def find(
-    source: Source, declared: BlockDecl, packages: Packages, found: list[Diagnostic]
+    source: Source,
+    declared: BlockDecl,
+    packages: Packages,
+    unclear: Unclear,
+    found: list[Diagnostic],
 ) -> tuple[str, Block] | None:
     """Return the package and the block that a declaration names, or None where there is none."""
     package = STD
     if declared.prefix:
         if declared.prefix.text not in packages.names:
+            if unclear.may_declare(declared.prefix.text):
+                return None
             found.append(errors.unknown_prefix(source, declared.prefix, list(packages.names)))
             return None
         package = packages.names[declared.prefix.text]

@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from plutoc.block import HookKind, HookParam
-from plutoc.diagnostic import Diagnostic, accept_or_raise
+from plutoc.diagnostic import Diagnostic, Severity, accept_or_raise
 from plutoc.graph import categories, errors, hooks
 from plutoc.graph.edges import edges
 from plutoc.graph.model import Action, Graph, Hook, Node
+from plutoc.graph.neighbours import told_once
 from plutoc.graph.nodes import Place, node
-from plutoc.graph.packages import packages_of
-from plutoc.graph.scope import check_app_name, scope_of
+from plutoc.graph.packages import packages_of, unused_packages
+from plutoc.graph.scope import check_app_name, scope_of, spoilt_names
+from plutoc.graph.stops import meant_to_declare
+from plutoc.graph.unclear import bad_statements, unclear
 from plutoc.graph.values import written
-from plutoc.registry import Blocks
+from plutoc.registry import STD, Blocks
 from plutoc.source import Source
 from plutoc.syntax.tree import (
     ActionDecl,
@@ -26,14 +30,22 @@ from plutoc.syntax.tree import (
     Name,
 )
 from plutoc_runtime.actions import BUILT_IN
+from plutoc_runtime.status import IN_GRAPH
 
 
 def resolve(file: File, blocks: Blocks) -> tuple[Graph, tuple[Diagnostic, ...]]:
     """Return the graph of a source, and warnings; raise `Rejected` with all errors."""
+    graph, found = resolved(file, blocks)
+    return graph, accept_or_raise(found)
+
+
+def resolved(file: File, blocks: Blocks) -> tuple[Graph, list[Diagnostic]]:
+    """Return as much of a source's graph as is clear, and all that is wrong with its names."""
     source, statements = file.source, file.app.statements
     found: list[Diagnostic] = []
-    check_app_name(source, file.app.name, found)
     scope = scope_of(file, found)
+    unsure = unclear(file, spoilt_names(source, found))
+    check_app_name(source, file.app.name, found)
     packages = packages_of(file, blocks, found)
     actions: list[Action] = []
     app_hooks: list[Hook] = []
@@ -57,31 +69,39 @@ def resolve(file: File, blocks: Blocks) -> tuple[Graph, tuple[Diagnostic, ...]]:
         hooks={hook.name: hook for hook in (*map(_as_hook, actions), *app_hooks)},
         partial=frozenset(partial),
         packages=packages,
+        unclear=unsure,
         found=found,
     )
     block_decls = [s for s in statements if isinstance(s, BlockDecl)]
-    resolved = [node(place, declared) for declared in block_decls]
-    nodes = [each for each in resolved if each is not None]
+    nodes = [each for each in (node(place, one) for one in block_decls) if each is not None]
     by_name = {each.name: each for each in reversed(nodes)}
     flows = [s for s in statements if isinstance(s, FlowDecl)]
+    kinds = packages.kinds[STD] or {}
+    slips = meant_to_declare(source, flows, scope, kinds, found)
+    flows = [flow for flow in flows if flow not in slips.values()]
+    unsure = replace(unsure, names=unsure.names | slips.keys())
     graph = Graph(
         source=source,
         name=file.app.name.text,
         name_span=file.app.name.span,
         title=_title(file),
         categories=tuple(
-            categories.category(source, declared, known_actions, found)
+            categories.category(source, declared, known_actions, unsure, found)
             for declared in category_decls
         )
         or (categories.implicit(),),
         actions=tuple(actions),
         hooks=tuple(app_hooks),
         nodes=tuple(nodes),
-        edges=edges(source, flows, scope, by_name, found),
+        edges=edges(source, flows, scope, by_name, unsure, found),
     )
-    found.extend(_unused_hooks(source, app_hooks, nodes, block_decls))
-    found.extend(_unused_actions(source, actions, category_decls, block_decls))
-    return graph, accept_or_raise(found)
+    if not bad_statements(file) and not any(d.severity is Severity.ERROR for d in found):
+        # Else a mistake may be what keeps it from being used.
+        found.extend(unused_packages(file))
+        found.extend(_unused_hooks(source, app_hooks, nodes, block_decls))
+        found.extend(_unused_actions(source, actions, category_decls, block_decls))
+    fixed = {*kinds, *(status.value for status in IN_GRAPH)}
+    return graph, told_once(source, errors.each_name_once(found), {*scope, *BUILT_IN}, fixed)
 
 
 def _as_hook(action: Action) -> Hook:

@@ -2,18 +2,30 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from plutoc.diagnostic import Diagnostic
 from plutoc.graph import errors, names
 from plutoc.graph.names import Style
+from plutoc.graph.unclear import bad_statements
 from plutoc.source import Source
-from plutoc.syntax.tree import ActionDecl, BlockDecl, CategoryDecl, File, FlowDecl, HookDecl, Name
+from plutoc.syntax.tree import (
+    ActionDecl,
+    BadStatement,
+    BlockDecl,
+    CategoryDecl,
+    File,
+    FlowDecl,
+    HookDecl,
+    Name,
+)
 from plutoc_runtime.actions import BUILT_IN
 
 BLOCK, CATEGORY, ACTION, PREFIX = "a block", "a category", "an action", "a package's prefix"
 HOOK_ROLES = {"evaluator": "an evaluator", "modifier": "a modifier", "policy": "a policy"}
 _HOOKS = frozenset({ACTION, *HOOK_ROLES.values()})
+_BAD_ROLES = HOOK_ROLES | {"block": BLOCK, "category": CATEGORY, "action": ACTION, "use": PREFIX}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -46,7 +58,16 @@ def scope_of(file: File, found: list[Diagnostic]) -> Scope:
         else:
             check_name(file.source, name, declared.role, found)
         scope.setdefault(name.text, declared)
+    for bad in bad_statements(file):
+        role = _BAD_ROLES.get(bad.kind or "")
+        if role and bad.name:
+            scope.setdefault(bad.name.text, Declared(name=bad.name, role=role))
     return scope
+
+
+def spoilt_names(source: Source, found: Sequence[Diagnostic]) -> list[str]:
+    """Return the declared names that something was found about: others may have been meant."""
+    return [source.quote(diagnostic.span) for diagnostic in found]
 
 
 def _declarations(file: File) -> list[Declared]:
@@ -61,7 +82,7 @@ def _declarations(file: File) -> list[Declared]:
                 declared.append(Declared(name=statement.name, role=HOOK_ROLES[statement.kind]))
             case BlockDecl():
                 declared.append(Declared(name=statement.name, role=BLOCK))
-            case FlowDecl():
+            case FlowDecl() | BadStatement():
                 pass
     return declared
 
@@ -80,6 +101,8 @@ def check_name(source: Source, name: Name, role: str, found: list[Diagnostic]) -
 def check_app_name(source: Source, name: Name, found: list[Diagnostic]) -> None:
     """Check an app's name, which is its package's too."""
     taken = names.taken_app_name(name.text)
+    if not name.text:
+        return  # it cannot be read, which is told
     if taken:
         found.append(errors.taken_app_name(source, name, taken))
     else:

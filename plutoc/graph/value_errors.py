@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 
 from plutoc.diagnostic import Diagnostic, error
 from plutoc.graph.wording import a_kind, either, meant, related, there_are
@@ -11,14 +11,17 @@ from plutoc.syntax.tree import Name
 from plutoc_runtime.quantities import Type, units_of
 
 
-def unknown_argument(source: Source, name: Name, owner: str, known: Sequence[str]) -> Diagnostic:
+def unknown_argument(
+    source: Source, name: Name, owner: str, known: Sequence[str], given: Container[str]
+) -> Diagnostic:
     """A value for a parameter that does not exist."""
+    free = [each for each in known if each not in given]
     return error(
         "P1013",
         f"{owner} has no parameter `{name.text}`",
         source,
         name.span,
-        help=meant(name.text, known) or there_are(known, "parameters") or "it has none at all",
+        help=meant(name.text, free) or there_are(known, "parameters") or "it has none at all",
     )
 
 

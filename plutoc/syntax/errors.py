@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import unicodedata
 
+from lark import Token
+
 from plutoc.diagnostic import Diagnostic, Fix, Related, error
 from plutoc.source import Source, Span
-from plutoc.syntax.words import shortened
+from plutoc.syntax.words import found, shortened
 
 
 def unexpected(
@@ -36,18 +38,22 @@ def open_text(source: Source, span: Span) -> Diagnostic:
     )
 
 
-def unknown_character(source: Source, span: Span) -> Diagnostic:
-    """A character that the language does not use."""
+def unknown_character(
+    source: Source, span: Span, help: str | None = None, fix: Fix | None = None
+) -> Diagnostic:
+    """A character that the language does not use, or several that somebody took for one sign."""
     char = source.quote(span)
     # The name, too: a no-break space or a typographic dash cannot be told from the right one.
-    plain = char if char.isascii() and char.isprintable() else _described(char)
+    is_plain = len(char) > 1 or (char.isascii() and char.isprintable())
+    plain = f"`{shortened(char)}`" if is_plain else described(char)
     return error(
         "P0003",
-        f"{plain if len(plain) > 1 else f'`{plain}`'} is not part of the language",
+        f"{plain} is not part of the language",
         source,
         span,
         label="not allowed here",
-        help=_MEANT.get(char),
+        help=help or _MEANT.get(char),
+        fix=fix,
     )
 
 
@@ -57,11 +63,9 @@ _MEANT = {
     "“": 'texts stand in straight double quotes: `"text"`',
     "”": 'texts stand in straight double quotes: `"text"`',
     "„": 'texts stand in straight double quotes: `"text"`',
-    "→": "write the arrow as `->`",
     "–": "write a minus or an arrow with the ordinary `-`",
     "—": "write a minus or an arrow with the ordinary `-`",
     "−": "write a minus or an arrow with the ordinary `-`",
-    "\u00a0": "write an ordinary space",
     "\r": "end the lines as Unix or Windows does: an editor can convert them",
     "°": "degrees Celsius are written `C`, those of an angle `deg`",
     "/": "a comment begins with `#`",
@@ -76,7 +80,7 @@ def hidden_character(source: Source, span: Span) -> Diagnostic:
     char = source.quote(span)
     return error(
         "P0004",
-        f"{_described(char)} is not allowed in a text or a comment",
+        f"{described(char)} is not allowed in a text or a comment",
         source,
         span,
         label="here, where you may not see it",
@@ -169,7 +173,7 @@ def reserved_word(source: Source, span: Span) -> Diagnostic:
     )
 
 
-def never_closed(source: Source, bracket: Span, end: Span) -> Diagnostic:
+def never_closed(source: Source, bracket: Span, end: int, fix: Fix | None = None) -> Diagnostic:
     """A bracket that nothing closes."""
     opening = source.quote(bracket)
     closing = {"(": ")", "[": "]", "{": "}"}[opening]
@@ -179,8 +183,11 @@ def never_closed(source: Source, bracket: Span, end: Span) -> Diagnostic:
         source,
         bracket,
         label="opened here",
-        related=(Related(source=source, span=end, label=f"`{closing}` expected by here"),),
+        related=(
+            Related(source=source, span=Span(end, end), label=f"`{closing}` expected by here"),
+        ),
         help=f"write `{closing}`",
+        fix=fix,
     )
 
 
@@ -195,7 +202,7 @@ def unwritable_number(source: Source, span: Span, digits: int) -> Diagnostic:
     )
 
 
-def second_app(source: Source, span: Span, first: Span) -> Diagnostic:
+def second_app(source: Source, span: Span, first: Span | None) -> Diagnostic:
     """A file with two apps."""
     return error(
         "P0013",
@@ -203,7 +210,7 @@ def second_app(source: Source, span: Span, first: Span) -> Diagnostic:
         source,
         span,
         label="a second one",
-        related=(Related(source=source, span=first, label="the first one"),),
+        related=(Related(source=source, span=first, label="the first one"),) if first else (),
         help="give each app a file of its own",
     )
 
@@ -220,19 +227,40 @@ def late_use(source: Source, span: Span) -> Diagnostic:
     )
 
 
-def no_app(source: Source, span: Span) -> Diagnostic:
-    """A file without an app."""
+def no_app(source: Source, span: Span, *, at_end: bool) -> Diagnostic:
+    """A file without an app, or without the line that begins it."""
     return error(
         "P0015",
         "this file has no app",
         source,
         span,
-        label="the file ends here",
-        help="write `app NAME { … }`",
+        label="the file ends here" if at_end else "this stands in the braces of an app",
+        help="write `app NAME { … }`" if at_end else "write `app NAME {` above it",
     )
 
 
-def _described(char: str) -> str:
+def early_brace(source: Source, span: Span, last: Span) -> Diagnostic:
+    """A closing brace, with more of the app behind it and the app's own at the end."""
+    return error(
+        "P0017",
+        "this `}` ends the app, and more of it follows",
+        source,
+        span,
+        label="too early",
+        related=(Related(source=source, span=last, label="the app ends here, too"),),
+        help="remove one of the two",
+    )
+
+
+def behind_the_app(source: Source, token: Token) -> Diagnostic:
+    """Something behind the brace that ends the app."""
+    span = Span(token.start_pos or 0, token.end_pos or 0)
+    end = "the end of the file"
+    help = "what belongs to the app stands before its `}`"
+    return unexpected(source, span, end, found(token), help, None)
+
+
+def described(char: str) -> str:
     """Say which character it is: "U+00A0 (NO-BREAK SPACE)"."""
     name = "tab" if char == "\t" else unicodedata.name(char, "").lower()
     return f"the character U+{ord(char):04X}" + (f" ({name})" if name else "")

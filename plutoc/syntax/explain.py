@@ -11,7 +11,9 @@ from plutoc.diagnostic import Diagnostic, Fix
 from plutoc.source import Source, Span
 from plutoc.syntax import errors
 from plutoc.syntax.newlines import CLOSING, END, EQUAL, NAME, NEWLINE, OPENING, WORDS
+from plutoc.syntax.slips import slip
 from plutoc.syntax.state import State, made_up, span, would_feed
+from plutoc.syntax.unreadable import DEEPEST, MOST_DIGITS
 from plutoc.syntax.words import expected, found
 
 _LINE_WORDS = ("use", "app")
@@ -29,105 +31,169 @@ _ADDABLE = {
     "LBRACE": "{",
 }
 """Tokens whose lack can be mended by writing them: the first that fits is proposed."""
+_CHOICES = frozenset({EQUAL, "_ARROW"})
+"""Of these, more than one can often have been meant: never certain."""
+
+_OTHER_WORDS = {
+    **dict.fromkeys(("if", "on", "where", "case"), "when"),
+    **dict.fromkeys(("else", "default", "others"), "otherwise"),
+    **dict.fromkeys(("import", "using", "require", "include"), "use"),
+    **dict.fromkeys(("does", "able", "has"), "can"),
+    **dict.fromkeys(("returns", "yields", "sends"), "emits"),
+    **dict.fromkeys(("program", "application", "mission"), "app"),
+}
+"""What other languages say."""
 
 
 def explain(
     source: Source,
+    base: State,
     state: State,
     tokens: Sequence[Token],
-    line: int,
     i: int,
-    apps: Sequence[Token],
+    app: Token | None,
 ) -> Diagnostic:
-    """Say what is wrong with the i-th token; its line begins at `line`."""
+    """Say what is wrong with the i-th token of a line, at which `state` cannot go on.
+
+    The last of the tokens is what ends the line; `base` is the parser before the line.
+    """
     token, here = tokens[i], _place(tokens, i)
     accepts = state.accepts()
-    if token.type == "OPEN_TEXT":
-        return errors.open_text(source, here)
-    if token.type == "UNKNOWN":
-        return errors.unknown_character(source, here)
-    if token.type == END and "APP" in accepts:
-        return errors.no_app(source, here)
-    if token.type in (NEWLINE, END, "RBRACE"):
-        left_open = _left_open(tokens, line, i)
+    special = _special(source, tokens, i, here)
+    if special is not None:
+        return special
+    if i == len(tokens) - 1 or token.type == "RBRACE":
+        left_open = _left_open(tokens[:i])
         if left_open is not None:
-            return errors.never_closed(source, span(left_open), here)
-    if token.type == "APP" and len(apps) > 1:
-        return errors.second_app(source, here, span(apps[0]))
-    if token.type == "USE" and i == line:
+            closing = {"(": ")", "[": "]"}[str(left_open)]
+            more = [made_up(OPENING[left_open.type], closing), *tokens[i:]]
+            fix = _certain(state, more, Span(here.start, here.start), closing)
+            return errors.never_closed(source, span(left_open), here.start, fix)
+    if token.type == "APP" and i == 0 and app is not None and "CATEGORY" in accepts:
+        return errors.second_app(source, here, span(app))
+    if token.type == "USE" and i == 0:
         return errors.late_use(source, here)
-    if _is_reserved(tokens, line, i, accepts):
+    if _is_reserved(tokens, i, accepts):
         return errors.reserved_word(source, here)
-    first = tokens[line]
-    if i == line + 1 and first.type.lower() in _STATEMENT_WORDS and token.type in (EQUAL, "_ARROW"):
+    first = tokens[0]
+    if i == 1 and first.type.lower() in _STATEMENT_WORDS and token.type in _CHOICES:
         return errors.reserved_word(source, span(first))
-    help, fix = _help(state, tokens, line, i, accepts)
+    help, fix = _help(base, state, tokens, i, accepts)
     return errors.unexpected(source, here, expected(accepts), found(token), help, fix)
 
 
-def _is_reserved(tokens: Sequence[Token], line: int, i: int, accepts: set[str]) -> bool:
+def _special(source: Source, tokens: Sequence[Token], i: int, here: Span) -> Diagnostic | None:
+    """Explain what is no token of the language at all."""
+    match tokens[i].type:
+        case "OPEN_TEXT":
+            return errors.open_text(source, here)
+        case "UNKNOWN":
+            return slip(source, tokens, i) or errors.unknown_character(source, here)
+        case "TOO_DEEP":
+            return errors.too_deep(source, here, DEEPEST)
+        case "LONG_NUMBER":
+            number = len(tokens[i]) - len(tokens[i].lstrip("-0123456789."))  # without its unit
+            where = Span(here.start, here.start + number)
+            return errors.unwritable_number(source, where, MOST_DIGITS)
+        case _:
+            return None
+
+
+def _is_reserved(tokens: Sequence[Token], i: int, accepts: set[str]) -> bool:
     """Say whether one of the language's words stands where only a name can."""
-    kind = tokens[i].type
-    if kind.lower() not in WORDS or NAME not in accepts:
+    if tokens[i].type.lower() not in WORDS or NAME not in accepts:
         return False
-    return i > line or tokens[i + 1].type in (EQUAL, "_ARROW")
+    return i > 0 or tokens[1].type in _CHOICES
 
 
-def _left_open(tokens: Sequence[Token], line: int, i: int) -> Token | None:
-    """Return the innermost bracket of this line, or else brace of this file, left open."""
-    start = 0 if tokens[i].type == END else line
+def _left_open(tokens: Sequence[Token]) -> Token | None:
+    """Return the innermost bracket that is left open."""
     left: list[Token] = []
-    for token in tokens[start:i]:
-        if token.type in OPENING or token.type == "LBRACE":
+    for token in tokens:
+        if token.type in OPENING:
             left.append(token)
-        elif (token.type in CLOSING or token.type == "RBRACE") and left:
+        elif token.type in CLOSING and left:
             left.pop()
-        elif token.type == NEWLINE:
-            left = [token for token in left if token.type == "LBRACE"]
     return left[-1] if left else None
 
 
 def _help(
-    state: State, tokens: Sequence[Token], line: int, i: int, accepts: set[str]
+    base: State, state: State, tokens: Sequence[Token], i: int, accepts: set[str]
 ) -> tuple[str | None, Fix | None]:
     """Say how to mend it, where that is clear."""
-    token, first = tokens[i], tokens[line]
+    token, first, rest = tokens[i], tokens[0], tokens[i + 1 :]
     if token.type == NAME:
-        possible = [word for word in WORDS if word.upper() in accepts]
-        near = difflib.get_close_matches(token.casefold(), possible, 1, 0.7)
-        if near:
-            return _meant(token, near[0])
-    if i == line + 1 and first.type == NAME:
-        possible = [*_STATEMENT_WORDS, *_LINE_WORDS]
-        near = difflib.get_close_matches(first.casefold(), possible, 1, 0.7)
-        if near and (token.type == NAME or near[0].upper() == token.type):
-            return _meant(first, near[0])
-    if token.type.upper() in _TAIL_WORDS and i == line:
+        word = _word(token, [word for word in WORDS if word.upper() in accepts])
+        if word:
+            return _meant(state, token, word, rest)
+    if i == 1 and first.type == NAME:
+        word = _word(first, [*_STATEMENT_WORDS, *_LINE_WORDS])
+        if word and (token.type == NAME or word.upper() == token.type):
+            return _meant(base, first, word, tokens[1:])
+    for given, wanted in (("COLON", EQUAL), (EQUAL, "COLON")):
+        text = _ADDABLE[wanted]
+        if token.type == given and wanted in accepts:
+            fix = _certain(state, [made_up(wanted, text), *rest], span(token), text)
+            if fix:
+                return f"write `{text}` here", fix
+    if token.type in _TAIL_WORDS and i == 0:
         return f"`{token}` goes on the line of the statement that it belongs to", None
-    if token.type == NEWLINE and i > line and tokens[i - 1].type == "_ARROW":
+    if i == len(tokens) - 1 and i and tokens[i - 1].type == "_ARROW":
         return "to go on in the next line, begin that one with `->`", None
+    if token.type == "LBRACE" and i == 0:
+        return "`{` stands at the end of the line that begins the app", None
     if token.type == "QUANTITY" and NAME in accepts:
         return "a name begins with a letter", None
+    return _missing(state, tokens, i, accepts)
+
+
+def _missing(
+    state: State, tokens: Sequence[Token], i: int, accepts: set[str]
+) -> tuple[str | None, Fix | None]:
+    """Propose to write what is missing, or else to remove what is too much."""
+    token = tokens[i]
     arrow = token.type == NAME and token[:1].islower()  # a block, where a kind may be meant, too
     for kind, text in _ADDABLE.items():
         if kind == EQUAL and arrow:
             continue
         if kind in accepts and would_feed(state, [made_up(kind, text), *tokens[i : i + 2]]):
-            at = tokens[i - 1].end_pos or 0
-            return f"write `{text}` before it", Fix(span=Span(at, at), text=text)
+            at = Span(*[(tokens[i - 1].end_pos or 0) if i else span(token).start] * 2)
+            more = [made_up(kind, text), *tokens[i:]]
+            certain = None if kind in _CHOICES else _certain(state, more, at, text)
+            return f"write `{text}` before it", certain
+    if i < len(tokens) - 1 and _mends(state, tokens[i + 1 :]):
+        return f"remove {found(token)}", None
     return None, None
 
 
-def _meant(token: Token, word: str) -> tuple[str, Fix]:
-    return f"did you mean `{word}`?", Fix(span=span(token), text=word)
+def _word(token: Token, possible: Sequence[str]) -> str | None:
+    """Return which of the language's words somebody meant."""
+    other = _OTHER_WORDS.get(token.casefold())
+    if other in possible:
+        return other
+    near = difflib.get_close_matches(token.casefold(), possible, 1, 0.7)
+    return near[0] if near else None
+
+
+def _meant(state: State, token: Token, word: str, rest: Sequence[Token]) -> tuple[str, Fix | None]:
+    line = [made_up(word.upper(), word), *rest]
+    return f"did you mean `{word}`?", _certain(state, line, span(token), word)
+
+
+def _certain(state: State, tokens: Sequence[Token], where: Span, text: str) -> Fix | None:
+    """Return a fix, if the rest of the line is in order after it."""
+    return Fix(span=where, text=text) if _mends(state, tokens) else None
+
+
+def _mends(state: State, tokens: Sequence[Token]) -> bool:
+    *line, _ = tokens
+    opens = bool(line) and line[-1].type == "LBRACE"
+    return would_feed(state, line if opens else [*line, made_up(NEWLINE, "")])
 
 
 def _place(tokens: Sequence[Token], i: int) -> Span:
-    """Return where to point. What ends a line or the file is missed behind the token before it."""
-    token = tokens[i]
-    if token.type in (NEWLINE, END) and i:
+    """Return where to point. What ends a line is missed behind the token before it."""
+    if i == len(tokens) - 1 or tokens[i].type in (NEWLINE, END):
         end = tokens[i - 1].end_pos or 0
-        if tokens[i - 1].type == NEWLINE and i > 1:
-            end = tokens[i - 2].end_pos or 0
         return Span(end, end)
-    return span(token)
+    return span(tokens[i])

@@ -24,7 +24,7 @@ WORDS = (
 """The language's own words. Each is a terminal of the grammar, named in capitals."""
 
 _WORDS = frozenset(word.upper() for word in WORDS)
-_BEGINNERS = frozenset({"CATEGORY", "ACTION", "EVALUATOR", "MODIFIER", "POLICY"})
+BEGINNERS = frozenset({"CATEGORY", "ACTION", "EVALUATOR", "MODIFIER", "POLICY"})
 _FOLLOWS_A_FIRST_NAME = frozenset({EQUAL, ARROW, NAME})
 
 
@@ -84,7 +84,7 @@ def _begins_a_statement(tokens: Sequence[Token], i: int) -> bool:
     first, second = (*(t.type for t in tokens[i : i + 2]), END, END)[:2]
     if first == NAME:
         return second in _FOLLOWS_A_FIRST_NAME
-    return first == "RBRACE" or (first in _BEGINNERS and second == NAME)
+    return first == "RBRACE" or (first in BEGINNERS and second == NAME)
 
 
 def _newline(after: Token) -> Token:

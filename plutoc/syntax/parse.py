@@ -6,43 +6,48 @@ from collections.abc import Iterator, Sequence
 
 from lark import Token, Tree, UnexpectedToken
 
-from plutoc.diagnostic import Diagnostic, Rejected, accept_or_raise
+from plutoc.diagnostic import Diagnostic, accept_or_raise, in_order
 from plutoc.source import Source, Span
 from plutoc.syntax import build, errors
 from plutoc.syntax.grammar import parser
-from plutoc.syntax.newlines import CLOSING, END, NEWLINE, OPENING
-from plutoc.syntax.recover import diagnose
+from plutoc.syntax.newlines import END, NEWLINE
+from plutoc.syntax.recover import empty_file, recover
 from plutoc.syntax.state import beginning, span
 from plutoc.syntax.texts import HIDDEN, wrong_escapes
 from plutoc.syntax.tree import File
+from plutoc.syntax.unreadable import marked
 
 LARGEST = 1 << 20
 """In bytes of UTF-8."""
-DEEPEST = 64
-MOST_DIGITS = 15
-"""What a 64-bit float keeps."""
 
 _BOM = "\ufeff"
 
 
 def parse(source: Source) -> File:
     """Read a source; raise `Rejected` with every mistake in its syntax."""
-    if len(source.text.encode("utf-8", "surrogatepass")) > LARGEST:
-        raise Rejected((errors.too_large(source, LARGEST),))
-    tokens = _tokens(source.text)
-    _check_version(source, tokens)
-    found = [
-        *_hidden_characters(source, tokens),
-        *_wrong_escapes(source, tokens),
-        *_unwritable_numbers(source, tokens),
-        *_too_deep(source, tokens),
-    ]
-    lark_tree = _lark_tree(tokens)
-    if lark_tree is None:
-        found.extend(diagnose(source, tokens))
+    file, found = read(source)
     accept_or_raise(found)
-    assert lark_tree is not None, "what the parser refuses has a diagnostic"
-    return build.file(source, lark_tree)
+    return file
+
+
+def read(source: Source) -> tuple[File, tuple[Diagnostic, ...]]:
+    """Return the tree of any text, and every mistake in its syntax.
+
+    What cannot be read is a `BadStatement` there. Of a source that is too large, or in another
+    version of the language, nothing is read: there can be more wrong with it than is told.
+    """
+    if len(source.text.encode("utf-8", "surrogatepass")) > LARGEST:
+        return empty_file(source), (errors.too_large(source, LARGEST),)
+    tokens = _tokens(source.text)
+    version = _other_version(source, tokens)
+    if version is not None:
+        return empty_file(source), (version,)
+    found = [*_hidden_characters(source, tokens), *_wrong_escapes(source, tokens)]
+    lark_tree = _lark_tree(tokens)
+    if lark_tree is not None:
+        return build.file(source, lark_tree), in_order(found)
+    file, mistakes = recover(source, tokens)
+    return file, in_order((*found, *mistakes))
 
 
 def _tokens(text: str) -> list[Token]:
@@ -50,7 +55,7 @@ def _tokens(text: str) -> list[Token]:
     if text.startswith(_BOM):
         text = " " + text[1:]
     size = len(text)
-    return [*parser().lex(text), Token(END, "", size, end_pos=size)]
+    return [*marked(parser().lex(text)), Token(END, "", size, end_pos=size)]
 
 
 def _lark_tree(tokens: Sequence[Token]) -> Tree[Token] | None:
@@ -88,30 +93,9 @@ def _wrong_escapes(source: Source, tokens: Sequence[Token]) -> Iterator[Diagnost
                 )
 
 
-def _unwritable_numbers(source: Source, tokens: Sequence[Token]) -> Iterator[Diagnostic]:
-    for token in tokens:
-        if token.type in ("NUMBER", "QUANTITY"):
-            number = len(token) - len(token.lstrip("-0123456789."))  # without its unit
-            if sum(map(str.isdigit, token[:number])) > MOST_DIGITS:
-                start = token.start_pos or 0
-                yield errors.unwritable_number(source, Span(start, start + number), MOST_DIGITS)
-
-
-def _too_deep(source: Source, tokens: Sequence[Token]) -> Iterator[Diagnostic]:
-    depth = 0
-    for token in tokens:
-        if token.type in OPENING:
-            depth += 1
-            if depth == DEEPEST + 1:
-                yield errors.too_deep(source, span(token), DEEPEST)
-        elif token.type in CLOSING:
-            depth -= 1
-        elif token.type == NEWLINE:
-            depth = 0
-
-
-def _check_version(source: Source, tokens: Sequence[Token]) -> None:
+def _other_version(source: Source, tokens: Sequence[Token]) -> Diagnostic | None:
     """Refuse another version first: what else this compiler cannot read may be right in that one."""
     header = [token.type for token in tokens[:3]]
     if header in (["PLUTO", "NUMBER", NEWLINE], ["PLUTO", "NUMBER", END]) and tokens[1] != "1":
-        raise Rejected((errors.unknown_version(source, span(tokens[1])),))
+        return errors.unknown_version(source, span(tokens[1]))
+    return None

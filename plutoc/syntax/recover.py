@@ -1,113 +1,178 @@
-"""Every mistake in a syntax, one diagnostic each: after one, go on with the next statement.
+"""Every mistake in a syntax, one diagnostic each, and a tree of all that can be read.
 
-Only called where there is a mistake. What stands between two newlines (as newlines.py leaves them)
-is a line; a mistake costs the rest of its line, and the parser goes back to where it was before it.
+Only called where there is a mistake. Each line is judged by itself (lines.py says what a line is);
+what the parser refuses becomes a `BadStatement`, and the rest is parsed.
 """
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
-from lark import Token
+from lark import Token, Tree
 
 from plutoc.diagnostic import Diagnostic
-from plutoc.source import Source
-from plutoc.syntax import errors
+from plutoc.source import Source, Span
+from plutoc.syntax import build
+from plutoc.syntax.bad import bad_statement
 from plutoc.syntax.explain import explain
-from plutoc.syntax.newlines import END, NAME, NEWLINE
-from plutoc.syntax.state import State, beginning, copied, feeds, made_up, span
+from plutoc.syntax.lines import Line, goes_on, joined, lines_of
+from plutoc.syntax.newlines import END, NEWLINE
+from plutoc.syntax.sections import sections
+from plutoc.syntax.split import is_exchanged, is_split, is_torn
+from plutoc.syntax.state import State, beginning, copied, feeds, made_up
+from plutoc.syntax.tree import AppDecl, BadStatement, File, Name
 
 _HEADER = (("PLUTO", "pluto"), ("NUMBER", "1"), (NEWLINE, ""))
-_APP = (("APP", "app"), ("NAME", "app"), ("LBRACE", "{"))
+_APP = (("APP", "app"), ("NAME", ""), ("LBRACE", "{"))
+_ABOVE = "if this belongs to the line above, join the two"
+_BELOW = "if the next line belongs to this one, join the two"
+_CLOSING = (("RBRACE", "}"), (NEWLINE, ""), (END, ""))
 
 
-def diagnose(source: Source, tokens: Sequence[Token]) -> list[Diagnostic]:
-    """Return what is wrong with the order of the tokens."""
-    if tokens[0].type == END:
-        return [errors.no_app(source, span(tokens[0]))]
-    state = beginning()
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Placed:
+    """A line, and the parser as it stands before it."""
+
+    line: Line
+    base: State
+    silent: bool = False
+    """Whether what is wrong with it is told already."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Judged:
+    """The lines that can be read, and what is left of the others."""
+
+    good: tuple[Line, ...]
+    bad: tuple[BadStatement, ...]
+
+
+def empty_file(source: Source) -> File:
+    """Return the tree of a source that is not read at all."""
+    nowhere = Span(0, 0)
+    app = AppDecl(name=Name(text="", span=nowhere), title=None, statements=(), span=nowhere)
+    return File(source=source, uses=(), app=app)
+
+
+def recover(source: Source, tokens: Sequence[Token]) -> tuple[File, list[Diagnostic]]:
+    """Return the tree of tokens that are not in order, and why they are not."""
     found: list[Diagnostic] = []
-    apps: list[Token] = []
+    parts = sections(source, lines_of(tokens), tokens[-1], found)
+    start, outside, inside = beginning(), _fed(_HEADER), _fed((*_HEADER, *_APP))
+    head = [_Placed(line=parts.header, base=start)] if parts.header else []
+    app = [_Placed(line=parts.app, base=outside)] if parts.app else []
+    judged = _judged(
+        source,
+        [
+            *head,
+            *(_Placed(line=line, base=outside) for line in parts.before),
+            *app,
+            *(_Placed(line=line, base=inside) for line in parts.body),
+            *(_Placed(line=line, base=inside, silent=True) for line in parts.behind),
+        ],
+        parts.app.tokens[0] if parts.app else None,
+        found,
+    )
+    good = set(map(id, judged.good))
+    named = parts.app is not None and id(parts.app) in good
+    clean = _made_up(_HEADER)
+    clean += [token for line in parts.before if id(line) in good for token in line.ended]
+    clean += parts.app.tokens if parts.app and named else _made_up(_APP)
+    for line in (*parts.body, *parts.behind):
+        clean += line.ended if id(line) in good else []
+    clean += _made_up(_CLOSING)
+    file = build.file(source, _parsed(clean))
+    return _with_bad(file, parts.app, judged.bad, named), found
+
+
+def _judged(
+    source: Source, placed: Sequence[_Placed], app: Token | None, found: list[Diagnostic]
+) -> _Judged:
+    good: list[Line] = []
+    bad: list[BadStatement] = []
+    previous: _Placed | None = None  # a good one right before
     i = 0
-    if tokens[0].type != "PLUTO":
-        i = _behind_wrong_header(tokens)
-        wrong = span(tokens[0]).to(span(tokens[max(i - 2, 0)]))
-        error = errors.wrong_header if i else errors.no_header
-        found.append(error(source, wrong))
-        _feed_made_up(state, _HEADER)
-    line = i
-    before = copied(state)
-    while i < len(tokens):
-        token = tokens[i]
-        if i == line:
-            before = copied(state)
-        if token.type == "APP":
-            apps.append(token)
-        if feeds(state, token):
-            i += 1
-            if token.type in (NEWLINE, "LBRACE"):
-                line = i
-            continue
-        found.append(explain(source, state, tokens, line, i, apps))
-        if END in state.choices():
-            break  # behind the end of the app
-        state = before
-        choices = state.choices()
-        if "PLUTO" in choices:
-            i = _behind_line(tokens, i)
-            if any(token.type == "LBRACE" for token in tokens[line:i]):
-                break  # the whole app, on the first line
-            _feed_made_up(state, _HEADER)
-        elif "APP" in choices:
-            i = _enter_app(state, tokens, line)
-        elif "RBRACE" in choices and token.type != END:
-            i = _behind_line(tokens, line)
-        else:
-            break
-        line = i
-    return found
-
-
-def _behind_wrong_header(tokens: Sequence[Token]) -> int:
-    """Return where the second line begins, if the first one means to be `pluto 1`; else 0."""
-    end = next((i for i, token in enumerate(tokens) if token.type == NEWLINE), 0)
-    near = difflib.get_close_matches(tokens[0].lower(), ["pluto"])
-    means_it = tokens[1].type == "NUMBER" or (near and tokens[0].type == NAME)
-    return end + 1 if means_it and end else 0
-
-
-def _enter_app(state: State, tokens: Sequence[Token], line: int) -> int:
-    """After a broken line before the app's statements: the next place at which to go on.
-
-    That is the next `use`, or what stands in the app's braces. Everything between is passed over in
-    silence, since it went wrong only because of this line.
-    """
-    for i in range(line, len(tokens)):
-        if tokens[i].type == "LBRACE":
-            _feed_made_up(state, _APP)
-            return i + 1
-        if tokens[i].type == NEWLINE and tokens[i + 1].type in ("USE", "APP"):
-            return i + 1
-    return len(tokens)
-
-
-def _behind_line(tokens: Sequence[Token], i: int) -> int:
-    """Return the place of the next line, with what stands in braces over several lines passed over."""
-    depth = 0
-    while tokens[i].type != END:
-        token, following = tokens[i], tokens[i + 1]
-        if token.type == "LBRACE" and (following.line or 0) > (token.line or 0):
-            depth += 1
-        elif token.type == "RBRACE" and depth:
-            depth -= 1
+    while i < len(placed):
+        each = placed[i]
+        line = each.line
+        state, at = _failing(each)
         i += 1
-        if token.type == NEWLINE and not depth:
-            break
-    return i
+        if at is None:
+            good.append(line)
+            previous = each
+            continue
+        lines = [line]
+        above = below = False
+        if previous and is_split(source, previous.base, previous.line, line):
+            good.pop()
+            lines.insert(0, previous.line)
+            above = True
+        elif i < len(placed):
+            following = placed[i]
+            if _failing(following)[1] is None:  # by itself in order, but perhaps torn
+                below = len(line.tokens) == 1 and is_torn(source, each.base, line, following.line)
+            else:
+                below = is_split(source, each.base, line, following.line) or is_exchanged(
+                    each.base, line, following.base, following.line
+                )
+        if below:
+            lines.append(placed[i].line)
+            i += 1
+        if not each.silent:
+            tokens = [*line.tokens, line.end]
+            why = explain(source, each.base, state, tokens, at, app)
+            if (above or below) and why.help is None:
+                why = replace(why, help=_ABOVE if above else _BELOW)
+            found.append(why)
+        while i < len(placed) and goes_on(placed[i].line) and _failing(placed[i])[1] is not None:
+            lines.append(placed[i].line)
+            i += 1
+        bad.append(bad_statement(source, joined(lines)))
+        previous = None
+    return _Judged(good=tuple(good), bad=tuple(bad))
 
 
-def _feed_made_up(state: State, tokens: Sequence[tuple[str, str]]) -> None:
-    """Feed tokens that the source does not have, to stand where it should have them."""
-    for kind, text in tokens:
-        state.feed_token(made_up(kind, text))
+def _failing(placed: _Placed) -> tuple[State, int | None]:
+    """Return the parser where it cannot go on in a line, and at which token; None: it can."""
+    state = copied(placed.base)
+    for i, token in enumerate(placed.line.ended):
+        if not feeds(state, token):
+            return state, i
+    return state, None
+
+
+def _with_bad(file: File, app: Line | None, bad: Sequence[BadStatement], named: bool) -> File:
+    """Put what cannot be read where it stands. A broken first line of an app may have its name."""
+    end = app.tokens[-1].end_pos or 0 if app else 0
+    inside = [each for each in bad if each.span.start >= end]
+    name = file.app.name
+    if not named:
+        found = next((each.name for each in bad if each.kind == "app"), None)
+        name = found or Name(text="", span=Span(end, end))
+    statements = sorted((*file.app.statements, *inside), key=lambda each: each.span.start)
+    outside = tuple(each for each in bad if each.span.start < end)
+    return replace(
+        file, app=replace(file.app, name=name, statements=tuple(statements)), bad=outside
+    )
+
+
+def _parsed(tokens: Sequence[Token]) -> Tree[Token]:
+    state = beginning()
+    tree = None
+    for token in tokens:
+        tree = state.feed_token(token)
+    assert isinstance(tree, Tree)
+    return tree
+
+
+def _fed(tokens: Sequence[tuple[str, str]]) -> State:
+    """Return the parser behind tokens that the source does not have."""
+    state = beginning()
+    for token in _made_up(tokens):
+        state.feed_token(token)
+    return state
+
+
+def _made_up(tokens: Sequence[tuple[str, str]]) -> list[Token]:
+    return [made_up(kind, text) for kind, text in tokens]

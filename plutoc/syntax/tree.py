@@ -157,7 +157,20 @@ class FlowDecl:
     span: Span
 
 
-Statement = CategoryDecl | ActionDecl | HookDecl | BlockDecl | FlowDecl
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BadStatement:
+    """What cannot be read, up to the next statement. A tree without mistakes has none."""
+
+    kind: str | None
+    """`block`, `flow`, or the word that it begins with, where that is clear."""
+    name: Name | None
+    """What it certainly declares."""
+    head: str | None
+    """What stands where a block's name should be, where that is no name."""
+    span: Span
+
+
+Statement = CategoryDecl | ActionDecl | HookDecl | BlockDecl | FlowDecl | BadStatement
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -165,6 +178,7 @@ class AppDecl:
     """`app NAME ["Title"] { … }`."""
 
     name: Name
+    """Its text is empty where it cannot be read."""
     title: Text | None
     statements: tuple[Statement, ...]
     span: Span
@@ -177,3 +191,5 @@ class File:
     source: Source
     uses: tuple[Use, ...]
     app: AppDecl
+    bad: tuple[BadStatement, ...] = ()
+    """What cannot be read outside of the app's braces."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from plutoc.diagnostic import Rejected
 from plutoc.graph.names import in_snake_case, near
 from tests.graph.fakes import codes, graph_of
 
@@ -24,9 +25,15 @@ def test_name_used_in_many_places_but_never_declared_is_told_once() -> None:
     assert codes("a = Pass\nqqq -> a\na -> qqq\nqqq -> end") == ["P1032 qqq"]
 
 
-def test_misspelt_name_is_told_everywhere() -> None:
-    """Each slip of the pen has to be mended."""
-    assert codes("alpha = Pass\nalpa -> end\nstart -> alpa") == ["P1032 alpa", "P1032 alpa"]
+def test_name_is_told_once_with_all_its_places() -> None:
+    """Misspelt or forgotten, it is one mistake."""
+    with pytest.raises(Rejected) as caught:
+        graph_of("alpha = Pass\nalpa -> end\n" + "start -> alpa\n" * 5)
+    (only,) = [d for d in caught.value.diagnostics if d.code == "P1032"]
+    assert only.help == "did you mean `alpha`?"
+    assert [r.label for r in only.related] == ["here, too"] * 2 + [
+        "here, too, and in 2 more places"
+    ]
 
 
 def test_parameters_are_a_namespace_of_their_own() -> None:

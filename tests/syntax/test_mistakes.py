@@ -13,7 +13,8 @@ from plutoc.diagnostic import Diagnostic, Rejected
 from plutoc.report.json import render_line
 from plutoc.report.text import render
 from plutoc.source import Source
-from plutoc.syntax.parse import DEEPEST, LARGEST, parse
+from plutoc.syntax.parse import LARGEST, parse
+from plutoc.syntax.unreadable import DEEPEST
 from tests.syntax.test_parse import SAMPLE, statements
 
 TOKENS = [match.span() for match in re.finditer(r"\w+|->|[^\w\s]", SAMPLE)]
@@ -68,7 +69,7 @@ def test_mistakes_before_the_app() -> None:
 
 def test_fix_mends() -> None:
     """A proposed change makes the source one that parses."""
-    for broken in ("a = K(x 3)", "categry s can x", "a = K(x: [3)", "a b", "a -> b wen X"):
+    for broken in ("a = K(x 3)", "categry s can x", "a = K(x: [3)", "a -> b wen X", "a => b"):
         text = f"pluto 1\napp demo {{\n{broken}\n}}"
         (found,) = mistakes(text)
         assert found.fix, broken

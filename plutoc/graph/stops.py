@@ -1,0 +1,69 @@
+"""The stops of a flow: blocks, `start` and `end`, each where it may stand."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+
+from plutoc.diagnostic import Diagnostic
+from plutoc.graph import errors
+from plutoc.graph.model import END, START, Node
+from plutoc.graph.names import near
+from plutoc.graph.scope import BLOCK, Scope
+from plutoc.graph.unclear import Unclear
+from plutoc.source import Source
+from plutoc.syntax.tree import FlowDecl
+
+_MOST_PROPOSALS = 100
+"""Near names are looked for so often: it takes long among many, and nobody reads more."""
+
+
+def meant_to_declare(
+    source: Source,
+    flows: Sequence[FlowDecl],
+    scope: Scope,
+    kinds: Collection[str],
+    found: list[Diagnostic],
+) -> dict[str, FlowDecl]:
+    """Find flows like `wait -> Clock`, which mean `wait = Clock`; return them by that name."""
+    declaring: dict[str, FlowDecl] = {}
+    for flow in flows:
+        names = [name for stop in flow.stops for name in stop.names]
+        if len(names) == 2 and flow.guard is None:
+            name, kind = names
+            if name.text not in (*scope, START) and kind.text in kinds and kind.text not in scope:
+                found.append(errors.kind_in_a_flow(source, name, kind))
+                declaring[name.text] = flow
+    return declaring
+
+
+def check_stops(
+    source: Source,
+    flows: Sequence[FlowDecl],
+    scope: Scope,
+    nodes: Mapping[str, Node],
+    unclear: Unclear,
+    found: list[Diagnostic],
+) -> None:
+    """Check that every stop is a block, or `start` at a beginning, or `end` at an end."""
+    blocks = [name for name, declared in scope.items() if declared.role == BLOCK]
+    proposals: dict[str, list[str]] = {}
+    for flow in flows:
+        last = len(flow.stops) - 1
+        for i, stop in enumerate(flow.stops):
+            for name in stop.names:
+                declared = scope.get(name.text)
+                if name.text == START:
+                    if i > 0:
+                        found.append(errors.into_start(source, name))
+                elif name.text == END:
+                    if i < last:
+                        found.append(errors.out_of_end(source, name))
+                elif name.text in nodes or (declared and declared.role == BLOCK):
+                    continue  # a block that has another thing's name is told as that
+                elif not unclear.may_declare(name.text):
+                    if name.text not in proposals:
+                        free = [START] * (i == 0) + [END] * (i == last)
+                        enough = len(proposals) >= _MOST_PROPOSALS
+                        proposals[name.text] = [] if enough else near(name.text, [*blocks, *free])
+                    role = declared.role if declared else None
+                    found.append(errors.unknown_block(source, name, proposals[name.text], role))

@@ -1,0 +1,73 @@
+"""What may be declared where the source cannot be read, or where a declared name is wrong.
+
+One mistake is told once: a name that such a place may declare is not called unknown elsewhere.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from difflib import SequenceMatcher
+from itertools import chain
+
+from plutoc.graph.names import Style, has_style, reserved
+from plutoc.syntax.tree import BadStatement, BlockDecl, File
+
+_WORD = re.compile(r"\w+")
+_ALIKE = 0.6
+_SHORT = 3
+"""A name of so many letters is found in most texts by chance."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Unclear:
+    """Names that may be declared after all."""
+
+    names: frozenset[str]
+    texts: tuple[str, ...]
+    """What cannot be read, without all that is in no name."""
+    heads: tuple[str, ...]
+    """What stands where a name should be declared, and is wrong."""
+
+    def may_declare(self, name: str) -> bool:
+        """Say whether this name may have been meant."""
+        return (
+            name in self.names
+            or (len(name) > _SHORT and any(name in text for text in self.texts))
+            or any(_is_meant(name, head) for head in self.heads)
+        )
+
+
+def bad_statements(file: File) -> list[BadStatement]:
+    """Return all that cannot be read, in order."""
+    inside = [each for each in file.app.statements if isinstance(each, BadStatement)]
+    return [*file.bad, *inside]
+
+
+def unclear(file: File, spoilt: Sequence[str]) -> Unclear:
+    """Collect what may be declared in a file; `spoilt` are declared names that are wrong."""
+    # An edge declares nothing, whatever is wrong with it.
+    bad = [each for each in bad_statements(file) if each.kind != "flow"]
+    words = [_WORD.findall(file.source.quote(each.span)) for each in bad]
+    return Unclear(
+        names=frozenset((*chain.from_iterable(words), *_in_place_of_a_kind(file))),
+        texts=tuple(dict.fromkeys(map("".join, words))),
+        heads=tuple(
+            dict.fromkeys((*(each.head for each in bad if each.head is not None), *spoilt))
+        ),
+    )
+
+
+def _in_place_of_a_kind(file: File) -> list[str]:
+    """Return what is written as a name is, and stands where a kind of block should be."""
+    return [
+        statement.kind.text
+        for statement in file.app.statements
+        if isinstance(statement, BlockDecl) and has_style(statement.kind.text, Style.SNAKE)
+    ]
+
+
+def _is_meant(name: str, head: str) -> bool:
+    one, other = name.lower(), head.lower()
+    return not head or bool(reserved(head)) or SequenceMatcher(None, one, other).ratio() >= _ALIKE

@@ -1,0 +1,96 @@
+"""A source with mistakes, cut into lines that can be judged one by one.
+
+A line is what stands between two newlines (as newlines.py leaves them), or ends with the brace that
+opens the app. Which line is which is told by what stands in it, never by what stood before: so a
+mistake in one of them costs no other.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from lark import Token
+
+from plutoc.source import Span
+from plutoc.syntax.newlines import BEGINNERS, END, EQUAL, NAME, NEWLINE
+from plutoc.syntax.state import made_up, span
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Line:
+    """The tokens of a line (at least one), and what ends it."""
+
+    tokens: tuple[Token, ...]
+    end: Token
+
+    @property
+    def first(self) -> str:
+        """The type of its first token."""
+        return self.tokens[0].type
+
+    @property
+    def span(self) -> Span:
+        """Its place."""
+        return span(self.tokens[0]).to(span(self.tokens[-1]))
+
+    @property
+    def ended(self) -> tuple[Token, ...]:
+        """Its tokens, and the newline that ends a statement, but not the beginning of the app."""
+        opens = self.tokens[-1].type == "LBRACE" and self.has("APP")
+        return self.tokens if opens else (*self.tokens, made_up(NEWLINE, ""))
+
+    def has(self, kind: str) -> bool:
+        """Say whether one of its tokens is of that type."""
+        return any(token.type == kind for token in self.tokens)
+
+
+def lines_of(tokens: Sequence[Token]) -> list[Line]:
+    """Cut tokens into lines."""
+    opens = _opens_the_app(tokens)
+    lines: list[Line] = []
+    start = 0
+    for i, token in enumerate(tokens):
+        if token.type in (NEWLINE, END) or i == opens:
+            stop = i + 1 if i == opens else i
+            if stop > start:
+                end = tokens[i + 1] if i == opens else token
+                lines.append(Line(tokens=tuple(tokens[start:stop]), end=end))
+            start = i + 1
+    return lines
+
+
+def joined(lines: Iterable[Line]) -> Line:
+    """Return several lines as one."""
+    parts = list(lines)
+    return Line(
+        tokens=tuple(token for line in parts for token in line.tokens),
+        end=parts[-1].end,
+    )
+
+
+def _opens_the_app(tokens: Sequence[Token]) -> int:
+    """Return where the brace is that the app's statements stand behind, or -1."""
+    first = None
+    for i, token in enumerate(tokens):
+        if token.type == NEWLINE:
+            first = None
+            continue
+        first = first or token.type
+        if token.type == "LBRACE" and (
+            first == "APP" or (tokens[i + 1].line or 0) > (token.line or 0)
+        ):
+            return i
+    return -1
+
+
+def begins_a_statement(line: Line) -> bool:
+    """Say whether a line looks like one of those that stand in an app."""
+    second = line.tokens[1].type if len(line.tokens) > 1 else END
+    return line.first in BEGINNERS or (line.first == NAME and second in (EQUAL, "_ARROW"))
+
+
+def goes_on(line: Line) -> bool:
+    """Say whether a line can only be the rest of what is in brackets: `limit: 3 min,` or `)`."""
+    second = line.tokens[1].type if len(line.tokens) > 1 else END
+    return line.first in ("RPAR", "RSQB", "COMMA") or (line.first == NAME and second == "COLON")

@@ -1,0 +1,15 @@
+"""One mistake is told once: a share of what `python -m tests.mutations` does."""
+
+from __future__ import annotations
+
+from tests.mutations import mutants, outcome, share
+
+ENOUGH = 0.98
+
+
+def test_one_mistake_gives_one_diagnostic() -> None:
+    """Of nearly all files broken by one random edit. None raises, each has a tree."""
+    outcomes = [outcome(mutant) for mutant in mutants(400, seed=11)]
+    assert sum(each.broken for each in outcomes) > 200
+    several = [[d.code for d in each.found] for each in outcomes if len(each.found) > 1]
+    assert share(outcomes) >= ENOUGH, several
