@@ -1,0 +1,181 @@
+"""One mission, flown in every way that it can go: every outcome, every order of its clones."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+
+from tests.soundness.app import END, START, App, Arrow, takes
+from tests.soundness.kinds import BADNESS, END_ACCEPTS, GATES, R, Status, U
+from tests.soundness.state import Branch, Stack, State, Token, Verdict, Wrong
+from tests.soundness.steps import MOST_TRIPS, landed, outcomes
+from tests.soundness.walk import Run, Walk
+
+ENOUGH = 2_000
+"""States to look at once something has gone wrong: more of them would show no more."""
+TOO_MANY = 20_000
+
+
+@dataclass(kw_only=True)
+class Seen:
+    """What was seen in all runs together."""
+
+    wrong: dict[Verdict, Run] = field(default_factory=dict)
+    """A shortest run for each verdict."""
+    taken: set[tuple[Arrow, Status]] = field(default_factory=set)
+    closed: dict[tuple[str, Status], set[str]] = field(default_factory=dict)
+    """The gates at which the branches of each fork arrived."""
+    lonely: set[str] = field(default_factory=set)
+    """The blocks that a mission came to while no fork was open."""
+    states: int = 0
+    cut: bool = False
+    """There were more runs than anybody would wait for."""
+
+
+class Explorer:
+    """Explores the runs of one app."""
+
+    def __init__(self, app: App, *, strict: bool, patient: bool) -> None:
+        self.blocks = {block.name: block for block in app.blocks}
+        self.leaving: dict[tuple[str, Status], list[Arrow]] = {}
+        for arrow, statuses in takes(app).items():
+            for status in statuses:
+                self.leaving.setdefault((arrow.source, status), []).append(arrow)
+        self.strict = strict
+        self.patient = patient
+        """No gate calls a branch off: shows branches that would never have closed."""
+        self.most_flights = max((block.limit for block in app.blocks), default=0)
+        self.seen = Seen()
+
+    def explore(self, first: str) -> Seen:
+        """Return what all runs show, from the block that makes the mission."""
+        walk = Walk()
+        for trips in range(1, MOST_TRIPS + 1):
+            state = State((Token(first, U, ()),), trips, 0, False, None)
+            walk.come(None, state, f"{trips} trips")
+        wrong = self.seen.wrong
+        while walk.queue and len(walk.came) < (ENOUGH if wrong else TOO_MANY):
+            state = walk.queue.popleft()
+            moved = False
+            for step, then in self.steps(state):
+                moved = True
+                if isinstance(then, Wrong):
+                    walk.settled.append(state)
+                    wrong.setdefault(then.verdict, (*walk.run(state), f"{step}: {then}"))
+                else:
+                    walk.come(state, then, step)
+            if not state.tokens or not moved:
+                walk.settled.append(state)
+            if state.tokens and not moved:
+                wrong.setdefault(Verdict.DEADLOCKED, walk.run(state))
+        self.seen.states = len(walk.came)
+        self.seen.cut = bool(walk.queue)
+        if not self.seen.cut:
+            for state in walk.hopeless():
+                kept = Verdict.DEADLOCKED if walk.keeps_waiting(state) else Verdict.ENDLESS
+                wrong.setdefault(kept, walk.run(state))
+        return self.seen
+
+    def steps(self, state: State) -> Iterator[tuple[str, State | Wrong]]:
+        """Yield everything that can happen next."""
+        if not state.tokens:
+            return
+        if state.flight == R:
+            for then in landed(state):
+                yield f"the trip ends {then.flight}", then
+        for place, token in enumerate(state.tokens):
+            if token.phase == "waits":
+                continue
+            rest = state.tokens[:place] + state.tokens[place + 1 :]
+            if token.phase == "at":
+                yield f"{token.block} gets {token.status}", self.gated(state, rest, token)
+                continue
+            block = self.blocks[token.block]
+            try:
+                found = outcomes(
+                    state, token, block, strict=self.strict, most_flights=self.most_flights
+                )
+                ways = list(found)
+                if not ways and block.emits and state.flight != R:
+                    yield f"{token.block} is at fault", with_tokens(state, ())
+                for status, then in ways:
+                    yield f"{token.block} {status}", self.left(then, rest, token, status)
+            except Wrong as wrong:
+                yield token.block, wrong
+
+    def left(
+        self, state: State, rest: tuple[Token, ...], token: Token, status: Status
+    ) -> State | Wrong:
+        """Return the state when a mission or a clone has left its block with this status."""
+        try:
+            come = self.routed(token, status)
+        except Wrong as wrong:
+            return wrong
+        return with_tokens(state, (*rest, *come))
+
+    def routed(self, token: Token, status: Status) -> tuple[Token, ...]:
+        """Return what a mission or a clone becomes when it leaves its block with this status."""
+        arrows = self.leaving.get((token.block, status), [])
+        self.seen.taken.update((arrow, status) for arrow in arrows)
+        if not arrows:
+            if status not in END_ACCEPTS:
+                raise Wrong(Verdict.STUCK, token.block)
+            if token.stack:
+                raise Wrong(Verdict.LOST, f"{token.block}, an end within a fork")
+            return ()
+        if len(arrows) == 1:
+            return self.arrived(arrows[0].target, status, token.stack)
+        if any((b.block, b.status) == (token.block, status) for b in token.stack):
+            raise Wrong(Verdict.BREEDS, token.block)
+        clones: list[Token] = []
+        for index, arrow in enumerate(arrows):
+            branch = Branch(token.block, status, index, len(arrows))
+            clones.extend(self.arrived(arrow.target, status, (*token.stack, branch)))
+        return tuple(clones)
+
+    def arrived(self, name: str, status: Status, stack: Stack) -> tuple[Token, ...]:
+        """Return what comes to the end of an arrow."""
+        if name == END:
+            if stack:
+                raise Wrong(Verdict.FLOWN_TWICE, END)
+            return ()
+        kind = self.blocks[name].kind
+        if stack and kind in ("DroneAllocator", "TripLauncher"):
+            raise Wrong(Verdict.FLOWN_TWICE, name)
+        if not stack:
+            self.seen.lonely.add(name)
+        if kind not in GATES:
+            return (Token(name, status, stack),)
+        if not stack:
+            raise Wrong(Verdict.LOST, f"{name}, a gate without a fork")
+        self.seen.closed.setdefault(stack[-1][:2], set()).add(name)
+        return (Token(name, status, stack, "at"),)
+
+    def gated(self, state: State, rest: tuple[Token, ...], token: Token) -> State:
+        """Return the state when a gate has taken in a clone."""
+        outer = token.stack[:-1]
+        if self.blocks[token.block].kind == "GateFIFO" and not self.patient:
+            others = (t for t in rest if t.stack[: len(outer)] != outer)
+            return with_tokens(state, (*others, Token(token.block, token.status, outer)))
+        rest = (*rest, token._replace(phase="waits"))
+        fork = [
+            t
+            for t in rest
+            if t.phase == "waits" and t.block == token.block and t.stack[:-1] == outer
+        ]
+        if len(fork) < token.stack[-1].width:
+            return with_tokens(state, rest)
+        worst = max((t.status for t in fork), key=BADNESS.index)
+        others = (t for t in rest if t not in fork)
+        return with_tokens(state, (*others, Token(token.block, worst, outer)))
+
+
+def with_tokens(state: State, tokens: Iterable[Token]) -> State:
+    return state._replace(tokens=tuple(sorted(tokens)))
+
+
+def first_block(app: App) -> str | None:
+    """Return where missions begin, if that is well said."""
+    makers = [block.name for block in app.blocks if block.kind == "MissionCreator"]
+    starts = [arrow.target for arrow in app.arrows if arrow.source == START]
+    return makers[0] if len(makers) == 1 and starts == makers else None

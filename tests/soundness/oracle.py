@@ -1,0 +1,90 @@
+"""Says of an app whether its missions can be flown, by flying them all.
+
+An interpreter and no proof: from one to three trips, every outcome of each, every verdict, every
+order in which clones move. It knows what a graph means and nothing of how the compiler checks it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from tests.soundness.app import START, App, is_rest
+from tests.soundness.explore import Explorer, Seen, first_block
+from tests.soundness.state import Verdict
+from tests.soundness.walk import Run
+
+COUNTED = frozenset({Verdict.ENDLESS, Verdict.UNCLOSED})
+"""What can depend on how often a trip was flown."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Judgement:
+    """What all runs of an app say of it."""
+
+    runs: dict[Verdict, Run]
+    """What goes wrong, with a shortest run that shows it."""
+    faults: tuple[str, ...]
+    """What no single run shows, but all of them together."""
+    doubtful: bool
+    """It depends on more than the statuses: on how far a modifier's hook may change a mission's
+    trips, or on how often a trip has been flown before."""
+    states: int
+
+    @property
+    def sound(self) -> bool:
+        return not self.runs and not self.faults
+
+
+def judge(app: App) -> Judgement:
+    """Fly an app's missions in every way that they can go."""
+    first = first_block(app)
+    if first is None:
+        return Judgement(runs={}, faults=("missions begin nowhere",), doubtful=False, states=0)
+    strict = _judged(app, first, strict=True)
+    hooks = any(block.emits for block in app.blocks)
+    if hooks or (not strict.sound and strict.runs.keys() <= COUNTED):
+        loose = _judged(app, first, strict=False)
+        doubtful = strict.doubtful or loose.doubtful or strict.sound != loose.sound
+        return replace(strict, doubtful=doubtful)
+    return strict
+
+
+def _judged(app: App, first: str, *, strict: bool) -> Judgement:
+    seen = _seen(app, first, strict=strict)
+    faults = () if seen.cut else (*_dead(app, seen, first), *_scattered(seen))
+    return Judgement(
+        runs=seen.wrong,
+        faults=faults,
+        doubtful=seen.cut and not seen.wrong,
+        states=seen.states,
+    )
+
+
+def _seen(app: App, first: str, *, strict: bool) -> Seen:
+    seen = Explorer(app, strict=strict, patient=False).explore(first)
+    if not seen.wrong and any(block.kind == "GateFIFO" for block in app.blocks):
+        patient = Explorer(app, strict=strict, patient=True).explore(first)
+        for verdict in (Verdict.DEADLOCKED, Verdict.ENDLESS):
+            if verdict in patient.wrong:
+                seen.wrong.setdefault(Verdict.UNCLOSED, patient.wrong[verdict])
+    return seen
+
+
+def _dead(app: App, seen: Seen, first: str) -> tuple[str, ...]:
+    """Return the arrows that no run takes, and the blocks that no run comes to."""
+    taken = {arrow for arrow, _ in seen.taken}
+    come = {arrow.target for arrow in taken} | {first}
+    # an arrow that takes what is left is worth a warning only, when nothing is
+    dead = [a for a in app.arrows if a not in taken and a.source != START and not is_rest(a)]
+    arrows = [f"nothing takes {arrow}" for arrow in dead]
+    blocks = [f"nothing comes to {b.name}" for b in app.blocks if b.name not in come]
+    return (*blocks, *arrows)
+
+
+def _scattered(seen: Seen) -> tuple[str, ...]:
+    """Return the forks that close now at one gate and now at another."""
+    return tuple(
+        f"{block} {status} closes at {', '.join(sorted(gates))}"
+        for (block, status), gates in sorted(seen.closed.items())
+        if len(gates) > 1
+    )

@@ -1,0 +1,117 @@
+"""Small random apps: forks in forks, both gates, hooks that say statuses, ways chosen by status.
+
+They are drawn so that most could be flown, then edited: of arrows drawn blindly nearly none could,
+and nothing would be learnt from them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from random import Random
+
+from tests.soundness.app import END, START, App, Arrow, read
+from tests.soundness.kinds import FIVE, GATES, C, F, R, S, Status, U
+from tests.soundness.mutants import mutants
+
+DEEPEST = 2
+MOST_BLOCKS = 11
+
+
+def random_app(rng: Random) -> App:
+    """Return an app, edited up to three times."""
+    app = _Drawing(rng).app()
+    for _ in range(rng.choice((0, 0, 1, 1, 2, 3))):
+        edits = list(mutants(app))
+        edit = rng.choice(sorted({mutant.edit for mutant in edits}))
+        app = rng.choice([mutant.app for mutant in edits if mutant.edit == edit])
+    return app
+
+
+class _Drawing:
+    """An app that grows a block at a time."""
+
+    def __init__(self, rng: Random) -> None:
+        self.rng = rng
+        self.hooks: list[str] = []
+        self.blocks: list[str] = []
+        self.arrows: list[str] = []
+
+    def app(self) -> App:
+        self.arrow(START, self.block("MissionCreator"))
+        self.arrow("block0", self.block("DroneAllocator"))
+        self.arrow("block1", self.block("TripLauncher"))
+        last, left = self.part("block2", (R,), 0)
+        if R in left:
+            watch = self.block("TripMonitor")
+            self.arrow(last, watch, (R,))
+            self.home(watch, (S, C, F))
+        self.home(last, [status for status in left if status != R])
+        lines = [*self.hooks, *self.blocks, *self.arrows]
+        return read("\n".join(["pluto 1", "app drawn {", *lines, "}"]))
+
+    def home(self, source: str, statuses: Sequence[Status]) -> None:
+        """Lead what leaves a block to the next trip, or to the end."""
+        again = [status for status in statuses if status in (U, S)]
+        if again:
+            self.arrow(source, "block1", again)
+        if F in statuses and self.rng.random() < 0.3:
+            retry = self.block("PriorityManager")
+            self.arrow(source, retry, (F,))
+            self.arrow(retry, "block1", (S,))
+            self.arrow(retry, END)
+            statuses = [status for status in statuses if status != F]
+        if C in statuses or F in statuses:
+            self.arrow(source, END)
+
+    def part(
+        self, source: str, statuses: tuple[Status, ...], depth: int
+    ) -> tuple[str, tuple[Status, ...]]:
+        """Draw what comes after a block; return where it stops, and with which statuses."""
+        drawn = self.rng.random()
+        if depth < DEEPEST and drawn < (0.7 if depth == 0 else 0.25) and not self.full:
+            return self.fork(source, statuses, depth)
+        if statuses == (R,) and drawn < 0.6:
+            watch = self.block(self.rng.choice(("TripMonitor", "TripMonitor", "TimerMonitor")))
+            self.arrow(source, watch)
+            return watch, (S, C, F)
+        emits = self.rng.choice(((), (), (S, C, F), (R, F), (F,), (S,)))
+        hook = self.block("MissionModifier", emits)
+        self.arrow(source, hook, statuses)
+        return hook, emits or statuses
+
+    def fork(
+        self, source: str, statuses: tuple[Status, ...], depth: int
+    ) -> tuple[str, tuple[Status, ...]]:
+        gate = self.block(self.rng.choice(GATES))
+        passed: list[Status] = []
+        for _ in range(self.rng.choice((2, 2, 3))):
+            last, left = self.part(source, statuses, depth + 1)
+            if self.rng.random() < 0.3 and not self.full:
+                some = left[: self.rng.randint(1, len(left))]
+                left = left[len(some) :]
+                hook = self.block("MissionModifier", self.rng.choice(((), (F,), (S, C, F))))
+                self.arrow(last, hook, some)
+                self.arrow(hook, gate)
+                passed.extend(FIVE if " emits " in self.hooks[-1] else some)
+            if left:
+                self.arrow(last, gate, left)
+            passed.extend(left)
+        return gate, tuple(s for s in FIVE if s in passed and s != U)
+
+    @property
+    def full(self) -> bool:
+        return len(self.blocks) >= MOST_BLOCKS
+
+    def block(self, kind: str, emits: Sequence[Status] = ()) -> str:
+        name = f"block{len(self.blocks)}"
+        said = f" emits {', '.join(emits)}" if emits else ""
+        if kind == "MissionModifier":
+            self.hooks.append(f"modifier do_{name}{said}")
+            self.blocks.append(f"{name} = {kind}(hook: do_{name})")
+        else:
+            self.blocks.append(f"{name} = {kind}")
+        return name
+
+    def arrow(self, source: str, target: str, guard: Sequence[Status] = ()) -> None:
+        drawn = Arrow(source=source, target=target, guard=tuple(guard), otherwise=False)
+        self.arrows.append(str(drawn))
