@@ -106,7 +106,7 @@ def _lock(app: str, folder: Path, place: Place, *, force: bool) -> Lock | None:
     """Return what was recorded about a folder, or None where nothing is there yet."""
     if folder.is_symlink() or (folder.exists() and not folder.is_dir()):
         raise Refused([errors.in_the_way(place, str(folder), _kind(folder), "a folder")])
-    if not folder.exists() or all(name.startswith(_ASIDE) for name in os.listdir(folder)):
+    if not folder.exists() or _is_free(folder):
         return None
     path = folder / LOCK
     if not path.is_file() or path.is_symlink():
@@ -120,6 +120,11 @@ def _lock(app: str, folder: Path, place: Place, *, force: bool) -> Lock | None:
     if lock.app != app:
         raise Refused([errors.another_app(place, str(folder), lock.app)])
     return lock
+
+
+def _is_free(folder: Path) -> bool:
+    """Say whether a folder is empty, work aside that a kill left there."""
+    return all(name.startswith(_ASIDE) for name in os.listdir(folder))
 
 
 def _texts(
@@ -173,6 +178,9 @@ def write(changes: Changes, *, save: Save = Path.write_bytes) -> None:
         with _undone_unless_finished(made):
             if not folder.exists():
                 made += _make_folders(folder.parent)
+            if changes.first and folder.exists() and not _is_free(folder):
+                # It came since, or `new/../there` leads to it once there is a `new`.
+                raise FileExistsError(errno.EEXIST, "it is not empty any more", str(folder))
             with _aside(folder if folder.exists() else folder.parent) as aside:
                 _prepare(changes, aside, save)
                 if folder.exists():

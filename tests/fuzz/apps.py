@@ -1,0 +1,221 @@
+"""Apps grown by chance along the grammar: most of them near enough to a legal one to get far."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from random import Random
+
+from tests.fuzz.texts import HOSTILE, legal
+
+NAMES = (
+    *("watch", "first", "retry", "a", "b1", "list", "print", "status", "run", "mission", "hooks"),
+    *("dict", "float", "int", "str", "builtins", "partial", "at", "trip", "flow", "app_2", "odd_"),
+    *("x" * 63, "type_", "object", "annotations", "model", "results", "func", "none", "true"),
+    *("Watch", "when", "class", "end", "self", "é", "_a", "match", "x" * 64, "a__b", "True"),
+)
+TYPES = (
+    *("int", "float", "bool", "text", "mass", "length", "time", "angle", "percent", "speed"),
+    "temperature",
+)
+GOOD_VALUES = {
+    "int": ("0", "-7", "123456789012345"),
+    "float": ("1.5", "-0.0", "999999999999999", "0.00000000000001"),
+    "bool": ("yes", "no"),
+    "mass": ("5 g", "50 mg", "1.25kg"),
+    "length": ("2.5 m", "3 km"),
+    "time": ("5 min", "0 s", "2 h"),
+    "angle": ("90 deg", "-1 rad"),
+    "percent": ("40 %", "0%", "100 %"),
+    "speed": ("2 m/s", "3.6 km/h"),
+    "temperature": ("20 C", "-273.15 C", "300 K"),
+}
+BAD_VALUES = ("5 parsec", "-1 s", "[1, [2]]", "nearest", '"x"', "9" * 16, "1 m/h", "[]", "when")
+STATUSES = ("UNEXECUTED", "RUNNING", "STANDBY", "COMPLETED", "FAILED")
+
+
+@dataclass(slots=True, kw_only=True)
+class Growth:
+    """An app on the way: its statements, and what they can name."""
+
+    random: Random
+    declared: list[str] = field(default_factory=list)
+    blocks: list[str] = field(default_factory=list)
+    flows: list[str] = field(default_factory=list)
+    taken: set[str] = field(default_factory=set)
+
+    def chance(self, share: float) -> bool:
+        """Say yes so often."""
+        return self.random.random() < share
+
+    def name(self, plain: str) -> str:
+        """Return a name that is free: nearly always a good one."""
+        odd = self.random.choice(NAMES) if self.chance(0.1) else plain
+        name = odd if odd not in self.taken else plain
+        while name in self.taken:
+            name += "_2"
+        self.taken.add(name)
+        return name
+
+    def value(self, kind: str) -> str:
+        """Return a value of a type, nearly always."""
+        if self.chance(0.02):
+            return self.random.choice(BAD_VALUES)
+        return text(self.random) if kind == "text" else self.random.choice(GOOD_VALUES[kind])
+
+    def block(self, plain: str, kind: str, *values: str) -> str:
+        """Declare a block and return its name."""
+        name = self.name(plain)
+        given = f"({', '.join(values)})" if values else ""
+        self.blocks.append(f"{name} = {kind}{given}")
+        return name
+
+    def parameters(self) -> tuple[str, list[tuple[str, str]]]:
+        """Return declared parameters as written, and those that must be given, with their types."""
+        written, needed = [], []
+        for i in range(self.random.choice((0, 0, 1, 2, 5))):
+            name = self.random.choice((f"p{i}", f"p{i}", *NAMES[:26])) + f"_{i}" * (i > 0)
+            kind = self.random.choice(TYPES)
+            if self.chance(0.6):
+                written.append(f"{name}: {kind} = {self.value(kind)}")
+            else:
+                written.append(f"{name}: {kind}")
+                needed.append((name, kind))
+        return (f"({', '.join(written)})" if written else ""), needed
+
+
+def text(random: Random) -> str:
+    """Return a text in quotes."""
+    said = "".join(random.choices(HOSTILE, k=random.choice((1, 1, 2, 5))))
+    return f'"{said if random.random() < 0.05 else legal(said)}"'
+
+
+def grown(random: Random) -> str:
+    """Return an app."""
+    app = Growth(random=random)
+    if app.chance(0.5):
+        _categories(app)
+    _graph(app)
+    parts = [app.declared, app.blocks, app.flows]
+    if app.chance(0.2):
+        parts.reverse()
+    statements = [statement for part in parts for statement in part]
+    for _ in range(random.choice((0, 0, 0, 0, 1, 1, 2, 4))):
+        _spoil(random, statements)
+    title = f" {text(random)}" if app.chance(0.5) else ""
+    name = random.choice(NAMES) if app.chance(0.2) else "grown"
+    lines = [f"  {one}{_comment(app)}" for one in statements]
+    head = "pluto 1\n" + ("use std as s\n" if app.chance(0.02) else "")
+    return "\n".join([f"{head}app {name}{title} {{", *lines, "}", ""])
+
+
+def _comment(app: Growth) -> str:
+    return f"  # {app.random.choice(HOSTILE)}" if app.chance(0.05) else ""
+
+
+def _categories(app: Growth) -> None:
+    actions = ["measure", "take_photo", "pick_item", "release_item"]
+    for i in range(app.random.choice((0, 1, 2))):
+        name = app.name(f"act{i}")
+        parameters, _ = app.parameters()
+        repeat = app.random.choice(("", " safe", " once", " ask"))
+        app.declared.append(f"action {name}{parameters}{repeat}")
+        actions.append(name)
+    for i in range(app.random.choice((1, 2))):
+        kinds = {"payload": "mass", "speed": "speed", "flight_time": "time", "reserve": "percent"}
+        given = [f"{key}: {app.value(kind)}" for key, kind in kinds.items() if app.chance(0.2)]
+        can = app.random.sample(actions, app.random.randint(1, len(actions)))
+        arguments = f"({', '.join(given)})" if given else ""
+        app.declared.append(f"category {app.name(f'drone{i}')}{arguments} can {', '.join(can)}")
+
+
+def _graph(app: Growth) -> None:
+    """A mission's way as most apps have it, and now and then something more on it."""
+    policy = app.random.choice(("nearest", "first", "least_used", "batch_optimal", "own", "own"))
+    if policy == "own":
+        policy = app.name("choose")
+        app.declared.append(f"policy {policy}")
+    create = app.block("create", "MissionCreator")
+    allocate = app.block("allocate", "DroneAllocator", f"policy: {policy}")
+    launch = app.block("launch", "TripLauncher")
+    again = app.block("wait", "Clock") if app.chance(0.4) else allocate
+    before = [_modifier(app, "STANDBY", "UNEXECUTED") for _ in range(app.random.choice((0, 0, 1)))]
+    way = [create, *before, *([again] if again != allocate else []), allocate, launch]
+    app.flows.append(f"start -> {' -> '.join(way)}")
+    last = _flight(app, launch)
+    app.flows.append(f"{last} -> {again} when STANDBY")
+    if app.chance(0.8):
+        bound = app.random.choice(("", f"max_attempts: {app.random.choice((0, 1, 5))}"))
+        retry = app.block("retry", "PriorityManager", *([bound] if bound else []))
+        app.flows += [f"{last} -> {retry} when FAILED", f"{retry} -> {again} when STANDBY"]
+        app.flows.append(f"{retry} -> end otherwise")
+    else:
+        app.flows.append(f"{last} -> end when FAILED")
+    _ending(app, last, again)
+
+
+def _flight(app: Growth, launch: str) -> str:
+    """The monitors, and the gate behind them; return the block from which a mission goes on."""
+    watch = app.block("watch", "TripMonitor")
+    width = app.random.choice((1, 2, 2, 3, 9))
+    if width == 1:
+        app.flows.append(f"{launch} -> {watch}")
+        return watch
+    branches = [watch]
+    for i in range(width - 1):
+        kind = app.random.choice(("TimerMonitor", "GapMonitor", "TripMonitor", "modifier"))
+        if kind == "modifier":
+            branches.append(_modifier(app, "STANDBY", "COMPLETED", "FAILED"))
+        else:
+            default = (f"default: {app.value('time')}",) if kind != "TripMonitor" else ()
+            branches.append(app.block(f"limit{i}", kind, *default[: app.random.randint(0, 1)]))
+    gate = app.block("first", app.random.choice(("GateFIFO", "GateFIFO", "GateFunnel")))
+    app.flows.append(f"{launch} -> [{', '.join(branches)}] -> {gate}")
+    return gate
+
+
+def _modifier(app: Growth, *emits: str) -> str:
+    hook = app.name("change")
+    parameters, needed = app.parameters()
+    emitted = f" emits {', '.join(emits)}" if emits[-1] == "FAILED" or app.chance(0.2) else ""
+    writes = f" writes {app.random.choice(('note', 'trips', 'priority'))}" * app.chance(0.2)
+    app.declared.append(f"modifier {hook}{parameters}{emitted}{writes}")
+    given = [f"{name}: {app.value(kind)}" for name, kind in needed]
+    return app.block("modify", "MissionModifier", f"hook: {hook}", *given)
+
+
+def _ending(app: Growth, last: str, again: str) -> None:
+    if app.chance(0.5):
+        hook = app.name("judge_it")
+        app.declared.append(f"evaluator {hook}")
+        judge = app.block("judge", "MissionEvaluator", f"hook: {hook}")
+        app.flows += [f"{last} -> {judge} when COMPLETED", f"{judge} -> {again} when STANDBY"]
+        app.flows.append(f"{judge} -> end when FAILED")
+        last = judge
+    if app.chance(0.4):
+        repeat = app.block("again", "MissionRepeater")
+        app.flows += [f"{last} -> {repeat} when COMPLETED", f"{repeat} -> {again} when STANDBY"]
+        last = repeat
+    app.flows.append(f"{last} -> end when COMPLETED")
+
+
+def _spoil(random: Random, statements: list[str]) -> None:
+    """Make one mistake, or what looks like one."""
+    i = random.randrange(len(statements))
+    words = statements[i].split(" ")
+    match random.randrange(6):
+        case 0 if len(statements) > 1:
+            del statements[i]
+        case 1:
+            statements.insert(random.randrange(len(statements)), statements[i])
+        case 2:
+            words[random.randrange(len(words))] = random.choice(
+                random.choice(statements).split(" ")
+            )
+            statements[i] = " ".join(words)
+        case 3:
+            statements[i] = statements[i].partition(" when ")[0].removesuffix(" otherwise")
+        case 4:
+            statements[i] += f" when {', '.join(random.sample(STATUSES, random.randint(1, 3)))}"
+        case _:
+            del words[random.randrange(len(words))]
+            statements[i] = " ".join(words)

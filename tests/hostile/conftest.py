@@ -1,0 +1,7 @@
+"""The command line, as tests/cli calls it."""
+
+from __future__ import annotations
+
+from tests.cli.conftest import app, formatted_once, here, plutoc
+
+__all__ = ["app", "formatted_once", "here", "plutoc"]

@@ -1,0 +1,190 @@
+"""What a user writes between quotes stays a text: in Python, TOML, Markdown and pictures."""
+
+from __future__ import annotations
+
+import ast
+import json
+import re
+import shutil
+import tomllib
+import unicodedata
+from collections.abc import Iterator
+from functools import cache
+from xml.etree import ElementTree
+
+import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+
+from plutoc.emit.package import Package
+from plutoc.report.graph import dot, dot_to_svg, mermaid
+from plutoc.report.graph import json as as_json
+from plutoc.syntax.texts import HIDDEN
+from tests.fuzz.texts import HOSTILE
+from tests.hostile.apps import checked, package
+
+PLAIN = "plain"
+TEXTS = st.text(
+    st.characters(exclude_categories=["Cs"]).filter(lambda char: char not in "\t\n\r"), max_size=60
+).filter(lambda text: not HIDDEN.search(text))
+ALWAYS = sorted({text for text in HOSTILE if not HIDDEN.search(text)})
+
+
+@cache
+def of_plain() -> Package:
+    """The package that all others are held against."""
+    return package(PLAIN)
+
+
+def shape(data: bytes) -> list[str]:
+    """Return the syntax tree of a file as Python reads it, the values of its texts left out."""
+    nodes = []
+    for node in ast.walk(ast.parse(data)):
+        facts = [type(node).__name__]
+        for _, value in ast.iter_fields(node):
+            if isinstance(value, str) and not isinstance(node, ast.Constant):
+                facts.append(value)
+        nodes.append(" ".join(facts))
+    return nodes
+
+
+def keys(value: object) -> Iterator[str]:
+    """Yield the paths of all keys in what a TOML or JSON file holds."""
+    if isinstance(value, dict):
+        for key, inner in value.items():
+            yield key
+            yield from (f"{key}.{path}" for path in keys(inner))
+    elif isinstance(value, list):
+        for inner in value:
+            yield from (f"[].{path}" for path in keys(inner))
+
+
+def assert_same_shape(package: Package) -> None:
+    """Nothing but the values of texts differs from the plain package."""
+    for texts, plain in (
+        (package.owned, of_plain().owned),
+        (package.once, of_plain().once),
+    ):
+        assert texts.keys() == plain.keys()
+        for path, text in texts.items():
+            if text == plain[path]:
+                continue
+            if path.endswith(".py"):
+                assert shape(text.encode()) == shape(plain[path].encode()), path
+                assert {c for c in text if not c.isascii()} <= set(plain[path]), path
+            elif path.endswith((".toml", ".lock")):
+                assert list(keys(tomllib.loads(text))) == list(keys(tomllib.loads(plain[path])))
+                assert text.isascii(), path
+            else:
+                assert path in ("README.md", ".gitattributes")
+
+
+@settings(max_examples=25, deadline=None, derandomize=True)
+@given(TEXTS)
+@example("coding: utf-7 +AAo-x+AD0-1")
+@example('"""\\')
+@example('\\""" + x + """')
+@example("\\N{BULLET}{x}${{ x }}$(x)`x`")
+def test_any_text_leaves_the_shape_of_every_file(text: str) -> None:
+    """In the bytes as Python reads them: an encoding that a text declares would count there."""
+    assert_same_shape(package(text))
+
+
+def test_hostile_texts_leave_the_shape_of_every_file() -> None:
+    """All of them at once, and each at the end of a text."""
+    assert_same_shape(package("".join(ALWAYS)))
+    assert_same_shape(package(" ".join(reversed(ALWAYS))))
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "coding: utf-7.pluto",
+        "a\nimport os.pluto",
+        '""".pluto',
+        "-->.pluto",
+        "{{ 1 }}.pluto",
+        "\N{RIGHT-TO-LEFT OVERRIDE}a.pluto",
+        "$(x).pluto",
+    ],
+)
+def test_a_name_of_a_file_gets_into_no_file(name: str) -> None:
+    """Only a plain one stands in the first lines."""
+    odd = package(PLAIN, name)
+    assert_same_shape(odd)
+    for path, text in odd.owned.items():
+        stem = name.removesuffix(".pluto")
+        assert text.count(stem) == of_plain().owned[path].count(stem), path
+
+
+def test_texts_say_what_was_written() -> None:
+    """Python reads back the very characters; so does TOML, in one line."""
+    text = "".join(ALWAYS)
+    made = package(text)
+    constants = [
+        node.value
+        for node in ast.walk(ast.parse(made.owned["src/crop/flow.py"].encode()))
+        if isinstance(node, ast.Constant)
+    ]
+    assert constants.count(text) >= 4
+    description = tomllib.loads(made.owned["pyproject.toml"])["project"]["description"]
+    assert description == " ".join(text.split())
+
+
+def test_comments_get_into_no_file() -> None:
+    """They are for people who read the source."""
+    for comment in (text for text in ALWAYS if "\n" not in text):
+        assert checked(PLAIN, comment).graph == checked(PLAIN, comment).graph
+    marked = checked(PLAIN, "touch hacked " + "".join(ALWAYS))
+    assert marked.graph.title == PLAIN
+
+
+def unmarked(line: str) -> str:
+    """Return a line of Markdown without what is escaped."""
+    return re.sub(r"\\[\\`*_\[\]<>#|~&$@!(){}+.-]", "", line)
+
+
+@settings(max_examples=60, deadline=None, derandomize=True)
+@given(TEXTS)
+@example("".join(ALWAYS))
+def test_a_title_is_one_plain_line_of_the_readme(text: str) -> None:
+    """No link, no picture, no HTML, no heading, no code, no formula, no mention of anybody."""
+    from plutoc.emit.project_files import readme
+
+    written = readme(checked(text).graph, "crop.pluto", "flowchart TD\n").splitlines()
+    plain = readme(checked(PLAIN).graph, "crop.pluto", "flowchart TD\n").splitlines()
+    others = [line for line in plain if PLAIN not in line]
+    mine = [line for line in written if line not in others]
+    assert len(mine) <= 1
+    for line in mine:
+        assert not set("`<[]|$@#~&") & set(unmarked(line)), line
+        assert unmarked(line).strip("*") == unmarked(line)[2:-2]
+
+
+@settings(max_examples=60, deadline=None, derandomize=True)
+@given(TEXTS)
+@example("".join(ALWAYS))
+def test_a_title_adds_nothing_to_a_picture(text: str) -> None:
+    """Every line but that of the title is the same; JSON has the same keys."""
+    odd, plain = checked(text), checked(PLAIN)
+    titled = "\n".join(mermaid(odd).split("\n")[:3])
+    assert mermaid(odd).split("\n")[3:] == mermaid(plain).split("\n")[3:]
+    assert re.fullmatch(r'---\ntitle: "(?:[^"\\\n`<>&%#{}]|\\U[0-9a-f]{8})*"\n---', titled)
+    lines = dot(odd).split("\n")
+    assert [*lines[:1], *lines[2:]] == [
+        line for i, line in enumerate(dot(plain).split("\n")) if i != 1
+    ]
+    assert re.fullmatch(r'    graph \[label="(?:[^"\\]|\\\\|\\")*", .*', lines[1])
+    assert list(keys(json.loads(as_json(odd)))) == list(keys(json.loads(as_json(plain))))
+
+
+def test_graphviz_draws_every_title() -> None:
+    """The picture is well-formed XML with the elements of a plain one, and no other."""
+    if shutil.which("dot") is None:
+        pytest.skip("Graphviz is not installed")
+    plain = ElementTree.fromstring(dot_to_svg(dot(checked(PLAIN))))
+    for text in ("".join(t for t in ALWAYS if t.isprintable()), "</text><script>", "<b>&amp;x"):
+        drawn = ElementTree.fromstring(dot_to_svg(dot(checked(text))))
+        assert [node.tag for node in drawn.iter()] == [node.tag for node in plain.iter()]
+        said = "".join(node.text or "" for node in drawn.iter() if node.tag.endswith("}text"))
+        assert unicodedata.normalize("NFC", text[:5]) in unicodedata.normalize("NFC", said)
