@@ -113,14 +113,14 @@ class Rejected(Exception):
         super().__init__("\n".join(f"{d.code}: {d.message}" for d in self.diagnostics))
 
 
+def in_order(found: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
+    """Return the diagnostics of one source as they stand in it."""
+    return tuple(sorted(found, key=lambda d: (d.span.start, d.span.end, d.code)))
+
+
 def accept_or_raise(found: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
     """Return the warnings; raise `Rejected` with everything where there is an error among them."""
     diagnostics = in_order(found)
     if any(d.severity is Severity.ERROR for d in diagnostics):
         raise Rejected(diagnostics)
     return diagnostics
-
-
-def in_order(found: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
-    """Sort diagnostics of one source by their places."""
-    return tuple(sorted(found, key=lambda d: (d.span.start, d.span.end, d.code)))

@@ -76,8 +76,14 @@ def into_creator(graph: Graph, edge: Edge, creator: Node) -> Diagnostic:
         (graph, edge.span),
         f"`{edge.source}` leads back to `{creator.name}`, which only makes new missions",
         related=(related_to(graph, creator.name_span, "missions are made here"),),
-        help="lead the arrow to the block that comes after it",
+        help=f"lead the arrow to what comes after it{_named(graph, creator)}; another round of a "
+        "mission is started by a block that repeats",
     )
+
+
+def _named(graph: Graph, creator: Node) -> str:
+    following = [edge.target for edge in graph.outgoing[creator.name]]
+    return f", {names(following)}" if following else ""
 
 
 # What nothing reaches
@@ -234,21 +240,24 @@ def astray(
     graph: Graph, branches: Sequence[tuple[Branch, Astray]], gates: Sequence[str], way: Way
 ) -> Diagnostic:
     first, lost = branches[0]
-    meet = f"close the fork first, at `{gates[0]}`" if gates else "let its branches meet at a gate"
-    twice = ", so its mission would be flown twice" if is_flown(lost) else ""
+    guard = f"only one of the arrows was meant to take {first.fork[1].value}, guard the others"
+    if gates:
+        mend = f"close the fork first, at `{gates[0]}`; or, if {guard} with `when`"
+    else:
+        mend = f"if {guard} with `when`; else let the branches meet at a gate"
+    to = "" if lost[0].node == first.edge.target else f" to `{first.edge.target}`"
     return error(
         "P2012" if is_flown(lost) else "P2011",
         (graph, first.edge.span),
-        f"{fork_of(first.fork)} is not closed: its branch to `{first.edge.target}` {fate(lost)}{twice}",
-        label="this branch",
+        f"{fork_of(first.fork)} is not closed: its branch{to} {fate(lost)}",
+        label="its mission would be flown twice" if is_flown(lost) else "this branch",
         related=tuple(
             related_to(
                 graph, branch.edge.span, f"the branch to `{branch.edge.target}` {fate(other)}, too"
             )
             for branch, other in branches[1:]
         ),
-        help=f"{meet}; or, if only one of the arrows was meant to take {first.fork[1].value}, "
-        f"guard the others with `when`{there(way)}",
+        help=f"{mend}{there(way)}",
     )
 
 
@@ -302,6 +311,11 @@ def outside_fork(graph: Graph, node: Node, way: Way) -> Diagnostic:
         "P2016",
         (graph, node.name_span),
         f"a mission can come to `{node.name}` outside of the fork that closes there",
+        related=tuple(
+            related_to(graph, edge.span, "it comes along here")
+            for edge in graph.incoming[node.name]
+            if edge.source == way[-2].node
+        ),
         help=f"lead this way past the gate{there(way)}",
     )
 
@@ -341,7 +355,9 @@ def shared_gate(
     )
 
 
-def written_twice(graph: Graph, first: Node, second: Node, attribute: str, way: Way) -> Diagnostic:
+def written_twice(
+    graph: Graph, first: Node, second: Node, attribute: str, ways: Sequence[Way]
+) -> Diagnostic:
     return error(
         "P2020",
         (graph, second.name_span),
@@ -352,7 +368,7 @@ def written_twice(graph: Graph, first: Node, second: Node, attribute: str, way: 
         ),
         label="who comes last would win",
         related=(related_to(graph, first.name_span, "written here"),) if first != second else (),
-        help=f"let one of them write it, or put one behind the other{there(way)}",
+        help=f"let one of them write it, or put one behind the other{there(*ways)}",
     )
 
 
@@ -361,7 +377,7 @@ def unwatched_limit(graph: Graph, node: Node, way: Way) -> Diagnostic:
         "P2023",
         (graph, node.name_span),
         f"`{node.name}` sets a limit to a flight, but no block beside it watches the flight",
-        help="fork: put it on one branch, a block that only watches on another, and let them meet "
+        help="put it on one branch of a fork, a block that only watches on another, and let both meet "
         f"at a gate{there(way)}",
     )
 

@@ -21,8 +21,6 @@ def unmended(flow: Flow) -> list[Diagnostic]:
     ]
     if not failing or any(_mends(flow, node) for node in flow.graph.nodes):
         return []
-    if any(status is Status.FAILED and place.frame is not None for place, status in flow.loose):
-        return []  # an open fork is an error: nobody knows what follows its gate
     return [errors.failures_stop(flow.graph, failing[0])]
 
 

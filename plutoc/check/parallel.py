@@ -6,7 +6,7 @@ from itertools import combinations
 
 from plutoc.check import errors
 from plutoc.check.branches import Branch, Branches, within
-from plutoc.check.flow import Flow, Fork, Frame
+from plutoc.check.flow import Flow, Fork, Frame, Way
 from plutoc.diagnostic import Diagnostic
 from plutoc.graph.model import Node
 
@@ -23,7 +23,7 @@ def written_twice(flow: Flow, found: Branches) -> list[Diagnostic]:
                         diagnostics.setdefault(
                             key,
                             errors.written_twice(
-                                flow.graph, first, second, attribute, flow.way_to(second.name)
+                                flow.graph, first, second, attribute, _ways(flow, first, second)
                             ),
                         )
     return list(diagnostics.values())
@@ -48,6 +48,10 @@ def _writers(flow: Flow, found: Branches, branch: Branch) -> list[Node]:
 def _common(first: Node, second: Node) -> list[str]:
     others = second.hook.writes if second.hook else ()
     return [name for name in (first.hook.writes if first.hook else ()) if name in others]
+
+
+def _ways(flow: Flow, first: Node, second: Node) -> list[Way]:
+    return [flow.way_to(name) for name in dict.fromkeys((first.name, second.name))]
 
 
 def _nodes(flow: Flow, found: Branches, branch: Branch) -> list[Node]:

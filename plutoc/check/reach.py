@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Container
+from collections.abc import Collection, Iterator, Container
 
 from plutoc.check import errors
 from plutoc.check.components import behind, components
 from plutoc.check.flow import Flow, is_final, ordered
 from plutoc.diagnostic import Diagnostic
 from plutoc.graph.model import END, START, Edge, Graph
+from plutoc_runtime.status import Status
 
 
 def unreached(flow: Flow, creator: str, told: Collection[str]) -> list[Diagnostic]:
@@ -70,25 +71,32 @@ def starved(flow: Flow) -> list[Diagnostic]:
 
 
 def untaken(flow: Flow, stopped: Flow) -> list[Diagnostic]:
-    """Find edges that no status can take, and guards that say more than can happen.
+    """Find edges that no status can ever take, not even that of a mission that was stopped."""
+    return [
+        errors.untaken(flow.graph, edge, leaving, flow.way_to(edge.source))
+        for edge, leaving, taken in _left_by(flow, stopped)
+        if not taken and not edge.otherwise and _blames_edge(flow, edge)
+    ]
 
-    What happens only to missions that were stopped happens, too.
-    """
+
+def spare(flow: Flow, stopped: Flow) -> list[Diagnostic]:
+    """Warn of guards that say more than can happen, and of an `otherwise` with nothing left."""
     found = []
-    for edge in flow.edges:
-        if edge.source == START or not flow.leaves[edge.source]:
-            continue
-        leaves = flow.leaves[edge.source] | stopped.leaves[edge.source]
-        leaving = ordered(leaves)
-        if flow.carries[edge] or stopped.carries[edge]:
-            spare = tuple(s for s in edge.guard or () if s not in leaves)
-            if spare:
-                found.append(errors.spare_guard(flow.graph, edge, spare, leaving))
-        elif edge.otherwise:
+    for edge, leaving, taken in _left_by(flow, stopped):
+        never = tuple(s for s in edge.guard or () if s not in leaving)
+        if taken and never:
+            found.append(errors.spare_guard(flow.graph, edge, never, leaving))
+        elif not taken and edge.otherwise:
             found.append(errors.idle_otherwise(flow.graph, edge, leaving))
-        elif _blames_edge(flow, edge):
-            found.append(errors.untaken(flow.graph, edge, leaving, flow.way_to(edge.source)))
     return found
+
+
+def _left_by(flow: Flow, stopped: Flow) -> Iterator[tuple[Edge, tuple[Status, ...], bool]]:
+    """Give each edge with what leaves the block before it, and whether any of that takes it."""
+    for edge in flow.edges:
+        if edge.source != START and flow.leaves[edge.source]:
+            leaving = ordered(flow.leaves[edge.source] | stopped.leaves[edge.source])
+            yield edge, leaving, bool(flow.carries[edge] or stopped.carries[edge])
 
 
 def _blames_edge(flow: Flow, edge: Edge) -> bool:

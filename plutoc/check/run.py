@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from plutoc.check import (
     ending,
     errors,
@@ -22,7 +20,7 @@ from plutoc.check.entry import entry
 from plutoc.check.flow import Flow
 from plutoc.check.model import Checked
 from plutoc.check.statuses import creation, explore
-from plutoc.diagnostic import Diagnostic, Rejected, Severity, accept_or_raise
+from plutoc.diagnostic import Diagnostic, Rejected, in_order
 from plutoc.graph.model import Graph
 
 
@@ -35,25 +33,18 @@ def check(graph: Graph) -> tuple[Checked, tuple[Diagnostic, ...]]:
     if creator is None:  # nothing moves: there is nothing else to say
         raise Rejected(found)
     flow = explore(graph, edges, (creation(creator.name),))
+    stopped = _after_a_stop(flow)
     parallels = branches(flow)
     found += _in_flight(flow, parallels)
     found += reach.unreached(flow, creator.name, stuck.forgotten_gates(flow, parallels))
     found += reach.starved(flow)
-    found += stuck.ends(flow)
+    found += reach.untaken(flow, stopped)
     found += parallel.written_twice(flow, parallels)
     found += parallel.unwatched_limits(flow, parallels)
-    found += flights.held(flow)
-    found += failures.unmended(flow)
-    found += failures.unbounded(flow)
-    found += order.repeated_unjudged(flow)
-    stopped = _after_a_stop(flow)
-    found += reach.untaken(flow, stopped)
-    if not _has_errors(found):
-        wrong = _in_flight(stopped, branches(stopped))
-        found += map(errors.after_a_stop, wrong)
-    if _has_errors(found):  # what is not needed now may be once the errors are mended
-        found = [replace(d, fix=None) for d in found]
-    warnings = accept_or_raise(found)
+    # after a Stop the same things go wrong once more: say only what goes wrong there alone
+    found = found or [*map(errors.after_a_stop, _in_flight(stopped, branches(stopped)))]
+    if found:
+        raise Rejected(in_order(found))
     checked = Checked(
         graph=graph,
         arrives=flow.arrives,
@@ -64,7 +55,19 @@ def check(graph: Graph) -> tuple[Checked, tuple[Diagnostic, ...]]:
         resumes=resume.resume_points(flow),
         explored=len(flow.places),
     )
-    return checked, warnings
+    return checked, in_order(_warnings(flow, stopped))
+
+
+def _warnings(flow: Flow, stopped: Flow) -> list[Diagnostic]:
+    """Find what is odd about a sound graph; about another one, most of this would be guessed."""
+    return [
+        *reach.spare(flow, stopped),
+        *stuck.ends(flow),
+        *flights.held(flow),
+        *failures.unmended(flow),
+        *failures.unbounded(flow),
+        *order.repeated_unjudged(flow),
+    ]
 
 
 def _in_flight(flow: Flow, parallels: Branches) -> list[Diagnostic]:
@@ -83,7 +86,3 @@ def _after_a_stop(flow: Flow) -> Flow:
     """Follow missions that were stopped and go on, where that is another way than before."""
     again = [place for place in resume.resumed(flow) if place not in flow.places]
     return explore(flow.graph, flow.edges, again)
-
-
-def _has_errors(found: list[Diagnostic]) -> bool:
-    return any(d.severity is Severity.ERROR for d in found)
