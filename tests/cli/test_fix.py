@@ -211,3 +211,25 @@ def test_there_are_fixes() -> None:
     """The cases have some of each kind."""
     codes = {found.code for _, found in FIXABLE}
     assert {"P0009", "P0016", "P1025", "P1035", "P2052", "P2053"} <= codes
+
+
+def test_a_status_that_only_a_stopped_mission_has_is_needed(plutoc: Call, app: Path) -> None:
+    """It goes on STANDBY where it is given a drone anew, though no other mission comes there so."""
+    text = """pluto 1
+app crop "Crop" {
+  modifier over emits FAILED
+  create = MissionCreator
+  allocate = DroneAllocator
+  launch = TripLauncher
+  watch = TripMonitor
+  note = MissionModifier(hook: over)
+  start -> create -> allocate
+  allocate -> launch when UNEXECUTED, STANDBY
+  launch -> watch -> note when STANDBY
+  watch -> end
+  note -> end
+}
+"""
+    app.write_text(text)
+    assert plutoc("check", app, "--fix").code == 0
+    assert app.read_text() == text
