@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
 from tests.soundness.app import END, START, App, Arrow, takes
-from tests.soundness.kinds import BADNESS, END_ACCEPTS, GATES, R, Status, U
+from tests.soundness.kinds import BADNESS, END_ACCEPTS, GATES, LIMITS, WATCHES, R, Status, U
 from tests.soundness.state import Branch, Stack, State, Token, Verdict, Wrong
 from tests.soundness.steps import MOST_TRIPS, landed, outcomes
 from tests.soundness.walk import Run, Walk
@@ -25,8 +25,10 @@ class Seen:
     taken: set[tuple[Arrow, Status]] = field(default_factory=set)
     closed: dict[tuple[str, Status], set[str]] = field(default_factory=dict)
     """The gates at which the branches of each fork arrived."""
-    lonely: set[str] = field(default_factory=set)
-    """The blocks that a mission came to while no fork was open."""
+    limited: set[tuple[str, Stack]] = field(default_factory=set)
+    """Where a limit was set to a flight: the block, and the branches that it stood in."""
+    beside: set[tuple[str, Stack]] = field(default_factory=set)
+    """Those of them beside which a TripMonitor was seen."""
     states: int = 0
     cut: bool = False
     """There were more runs than anybody would wait for."""
@@ -56,6 +58,7 @@ class Explorer:
         wrong = self.seen.wrong
         while walk.queue and len(walk.came) < (ENOUGH if wrong else TOO_MANY):
             state = walk.queue.popleft()
+            self.note_limits(state)
             moved = False
             for step, then in self.steps(state):
                 moved = True
@@ -75,6 +78,15 @@ class Explorer:
                 kept = Verdict.DEADLOCKED if walk.keeps_waiting(state) else Verdict.ENDLESS
                 wrong.setdefault(kept, walk.run(state))
         return self.seen
+
+    def note_limits(self, state: State) -> None:
+        """Remember which limits stand beside a block that watches the flight."""
+        kinds = [self.blocks[token.block].kind for token in state.tokens]
+        for token, kind in zip(state.tokens, kinds, strict=True):
+            if kind in LIMITS:
+                self.seen.limited.add((token.block, token.stack))
+                if WATCHES in kinds:
+                    self.seen.beside.add((token.block, token.stack))
 
     def steps(self, state: State) -> Iterator[tuple[str, State | Wrong]]:
         """Yield everything that can happen next."""
@@ -142,8 +154,6 @@ class Explorer:
         kind = self.blocks[name].kind
         if stack and kind in ("DroneAllocator", "TripLauncher"):
             raise Wrong(Verdict.FLOWN_TWICE, name)
-        if not stack:
-            self.seen.lonely.add(name)
         if kind not in GATES:
             return (Token(name, status, stack),)
         if not stack:

@@ -39,5 +39,7 @@ ACCEPTS: dict[str, tuple[Status, ...]] = {
 GUARDED: dict[str, tuple[Status, ...]] = {"DroneAllocator": (F,)}
 """What a kind accepts besides, where a guard says so."""
 
-MONITORS = ("TripMonitor", "TimerMonitor", "GapMonitor")
+WATCHES = "TripMonitor"
+LIMITS = ("TimerMonitor", "GapMonitor")
+MONITORS = (WATCHES, *LIMITS)
 GATES = ("GateFIFO", "GateFunnel")

@@ -51,7 +51,7 @@ def judge(app: App) -> Judgement:
 
 def _judged(app: App, first: str, *, strict: bool) -> Judgement:
     seen = _seen(app, first, strict=strict)
-    faults = () if seen.cut else (*_dead(app, seen, first), *_scattered(seen))
+    faults = () if seen.cut else (*_dead(app, seen, first), *_scattered(seen), *_unwatched(seen))
     return Judgement(
         runs=seen.wrong,
         faults=faults,
@@ -88,3 +88,9 @@ def _scattered(seen: Seen) -> tuple[str, ...]:
         for (block, status), gates in sorted(seen.closed.items())
         if len(gates) > 1
     )
+
+
+def _unwatched(seen: Seen) -> tuple[str, ...]:
+    """Return the limits that somewhere have no TripMonitor beside them."""
+    alone = {block for block, _ in seen.limited - seen.beside}
+    return tuple(f"{block} has no TripMonitor beside it" for block in sorted(alone))
