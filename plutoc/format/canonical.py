@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from plutoc.format.document import written
 from plutoc.format.statement import statement
-from plutoc.format.words import LBRACE, RBRACE, comments_before, lines
+from plutoc.format.words import LBRACE, RBRACE, read
 
 WIDTH = 100
 """In characters. Comments, texts and names may be longer, and are never broken."""
@@ -26,10 +26,11 @@ class _Row:
 
 def canonical(text: str) -> str:
     """Write a text anew: what it says, and its comments, in the one form that they have."""
-    rows = list(_comments(comments_before(text), 0, first=True))
+    before, lines = read(text)
+    rows = list(_comments(before, 0, first=True))
     depth = 0
     above_app = 0
-    for words in lines(text):
+    for words in lines:
         first, last = words[0], words[-1]
         if first.kind == RBRACE:
             depth = 0

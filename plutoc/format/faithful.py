@@ -29,8 +29,8 @@ def _unplaced(node: object) -> object:
     if isinstance(node, tuple):
         return tuple(map(_unplaced, node))
     if is_dataclass(node):
-        named = (field.name for field in fields(node) if field.name not in _PLACES)
-        return (type(node), *(_unplaced(getattr(node, name)) for name in named))
+        names = (field.name for field in fields(node) if field.name not in _PLACES)
+        return (type(node), *(_unplaced(getattr(node, name)) for name in names))
     return node
 
 

@@ -36,16 +36,19 @@ class Word:
     """It ends a statement."""
 
 
-def comments_before(text: str) -> tuple[str, ...]:
-    """Return the comments before the first word; an empty one stands for a blank line."""
-    first = next(iter(parser().lex(text)))
-    return tuple(line.strip(_BLANKS) for line in text[: first.start_pos].split("\n")[:-1])
+def read(text: str) -> tuple[tuple[str, ...], Iterator[tuple[Word, ...]]]:
+    """Return the comments before the first word of a sound source, and its words in lines.
+
+    A line is a statement, or ends with a brace. An empty comment stands for a blank line.
+    """
+    tokens = list(parser().lex(text))
+    before = text[: tokens[0].start_pos].split("\n")[:-1]
+    return _stripped(before), _lines(_without_commas(_words(text, tokens)))
 
 
-def lines(text: str) -> Iterator[tuple[Word, ...]]:
-    """Yield the words of each statement, and of each line with a brace, of a sound source."""
+def _lines(words: Iterator[Word]) -> Iterator[tuple[Word, ...]]:
     line: list[Word] = []
-    for word in _without_commas(_words(text)):
+    for word in words:
         line.append(word)
         if word.last or word.kind in (LBRACE, RBRACE):
             yield tuple(line)
@@ -53,16 +56,15 @@ def lines(text: str) -> Iterator[tuple[Word, ...]]:
     assert not line, "the last word of a sound source is a brace"
 
 
-def _words(text: str) -> Iterator[Word]:
-    tokens = list(parser().lex(text))
+def _words(text: str, tokens: Sequence[Token]) -> Iterator[Word]:
     beyond = Token("", "", len(text))
     words = [token for token in tokens if token.type != NEWLINE]
     ends = {id(token) for token, then in pairwise(tokens) if then.type == NEWLINE}
     for token, then in pairwise([*words, beyond]):
         gap = text[token.end_pos : then.start_pos].split("\n")
-        if then is not beyond:
+        if len(gap) > 1 and then is not beyond:
             gap.pop()  # the blanks before the next word
-        beside, *below = (line.strip(_BLANKS) for line in gap or [""])
+        beside, *below = _stripped(gap)
         yield Word(
             kind=token.type,
             text=_spaced(token) if token.type == "QUANTITY" else str(token),
@@ -70,6 +72,10 @@ def _words(text: str) -> Iterator[Word]:
             below=tuple(below),
             last=id(token) in ends,
         )
+
+
+def _stripped(lines: Sequence[str]) -> tuple[str, ...]:
+    return tuple(line.strip(_BLANKS) for line in lines)
 
 
 def _spaced(quantity: str) -> str:
