@@ -28,15 +28,15 @@ class Source:
 
     @cached_property
     def _starts(self) -> list[int]:
-        """Offsets at which lines begin."""
-        starts = [0]
+        """Offsets at which lines begin. A byte order mark is no part of the first one."""
+        starts = [int(self.text.startswith("\ufeff"))]
         starts.extend(i + 1 for i, char in enumerate(self.text) if char == "\n")
         return starts
 
     def position(self, offset: int) -> tuple[int, int]:
         """Return the line and column of an offset, both from 1, in characters."""
-        line = bisect_right(self._starts, offset)
-        return line, offset - self._starts[line - 1] + 1
+        line = bisect_right(self._starts, offset) or 1
+        return line, max(offset - self._starts[line - 1], 0) + 1
 
     def line(self, number: int) -> str:
         """Return one line, counted from 1, without its end."""

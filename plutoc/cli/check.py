@@ -54,6 +54,7 @@ def _check(file: Path, options: Options, troubles: list[str]) -> tuple[Diagnosti
 
 def _findings(file: Path, source: Source) -> tuple[Diagnostic, ...]:
     """Return what is wrong with an app, and with the developer's code where there is any."""
+    warnings: tuple[Diagnostic, ...] = ()
     try:
         checked, warnings = analyse(source)
         if file == STANDARD_INPUT:  # nothing lies beside it
@@ -61,7 +62,7 @@ def _findings(file: Path, source: Source) -> tuple[Diagnostic, ...]:
         hooks = find_hooks(checked, file, default_folder(file, checked))
         return warnings + check_hooks(checked, hooks)
     except Rejected as rejected:
-        return rejected.diagnostics
+        return warnings + rejected.diagnostics
 
 
 def _fixed(file: Path, source: Source, options: Options) -> tuple[Diagnostic, ...]:

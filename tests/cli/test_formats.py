@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 import json
+import os
+import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
+from typing import TextIO
 
 import pytest
 
@@ -138,3 +142,56 @@ def test_the_cap_is_over_all_files(plutoc: Call, app: Path) -> None:
     assert "… and 7 more\n" in said.err
     assert "\n27 errors\n" in said.err
     assert len(plutoc("check", *files, "--format", "json").out.splitlines()) == 27
+
+
+def python(*arguments: str, out: int | TextIO, read: str | None = None) -> tuple[int, str]:
+    """Call the program as a process of its own: its exit code and its standard error."""
+    done = subprocess.run(
+        [sys.executable, "-m", "plutoc", *arguments],
+        env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)},
+        input=read,
+        stdout=out,
+        stderr=subprocess.PIPE,
+        text=True,
+        check=False,
+    )
+    return done.returncode, done.stderr
+
+
+PROGRAMS = [name for name in FORMATS if name != "text"]
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="only Linux has a disk that is full")
+@pytest.mark.parametrize("name", PROGRAMS)
+def test_a_report_that_cannot_be_written_ends_with_2(app: Path, name: str) -> None:
+    """A full disk is an error, not a traceback."""
+    app.write_text(MISTAKE)
+    with open("/dev/full", "w") as full:
+        code, told = python("check", str(app), "--format", name, out=full)
+    assert (code, told) == (2, "plutoc: the output cannot be written: No space left on device\n")
+
+
+@pytest.mark.parametrize("name", PROGRAMS)
+def test_a_report_that_nobody_reads_ends_with_141(app: Path, name: str) -> None:
+    """Whoever read it has gone: there is nobody to tell."""
+    app.write_text(MISTAKE)
+    reading, writing = os.pipe()
+    os.close(reading)
+    with os.fdopen(writing, "w") as pipe:
+        assert python("check", str(app), "--format", name, out=pipe) == (141, "")
+
+
+@pytest.mark.parametrize(("name", "reader"), READERS)
+def test_standard_input_is_checked_as_a_file_is(here: Path, name: str, reader: Read) -> None:
+    """It has no folder, so there are no hooks; and there is nothing that --fix could change."""
+    Path("hooks.py").write_text("nothing = 1\n")
+    with open("report", "w+") as report:
+        code, told = python("check", "-", "--format", name, out=report, read=MISTAKE)
+        report.seek(0)
+        sentences = reader(Said(code, report.read(), told))
+    assert (code, told, len(sentences)) == (1, "", 1)
+    repeated = APP.replace("can take_photo", "can measure, measure, take_photo")
+    code, told = python("check", "-", "--fix", out=subprocess.DEVNULL, read=repeated)
+    assert code == 2
+    assert "plutoc: --fix changes files, and standard input is none\n" in told
+    assert "warning[P1025]" in told

@@ -230,3 +230,12 @@ def test_colour_only_where_wanted() -> None:
     found = [diagnostic("a bad", "bad", label="here", help="mend it")]
     assert "\x1b[1;31m" in render(found, colour=True)
     assert "\x1b" not in render(found, colour=False)
+
+
+def test_a_byte_order_mark_takes_no_column() -> None:
+    """Editors neither show it nor count it."""
+    shown = render([diagnostic("\ufeffa bad", "bad")], colour=False)
+    assert " --> app.pluto:1:3\n" in shown
+    assert window(shown) == ["1 | a bad", "  |   ^^^"]
+    at_it = render([diagnostic("\ufeffbad", "\ufeff")], colour=False)
+    assert " --> app.pluto:1:1\n" in at_it
