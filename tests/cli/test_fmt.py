@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import io
 import os
+import signal
 import stat
 import subprocess
 import sys
@@ -19,6 +20,7 @@ from tests.cli.conftest import APP, Call, tree
 
 UNTIDY = APP.replace("  watch ->", "\n\n\twatch->").replace(" = ", "=").replace("50 mg", "50mg")
 TIDY = APP.replace("  watch -> ", "\n  watch -> ")
+ENVIRONMENT = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
 MISTAKE = "pluto 1\napp a {\n  b ->\n}\n"
 
 
@@ -62,7 +64,7 @@ def test_a_diff_is_printed_and_can_be_applied(plutoc: Call, app: Path) -> None:
     assert plutoc("fmt", app, "--diff", "--check").code == 1
     patch = subprocess.run(
         [sys.executable, "-m", "plutoc", "fmt", app, "--diff"],
-        env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
+        env=ENVIRONMENT,
         capture_output=True,
         check=True,
     ).stdout
@@ -249,6 +251,32 @@ def test_the_new_source_comes_into_its_place_at_once(
     monkeypatch.setattr(os, "replace", replacing)
     rewrite(app, UNTIDY, TIDY)
     assert seen == [UNTIDY, TIDY]
+
+
+@pytest.mark.skipif(os.name != "posix", reason="nothing kills so elsewhere")
+@pytest.mark.parametrize(
+    "moment",
+    [
+        "Path.write_bytes = lambda path, data: (open(path, 'wb').write(data[:9]), die())",
+        "os.replace = die",
+    ],
+)
+def test_a_kill_in_the_middle_leaves_the_old_source(plutoc: Call, app: Path, moment: str) -> None:
+    """And the next run does what that one did not."""
+    app.write_text(UNTIDY)
+    program = (
+        "import os, signal, sys\n"
+        "from pathlib import Path\n"
+        "from plutoc.cli import main\n"
+        "def die(*_): os.kill(os.getpid(), signal.SIGKILL)\n"
+        f"{moment}\n"
+        "main(['fmt', 'crop.pluto'])\n"
+    )
+    done = subprocess.run([sys.executable, "-c", program], env=ENVIRONMENT, check=False)
+    assert done.returncode == -signal.SIGKILL
+    assert app.read_text() == UNTIDY
+    assert plutoc("fmt", app).code == 0
+    assert app.read_text() == TIDY
 
 
 def test_a_mistake_of_ours_destroys_nothing(
