@@ -15,6 +15,8 @@ from tests.soundness.mutants import mutants
 
 DEEPEST = 2
 MOST_BLOCKS = 11
+EMITTED: tuple[tuple[Status, ...], ...] = ((), (), (S, C, F), (R, F), (F,), (S,))
+"""What hooks declare: nothing, what a monitor would say, what it would say too early."""
 
 
 def random_app(rng: Random) -> App:
@@ -60,6 +62,13 @@ class _Drawing:
             self.arrow(retry, "block1", (S,))
             self.arrow(retry, END)
             statuses = [status for status in statuses if status != F]
+        if C in statuses and self.rng.random() < 0.3:
+            kind = self.rng.choice(("MissionEvaluator", "MissionRepeater"))
+            judge = self.block(kind)
+            self.arrow(source, judge, (C,))
+            self.arrow(judge, "block1", (S,))
+            self.arrow(judge, END)
+            statuses = [status for status in statuses if status != C]
         if C in statuses or F in statuses:
             self.arrow(source, END)
 
@@ -74,29 +83,35 @@ class _Drawing:
             watch = self.block(self.rng.choice(("TripMonitor", "TripMonitor", "TimerMonitor")))
             self.arrow(source, watch)
             return watch, (S, C, F)
-        emits = self.rng.choice(((), (), (S, C, F), (R, F), (F,), (S,)))
+        emits = self.rng.choice(EMITTED if depth else EMITTED[:4])
         hook = self.block("MissionModifier", emits)
         self.arrow(source, hook, statuses)
-        return hook, emits or statuses
+        left = emits or statuses
+        if len(left) > 1 and self.rng.random() < 0.2:  # it goes round until it says otherwise
+            self.arrow(hook, hook, left[:1])
+            left = left[1:]
+        return hook, left
 
     def fork(
         self, source: str, statuses: tuple[Status, ...], depth: int
     ) -> tuple[str, tuple[Status, ...]]:
-        gate = self.block(self.rng.choice(GATES))
+        kind = self.rng.choice(GATES)
+        gate = self.block(kind)
         passed: list[Status] = []
         for _ in range(self.rng.choice((2, 2, 3))):
             last, left = self.part(source, statuses, depth + 1)
             if self.rng.random() < 0.3 and not self.full:
                 some = left[: self.rng.randint(1, len(left))]
                 left = left[len(some) :]
-                hook = self.block("MissionModifier", self.rng.choice(((), (F,), (S, C, F))))
+                emits = self.rng.choice(EMITTED[1:5])
+                hook = self.block("MissionModifier", emits)
                 self.arrow(last, hook, some)
                 self.arrow(hook, gate)
-                passed.extend(FIVE if " emits " in self.hooks[-1] else some)
+                passed.extend(emits or some)
             if left:
                 self.arrow(last, gate, left)
             passed.extend(left)
-        return gate, tuple(s for s in FIVE if s in passed and s != U)
+        return gate, tuple(s for s in FIVE if s in passed)
 
     @property
     def full(self) -> bool:
@@ -107,6 +122,9 @@ class _Drawing:
         said = f" emits {', '.join(emits)}" if emits else ""
         if kind == "MissionModifier":
             self.hooks.append(f"modifier do_{name}{said}")
+            self.blocks.append(f"{name} = {kind}(hook: do_{name})")
+        elif kind == "MissionEvaluator":
+            self.hooks.append(f"evaluator do_{name}")
             self.blocks.append(f"{name} = {kind}(hook: do_{name})")
         else:
             self.blocks.append(f"{name} = {kind}")
