@@ -11,14 +11,11 @@ from plutoc.graph import errors
 from plutoc.graph.hooks import statuses
 from plutoc.graph.model import END, START, Edge, Node
 from plutoc.graph.scope import Scope
-from plutoc.graph.stops import check_stops
+from plutoc.graph.stops import END_ACCEPTS, accepts_by_guard, check_stops
 from plutoc.graph.unclear import Unclear
 from plutoc.source import Source
 from plutoc.syntax.tree import FlowDecl, Guard, Name
-from plutoc_runtime.status import Status
-
-END_ACCEPTS = frozenset({Status.COMPLETED, Status.FAILED})
-
+from plutoc_runtime.status import IN_GRAPH, Status
 
 MOST_EDGES = 100_000
 """Of an app: brackets of a thousand names each make a million of them, which nobody meant."""
@@ -52,11 +49,14 @@ def edges(
             found.append(errors.too_many_edges(source, flow.span, MOST_EDGES))
             break
         given = flow.guard
-        guard = statuses(source, given.statuses, found) if given else []
+        targets = flow.stops[-1].names
+        accepted = frozenset(IN_GRAPH).intersection(
+            *(accepts_by_guard(target.text, nodes) for target in targets)
+        )
+        guard = statuses(source, given.statuses, found, accepted) if given else []
         if given and any(name.text == START for name in flow.stops[-2].names):
             found.append(errors.guarded_start(source, given.span))
-        for target in flow.stops[-1].names:
-            _check_guard(source, guard, target.text, nodes, found)
+        _check_guard(source, guard, targets, nodes, found)
         taken = frozenset(status for _, status in guard)
         for arrow in _arrows(flow):
             if _is_possible(arrow, nodes):
@@ -116,21 +116,18 @@ def _accepts(target: str, nodes: Mapping[str, Node]) -> frozenset[Status]:
 def _check_guard(
     source: Source,
     guard: Sequence[tuple[Name, Status]],
-    target: str,
+    targets: Sequence[Name],
     nodes: Mapping[str, Node],
     found: list[Diagnostic],
 ) -> None:
-    if target == END:
-        kind, accepted = None, END_ACCEPTS
-    elif target in nodes:
-        kind, accepted = nodes[target].block.name, nodes[target].block.accepts_by_guard
-    else:
-        return
-    found.extend(
-        errors.refused_status(source, name, target, kind, accepted)
-        for name, status in guard
-        if status not in accepted
-    )
+    """Find statuses that a target refuses; of several targets, the first that does is told."""
+    for name, status in guard:
+        for target in targets:
+            if status not in accepts_by_guard(target.text, nodes):
+                kind = nodes[target.text].block.name if target.text in nodes else None
+                accepted = accepts_by_guard(target.text, nodes)
+                found.append(errors.refused_status(source, name, target.text, kind, accepted))
+                break
 
 
 def _check_twice(

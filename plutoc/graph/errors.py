@@ -14,6 +14,7 @@ from plutoc.graph.wording import (
     either,
     meant,
     related,
+    strange_letter,
     there_are,
 )
 from plutoc.source import Source, Span
@@ -25,6 +26,7 @@ from plutoc_runtime.words import counted
 
 def malformed_name(source: Source, name: Name) -> Diagnostic:
     """A name with other characters, or too many."""
+    label = strange_letter(name.text) or ""
     if len(name.text) > LONGEST:
         message = f"this name has {len(name.text)} characters; {LONGEST} are the most"
         help = "choose a shorter one"
@@ -32,7 +34,7 @@ def malformed_name(source: Source, name: Name) -> Diagnostic:
         message = f"`{name.text}` is not a name: names have only the letters a to z, digits and `_`"
         plain = in_plain_letters(name.text)
         help = f"for instance `{plain}`" if plain else "choose a plain name"
-    return error("P1001", message, source, name.span, help=help)
+    return error("P1001", message, source, name.span, label=label, help=help)
 
 
 def wrong_style(source: Source, name: Name, role: str, style: Style) -> Diagnostic:
@@ -225,15 +227,29 @@ def unknown_repeat(source: Source, name: Name, known: Sequence[str]) -> Diagnost
     )
 
 
-def unknown_status(source: Source, name: Name) -> Diagnostic:
-    """A status that does not exist."""
-    known = [status.value for status in IN_GRAPH]
+_OTHER_STATUSES = {
+    **dict.fromkeys(("DONE", "SUCCESS", "SUCCEEDED", "FINISHED", "COMPLETE", "OK"), "COMPLETED"),
+    **dict.fromkeys(("ERROR", "FAILURE", "FAIL", "CRASHED", "TIMEOUT"), "FAILED"),
+    **dict.fromkeys(("IDLE", "WAITING", "READY", "NEXT"), "STANDBY"),
+    **dict.fromkeys(("NEW", "CREATED", "INITIAL", "PENDING"), "UNEXECUTED"),
+    **dict.fromkeys(("FLYING", "EXECUTING", "BUSY", "ACTIVE"), "RUNNING"),
+}
+"""What other programs call them."""
+
+
+def unknown_status(source: Source, name: Name, legal: Sequence[str]) -> Diagnostic:
+    """A status that does not exist; `legal` are those that could stand here."""
+    other = _OTHER_STATUSES.get(name.text.upper())
     return error(
         "P1028",
         f"there is no status `{name.text}`",
         source,
         name.span,
-        help=meant(name.text, known) or f"statuses are {either(known)}",
+        help=(
+            f"did you mean `{other}`?"
+            if other in legal
+            else meant(name.text, legal) or there_are(legal, "what can stand here:")
+        ),
     )
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import keyword
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 from plutoc.block import HookKind
 from plutoc.diagnostic import Diagnostic
@@ -58,14 +58,22 @@ def hook(source: Source, declared: tree.HookDecl, found: list[Diagnostic]) -> Ho
 
 
 def statuses(
-    source: Source, written: Sequence[tree.Name], found: list[Diagnostic]
+    source: Source,
+    written: Sequence[tree.Name],
+    found: list[Diagnostic],
+    accepted: Collection[Status] = IN_GRAPH,
 ) -> list[tuple[tree.Name, Status]]:
-    """Return the statuses that are named, each once and with its name."""
+    """Return the statuses that are named, each once and with its name.
+
+    `accepted` are those that may stand here: of others, nothing is proposed.
+    """
+    named = {name.text for name in written}
+    legal = [each.value for each in IN_GRAPH if each in accepted and each.value not in named]
     resolved: dict[Status, tree.Name] = {}
     for name in written:
         status = Status.__members__.get(name.text)
         if status is None:
-            found.append(errors.unknown_status(source, name))
+            found.append(errors.unknown_status(source, name, legal))
         elif status not in IN_GRAPH:
             found.append(errors.status_outside_graph(source, name))
         elif status in resolved:

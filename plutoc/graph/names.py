@@ -65,7 +65,10 @@ def in_snake_case(name: str) -> str:
 
 def in_plain_letters(name: str) -> str | None:
     """Return the name as it can be written: `Blüten-Suche` as `Bluten_Suche`; None: it cannot."""
-    letters = unicodedata.normalize("NFKD", name).encode("ascii", "ignore").decode()
+    parts = [unicodedata.normalize("NFKD", char).encode("ascii", "ignore") for char in name]
+    if any(char.isalnum() and not part for char, part in zip(name, parts, strict=True)):
+        return None  # a letter of another script
+    letters = b"".join(parts).decode()
     plain = re.sub(r"[^A-Za-z0-9]+", "_", letters).strip("_")
     return plain if is_well_formed(plain) else None
 
@@ -93,11 +96,16 @@ def taken_app_name(name: str) -> str | None:
 
 def near(name: str, options: Iterable[str]) -> list[str]:
     """Return what somebody may have meant, the nearest first; at most three."""
+    possible = [each for each in options if abs(len(each) - len(name)) <= max(len(name), 3)]
+    same = next((each for each in possible if _bare(each) == _bare(name)), None)
+    if same is not None:
+        return [same]
     by_lower: dict[str, str] = {}
-    for option in options:
-        if abs(len(option) - len(name)) <= max(len(name), 3):
-            by_lower.setdefault(option.lower(), option)
-    lower = name.lower()
-    if lower in by_lower:
-        return [by_lower[lower]]
-    return [by_lower[match] for match in difflib.get_close_matches(lower, by_lower, 3, 0.65)]
+    for each in possible:
+        by_lower.setdefault(each.lower(), each)
+    return [by_lower[match] for match in difflib.get_close_matches(name.lower(), by_lower, 3, 0.65)]
+
+
+def _bare(name: str) -> str:
+    """Return a name as people remember it: `TripMonitor` and `trip_monitor` are one."""
+    return name.lower().replace("_", "")

@@ -32,7 +32,9 @@ def packages_of(file: File, blocks: Blocks, found: list[Diagnostic]) -> Packages
     for use in file.uses:
         package = use.package.text
         if package not in blocks.packages:
-            found.append(errors.unknown_package(file.source, use.package, blocks.packages))
+            used = {other.package.text for other in file.uses}
+            unused = [other for other in blocks.packages if other != STD and other not in used]
+            found.append(errors.unknown_package(file.source, use.package, unused))
             kinds[package] = None
         elif package not in kinds:
             kinds[package] = _load(package, file.source, use.package, blocks, found)
@@ -80,7 +82,11 @@ def find(
         if declared.prefix.text not in packages.names:
             if unclear.may_declare(declared.prefix.text):
                 return None
-            found.append(errors.unknown_prefix(source, declared.prefix, list(packages.names)))
+            wanted = declared.kind.text
+            fitting = [
+                p for p, of in packages.names.items() if wanted in (packages.kinds[of] or {})
+            ]
+            found.append(errors.unknown_prefix(source, declared.prefix, fitting))
             return None
         package = packages.names[declared.prefix.text]
     kinds = packages.kinds[package]

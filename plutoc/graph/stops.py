@@ -12,9 +12,20 @@ from plutoc.graph.scope import BLOCK, Scope
 from plutoc.graph.unclear import Unclear
 from plutoc.source import Source
 from plutoc.syntax.tree import FlowDecl
+from plutoc_runtime.status import IN_GRAPH, Status
 
 _MOST_PROPOSALS = 100
 """Near names are looked for so often: it takes long among many, and nobody reads more."""
+
+
+END_ACCEPTS = frozenset({Status.COMPLETED, Status.FAILED})
+
+
+def accepts_by_guard(target: str, nodes: Mapping[str, Node]) -> frozenset[Status]:
+    """Return what may stand in a guard to a target; of what is unknown, everything."""
+    if target == END:
+        return END_ACCEPTS
+    return nodes[target].block.accepts_by_guard if target in nodes else frozenset(IN_GRAPH)
 
 
 def meant_to_declare(
@@ -62,8 +73,24 @@ def check_stops(
                     continue  # a block that has another thing's name is told as that
                 elif not unclear.may_declare(name.text):
                     if name.text not in proposals:
-                        free = [START] * (i == 0) + [END] * (i == last)
                         enough = len(proposals) >= _MOST_PROPOSALS
-                        proposals[name.text] = [] if enough else near(name.text, [*blocks, *free])
+                        legal = () if enough else _legal(flow, i, blocks, nodes)
+                        proposals[name.text] = near(name.text, legal)
                     role = declared.role if declared else None
                     found.append(errors.unknown_block(source, name, proposals[name.text], role))
+
+
+def _legal(
+    flow: FlowDecl, i: int, blocks: Sequence[str], nodes: Mapping[str, Node]
+) -> Sequence[str]:
+    """Return what could stand at a stop: what is proposed must not be refused there."""
+    last, guard = len(flow.stops) - 1, flow.guard
+    if i < last:
+        is_start = i == 0 and not (guard and last == 1)
+        return [*blocks, START] if is_start else blocks
+    wanted = {name.text for name in guard.statuses} if guard else set()
+    return [
+        name
+        for name in (*blocks, END)
+        if wanted.isdisjoint({s.value for s in IN_GRAPH if s not in accepts_by_guard(name, nodes)})
+    ]

@@ -16,6 +16,8 @@ from plutoc.syntax.tree import BadStatement, BlockDecl, File
 
 _WORD = re.compile(r"\w+")
 _ALIKE = 0.6
+_MANY = 20
+"""Where so much is unclear, nothing is surely unknown."""
 _SHORT = 3
 """A name of so many letters is found in most texts by chance."""
 
@@ -32,6 +34,8 @@ class Unclear:
 
     def may_declare(self, name: str) -> bool:
         """Say whether this name may have been meant."""
+        if len(self.texts) + len(self.heads) > _MANY:
+            return True
         return (
             name in self.names
             or (len(name) > _SHORT and any(name in text for text in self.texts))

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Container, Sequence
 
-from plutoc.diagnostic import Diagnostic, error
-from plutoc.graph.wording import a_kind, either, meant, related, there_are
+from plutoc.diagnostic import Diagnostic, Fix, error
+from plutoc.graph.wording import a_kind, either, meant, related, there_are, unit_meant
 from plutoc.source import Source, Span
+from plutoc.syntax.texts import written_out
 from plutoc.syntax.tree import Name
 from plutoc_runtime.quantities import Type, units_of
 
@@ -50,32 +51,37 @@ def missing_argument(source: Source, span: Span, owner: str, name: str, example:
     )
 
 
-def wrong_type(source: Source, span: Span, name: str, wanted: str, example: str) -> Diagnostic:
-    """A value of another type."""
+def wrong_type(
+    source: Source, span: Span, name: str, wanted: str, example: str, mended: str | None = None
+) -> Diagnostic:
+    """A value of another type; `mended` is how this very value is written."""
     return error(
         "P1016",
         f"`{name}` takes {wanted}",
         source,
         span,
         label=f"not {wanted}",
-        help=f"for instance `{example}`",
+        help=f"write `{mended}`" if mended else f"for instance `{example}`",
+        fix=Fix(span=span, text=mended) if mended else None,
     )
 
 
-def unknown_unit(source: Source, span: Span, unit: str, kind: Type | None) -> Diagnostic:
+def unknown_unit(
+    source: Source, span: Span, name: str, unit: str, kind: Type, example: str
+) -> Diagnostic:
     """A unit that the language does not know."""
-    known = [unit for each in Type if kind in (None, each) for unit in units_of(each)]
+    units = units_of(kind)
+    if units:
+        help = unit_meant(unit, units) or f"{a_kind(kind)} has the units {either(units)}"
+    else:
+        help = f"`{name}` has none: for instance `{example}`"
     return error(
         "P1017",
         f"there is no unit `{unit}`",
         source,
         span,
         label="unknown unit",
-        help=(
-            f"{a_kind(kind)} has the units {either(known)}"
-            if kind
-            else f"units are {either(known)}"
-        ),
+        help=written_out(source.quote(span)) or help,
     )
 
 

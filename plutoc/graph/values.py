@@ -18,6 +18,9 @@ _WANTED = {
     Type.TEXT: "a text in quotes",
 }
 
+_YES_OR_NO = {"true": "yes", "True": "yes", "false": "no", "False": "no"}
+"""What other languages say."""
+
 EXAMPLES = {
     Type.INT: "3",
     Type.FLOAT: "0.5",
@@ -53,7 +56,10 @@ def typed(
             found.append(value_errors.missing_unit(source, value.span, name, kind))
         case _:
             example = f"{name}: {EXAMPLES[kind]}"
-            found.append(value_errors.wrong_type(source, value.span, name, wanted(kind), example))
+            mended = _YES_OR_NO.get(written(value)) if kind is Type.BOOL else None
+            found.append(
+                value_errors.wrong_type(source, value.span, name, wanted(kind), example, mended)
+            )
     return None
 
 
@@ -61,8 +67,9 @@ def _quantity(
     source: Source, name: str, value: Quantity, kind: Type, found: list[Diagnostic]
 ) -> float | None:
     if value.unit not in UNITS:
-        measures = kind if kind in QUANTITIES else None
-        found.append(value_errors.unknown_unit(source, value.span, value.unit, measures))
+        example = f"{name}: {EXAMPLES[kind]}"
+        unknown = value_errors.unknown_unit(source, value.span, name, value.unit, kind, example)
+        found.append(unknown)
         return None
     given = UNITS[value.unit][0]
     if given is not kind:

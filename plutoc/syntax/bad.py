@@ -12,6 +12,8 @@ from plutoc.syntax.tree import BadStatement, Name
 
 _IN_A_FLOW = frozenset({NAME, "_ARROW", "COMMA", "LSQB", "RSQB", "WHEN", "OTHERWISE", "UNKNOWN"})
 
+EQUAL_SIGN = "="
+
 
 def bad_statement(source: Source, line: Line) -> BadStatement:
     """Return what is left of a line: what it was to be, and what it declares."""
@@ -38,6 +40,9 @@ def _declared(source: Source, line: Line) -> tuple[str | None, Name | None, str 
             second == "COLON" or (second == NAME and tokens[1][:1].isupper())
         ):
             return "block", _name(tokens[0]), None
+        text = source.quote(line.span)
+        if EQUAL_SIGN in text:  # within a text that is left open
+            return "block", None, "".join(text.partition(EQUAL_SIGN)[0].split())
         types = {token.type for token in tokens}
         is_flow = "_ARROW" in types and types <= _IN_A_FLOW
         return "flow" if is_flow else None, None, None

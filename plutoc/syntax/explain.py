@@ -13,6 +13,7 @@ from plutoc.syntax import errors
 from plutoc.syntax.newlines import CLOSING, END, EQUAL, NAME, NEWLINE, OPENING, WORDS
 from plutoc.syntax.slips import slip
 from plutoc.syntax.state import State, made_up, span, would_feed
+from plutoc.syntax.texts import written_out
 from plutoc.syntax.unreadable import DEEPEST, MOST_DIGITS
 from plutoc.syntax.words import expected, found
 
@@ -142,6 +143,10 @@ def _help(
         return "to go on in the next line, begin that one with `->`", None
     if token.type == "LBRACE" and i == 0:
         return "`{` stands at the end of the line that begins the app", None
+    if i and tokens[i - 1].type == "QUANTITY":
+        number = written_out(tokens[i - 1])
+        if number:
+            return number, None
     if token.type == "QUANTITY" and NAME in accepts:
         return "a name begins with a letter", None
     return _missing(state, tokens, i, accepts)

@@ -25,6 +25,7 @@ WORDS = (
 
 _WORDS = frozenset(word.upper() for word in WORDS)
 BEGINNERS = frozenset({"CATEGORY", "ACTION", "EVALUATOR", "MODIFIER", "POLICY"})
+_LINE_BEGINNERS = BEGINNERS | {"USE", "APP"}
 _FOLLOWS_A_FIRST_NAME = frozenset({EQUAL, ARROW, NAME})
 
 
@@ -84,7 +85,19 @@ def _begins_a_statement(tokens: Sequence[Token], i: int) -> bool:
     first, second = (*(t.type for t in tokens[i : i + 2]), END, END)[:2]
     if first == NAME:
         return second in _FOLLOWS_A_FIRST_NAME
-    return first == "RBRACE" or (first in BEGINNERS and second == NAME)
+    if first == "LSQB":
+        return _is_followed_by_an_arrow(tokens, i)
+    return first == "RBRACE" or (first in _LINE_BEGINNERS and second == NAME)
+
+
+def _is_followed_by_an_arrow(tokens: Sequence[Token], i: int) -> bool:
+    """Say whether the bracket that opens here is the first stop of a flow."""
+    for at in range(i + 1, len(tokens)):
+        if tokens[at].type == "RSQB":
+            return at + 1 < len(tokens) and tokens[at + 1].type == ARROW
+        if tokens[at].type not in (NAME, "COMMA"):
+            return False
+    return False
 
 
 def _newline(after: Token) -> Token:

@@ -87,6 +87,7 @@ def _app(lines: Sequence[Line]) -> int | None:
         [line.first == "APP" for line in lines],
         [line.tokens[-1].type == "LBRACE" and not begins_a_statement(line) for line in lines],
         [line.has("APP") for line in lines],
+        [line.tokens[-1].type == "LBRACE" for line in lines],
     )
     return next((sign.index(True) for sign in signs if True in sign), None)
 
@@ -135,6 +136,8 @@ def _braces(
         if opened is not None and not hidden:
             at = body[-1].tokens[-1].end_pos if body else opened.end_pos
             found.append(errors.never_closed(source, span(opened), at or 0))
+            if body and len(body[-1].tokens) == 1:  # stands where the brace should
+                return [*body[:-1]], [body[-1]]
         return [*body], []
     second = next((i for i in range(closings[0], len(body)) if body[i].first == "APP"), None)
     if second is not None:  # an app of its own, which is not read

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from decimal import Decimal
 
 ESCAPES = {'\\"': '"', "\\\\": "\\"}
 """The only two: a text cannot hold what a screen does not show."""
@@ -35,6 +36,20 @@ HIDDEN = re.compile(
 
 SPACES = re.compile("[\u00a0\u1680\u2000-\u200a\u202f\u205f\u3000]")
 """Spaces that are none for the language."""
+
+
+_DIGITS = re.compile(r"(-?[0-9]+(?:\.[0-9]+)?[0-9_]*)([eE]?[0-9]{0,2})")
+_MOST_DIGITS = 15
+
+
+def written_out(quantity: str) -> str | None:
+    """Say how a number is written here that other languages write so: `1e9`, `1_000`."""
+    match = _DIGITS.fullmatch("".join(quantity.split()))
+    if match is None or not set(match[0]) & set("_eE"):
+        return None
+    help = "numbers are written out, with digits and a point only"
+    plain = format(Decimal(match[0].replace("_", "").rstrip("eE")), "f")
+    return f"{help}: `{plain}`" if sum(map(str.isdigit, plain)) <= _MOST_DIGITS else help
 
 
 def unescaped(quoted: str) -> str:
