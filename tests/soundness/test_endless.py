@@ -1,0 +1,57 @@
+"""Apps that the oracle found to go round for ever, though each of their blocks has a way out."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.soundness.app import read
+from tests.soundness.compare import refused
+from tests.soundness.oracle import judge
+from tests.soundness.state import Verdict
+
+EXHAUSTED = """pluto 1
+app exhausted {
+  create = MissionCreator
+  allocate = DroneAllocator
+  launch = TripLauncher
+  watch = TripMonitor
+  retry = PriorityManager
+  start -> create -> allocate -> launch -> watch
+  watch -> allocate when STANDBY
+  watch -> end when COMPLETED
+  watch -> retry when FAILED
+  retry -> allocate when STANDBY
+  retry -> retry when FAILED
+}
+"""
+ALWAYS_WORST = """pluto 1
+app always_worst {
+  modifier give_up emits FAILED
+  create = MissionCreator
+  allocate = DroneAllocator
+  launch = TripLauncher
+  watch = TripMonitor
+  mark = MissionModifier(hook: give_up)
+  all_there = GateFunnel
+  start -> create -> allocate -> launch -> [mark, watch] -> all_there
+  all_there -> allocate when FAILED
+  all_there -> end
+}
+"""
+
+
+@pytest.mark.parametrize("text", [EXHAUSTED, ALWAYS_WORST], ids=["exhausted", "always_worst"])
+def test_oracle_finds_no_way_out(text: str) -> None:
+    assert judge(read(text)).runs.keys() == {Verdict.ENDLESS}
+
+
+@pytest.mark.xfail(reason="that the attempts are used up is forgotten at the next block")
+def test_attempts_that_are_used_up_stay_used_up() -> None:
+    """Otherwise the mission goes round where no time passes, and its app hangs."""
+    assert "P2010" in refused(EXHAUSTED)
+
+
+@pytest.mark.xfail(reason="the way out of a branch counts as a way out of the funnel behind it")
+def test_branch_that_always_fails_fails_its_funnel() -> None:
+    """Only FAILED passes such a funnel, so what takes COMPLETED behind it is no way to an end."""
+    assert "P2010" in refused(ALWAYS_WORST)
