@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Container
+from collections.abc import Collection, Container, Iterator
 
 from plutoc.check import errors
 from plutoc.check.components import behind, components
