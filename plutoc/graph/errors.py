@@ -407,10 +407,10 @@ _MOST_PLACES = 3
 
 def each_name_once(found: Iterable[Diagnostic]) -> list[Diagnostic]:
     """Tell of a name that is declared nowhere once, with the places where it is used besides."""
-    once: dict[tuple[str, str] | int, list[Diagnostic]] = {}
+    once: dict[str | int, list[Diagnostic]] = {}
     for i, diagnostic in enumerate(found):
         shared = diagnostic.code in _OF_THE_APP
-        key = (diagnostic.code, diagnostic.message) if shared else i
+        key = diagnostic.source.quote(diagnostic.span) if shared else i
         once.setdefault(key, []).append(diagnostic)
     return [_with_places(first, more) for first, *more in once.values()]
 

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Sequence
+from string import ascii_letters, digits
 
 from plutoc.diagnostic import Diagnostic, in_order
 from plutoc.source import Source
 
 _NAMES = frozenset({"P1002", "P1012", "P1024", "P1028", "P1032"})
 _BREAK = re.compile(r"[ \t]*(#[^\n]*)?\r?\n(?:\s|#[^\n]*\n)*")
-_TORN = 3
-"""A line break or a stray character, but no more, tears one name in two."""
+_LETTERS = ("", "_", *ascii_letters, *digits)
+"""What may have stood between two halves of a name: nothing, or what another sign replaced."""
 
 
 def told_once(
@@ -41,6 +42,8 @@ def _is_one(
         return False
     middle = source.text[one.span.end : other.span.start]
     left, right = source.quote(one.span), source.quote(other.span)
-    if 0 < len(middle) < _TORN and (left + right in names or left + right in fixed):
-        return True
+    if middle in ("\n", "\r\n") or len(middle) == 1:
+        whole = [left + letter + right for letter in _LETTERS]
+        if any(word in names or word in fixed for word in whole):
+            return True
     return right in fixed and _BREAK.fullmatch(middle) is not None

@@ -45,7 +45,8 @@ def resolved(file: File, blocks: Blocks) -> tuple[Graph, list[Diagnostic]]:
     found: list[Diagnostic] = []
     scope = scope_of(file, found)
     unsure = unclear(file, spoilt_names(source, found))
-    check_app_name(source, file.app.name, found)
+    if not any(bad.kind == "app" for bad in file.bad):
+        check_app_name(source, file.app.name, found)
     packages = packages_of(file, blocks, found)
     actions: list[Action] = []
     app_hooks: list[Hook] = []

@@ -31,6 +31,8 @@ class Unclear:
     """What cannot be read, without all that is in no name."""
     heads: tuple[str, ...]
     """What stands where a name should be declared, and is wrong."""
+    beginnings: tuple[str, ...]
+    """What is declared in a statement that cannot be read: the name may have more letters."""
 
     def may_declare(self, name: str) -> bool:
         """Say whether this name may have been meant."""
@@ -40,6 +42,7 @@ class Unclear:
             name in self.names
             or (len(name) > _SHORT and any(name in text for text in self.texts))
             or any(_is_meant(name, head) for head in self.heads)
+            or name.startswith(self.beginnings)
         )
 
 
@@ -60,6 +63,7 @@ def unclear(file: File, spoilt: Sequence[str]) -> Unclear:
         heads=tuple(
             dict.fromkeys((*(each.head for each in bad if each.head is not None), *spoilt))
         ),
+        beginnings=tuple(each.name.text for each in bad if each.name and each.kind != "app"),
     )
 
 
@@ -68,7 +72,9 @@ def _in_place_of_a_kind(file: File) -> list[str]:
     return [
         statement.kind.text
         for statement in file.app.statements
-        if isinstance(statement, BlockDecl) and has_style(statement.kind.text, Style.SNAKE)
+        if isinstance(statement, BlockDecl)
+        and statement.prefix is None
+        and has_style(statement.kind.text, Style.SNAKE)
     ]
 
 

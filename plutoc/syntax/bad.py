@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 from lark import Token
 
 from plutoc.source import Source
@@ -12,7 +14,8 @@ from plutoc.syntax.tree import BadStatement, Name
 
 _IN_A_FLOW = frozenset({NAME, "_ARROW", "COMMA", "LSQB", "RSQB", "WHEN", "OTHERWISE", "UNKNOWN"})
 
-EQUAL_SIGN = "="
+_UP_TO_BLANK = re.compile(r"\w[^\s(]*")
+_EQUAL_SIGN = "="
 
 
 def bad_statement(source: Source, line: Line) -> BadStatement:
@@ -31,9 +34,13 @@ def _declared(source: Source, line: Line) -> tuple[str | None, Name | None, str 
     tokens = line.tokens
     second = tokens[1].type if len(tokens) > 1 else ""
     if line.first in (*BEGINNERS, "USE", "APP") and second != EQUAL:
-        if second == NAME:
-            return line.first.lower(), _name(tokens[1]), None
-        return line.first.lower(), None, str(tokens[1]) if len(tokens) > 1 else ""
+        kind = line.first.lower()
+        rest = source.quote(line.span)[len(tokens[0]) :].strip()
+        written = _UP_TO_BLANK.match(rest)
+        head = written[0] if written else ""
+        if second == NAME and head == tokens[1]:
+            return kind, _name(tokens[1]), None
+        return kind, None, None if kind == "app" else head
     equals = next((i for i, token in enumerate(tokens) if token.type == EQUAL), None)
     if equals is None:
         if tokens[0].type == NAME and (
@@ -41,8 +48,10 @@ def _declared(source: Source, line: Line) -> tuple[str | None, Name | None, str 
         ):
             return "block", _name(tokens[0]), None
         text = source.quote(line.span)
-        if EQUAL_SIGN in text:  # within a text that is left open
-            return "block", None, "".join(text.partition(EQUAL_SIGN)[0].split())
+        if _EQUAL_SIGN in text:  # within a text that is left open
+            return "block", None, "".join(text.partition(_EQUAL_SIGN)[0].split())
+        if len(tokens) == 1 and tokens[0].type == NAME:  # the rest may be behind a stray `#`
+            return "block", _name(tokens[0]), None
         types = {token.type for token in tokens}
         is_flow = "_ARROW" in types and types <= _IN_A_FLOW
         return "flow" if is_flow else None, None, None

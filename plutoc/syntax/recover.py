@@ -19,7 +19,7 @@ from plutoc.syntax.explain import explain
 from plutoc.syntax.lines import Line, goes_on, joined, lines_of
 from plutoc.syntax.newlines import END, NEWLINE
 from plutoc.syntax.sections import sections
-from plutoc.syntax.split import is_exchanged, is_split, is_torn
+from plutoc.syntax.split import is_exchanged, is_shifted, is_split, is_torn
 from plutoc.syntax.state import State, beginning, copied, feeds, made_up
 from plutoc.syntax.tree import AppDecl, BadStatement, File, Name
 
@@ -104,7 +104,10 @@ def _judged(
             continue
         lines = [line]
         above = below = False
-        if previous and is_split(source, previous.base, previous.line, line):
+        if previous and (
+            is_split(source, previous.base, previous.line, line)
+            or is_shifted(source, previous.line, each.base, line)
+        ):
             good.pop()
             lines.insert(0, previous.line)
             above = True
@@ -114,7 +117,7 @@ def _judged(
                 below = len(line.tokens) == 1 and is_torn(source, each.base, line, following.line)
             else:
                 below = is_split(source, each.base, line, following.line) or is_exchanged(
-                    each.base, line, following.base, following.line
+                    source, each.base, line, following.base, following.line
                 )
         if below:
             lines.append(placed[i].line)

@@ -10,6 +10,7 @@ from plutoc.syntax.lines import Line, joined
 from plutoc.syntax.state import State, would_feed
 
 _BREAK = re.compile(r"[ \t]*\r?\n[ \t]*")
+_WORD = re.compile(r"\w+|->|[^\w\s]")
 _LONGEST = 2000
 """In characters: nobody wrote a longer statement on one line, and it would be read once more."""
 
@@ -35,12 +36,22 @@ def _are_near(source: Source, first: Line, second: Line) -> bool:
     return short and _BREAK.fullmatch(middle) is not None
 
 
-def is_exchanged(above: State, first: Line, below: State, second: Line) -> bool:
+def is_shifted(source: Source, first: Line, below: State, second: Line) -> bool:
+    """Say whether the last letter of a line stands at the beginning of the next one."""
+    letter, *rest = second.tokens
+    if len(letter) != 1 or not rest or source.text[first.span.end : second.span.start] != "\n":
+        return False
+    return would_feed(below, Line(tokens=tuple(rest), end=second.end).ended)
+
+
+def is_exchanged(source: Source, above: State, first: Line, below: State, second: Line) -> bool:
     """Say whether both lines are in order once the words beside the break change places."""
-    *one, last = first.tokens
-    head, *other = second.tokens
-    changed = (
-        Line(tokens=(*one, head), end=first.end),
-        Line(tokens=(last, *other), end=second.end),
+    left, right = source.quote(first.span), source.quote(second.span)
+    if len(left) + len(right) > _LONGEST:
+        return False
+    last, head = str(first.tokens[-1]), _WORD.match(right)
+    if head is None or not left.endswith(last):
+        return False
+    return would_feed(above, parser().lex(left.removesuffix(last) + head[0])) and would_feed(
+        below, parser().lex(last + right[head.end() :])
     )
-    return would_feed(above, changed[0].ended) and would_feed(below, changed[1].ended)
