@@ -7,6 +7,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import PurePosixPath
 
+from plutoc_runtime.files.dotted import line_of_long_key
+
+_LARGEST = 1 << 24
+"""In bytes."""
+
 
 class DamagedLock(Exception):
     """It cannot be read. The text says why, for a person."""
@@ -26,8 +31,13 @@ def read_lock(data: bytes) -> Lock:
 
     It may come from a stranger, together with the rest of the folder: no path may lead out of it.
     """
+    if len(data) > _LARGEST:
+        raise DamagedLock("it is larger than any that we write")
     try:
-        table = tomllib.loads(data.decode())
+        text = data.decode()
+        if line_of_long_key(text) is not None:
+            raise DamagedLock("one of its keys has too many parts")
+        table = tomllib.loads(text)
     except UnicodeDecodeError:
         raise DamagedLock("it is no text") from None
     except (tomllib.TOMLDecodeError, RecursionError) as error:

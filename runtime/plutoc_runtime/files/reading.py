@@ -10,6 +10,7 @@ from pathlib import Path
 
 from ..errors import BadInput
 from . import errors
+from .dotted import line_of_long_key
 from .toml_places import Place, Places, line_of, places
 
 LARGEST = 1 << 20
@@ -56,6 +57,9 @@ def shortened(lines: Sequence[str]) -> str:
 def read(path: Path) -> Document:
     """Read a plan file; raise `BadInput` if it is no TOML text of a sane size."""
     text = _text(path)
+    line = line_of_long_key(text)
+    if line is not None:
+        raise BadInput(f"{path}:{line}: {errors.nested_too_deep()}")
     try:
         data = tomllib.loads(text)
     except RecursionError:

@@ -1,0 +1,169 @@
+"""Plan files from a stranger: `APP check` tells what is wrong with them, and nothing else happens."""
+
+from __future__ import annotations
+
+import os
+from itertools import product
+from pathlib import Path
+
+import pytest
+
+from plutoc_runtime.cli import main
+from tests.runtime.files.an_app import APP
+
+MISSIONS = """
+[[mission]]
+name = "North"
+safe_time = "3 min"
+repeat = 2
+at = "08:00"
+evaluator = "find_blooms"
+  [[mission.trip]]
+  name = "A"
+  action = "pollinate"
+  parameters = { dose = "40 mg", gently = true, strokes = 3, note = "n", force = 1.5 }
+  target = [2.0, 1.5]
+  delay = "30 s"
+  priority = 1
+  [[mission.trip]]
+  action = "pick_item"
+  item = { name = "pills", mass = "4 g" }
+  source = [0.5, 0.5]
+  target = [4.0, 3.0]
+  [[mission.trip]]
+  action = "release_item"
+  item = { name = "pills", mass = "4 g" }
+  target = [6.0, 3.0]
+"""
+FLEET = """
+[map]
+size = [20.0, 12.0]
+cruise_height = 1.2
+no_fly = [[[8, 0], [9, 0], [9, 5], [8, 5]]]
+[fleet]
+after_trip = "home"
+apart = 0.5
+max_airborne = 5
+[[drone]]
+id = "cf1"
+category = "scout"
+home = [0.5, 0.5]
+uri = "radio://0/80/2M/E7E7E7E7E1"
+[[drone]]
+id = "cf2"
+category = "carrier"
+home = [2.5, 0.5]
+"""
+VALUES = (
+    *("1e400", "-1e400", "nan", "-nan", "inf", "-inf", "1e308", "5e-324", "-0.0"),
+    *("9223372036854775807", "-1", "0", "9" * 400, "9" * 5000, "0x" + "f" * 300),
+    *("true", "[]", "[[]]", "{}", "{ a = 1 }", "[1e400, nan]", "[0, 0, 0, 0]", '""', '" "', '"x"'),
+    *('"1e400 s"', '"nan m"', '"inf g"', '"9e999 min"', '"-5 s"', '"5 parsec"', '"24:00"'),
+    *("1979-05-27", "1979-05-27T07:32:00Z", "07:32:00", "00:00:60"),
+    *('"\\u0000"', '"\\u001b[31m"', '"\\u202e"', '"../../etc/passwd"', '"$(touch hacked)"'),
+    *('"' + "x" * 5000 + '"', '"::error::x"', '"<script>"', '"\\U0010FFFF"', "'''\n'''"),
+    *("[" * 50 + "]" * 50, "[" * 3000 + "]" * 3000, "{ a = " * 60 + "1" + " }" * 60),
+)
+
+
+def assignments(text: str) -> list[str]:
+    """Return the lines that give something a value."""
+    return [line for line in text.splitlines() if "=" in line]
+
+
+def check(folder: Path, missions: bytes, fleet: bytes, capfd: pytest.CaptureFixture[str]) -> str:
+    """Check a plan; it ends with 0, 1 or 2, and with a few lines that a terminal can show."""
+    (folder / "m.toml").write_bytes(missions)
+    (folder / "f.toml").write_bytes(fleet)
+    capfd.readouterr()
+    code = main(APP, ["check", str(folder / "m.toml"), "--fleet", str(folder / "f.toml")])
+    out, err = capfd.readouterr()
+    assert code in (0, 1, 2), (err, missions, fleet)
+    assert (code == 0) == bool(out)
+    assert all(char == "\n" or char.isprintable() for char in err), ascii(err)
+    assert len(err) < 20_000
+    assert sorted(os.listdir(folder)) == ["f.toml", "m.toml"]
+    return err
+
+
+def test_the_plain_plan_is_fine(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    """What the others are made of."""
+    assert check(tmp_path, MISSIONS.encode(), FLEET.encode(), capfd) == ""
+
+
+@pytest.mark.parametrize("value", VALUES, ids=range(len(VALUES)))
+def test_any_value_in_any_place_is_taken_or_refused(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str], value: str
+) -> None:
+    """Numbers beyond all limits, wrong types, deep nesting, texts that try to be commands."""
+    for text, other in ((MISSIONS, FLEET), (FLEET, MISSIONS)):
+        for line in assignments(text):
+            changed = text.replace(line, f"{line.partition('=')[0]}= {value}", 1)
+            pair = (changed, other) if text is MISSIONS else (other, changed)
+            said = check(tmp_path, pair[0].encode(), pair[1].encode(), capfd)
+            assert "m.toml" in said or "f.toml" in said or not said
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "a = " + "[" * 100_000,
+        "a = " + "{ b = " * 100_000,
+        "[" * 100_000,
+        "a." * 100_000 + "b = 1",
+        "[" + "a." * 20_000 + "b]",
+        'a = "' + "\\" * 100_000,
+        'a = """' + "x" * 900_000,
+        "[[mission]]\n" * 20_000,
+        "[[mission]]\n[[mission.trip]]\n" + "k = 1\n" * 2,
+        "[[mission]]\n" + "".join(f"k{i} = 1\n" for i in range(20_000)),
+        "mission = " + "[" + "{}," * 20_000 + "]",
+        "mission.trip.action = 1",
+        "[mission]",
+        "x" * 900_000,
+        "=" * 900_000,
+        "\n" * 900_000,
+        "#" * 2_000_000,
+    ],
+    ids=range(17),
+)
+def test_a_file_that_nobody_wrote_is_refused(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str], text: str
+) -> None:
+    """Deep, long, large: as missions and as a fleet."""
+    assert "m.toml" in check(tmp_path, text.encode(), FLEET.encode(), capfd)
+    assert "toml" in check(tmp_path, MISSIONS.encode(), text.encode(), capfd)
+
+
+@pytest.mark.parametrize(
+    ("data", "said"),
+    [
+        (MISSIONS.encode() + b"\0", "m.toml:"),
+        (MISSIONS.encode() + b"\xff", "is not UTF-8 text"),
+        (MISSIONS.encode("utf-16"), "is not UTF-8 text"),
+        (b"\xef\xbb\xbf" + MISSIONS.encode(), ""),
+        (MISSIONS.encode().replace(b"\n", b"\r\n"), ""),
+        (MISSIONS.encode().replace(b"\n", b"\r"), "m.toml:"),
+        (MISSIONS.encode().replace(b"North", "N\N{RIGHT-TO-LEFT OVERRIDE}h".encode()), "m.toml:"),
+        (b"", "m.toml"),
+    ],
+    ids=range(8),
+)
+def test_odd_bytes_are_read_or_refused(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str], data: bytes, said: str
+) -> None:
+    """As in a source."""
+    found = check(tmp_path, data, FLEET.encode(), capfd)
+    assert said in found
+    assert bool(found) == bool(said)
+
+
+def test_what_is_no_file_is_refused(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    """A pipe into which nobody writes, a device, a folder, a link in a circle."""
+    os.mkfifo(tmp_path / "pipe")
+    (tmp_path / "loop").symlink_to("loop")
+    (tmp_path / "good.toml").write_text(MISSIONS)
+    odd = [str(tmp_path / "pipe"), str(tmp_path / "loop"), str(tmp_path), "/dev/zero", "no\0file"]
+    for missions, fleet in product([*odd, str(tmp_path / "good.toml")], odd):
+        assert main(APP, ["check", missions, "--fleet", fleet]) == 2
+        assert capfd.readouterr().err
