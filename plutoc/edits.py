@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 
 from plutoc.diagnostic import Diagnostic, Fix
 from plutoc.source import Source, Span
 
 _BLANK = " \t"
-_ARROW_BEFORE = re.compile(r"->[ \t]*\Z")
 _ARROW_BEHIND = re.compile(r"(?:\s|#[^\n]*)*->")
-_COMMA_BEFORE = re.compile(r",\s*\Z")
 
 
 def without_statement(source: Source, span: Span) -> Fix | None:
@@ -35,8 +33,10 @@ def without_statement(source: Source, span: Span) -> Fix | None:
 
 def without_item(source: Source, span: Span) -> Fix | None:
     """Return how to take an item that is not the first one out of a list."""
-    comma = _COMMA_BEFORE.search(source.text, 0, span.start)
-    return Fix(span=Span(comma.start(), span.end), text="") if comma else None
+    comma = _last_sign(source.text, span.start)
+    if not source.text.startswith(",", comma):
+        return None
+    return Fix(span=Span(comma, span.end), text="")
 
 
 def without_arrow(
@@ -51,9 +51,18 @@ def without_arrow(
     end = (guard or span).end
     if _ARROW_BEHIND.match(source.text, end):  # not the last one
         return None
-    if _ARROW_BEFORE.search(source.text, 0, span.start):  # only the tail of a longer flow
+    arrow = _last_sign(source.text, span.start) - 1
+    if arrow >= 0 and source.text.startswith("->", arrow):  # only the tail of a longer flow
         return Fix(span=Span(span.start + len(names[0]), end), text="")
     return without_statement(source, Span(span.start, end))
+
+
+def _last_sign(text: str, end: int) -> int:
+    """Return where the last character before `end` stands that is not blank, or 0."""
+    at = end - 1
+    while at > 0 and text[at].isspace():
+        at -= 1
+    return max(at, 0)
 
 
 def is_single(source: Source, names: tuple[str, str], span: Span) -> bool:
@@ -72,20 +81,16 @@ def applied(source: Source, fixes: Iterable[Fix]) -> str:
     return "".join([*text, source.text[done:]])
 
 
-def compatible(found: Sequence[Diagnostic]) -> tuple[Diagnostic, ...]:
-    """Return those of the findings whose fixes can be made together, the first ones first."""
+def compatible(found: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
+    """Return those of the findings whose fixes can be made together, by their places."""
     taken: list[Diagnostic] = []
-    fixes: list[Fix] = []
-    for diagnostic in found:
-        fix = diagnostic.fix
-        if fix and (fix in fixes or not any(_overlap(fix.span, other.span) for other in fixes)):
+    last = Fix(span=Span(-1, -1), text="")
+    fixable = [(d.fix.span.start, d.fix.span.end, i, d) for i, d in enumerate(found) if d.fix]
+    for start, _, _, diagnostic in sorted(fixable, key=lambda one: one[:3]):
+        assert diagnostic.fix is not None
+        # two at one place: in which order would their texts stand there?
+        apart = start >= last.span.end and start > last.span.start
+        if apart or diagnostic.fix == last:
             taken.append(diagnostic)
-            fixes.append(fix)
+            last = diagnostic.fix
     return tuple(taken)
-
-
-def _overlap(one: Span, other: Span) -> bool:
-    if one.start == other.start:
-        return True  # in which order would two texts be put there?
-    first, second = sorted((one, other), key=lambda span: span.start)
-    return second.start < first.end

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
-from plutoc.report.cells import columns, shown, width
+from plutoc.report.cells import columns, shown
 from plutoc.report.marks import Mark, under
 from plutoc.report.paint import BLUE, paint
 from plutoc.source import Source, Span
@@ -59,8 +59,12 @@ def _fits(one: Place, other: Place) -> bool:
     """Can both be shown, in one source and not cut off?"""
     same = one.source is other.source or one.source == other.source
     return same and not any(
-        width(place.source.line(line)) > _WIDEST for place in (one, other) for line in place.lines()
+        _is_wide(place.source.line(line)) for place in (one, other) for line in place.lines()
     )
+
+
+def _is_wide(text: str) -> bool:
+    return len(text) > _WIDEST or columns(text)[-1] > _WIDEST
 
 
 def draw(places: Sequence[Place], gutter: int, arrow: str, colour: bool) -> list[str]:
@@ -124,18 +128,17 @@ def _shown_lines(marked: Sequence[int]) -> list[int]:
 
 def _line(text: str, parts: Sequence[_Part]) -> tuple[str, list[Mark]]:
     """Return a line as it is shown, and the marks under it."""
-    at = columns(text)
     first, end, before, after = 0, len(text), "", ""
-    if at[-1] > _WIDEST and parts:
-        first = max(parts[0].start - _WIDEST // 4, 0)
+    if _is_wide(text):
+        first = max(parts[0].start - _WIDEST // 4, 0) if parts else 0
         end = min(first + _WIDEST // 2, len(text))
         before, after = "… " if first else "", " …" if end < len(text) else ""
-    line = before + "".join(map(shown, text[first:end])) + after
-    left = at[first] - len(before)
+    piece = text[first:end]
+    line = before + "".join(map(shown, piece)) + after
+    at = [len(before) + column for column in columns(piece)]
     marks = []
     for part in parts:
-        start = at[min(part.start, len(text))] - left
-        stop = at[min(part.end, end)] - left
+        start, stop = (at[min(max(char, first), end) - first] for char in (part.start, part.end))
         place = part.place
         marks.append(
             Mark(

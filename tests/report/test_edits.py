@@ -98,12 +98,12 @@ SPANS = st.tuples(st.integers(0, 8), st.integers(0, 4)).map(lambda t: Span(t[0],
 @settings(derandomize=True, max_examples=300)
 @given(st.lists(SPANS, max_size=8))
 def test_fixes_that_are_made_together_do_not_touch_each_other(spans: list[Span]) -> None:
-    """Each takes away just its own characters, and at least the first one is made."""
+    """Each takes away just its own characters, and there is always one that is made."""
     text = "abcdefghijkl"
     source = Source("a.pluto", text)
     found = [error("P2052", "m", source, s, fix=Fix(span=s, text="-")) for s in spans]
     taken = compatible(found)
-    assert taken[:1] == tuple(found[:1])
+    assert bool(taken) is bool(found)
     fixes = list(dict.fromkeys(d.fix for d in taken if d.fix))
     gone = {at for fix in fixes for at in range(fix.span.start, fix.span.end)}
     assert len(gone) == sum(fix.span.end - fix.span.start for fix in fixes)
