@@ -13,6 +13,7 @@ NAMES = (
     *("x" * 63, "type_", "object", "annotations", "model", "results", "func", "none", "true"),
     *("Watch", "when", "class", "end", "self", "é", "_a", "match", "x" * 64, "a__b", "True"),
 )
+GOOD_NAMES = NAMES[:26]
 TYPES = (
     *("int", "float", "bool", "text", "mass", "length", "time", "angle", "percent", "speed"),
     "temperature",
@@ -49,7 +50,8 @@ class Growth:
 
     def name(self, plain: str) -> str:
         """Return a name that is free: nearly always a good one."""
-        odd = self.random.choice(NAMES) if self.chance(0.1) else plain
+        names = NAMES if self.chance(0.1) else GOOD_NAMES
+        odd = self.random.choice(names) if self.chance(0.1) else plain
         name = odd if odd not in self.taken else plain
         while name in self.taken:
             name += "_2"
@@ -73,7 +75,7 @@ class Growth:
         """Return declared parameters as written, and those that must be given, with their types."""
         written, needed = [], []
         for i in range(self.random.choice((0, 0, 1, 2, 5))):
-            name = self.random.choice((f"p{i}", f"p{i}", *NAMES[:26])) + f"_{i}" * (i > 0)
+            name = self.random.choice((f"p{i}", f"p{i}", *GOOD_NAMES)) + f"_{i}" * (i > 0)
             kind = self.random.choice(TYPES)
             if self.chance(0.6):
                 written.append(f"{name}: {kind} = {self.value(kind)}")
@@ -201,8 +203,11 @@ def _ending(app: Growth, last: str, again: str) -> None:
 def _spoil(random: Random, statements: list[str]) -> None:
     """Make one mistake, or what looks like one."""
     i = random.randrange(len(statements))
+    flows = [number for number, one in enumerate(statements) if " -> " in one]
+    if flows and random.random() < 0.7:
+        i = random.choice(flows)  # most mistakes of the grammar and of names look alike
     words = statements[i].split(" ")
-    match random.randrange(6):
+    match random.randrange(9):
         case 0 if len(statements) > 1:
             del statements[i]
         case 1:
@@ -216,6 +221,14 @@ def _spoil(random: Random, statements: list[str]) -> None:
             statements[i] = statements[i].partition(" when ")[0].removesuffix(" otherwise")
         case 4:
             statements[i] += f" when {', '.join(random.sample(STATUSES, random.randint(1, 3)))}"
+        case 5 | 6:
+            old = random.choice(STATUSES)
+            statements[i] = statements[i].replace(old, random.choice(STATUSES))
+        case 7:
+            one = random.randrange(len(statements))
+            kinds = [statements[n].partition(" = ")[2].partition("(")[0] for n in (i, one)]
+            if all(kinds):
+                statements[i] = statements[i].replace(*kinds)
         case _:
             del words[random.randrange(len(words))]
             statements[i] = " ".join(words)

@@ -20,6 +20,7 @@ from plutoc.emit.package import Package
 from plutoc.emit.recorded import read_lock
 from plutoc.emit.write import compare, write
 from plutoc.hooks.add import with_stubs
+from plutoc.report import github
 from plutoc.report.graph import dot, json, mermaid
 from plutoc.report.json import render_line
 from plutoc.report.text import render
@@ -87,6 +88,7 @@ def check_report(diagnostics: Sequence[Diagnostic]) -> None:
             assert 0 <= span.start <= span.end <= len(source.text) + 1, one
         assert one.message
         assert "\n" not in render_line(one)
+        assert "\n" not in github.render_line(one)
     said = render(diagnostics, colour=False)
     assert all(char == "\n" or char.isprintable() for char in said), said
 
@@ -141,7 +143,13 @@ def _hooks(random: Random, compiled: Compiled) -> tuple[str, ...]:
     start = text.index('"""', 3)  # what comes before it is a docstring
     words = re.findall(r"\w+|\s+|.", text[start:])
     for _ in range(random.choice((1, 1, 2, 5))):
-        words[random.randrange(len(words))] = random.choice((*_ODD, *random.choices(words, k=20)))
+        at = random.randrange(len(words))
+        if random.random() < 0.7:  # a name for a name: what comes out is mostly Python
+            names = [number for number, word in enumerate(words) if word.isidentifier()]
+            at = random.choice(names)
+            words[at] = words[random.choice(names)]
+        else:
+            words[at] = random.choice((*_ODD, *random.choices(words, k=20)))
     hooks = Source("hooks.py", text[:start] + "".join(words))
     added = with_stubs(compiled.checked, hooks)
     try:
