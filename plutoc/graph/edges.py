@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from itertools import pairwise, product
 
 from plutoc.diagnostic import Diagnostic
-from plutoc.graph import errors
+from plutoc.graph import edge_errors as errors
 from plutoc.graph.hooks import statuses
 from plutoc.graph.model import END, START, Edge, Node
 from plutoc.graph.scope import Scope

@@ -1,15 +1,13 @@
-"""What can be wrong with names, packages, hooks and edges (P1). Values: value_errors.py."""
+"""What can be wrong with names, packages and hooks (P1). Edges and values: files of their own."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from dataclasses import replace
+from collections.abc import Sequence
 
 from plutoc.diagnostic import Diagnostic, error, warning
-from plutoc.edits import without_arrow, without_item, without_statement
+from plutoc.edits import without_item, without_statement
 from plutoc.graph.names import LONGEST, Style, in_plain_letters, in_snake_case
 from plutoc.graph.wording import (
-    all_of,
     alternatives,
     either,
     meant,
@@ -20,8 +18,7 @@ from plutoc.graph.wording import (
 from plutoc.source import Source, Span
 from plutoc.syntax.tree import Name
 from plutoc_runtime.quantities import Type
-from plutoc_runtime.status import IN_GRAPH, Status
-from plutoc_runtime.words import counted
+from plutoc_runtime.status import IN_GRAPH
 
 
 def malformed_name(source: Source, name: Name) -> Diagnostic:
@@ -164,9 +161,14 @@ def unknown_prefix(source: Source, prefix: Name, prefixes: Sequence[str]) -> Dia
 
 
 def unknown_kind(
-    source: Source, kind: Name, package: str | None, kinds: Sequence[str], elsewhere: Sequence[str]
+    source: Source,
+    kind: Name,
+    package: str | None,
+    kinds: Sequence[str],
+    fitting: Sequence[str],
+    elsewhere: Sequence[str],
 ) -> Diagnostic:
-    """A block of a kind that does not exist."""
+    """A block of a kind that does not exist; `fitting` are kinds that take what it is given."""
     where = f"`{package}` has no kind of block" if package else "there is no kind of block"
     return error(
         "P1012",
@@ -174,7 +176,7 @@ def unknown_kind(
         source,
         kind.span,
         help=alternatives(elsewhere, "write ", "")
-        or meant(kind.text, kinds)
+        or meant(kind.text, fitting)
         or there_are(kinds, "kinds"),
     )
 
@@ -298,131 +300,3 @@ def clashing_parameter(source: Source, name: Name, owner: str) -> Diagnostic:
         name.span,
         label="choose another name",
     )
-
-
-def unknown_block(
-    source: Source, name: Name, blocks: Sequence[str], role: str | None
-) -> Diagnostic:
-    """An edge from or to what is not a block."""
-    if role:
-        message = f"`{name.text}` is {role}, not a block"
-        help = "only blocks stand in a flow: declare one with `NAME = KIND`"
-    else:
-        message = f"there is no block `{name.text}`"
-        help = f"declare it in the app: `{name.text} = KIND`"
-    return error("P1032", message, source, name.span, help=meant(name.text, blocks) or help)
-
-
-def kind_in_a_flow(source: Source, name: Name, kind: Name) -> Diagnostic:
-    """A declaration of a block, written with an arrow."""
-    return error(
-        "P1032",
-        f"`{kind.text}` is a kind of block, and an arrow leads to a block",
-        source,
-        kind.span,
-        help=f"to declare a block, write `{name.text} = {kind.text}`",
-    )
-
-
-def into_start(source: Source, name: Name) -> Diagnostic:
-    """An edge to where missions come from."""
-    return error(
-        "P1033",
-        "no edge leads to `start`: every mission begins there once",
-        source,
-        name.span,
-        help="lead it to a block, for instance the one that gives the mission its next drone",
-    )
-
-
-def out_of_end(source: Source, name: Name) -> Diagnostic:
-    """An edge from where missions end."""
-    return error(
-        "P1034",
-        "no edge leaves `end`: missions are over there",
-        source,
-        name.span,
-        help="`end` can only be the last stop",
-    )
-
-
-def edge_twice(
-    source: Source, span: Span, guard: Span | None, first: Span, names: tuple[str, str]
-) -> Diagnostic:
-    """The same edge twice."""
-    return error(
-        "P1035",
-        f"the edge from `{names[0]}` to `{names[1]}` is there twice",
-        source,
-        span,
-        label="the second time",
-        related=(related(source, first, "the first time"),),
-        help="remove one of them",
-        fix=without_arrow(source, names, span, guard),
-    )
-
-
-def too_many_edges(source: Source, span: Span, most: int) -> Diagnostic:
-    """Brackets that make more edges than anybody can mean."""
-    return error(
-        "P1039",
-        f"an app has at most {most:,} edges, and with these it has more",
-        source,
-        span,
-        label="each name in brackets leads to each in the next",
-        help="let brackets of many names meet at a block, from which one edge goes on",
-    )
-
-
-def refused_status(
-    source: Source, name: Name, target: str, kind: str | None, accepted: Iterable[Status]
-) -> Diagnostic:
-    """A guard with a status that the target does not accept."""
-    what = f"`{target}` ({kind})" if kind else f"`{target}`"
-    return error(
-        "P1036",
-        f"{what} does not accept {name.text}",
-        source,
-        name.span,
-        label="not accepted",
-        help=f"it accepts {all_of([status.value for status in IN_GRAPH if status in accepted])}",
-    )
-
-
-def guarded_start(source: Source, span: Span) -> Diagnostic:
-    """A guard on an edge from `start`."""
-    return error(
-        "P1037",
-        "an edge from `start` has no guard: nothing has happened to a mission there yet",
-        source,
-        span,
-        help="remove the guard",
-    )
-
-
-_OF_THE_APP = frozenset({"P1011", "P1021", "P1022", "P1024", "P1032"})
-"""Codes of names that an app declares itself: one missing declaration is one mistake."""
-_MOST_PLACES = 3
-
-
-def each_name_once(found: Iterable[Diagnostic]) -> list[Diagnostic]:
-    """Tell of a name that is declared nowhere once, with the places where it is used besides."""
-    once: dict[str | int, list[Diagnostic]] = {}
-    for i, diagnostic in enumerate(found):
-        shared = diagnostic.code in _OF_THE_APP
-        key = diagnostic.source.quote(diagnostic.span) if shared else i
-        once.setdefault(key, []).append(diagnostic)
-    return [_with_places(first, more) for first, *more in once.values()]
-
-
-def _with_places(first: Diagnostic, more: Sequence[Diagnostic]) -> Diagnostic:
-    if not more:
-        return first
-    left = len(more) - _MOST_PLACES
-    labels = ["here, too"] * min(len(more), _MOST_PLACES)
-    if left > 0:
-        labels[-1] = f"here, too, and in {counted(left, 'more place')}"
-    places = tuple(
-        related(other.source, other.span, label) for other, label in zip(more, labels, strict=False)
-    )
-    return replace(first, related=(*first.related, *places))

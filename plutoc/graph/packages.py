@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from plutoc.block import Block
+from plutoc.block import Block, HookParam, Param
 from plutoc.diagnostic import Diagnostic
 from plutoc.graph import errors
 from plutoc.graph.unclear import Unclear
 from plutoc.registry import STD, Blocks, RegistryError
 from plutoc.source import Source
-from plutoc.syntax.tree import BlockDecl, File, Name, Use
+from plutoc.syntax.tree import BlockDecl, File, Name
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -29,10 +29,10 @@ def packages_of(file: File, blocks: Blocks, found: list[Diagnostic]) -> Packages
     kinds: dict[str, Mapping[str, Block] | None] = {}
     kinds[STD] = _load(STD, file.source, file.app.name, blocks, found)
     names: dict[str, str] = {}
+    used = {use.package.text for use in file.uses}
     for use in file.uses:
         package = use.package.text
         if package not in blocks.packages:
-            used = {other.package.text for other in file.uses}
             unused = [other for other in blocks.packages if other != STD and other not in used]
             found.append(errors.unknown_package(file.source, use.package, unused))
             kinds[package] = None
@@ -44,10 +44,15 @@ def packages_of(file: File, blocks: Blocks, found: list[Diagnostic]) -> Packages
 
 def unused_packages(file: File) -> list[Diagnostic]:
     """Find what is used for nothing."""
+    prefixes = {
+        statement.prefix.text
+        for statement in file.app.statements
+        if isinstance(statement, BlockDecl) and statement.prefix
+    }
     return [
         errors.unused_package(file.source, use.package, use.span)
         for use in file.uses
-        if not _is_used(use, file)
+        if (use.alias or use.package).text not in prefixes
     ]
 
 
@@ -59,14 +64,6 @@ def _load(
     except RegistryError as error:
         found.append(errors.broken_package(source, package, name.span, str(error)))
         return None
-
-
-def _is_used(use: Use, file: File) -> bool:
-    prefix = (use.alias or use.package).text
-    return any(
-        isinstance(statement, BlockDecl) and statement.prefix and statement.prefix.text == prefix
-        for statement in file.app.statements
-    )
 
 
 def find(
@@ -101,10 +98,19 @@ def find(
             kind,
             package if declared.prefix else None,
             list(kinds),
+            [name for name, block in kinds.items() if _fits(block, declared)],
             _elsewhere(kind.text, packages),
         )
     )
     return None
+
+
+def _fits(block: Block, declared: BlockDecl) -> bool:
+    """Say whether a declaration could be one of this block."""
+    given = {argument.name.text for argument in declared.arguments}
+    passes = any(isinstance(param, HookParam) and param.passes for param in block.params)
+    required = {p.name for p in block.params if isinstance(p, Param | HookParam) and p.required}
+    return required <= given and (passes or given <= {param.name for param in block.params})
 
 
 def _elsewhere(kind: str, packages: Packages) -> list[str]:

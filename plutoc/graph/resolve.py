@@ -12,6 +12,7 @@ from plutoc.graph.edges import edges
 from plutoc.graph.model import Action, Graph, Hook, Node
 from plutoc.graph.neighbours import told_once
 from plutoc.graph.nodes import Place, node
+from plutoc.graph.once import each_name_once
 from plutoc.graph.packages import packages_of, unused_packages
 from plutoc.graph.scope import check_app_name, scope_of, spoilt_names
 from plutoc.graph.stops import meant_to_declare
@@ -102,7 +103,7 @@ def resolved(file: File, blocks: Blocks) -> tuple[Graph, list[Diagnostic]]:
         found.extend(_unused_hooks(source, app_hooks, nodes, block_decls))
         found.extend(_unused_actions(source, actions, category_decls, block_decls))
     fixed = {*kinds, *(status.value for status in IN_GRAPH)}
-    return graph, told_once(source, errors.each_name_once(found), {*scope, *BUILT_IN}, fixed)
+    return graph, told_once(source, each_name_once(found), {*scope, *BUILT_IN}, fixed)
 
 
 def _as_hook(action: Action) -> Hook:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 
 from plutoc.diagnostic import Diagnostic
-from plutoc.graph import errors
+from plutoc.graph import edge_errors as errors
 from plutoc.graph.model import END, START, Node
 from plutoc.graph.names import near
 from plutoc.graph.scope import BLOCK, Scope

@@ -44,7 +44,8 @@ def strange_letter(name: str) -> str | None:
 
 def unit_meant(unit: str, units: Sequence[str]) -> str | None:
     """Ask for the unit that somebody may have meant."""
-    word = _UNITS.get(unit.lower().removesuffix("s"))
+    stem = unit.lower().removesuffix("s")
+    word = _UNITS.get(stem, stem)
     return f"did you mean `{word}`?" if word in units else meant(unit, units)
 
 

@@ -33,7 +33,6 @@ _ADDABLE = {
 }
 """Tokens whose lack can be mended by writing them: the first that fits is proposed."""
 _CHOICES = frozenset({EQUAL, "_ARROW"})
-"""Of these, more than one can often have been meant: never certain."""
 
 _OTHER_WORDS = {
     **dict.fromkeys(("if", "on", "where", "case"), "when"),
@@ -60,7 +59,7 @@ def explain(
     """
     token, here = tokens[i], _place(tokens, i)
     accepts = state.accepts()
-    special = _special(source, tokens, i, here)
+    special = _special(source, base, tokens, i, here)
     if special is not None:
         return special
     if i == len(tokens) - 1 or token.type == "RBRACE":
@@ -69,6 +68,8 @@ def explain(
             closing = {"(": ")", "[": "]"}[str(left_open)]
             more = [made_up(OPENING[left_open.type], closing), *tokens[i:]]
             fix = _certain(state, more, Span(here.start, here.start), closing)
+            if "#" in source.text[here.start : tokens[-1].start_pos]:
+                fix = None  # the bracket may be in the comment
             return errors.never_closed(source, span(left_open), here.start, fix)
     if token.type == "APP" and i == 0 and app is not None and "CATEGORY" in accepts:
         return errors.second_app(source, here, span(app))
@@ -83,13 +84,15 @@ def explain(
     return errors.unexpected(source, here, expected(accepts), found(token), help, fix)
 
 
-def _special(source: Source, tokens: Sequence[Token], i: int, here: Span) -> Diagnostic | None:
+def _special(
+    source: Source, base: State, tokens: Sequence[Token], i: int, here: Span
+) -> Diagnostic | None:
     """Explain what is no token of the language at all."""
     match tokens[i].type:
         case "OPEN_TEXT":
             return errors.open_text(source, here)
         case "UNKNOWN":
-            return slip(source, tokens, i) or errors.unknown_character(source, here)
+            return slip(source, base, tokens, i) or errors.unknown_character(source, here)
         case "TOO_DEEP":
             return errors.too_deep(source, here, DEEPEST)
         case "LONG_NUMBER":
@@ -164,8 +167,9 @@ def _missing(
         if kind in accepts and would_feed(state, [made_up(kind, text), *tokens[i : i + 2]]):
             at = Span(*[(tokens[i - 1].end_pos or 0) if i else span(token).start] * 2)
             more = [made_up(kind, text), *tokens[i:]]
-            certain = None if kind in _CHOICES else _certain(state, more, at, text)
-            return f"write `{text}` before it", certain
+            certain = kind == "COLON" or (kind == "COMMA" and tokens[i + 1].type == "COLON")
+            fix = _certain(state, more, at, text) if certain else None
+            return f"write `{text}` before it", fix
     if i < len(tokens) - 1 and _mends(state, tokens[i + 1 :]):
         return f"remove {found(token)}", None
     return None, None
@@ -182,7 +186,9 @@ def _word(token: Token, possible: Sequence[str]) -> str | None:
 
 def _meant(state: State, token: Token, word: str, rest: Sequence[Token]) -> tuple[str, Fix | None]:
     line = [made_up(word.upper(), word), *rest]
-    return f"did you mean `{word}`?", _certain(state, line, span(token), word)
+    certain = token.casefold() == word or token.casefold() in _OTHER_WORDS
+    fix = _certain(state, line, span(token), word) if certain else None
+    return f"did you mean `{word}`?", fix
 
 
 def _certain(state: State, tokens: Sequence[Token], where: Span, text: str) -> Fix | None:

@@ -71,17 +71,19 @@ def joined(lines: Iterable[Line]) -> Line:
 
 def _opens_the_app(tokens: Sequence[Token]) -> int:
     """Return where the brace is that the app's statements stand behind, or -1."""
-    first = None
+    first, ends_its_line = None, -1
     for i, token in enumerate(tokens):
         if token.type == NEWLINE:
             first = None
             continue
         first = first or token.type
-        if token.type == "LBRACE" and (
-            first == "APP" or (tokens[i + 1].line or 0) > (token.line or 0)
-        ):
-            return i
-    return -1
+        if token.type == "LBRACE":
+            if first == "APP":
+                return i
+            if ends_its_line < 0 and (tokens[i + 1].line or 0) > (token.line or 0):
+                ends_its_line = i
+                first = None
+    return ends_its_line
 
 
 def begins_a_statement(line: Line) -> bool:

@@ -75,7 +75,8 @@ def recover(source: Source, tokens: Sequence[Token]) -> tuple[File, list[Diagnos
         found,
     )
     good = set(map(id, judged.good))
-    named = parts.app is not None and id(parts.app) in good
+    opens = parts.app is not None and parts.app.tokens[-1].type == "LBRACE"
+    named = opens and id(parts.app) in good
     clean = _made_up(_HEADER)
     clean += [token for line in parts.before if id(line) in good for token in line.ended]
     clean += parts.app.tokens if parts.app and named else _made_up(_APP)

@@ -7,6 +7,7 @@ import re
 from plutoc.source import Source
 from plutoc.syntax.grammar import parser
 from plutoc.syntax.lines import Line, joined
+from plutoc.syntax.newlines import NAME
 from plutoc.syntax.state import State, would_feed
 
 _BREAK = re.compile(r"[ \t]*\r?\n[ \t]*")
@@ -39,7 +40,9 @@ def _are_near(source: Source, first: Line, second: Line) -> bool:
 def is_shifted(source: Source, first: Line, below: State, second: Line) -> bool:
     """Say whether the last letter of a line stands at the beginning of the next one."""
     letter, *rest = second.tokens
-    if len(letter) != 1 or not rest or source.text[first.span.end : second.span.start] != "\n":
+    if first.tokens[-1].type != NAME or letter.type != NAME or len(letter) > 1 or not rest:
+        return False
+    if source.text[first.span.end : second.span.start] != "\n":
         return False
     return would_feed(below, Line(tokens=tuple(rest), end=second.end).ended)
 

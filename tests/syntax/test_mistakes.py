@@ -69,7 +69,16 @@ def test_mistakes_before_the_app() -> None:
 
 def test_fix_mends() -> None:
     """A proposed change makes the source one that parses."""
-    for broken in ("a = K(x 3)", "categry s can x", "a = K(x: [3)", "a -> b wen X", "a => b"):
+    for broken in (
+        "a = K(x 3)",
+        "a -> b if X",
+        "a => b",
+        "a → b",
+        "a = K;",
+        "a: K",
+        "a = K(x = 3)",
+        "a = K(x: 3",
+    ):
         text = f"pluto 1\napp demo {{\n{broken}\n}}"
         (found,) = mistakes(text)
         assert found.fix, broken

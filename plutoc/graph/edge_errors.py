@@ -1,0 +1,112 @@
+"""What can be wrong with edges (P1)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from plutoc.diagnostic import Diagnostic, error
+from plutoc.edits import without_arrow
+from plutoc.graph.wording import all_of, meant, related
+from plutoc.source import Source, Span
+from plutoc.syntax.tree import Name
+from plutoc_runtime.status import IN_GRAPH, Status
+
+
+def unknown_block(
+    source: Source, name: Name, blocks: Sequence[str], role: str | None
+) -> Diagnostic:
+    """An edge from or to what is not a block."""
+    if role:
+        message = f"`{name.text}` is {role}, not a block"
+        help = "only blocks stand in a flow: declare one with `NAME = KIND`"
+    else:
+        message = f"there is no block `{name.text}`"
+        help = f"declare it in the app: `{name.text} = KIND`"
+    return error("P1032", message, source, name.span, help=meant(name.text, blocks) or help)
+
+
+def kind_in_a_flow(source: Source, name: Name, kind: Name) -> Diagnostic:
+    """A declaration of a block, written with an arrow."""
+    return error(
+        "P1032",
+        f"`{kind.text}` is a kind of block, and an arrow leads to a block",
+        source,
+        kind.span,
+        help=f"to declare a block, write `{name.text} = {kind.text}`",
+    )
+
+
+def into_start(source: Source, name: Name) -> Diagnostic:
+    """An edge to where missions come from."""
+    return error(
+        "P1033",
+        "no edge leads to `start`: every mission begins there once",
+        source,
+        name.span,
+        help="lead it to a block, for instance the one that gives the mission its next drone",
+    )
+
+
+def out_of_end(source: Source, name: Name) -> Diagnostic:
+    """An edge from where missions end."""
+    return error(
+        "P1034",
+        "no edge leaves `end`: missions are over there",
+        source,
+        name.span,
+        help="`end` can only be the last stop",
+    )
+
+
+def edge_twice(
+    source: Source, span: Span, guard: Span | None, first: Span, names: tuple[str, str]
+) -> Diagnostic:
+    """The same edge twice."""
+    return error(
+        "P1035",
+        f"the edge from `{names[0]}` to `{names[1]}` is there twice",
+        source,
+        span,
+        label="the second time",
+        related=(related(source, first, "the first time"),),
+        help="remove one of them",
+        fix=without_arrow(source, names, span, guard),
+    )
+
+
+def too_many_edges(source: Source, span: Span, most: int) -> Diagnostic:
+    """Brackets that make more edges than anybody can mean."""
+    return error(
+        "P1039",
+        f"an app has at most {most:,} edges, and with these it has more",
+        source,
+        span,
+        label="each name in brackets leads to each in the next",
+        help="let brackets of many names meet at a block, from which one edge goes on",
+    )
+
+
+def refused_status(
+    source: Source, name: Name, target: str, kind: str | None, accepted: Iterable[Status]
+) -> Diagnostic:
+    """A guard with a status that the target does not accept."""
+    what = f"`{target}` ({kind})" if kind else f"`{target}`"
+    return error(
+        "P1036",
+        f"{what} does not accept {name.text}",
+        source,
+        name.span,
+        label="not accepted",
+        help=f"it accepts {all_of([status.value for status in IN_GRAPH if status in accepted])}",
+    )
+
+
+def guarded_start(source: Source, span: Span) -> Diagnostic:
+    """A guard on an edge from `start`."""
+    return error(
+        "P1037",
+        "an edge from `start` has no guard: nothing has happened to a mission there yet",
+        source,
+        span,
+        help="remove the guard",
+    )
