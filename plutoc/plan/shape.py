@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import networkx as nx
@@ -17,52 +18,102 @@ class Shape:
     chart: Chart
     order: tuple[Spot, ...]
     """Every spot behind those that lead to it, loops aside."""
+    place: Mapping[Spot, int]
+    """Where a spot stands in the order."""
+    before: Mapping[Spot, tuple[Spot, ...]]
+    """The spots with an arrow to it."""
     parent: Mapping[Spot, Spot]
     """The last spot that every way there passes."""
-    below: Mapping[Spot, frozenset[Spot]]
-    """The spot itself, and all that is reached through it only."""
+    children: Mapping[Spot, tuple[Spot, ...]]
+    """The spots that have it for their parent, in order."""
+    number: Mapping[Spot, int]
+    """Counts the spots so that all that is below one follows it."""
+    size: Mapping[Spot, int]
+    """How many there are below a spot, itself included."""
     merges: frozenset[Spot]
     """Spots that two or more arrows lead to, arrows back not counted."""
     shared: frozenset[Spot]
     """The same, with the arrows back."""
-    loops: Mapping[Spot, frozenset[Spot]]
-    """For each spot at which a loop begins, the spots that go round in it."""
-    ahead: Mapping[Spot, frozenset[Spot]]
-    """What can be reached from a spot, itself included, without an arrow back."""
+    loops: Mapping[Spot, tuple[Spot, ...]]
+    """For each spot at which a loop begins, the spots with an arrow back to it."""
     reducible: bool
     """Is every loop entered at one place only?"""
 
+    def is_below(self, spot: Spot, other: Spot) -> bool:
+        """Is a spot reached only through the other, or the other itself?"""
+        return 0 <= self.number[spot] - self.number[other] < self.size[other]
+
+    def below(self, spot: Spot) -> list[Spot]:
+        """Return the spot and all that is reached through it only, in order."""
+        found = [spot]
+        for one in found:
+            found.extend(self.children[one])
+        return self.ordered(found)
+
+    def ordered(self, spots: Iterable[Spot]) -> list[Spot]:
+        """Return some spots in order."""
+        return sorted(spots, key=self.place.__getitem__)
+
 
 def shape(chart: Chart) -> Shape:
-    """Return the shape of a chart."""
-    arrows = nx.DiGraph()
-    arrows.add_node(chart.entry)
-    arrows.add_edges_from((s, w.target) for s, ways in chart.ways.items() for w in ways if w.target)
-    order = tuple(reversed(list(_last_things_first(chart))))
-    parent: dict[Spot, Spot] = dict(nx.immediate_dominators(arrows, chart.entry))
-    parent.pop(chart.entry, None)
-    below: dict[Spot, set[Spot]] = {spot: {spot} for spot in order}
-    for spot in reversed(order):
-        if spot in parent:
-            below[parent[spot]] |= below[spot]
-    backward = [(one, two) for one, two in arrows.edges if one in below[two]]
-    forward = nx.DiGraph(arrows)
-    forward.remove_edges_from(backward)
-    loops: dict[Spot, set[Spot]] = {}
-    for one, head in backward:
-        loops.setdefault(head, {head}).update(_round(arrows, one, head))
-    reducible = nx.is_directed_acyclic_graph(forward)
+    """Return the shape of a chart. It takes no more memory than the chart itself."""
+    order = tuple(reversed(_last_things_first(chart)))
+    place = {spot: number for number, spot in enumerate(order)}
+    arrows = [
+        (one, place[way.target])
+        for one, spot in enumerate(order)
+        for way in chart.ways[spot]
+        if way.target
+    ]
+    before: list[list[int]] = [[] for _ in order]
+    for one, two in arrows:
+        before[two].append(one)
+    parent = _parents(arrows)
+    size = [1] * len(order)
+    for spot in reversed(range(1, len(order))):
+        size[parent[spot]] += size[spot]
+    # a parent stands before its children, and takes as many numbers as there are below it
+    number, following = [0] * len(order), [1] * len(order)
+    children: list[list[int]] = [[] for _ in order]
+    for spot in range(1, len(order)):
+        above = parent[spot]
+        children[above].append(spot)
+        number[spot] = following[above]
+        following[above] += size[spot]
+        following[spot] = number[spot] + 1
+    loops: dict[int, list[int]] = {}
+    forward: list[tuple[int, int]] = []
+    for one, two in arrows:
+        if 0 <= number[one] - number[two] < size[two]:
+            loops.setdefault(two, []).append(one)
+        else:
+            forward.append((one, two))
+    led_to = (two for _, two in forward)
     return Shape(
         chart=chart,
         order=order,
-        parent=parent,
-        below={spot: frozenset(spots) for spot, spots in below.items()},
-        merges=frozenset(s for s in order if forward.in_degree(s) > 1),
-        shared=frozenset(s for s in order if arrows.in_degree(s) > 1),
-        loops={head: frozenset(spots) for head, spots in loops.items()},
-        ahead=_ahead(forward, order) if reducible else {},
-        reducible=reducible,
+        place=place,
+        before={order[i]: tuple(order[j] for j in sources) for i, sources in enumerate(before)},
+        parent={order[spot]: order[above] for spot, above in parent.items()},
+        children={spot: tuple(order[c] for c in children[i]) for i, spot in enumerate(order)},
+        number=dict(zip(order, number, strict=True)),
+        size=dict(zip(order, size, strict=True)),
+        merges=frozenset(order[spot] for spot, ways in Counter(led_to).items() if ways > 1),
+        shared=frozenset(
+            spot for spot, sources in zip(order, before, strict=True) if len(sources) > 1
+        ),
+        loops={order[head]: tuple(order[i] for i in lasts) for head, lasts in loops.items()},
+        # in this order an arrow that leads back, and not to where all ways pass, enters a loop
+        reducible=all(one < two for one, two in forward),
     )
+
+
+def _parents(arrows: Sequence[tuple[int, int]]) -> dict[int, int]:
+    graph = nx.DiGraph(arrows)
+    graph.add_node(0)
+    found: dict[int, int] = dict(nx.immediate_dominators(graph, 0))
+    found.pop(0, None)
+    return found
 
 
 def _last_things_first(chart: Chart) -> list[Spot]:
@@ -85,19 +136,29 @@ def _last_things_first(chart: Chart) -> list[Spot]:
     return done
 
 
-def _round(arrows: nx.DiGraph, last: Spot, head: Spot) -> set[Spot]:
-    """The spots on the ways from a loop's head to the arrow that leads back to it."""
-    found = {last, head}
-    queue = [last] if last != head else []
+def round_of(shape: Shape, head: Spot) -> frozenset[Spot]:
+    """Return the spots on the ways from a loop's head to the arrows that lead back to it."""
+    found = {head, *shape.loops[head]}
+    queue = [spot for spot in shape.loops[head] if spot != head]
     for spot in queue:
-        fresh = [s for s in arrows.predecessors(spot) if s not in found]
+        fresh = [one for one in shape.before[spot] if one not in found]
         found.update(fresh)
         queue.extend(fresh)
-    return found
+    return frozenset(found)
 
 
-def _ahead(forward: nx.DiGraph, order: tuple[Spot, ...]) -> dict[Spot, frozenset[Spot]]:
-    found: dict[Spot, frozenset[Spot]] = {}
-    for spot in reversed(order):
-        found[spot] = frozenset((spot,)).union(*(found[s] for s in forward.successors(spot)))
-    return found
+def ahead(shape: Shape, spot: Spot) -> frozenset[Spot]:
+    """Return what can be reached from a spot, itself included, without an arrow back."""
+    found = {spot: None}
+    queue = [spot]
+    for one in queue:
+        fresh = [
+            way.target
+            for way in shape.chart.ways[one]
+            if way.target is not None
+            and way.target not in found
+            and not shape.is_below(one, way.target)
+        ]
+        found.update(dict.fromkeys(fresh))
+        queue.extend(dict.fromkeys(fresh))
+    return frozenset(found)

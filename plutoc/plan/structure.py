@@ -7,19 +7,21 @@ them. Where a jump would be needed that Python does not have, `Unstructured` is 
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 from plutoc.plan.bodies import breaks, falls, switch, without_last_continue
 from plutoc.plan.chart import Kind, Spot, Way
 from plutoc.plan.model import Arm, Body, Break, Continue, End, Goto, Loop, Step
-from plutoc.plan.shape import Shape
+from plutoc.plan.shape import Shape, ahead, round_of
 from plutoc_runtime.status import IN_GRAPH
 
 LOOPS = 12
 """Loops in loops; Python itself compiles no more than twenty."""
 ARMS = 40
 """Arms in arms; Python itself indents no more than a hundred times."""
+MERGES = 40
+"""Places at which the ways of one switch meet; each is written in a call of its own."""
 PATIENCE = 50
 """How often each spot may be tried in one place or another before we give up."""
 
@@ -61,6 +63,9 @@ class Writer:
     copies: bool = False
     """May a block be written twice, if nothing but the end follows it?"""
     tried: int = 0
+    rounds: dict[Spot, frozenset[Spot]] = field(default_factory=dict)
+    reached: dict[Spot, frozenset[Spot]] = field(default_factory=dict)
+    """Both are looked for only where they are asked for: all of them may be far too much."""
 
     def body(self, spot: Spot, around: Around) -> Body:
         """Write a spot, and all that is reached through it only."""
@@ -106,13 +111,14 @@ class Writer:
 
     def merges(self, spot: Spot, around: Around) -> tuple[Spot, ...]:
         """The spots that are written behind this one's switch."""
-        return tuple(
-            merge
-            for merge in self.shape.order
-            if self.shape.parent.get(merge) == spot
-            and merge in self.shape.merges
-            and merge not in around.elsewhere
+        found = tuple(
+            child
+            for child in self.shape.children[spot]
+            if child in self.shape.merges and child not in around.elsewhere
         )
+        if len(found) > MERGES:
+            raise Hopeless
+        return found
 
     def merging(
         self, ways: Sequence[Way], merges: Sequence[Spot], spot: Spot, around: Around
@@ -190,10 +196,10 @@ class Writer:
         """
         if way.target is None or not self.inlined(way, spot, around):
             return way.target is not None and way.target == around.head, 0
-        return True, len(self.shape.below[way.target])
+        return True, self.shape.size[way.target]
 
     def reaches(self, way: Way, spot: Spot) -> bool:
-        return way.target is not None and spot in self.shape.ahead[way.target]
+        return way.target is not None and spot in self.ahead(way.target)
 
     def jump(self, target: Spot | None, around: Around) -> Body:
         """Write how a spot is reached that is written elsewhere."""
@@ -238,36 +244,47 @@ class Writer:
 
     def ours(self, spot: Spot, head: Spot, around: Around) -> bool:
         """Is the spot to be written behind the loop that begins at `head`?"""
-        return spot in self.shape.below[head] and spot not in around.elsewhere
+        return self.shape.is_below(spot, head) and spot not in around.elsewhere
 
-    def outs(self, head: Spot, around: Around) -> tuple[Spot | None, ...]:
-        """What may stand behind a loop, the most promising first; None: nothing does.
+    def outs(self, head: Spot, around: Around) -> Iterator[Spot | None]:
+        """Yield what may stand behind a loop, the most promising first; None: nothing does.
 
         What is around the loop can be reached in no other way. What only the loop leads to may
         also be written inside it.
         """
-        round_, chart = self.shape.loops[head], self.shape.chart
+        found, chart = self.shape, self.shape.chart
+        round_ = self.round(head)
         exits = [
             way.target
-            for spot in self.shape.order
-            if spot in round_
+            for spot in found.ordered(round_)
             for way in chart.ways[spot]
             if way.target is not None and way.target not in round_
         ]
-        # What the inside of a loop leads to, whether by the loop or by what follows it.
-        led_to = [
-            way.target
-            for spot in self.shape.order
-            if spot in self.shape.below[head]
-            for way in chart.ways[spot]
-            if way.target is not None and way.target not in self.shape.below[head]
-        ]
-        inside = [
-            spot
-            for spot in reversed(self.shape.order)
-            if spot not in round_ and self.shape.parent.get(spot) in round_
-        ]
+        behind = [child for spot in round_ for child in found.children[spot] if child not in round_]
+        inside = found.ordered(behind)[::-1]
         around_it = [spot for spot in exits if not self.ours(spot, head, around)]
-        meeting = [spot for spot in inside if spot in self.shape.merges]
-        found = dict.fromkeys((*around_it, *meeting, *inside, *led_to))
-        return (*found, None)
+        meeting = [spot for spot in inside if spot in found.merges]
+        likely = dict.fromkeys((*around_it, *meeting, *inside))
+        yield from likely
+        # What the inside of a loop leads to, whether by the loop or by what follows it. That may
+        # be all the rest of the graph: it is looked at only if nothing else will do.
+        led_to = dict.fromkeys(
+            way.target
+            for spot in found.below(head)
+            for way in chart.ways[spot]
+            if way.target is not None and not found.is_below(way.target, head)
+        )
+        yield from (spot for spot in led_to if spot not in likely)
+        yield None
+
+    def round(self, head: Spot) -> frozenset[Spot]:
+        """The spots that go round in a loop."""
+        if head not in self.rounds:
+            self.rounds[head] = round_of(self.shape, head)
+        return self.rounds[head]
+
+    def ahead(self, spot: Spot) -> frozenset[Spot]:
+        """What can be reached from a spot without an arrow back."""
+        if spot not in self.reached:
+            self.reached[spot] = ahead(self.shape, spot)
+        return self.reached[spot]
