@@ -144,8 +144,8 @@ def _hooks(random: Random, compiled: Compiled) -> tuple[str, ...]:
     words = re.findall(r"\w+|\s+|.", text[start:])
     for _ in range(random.choice((1, 1, 2, 5))):
         at = random.randrange(len(words))
-        if random.random() < 0.7:  # a name for a name: what comes out is mostly Python
-            names = [number for number, word in enumerate(words) if word.isidentifier()]
+        names = [number for number, word in enumerate(words) if word.isidentifier()]
+        if names and random.random() < 0.7:  # what comes out is mostly Python
             at = random.choice(names)
             words[at] = words[random.choice(names)]
         else:
