@@ -226,9 +226,9 @@ def _spoil(random: Random, statements: list[str]) -> None:
             statements[i] = statements[i].replace(old, random.choice(STATUSES))
         case 7:
             one = random.randrange(len(statements))
-            kinds = [statements[n].partition(" = ")[2].partition("(")[0] for n in (i, one)]
-            if all(kinds):
-                statements[i] = statements[i].replace(*kinds)
+            old, new = (statements[n].partition(" = ")[2].partition("(")[0] for n in (i, one))
+            if old and new:
+                statements[i] = statements[i].replace(old, new)
         case _:
             del words[random.randrange(len(words))]
             statements[i] = " ".join(words)
