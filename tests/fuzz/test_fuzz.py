@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from tests.fuzz.tally import WRITTEN_EVERY, Tally
 from tests.fuzz.trial import trial
 
-INPUTS = 2000
+INPUTS = 1800
 
 
 def test_a_minute_of_odd_input_breaks_nothing(capsys: pytest.CaptureFixture[str]) -> None:
