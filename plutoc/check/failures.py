@@ -6,6 +6,7 @@ from collections.abc import Iterable
 
 from plutoc.check import errors
 from plutoc.check.components import loops, round_of, trimmed
+from plutoc.check.facts import bound_of
 from plutoc.check.flow import Flow, Place, blocks_of
 from plutoc.diagnostic import Diagnostic
 from plutoc.graph.model import Node
@@ -65,9 +66,4 @@ def _is_failure(flow: Flow, place: Place, target: Place) -> bool:
         return True
     if node.block.evaluates or node.block.repeats:
         return False
-    return not (node.block.watches or _is_bounded(node))
-
-
-def _is_bounded(node: Node) -> bool:
-    limit = dict(node.values).get(node.block.bound) if node.block.bound else None
-    return node.block.retries and bool(limit)
+    return not (node.block.watches or bound_of(node))

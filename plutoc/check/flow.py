@@ -28,6 +28,8 @@ class Facts:
     outcome: Status | None = None
     """How the trip in flight will end. Every branch of a fork sees that same end, so it is chosen
     at the launch, once for all of them; None before the first launch and once the trip is over."""
+    attempts: int = 0
+    """At least so often the next trip has been flown: a bound that gave up once gives up again."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

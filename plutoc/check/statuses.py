@@ -13,22 +13,20 @@ from collections import deque
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
-from plutoc.block import Block, Gate
-from plutoc.check.flow import Facts, Flow, Frame, Place, Split, Step, ordered
+from plutoc.block import Gate
+from plutoc.check import company
+from plutoc.check.facts import leaving, remembers_attempts
+from plutoc.check.flow import Facts, Flow, Frame, Place, Split, Step
 from plutoc.graph.model import END, START, Edge, Graph
-from plutoc_runtime.status import WORST_FIRST, Status
+from plutoc_runtime.status import Status
 
 Places = dict[Place, None]
 """An ordered set."""
 
 
-OUTCOMES = (Status.STANDBY, Status.COMPLETED, Status.FAILED)
-"""How a trip can end: well with more to fly, well as the last one, or not well."""
-
-
 def explore(graph: Graph, edges: tuple[Edge, ...], beginnings: Iterable[Place]) -> Flow:
     """Return where missions can be, from these places on, along these edges."""
-    walk = _Walk(graph=graph, edges=edges)
+    walk = _Walk(graph=graph, edges=edges, remember=remembers_attempts(graph))
     walk.run(beginnings)
     return walk.flow()
 
@@ -44,6 +42,7 @@ class _Walk:
 
     graph: Graph
     edges: tuple[Edge, ...]
+    remember: bool
     hasty: dict[Split, None] = field(default_factory=dict)
     """Forks whose gate has stopped waiting for a branch that never arrives."""
     outgoing: dict[str, list[Edge]] = field(default_factory=dict)
@@ -74,6 +73,7 @@ class _Walk:
             while self.queue:
                 self.visit(self.queue.popleft())
             self.stop_waiting()
+        self.accompany()
 
     def visit(self, place: Place) -> None:
         self.arrives.setdefault(place.node, set()).add(place.status)
@@ -87,12 +87,8 @@ class _Walk:
             if node.block.allocates or node.block.launches:
                 self.stray(place, place.frame.split)
                 return
-        emitted = ordered(node.emitted(place.status))
-        if node.block.watches and place.facts.outcome in emitted:
-            emitted = (place.facts.outcome,)
-        for status in emitted:
-            for facts in _behind(node.block, place.facts):
-                self.leave(place, status, facts)
+        for status, facts in leaving(node, place, self.remember):
+            self.leave(place, status, facts)
 
     def reach(self, place: Place, step: Step) -> None:
         self.after.setdefault(step.before, {})[place] = None
@@ -145,24 +141,35 @@ class _Walk:
 
     def passing(self, split: Split, gate: Gate, branches: dict[int, Places]) -> dict[Status, Place]:
         """Return what a gate lets through, given what each branch has brought so far."""
-        brought: dict[Status, Place] = {}
-        for arrivals in branches.values():
-            for arrival in arrivals:
-                brought.setdefault(arrival.status, arrival)
-        if gate is Gate.FIRST:
-            return brought
-        if len(branches) < self.width(split) and split not in self.hasty:
+        if gate is Gate.ALL and len(branches) < self.width(split) and split not in self.hasty:
             return {}
-        # at best, every branch brings the best that it can: nothing better than that passes
-        floor = min(max(_goodness(a.status) for a in arrivals) for arrivals in branches.values())
-        return {s: place for s, place in brought.items() if _goodness(s) <= floor}
+        return company.passing(gate, branches)
 
     def go_on(self, arrival: Place, status: Status, entry: Place) -> None:
         """The branch is left where the clone has arrived; the mission goes on from there."""
-        target = Place(
-            frame=entry.frame, node=arrival.node, status=status, facts=arrival.facts, out=True
-        )
+        target = self.beyond(arrival, status, entry)
         self.reach(target, Step(before=arrival, leaving=None, back_to=entry))
+
+    def beyond(self, arrival: Place, status: Status, entry: Place) -> Place:
+        """Return the place of the mission behind the gate. What one branch alone knows is lost."""
+        assert arrival.frame is not None, "only a branch is left"
+        facts = min(arrival.frame.split.facts, arrival.facts, key=lambda facts: facts.attempts)
+        return Place(frame=entry.frame, node=arrival.node, status=status, facts=facts, out=True)
+
+    def accompany(self) -> None:
+        """Let every clone at a gate lead on to what passes there in its company.
+
+        So far only the clone that brings a status does; but the others do not end here.
+        """
+        for split, gates in self.closes.items():
+            for name, branches in gates.items():
+                for arrival, status in company.with_each(self.gate(name), branches):
+                    bringer = self.through[split].get((name, status))
+                    for entry in self.entries[split] if bringer else ():
+                        assert bringer is not None
+                        self.after.setdefault(arrival, {})[
+                            self.beyond(bringer, status, entry)
+                        ] = None
 
     def stray(self, place: Place, split: Split) -> None:
         """A clone is flown before its gate: an error, walked on as if its branch ended here."""
@@ -178,9 +185,12 @@ class _Walk:
         for split in tuple(self.waiting):
             self.hasty[split] = None
             for name in self.closes[split]:
-                gate = self.graph.node[name].block.gate
-                assert gate is not None, "only a gate closes a branch"
-                self.let_through(split, name, gate)
+                self.let_through(split, name, self.gate(name))
+
+    def gate(self, name: str) -> Gate:
+        gate = self.graph.node[name].block.gate
+        assert gate is not None, "only a gate closes a branch"
+        return gate
 
     def flow(self) -> Flow:
         return Flow(
@@ -198,16 +208,3 @@ class _Walk:
 
     def _names(self) -> tuple[str, ...]:
         return (*self.graph.node, END)
-
-
-def _goodness(status: Status) -> int:
-    return WORST_FIRST.index(status)
-
-
-def _behind(block: Block, facts: Facts) -> tuple[Facts, ...]:
-    """What a mission can have behind it after a block."""
-    if block.launches:
-        return tuple(Facts(launched=True, outcome=outcome) for outcome in OUTCOMES)
-    if block.allocates:
-        return (Facts(allocated=True, launched=facts.launched),)
-    return (facts,)

@@ -113,5 +113,5 @@ def test_branches_see_the_same_end_of_a_trip() -> None:
     watch -> well when STANDBY, COMPLETED
     watch -> badly when FAILED
     [well, badly] -> both
-    both -> allocate when FAILED"""
+    both -> end"""
     assert checked(text).leaves["both"] == {Status.FAILED}

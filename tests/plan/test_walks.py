@@ -39,7 +39,7 @@ def test_plans_of_random_graphs_do_what_the_graphs_do() -> None:
     """Blocks that route and fork wherever they like; and all that a plan can hold turned up."""
     seen: Counter[str] = Counter()
 
-    @settings(max_examples=250, deadline=None, derandomize=True, database=None)
+    @settings(max_examples=350, deadline=None, derandomize=True, database=None)
     @given(text=random_graphs(), seed=st.integers(0, 1000))
     def each(text: str, seed: int) -> None:
         try:

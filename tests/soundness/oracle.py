@@ -13,9 +13,6 @@ from tests.soundness.explore import Explorer, Seen, first_block
 from tests.soundness.state import Verdict
 from tests.soundness.walk import Run
 
-COUNTED = frozenset({Verdict.ENDLESS, Verdict.UNCLOSED})
-"""What can depend on how often a trip was flown."""
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Judgement:
@@ -26,8 +23,7 @@ class Judgement:
     faults: tuple[str, ...]
     """What no single run shows, but all of them together."""
     doubtful: bool
-    """It depends on more than the statuses: on how far a modifier's hook may change a mission's
-    trips, or on how often a trip has been flown before."""
+    """It depends on how far a modifier's hook may change a mission's trips."""
     states: int
 
     @property
@@ -42,7 +38,7 @@ def judge(app: App) -> Judgement:
         return Judgement(runs={}, faults=("missions begin nowhere",), doubtful=False, states=0)
     strict = _judged(app, first, strict=True)
     hooks = any(block.emits for block in app.blocks)
-    if hooks or (not strict.sound and strict.runs.keys() <= COUNTED):
+    if hooks:
         loose = _judged(app, first, strict=False)
         doubtful = strict.doubtful or loose.doubtful or strict.sound != loose.sound
         return replace(strict, doubtful=doubtful)

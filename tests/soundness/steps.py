@@ -34,9 +34,12 @@ def outcomes(
             yield from ((S, with_trips(state, trips)) for trips in (1, MOST_TRIPS))
             yield from ((C, state), (F, state))
         case "PriorityManager":
-            yield from ((status, state) for status in retried(state, block, strict))
+            yield from ((status, state) for status in retried(state, block))
         case "MissionModifier" if block.emits:
-            yield from modified(state, token, block, strict)
+            for status, after in modified(state, token, block, strict):
+                early = status == F != token.status and state.flight == F
+                # a trip that fails again before it is launched again was tried once more
+                yield status, after._replace(flown=tried(after, most_flights)) if early else after
         case _:
             yield token.status, state
 
@@ -48,9 +51,13 @@ def launched(state: State, block: Block, most_flights: int) -> State:
         drone=False,
         flight=R,
         trips=max(state.trips, 1),
-        # beyond the highest limit of the graph the count makes no difference
-        flown=min(state.flown + 1, most_flights),
+        flown=tried(state, most_flights),
     )
+
+
+def tried(state: State, most_flights: int) -> int:
+    """Count one more flight; beyond the highest limit of the graph it makes no difference."""
+    return min(state.flown + 1, most_flights)
 
 
 def landed(state: State) -> Iterator[State]:
@@ -64,10 +71,10 @@ def with_trips(state: State, trips: int) -> State:
     return state._replace(trips=trips, flown=0)
 
 
-def retried(state: State, block: Block, strict: bool) -> tuple[Status, ...]:
+def retried(state: State, block: Block) -> tuple[Status, ...]:
     if not block.limit:
         return (S,)
-    if not strict or state.flight != F:  # in the latter case somebody else judged it a failure
+    if state.flight != F:  # somebody else judged it a failure
         return (S, F)
     return (F,) if state.flown >= block.limit else (S,)
 

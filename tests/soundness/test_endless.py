@@ -45,13 +45,11 @@ def test_oracle_finds_no_way_out(text: str) -> None:
     assert judge(read(text)).runs.keys() == {Verdict.ENDLESS}
 
 
-@pytest.mark.xfail(reason="that the attempts are used up is forgotten at the next block")
 def test_attempts_that_are_used_up_stay_used_up() -> None:
     """Otherwise the mission goes round where no time passes, and its app hangs."""
     assert "P2010" in refused(EXHAUSTED)
 
 
-@pytest.mark.xfail(reason="the way out of a branch counts as a way out of the funnel behind it")
 def test_branch_that_always_fails_fails_its_funnel() -> None:
     """Only FAILED passes such a funnel, so what takes COMPLETED behind it is no way to an end."""
     assert "P2010" in refused(ALWAYS_WORST)
