@@ -20,8 +20,12 @@ def idle(flow: Flow, found: Branches) -> list[Diagnostic]:
     for place in flow.places:
         if place.frame is None and not place.out:
             alone.setdefault(place.node, place)
+    # a branch that nothing leads to has its own message, and may be the one that a gate lacks
+    spare = any(not flow.arrives[node.name] for node in flow.graph.nodes)
     diagnostics = []
     for node in flow.graph.nodes:
+        if spare and node.name not in closing:
+            continue
         if node.block.gate is None or node.name in torn or node.name not in alone:
             continue
         wrong = errors.outside_fork if node.name in closing else errors.closes_nothing

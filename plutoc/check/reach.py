@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Container, Iterator
+from collections.abc import Container, Iterator
 
 from plutoc.check import errors
 from plutoc.check.components import behind, components
@@ -12,16 +12,17 @@ from plutoc.graph.model import END, START, Edge, Graph
 from plutoc_runtime.status import Status
 
 
-def unreached(flow: Flow, creator: str, told: Collection[str]) -> list[Diagnostic]:
+def unreached(flow: Flow, creator: str) -> list[Diagnostic]:
     """Find blocks to which no path leads, one message for what hangs together.
 
-    What only those in `told` lead to is not reported: they have a message already.
+    Where a mission is stuck, its arrow is missing to one of those that could take it: not to reach
+    them follows from that, and is not said again.
     """
     graph = flow.graph
     after: dict[str, list[str]] = {}
     for edge in flow.edges:
         after.setdefault(edge.source, []).append(edge.target)
-    reached = behind(after, (creator, *told))
+    reached = behind(after, (creator,))
     lost = {
         name: tuple(e.target for e in graph.outgoing[name] if e.target not in reached)
         for name in graph.node
@@ -31,10 +32,15 @@ def unreached(flow: Flow, creator: str, told: Collection[str]) -> list[Diagnosti
     parts = components(lost)
     island = {name: index for index, part in enumerate(parts) for name in part}
     led_to = {t for n in lost for t in lost[n] if t in island and island[t] != island[n]}
+    left = {status for _, status in flow.loose if not is_final(status)}
     return [
         errors.unreached(graph, graph.node[part[0]], _behind(lost, part[0]))
         for part in parts
-        if led_to.isdisjoint(part) and not _creator_leads(graph, reached, part)
+        if led_to.isdisjoint(part)
+        and not _creator_leads(graph, reached, part)
+        and not any(
+            left & graph.node[name].block.accepts for name in behind(lost, part) if name in lost
+        )
     ]
 
 

@@ -30,13 +30,13 @@ def check(graph: Graph) -> tuple[Checked, tuple[Diagnostic, ...]]:
     Raises `Rejected` with all errors of the graph, if it has any.
     """
     creator, edges, found = entry(graph)
-    if creator is None:  # nothing moves: there is nothing else to say
-        raise Rejected(found)
+    if creator is None or (found and not graph.outgoing[creator.name]):
+        raise Rejected(found)  # nothing moves: there is nothing else to say
     flow = explore(graph, edges, (creation(creator.name),))
     stopped = _after_a_stop(flow)
     parallels = branches(flow)
     found += _in_flight(flow, parallels)
-    found += reach.unreached(flow, creator.name, stuck.forgotten_gates(flow, parallels))
+    found += reach.unreached(flow, creator.name)
     found += reach.starved(flow)
     found += reach.untaken(flow, stopped)
     found += parallel.written_twice(flow, parallels)

@@ -42,17 +42,6 @@ def stuck(flow: Flow, found: Branches) -> list[Diagnostic]:
     return diagnostics
 
 
-def forgotten_gates(flow: Flow, found: Branches) -> tuple[str, ...]:
-    """Return the gates that nothing reaches and that a fork stops before: one mistake, not two."""
-    forks = dict.fromkeys(
-        place.frame.split.fork
-        for place, status in flow.loose
-        if place.frame is not None and not is_final(status)
-    )
-    gates = (_gate(flow, found[fork]) for fork in forks)
-    return tuple(gate for gate in gates if gate is not None and not flow.arrives[gate])
-
-
 def ends(flow: Flow) -> list[Diagnostic]:
     """Warn of blocks where missions end without an edge to `end`."""
     left: dict[str, list[Status]] = {}
