@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import dataclass
 from pathlib import Path
 
 from plutoc.cli.endings import CLEAN, ERRORS, USAGE, Unusable
@@ -41,43 +42,52 @@ def check(options: Options) -> int:
 def _check(file: Path, options: Options, troubles: list[str]) -> tuple[Diagnostic, ...]:
     """Return what is wrong with a file; with --fix, what is still wrong."""
     source = read_standard_input() if file == STANDARD_INPUT else read_app(file)
-    found = _findings(file, source)
-    if options.fix and any(diagnostic.fix for diagnostic in found):
+    findings = _findings(file, source)
+    if options.fix and any(diagnostic.fix for diagnostic in findings.found):
         try:
-            found = _fixed(file, source, options)
+            findings = _fixed(file, source, options)
         except Unusable as error:  # what is wrong with it is told all the same
             troubles.append(str(error))
-    if options.format == "text" and not _have_errors(found):
-        output.line(f"{source.path}: no errors")
-    return found
+    if options.format == "text" and not _have_errors(findings.found):
+        output.line(f"{source.path}: no errors, in all {findings.explored} states of a mission")
+    return findings.found
 
 
-def _findings(file: Path, source: Source) -> tuple[Diagnostic, ...]:
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Findings:
+    found: tuple[Diagnostic, ...]
+    explored: int
+    """How many states of a mission were looked at: what the answer has cost."""
+
+
+def _findings(file: Path, source: Source) -> _Findings:
     """Return what is wrong with an app, and with the developer's code where there is any."""
-    warnings: tuple[Diagnostic, ...] = ()
+    found: tuple[Diagnostic, ...] = ()
+    explored = 0
     try:
-        checked, warnings = analyse(source)
-        if file == STANDARD_INPUT:  # nothing lies beside it
-            return warnings
-        hooks = find_hooks(checked, file, default_folder(file, checked))
-        return warnings + check_hooks(checked, hooks)
+        checked, found = analyse(source)
+        explored = checked.explored
+        if file != STANDARD_INPUT:  # beside that lies nothing
+            hooks = find_hooks(checked, file, default_folder(file, checked))
+            found += check_hooks(checked, hooks)
     except Rejected as rejected:
-        return warnings + rejected.diagnostics
+        found += rejected.diagnostics
+    return _Findings(found=found, explored=explored)
 
 
-def _fixed(file: Path, source: Source, options: Options) -> tuple[Diagnostic, ...]:
+def _fixed(file: Path, source: Source, options: Options) -> _Findings:
     """Mend a file, say what was mended, and return what is left."""
     from plutoc.cli.fix import mended, summary
     from plutoc.cli.rewrite import rewrite
 
     if file == STANDARD_INPUT:
         raise Unusable("--fix changes files, and standard input is none")
-    done = mended(source, lambda mended: _findings(file, mended))
+    done = mended(source, lambda mended: _findings(file, mended).found)
     if done.fixed:
         rewrite(file, source.text, done.source.text)
         tell = output.line if options.format == "text" else output.tell
         tell(summary(done))
-    return done.left
+    return _findings(file, done.source)
 
 
 def _have_errors(found: Iterable[Diagnostic]) -> bool:

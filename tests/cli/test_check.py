@@ -17,7 +17,11 @@ def test_a_sound_app_ends_with_0_and_writes_nothing(plutoc: Call, app: Path, her
     """It says so on standard output."""
     before = tree(here)
     said = plutoc("check", app)
-    assert (said.code, said.out, said.err) == (0, "crop.pluto: no errors\n", "")
+    assert (said.code, said.out, said.err) == (
+        0,
+        "crop.pluto: no errors, in all 15 states of a mission\n",
+        "",
+    )
     assert tree(here) == before
 
 
@@ -53,7 +57,7 @@ def test_several_files_are_all_checked(plutoc: Call, app: Path) -> None:
     Path("two.pluto").write_text("pluto 1\napp two {\n")
     said = plutoc("check", "one.pluto", app, "two.pluto")
     assert said.code == 1
-    assert said.out == "crop.pluto: no errors\n"
+    assert said.out == "crop.pluto: no errors, in all 15 states of a mission\n"
     assert "one.pluto:14" in said.err
     assert "two.pluto:2" in said.err
     assert plutoc("check", "one.pluto", "none.pluto", app).code == 2

@@ -42,10 +42,13 @@ def test_the_exit_code_is_that_of_what_is_left(plutoc: Call, app: Path) -> None:
     assert (said.code, said.err) == (0, "")
     assert said.out.splitlines() == [
         "crop.pluto: fixed 2 of 2: P1025 in line 4, P1025 in line 19",
-        "crop.pluto: no errors",
+        "crop.pluto: no errors, in all 15 states of a mission",
     ]
     before = app.stat()
-    assert plutoc("check", app, "--fix").out == "crop.pluto: no errors\n"
+    assert (
+        plutoc("check", app, "--fix").out
+        == "crop.pluto: no errors, in all 15 states of a mission\n"
+    )
     assert app.stat() == before
 
 
