@@ -22,7 +22,7 @@ def build(checked: Checked) -> Plan:
     return Plan(checked=checked, body=_body(charts, chart, {}))
 
 
-def _body(charts: Charts, chart: Chart, names: dict[str, None]) -> Body:
+def _body(charts: Charts, chart: Chart, names: dict[str, int]) -> Body:
     found = shape(chart)
     steps = {spot: _steps(charts, chart, spot, names) for spot in found.order}
     return _structured(found, steps)
@@ -40,7 +40,7 @@ def _structured(found: Shape, steps: Mapping[Spot, Body]) -> Body:
     return dispatch(found, steps)
 
 
-def _steps(charts: Charts, chart: Chart, spot: Spot, names: dict[str, None]) -> Body:
+def _steps(charts: Charts, chart: Chart, spot: Spot, names: dict[str, int]) -> Body:
     """Write what happens at a spot itself."""
     node = charts.checked.graph.node
     match spot.kind:
@@ -49,15 +49,15 @@ def _steps(charts: Charts, chart: Chart, spot: Spot, names: dict[str, None]) -> 
         case Kind.BEHIND:
             return ()
         case Kind.FORK:
+            statuses = chart.arrives[spot]
             branches = tuple(
-                _branch(charts, edge, chart.arrives[spot], spot.gate, names)
-                for edge in spot.branches
+                _branch(charts, edge, statuses, spot.gate, names) for edge in spot.branches
             )
             return (Join(fork=node[spot.name], gate=node[spot.gate], branches=branches),)
 
 
 def _branch(
-    charts: Charts, edge: Edge, statuses: frozenset[Status], gate: str, names: dict[str, None]
+    charts: Charts, edge: Edge, statuses: frozenset[Status], gate: str, names: dict[str, int]
 ) -> Branch:
     name = _name(edge.target, names)
     if edge.target == gate:
@@ -68,28 +68,29 @@ def _branch(
     return Branch(name=name, path=path, body=_body(charts, chart, names))
 
 
-def _name(block: str, names: dict[str, None]) -> str:
+def _name(block: str, names: dict[str, int]) -> str:
     """Return a free name for a branch.
 
     A block's name is a word that begins with a letter. So with an underscore before it, it is
-    neither one of Python's own words nor the name of a built-in function.
+    neither one of Python's own words nor the name of a built-in function. `names` has with each name,
+    and with each block, the last number that it got.
     """
-    name, number = f"_{block}", 1
+    name, number = f"_{block}", names.get(block, 1)
     while name in names:
         number += 1
         name = f"_{block}_{number}"
-    names[name] = None
+    names[name] = names[block] = number
     return name
 
 
 def _path(chart: Chart) -> tuple[str, ...]:
     """The blocks of a branch, as far as it does not part."""
-    found: list[str] = []
+    found: dict[str, None] = {}
     spot: Spot | None = chart.entry
     while spot is not None:
         if spot.kind is not Kind.BLOCK or spot.name in found:
             return (*found, "...")
-        found.append(spot.name)
+        found[spot.name] = None
         if len(chart.ways[spot]) > 1:
             return (*found, "...")
         spot = chart.ways[spot][0].target
