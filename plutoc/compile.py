@@ -53,6 +53,8 @@ def analyse(source: Source) -> tuple[Checked, Warnings]:
 
 def check_hooks(checked: Checked, hooks: Source | None) -> Warnings:
     """Hold the developer's own code against the app, where there is any yet."""
+    if hooks is None:
+        return ()
     from plutoc.hooks.check import check_hooks
 
     return check_hooks(checked, hooks)

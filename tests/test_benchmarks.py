@@ -1,0 +1,65 @@
+"""What is measured can be measured, and what a command has no use for it does not load."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+EXAMPLES = sorted(path.parent.name for path in ROOT.glob("examples/*/app.pluto"))
+HEAVY = ("networkx", "jinja2", "black", "asyncio", "importlib.metadata")
+FOR_APPS = ("lark", "argparse", "dataclasses", "typing", "plutoc.compile")
+
+
+def python(*arguments: str) -> subprocess.CompletedProcess[str]:
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
+    return subprocess.run(
+        [sys.executable, *arguments], env=environment, capture_output=True, text=True, check=True
+    )
+
+
+def loaded(*arguments: str) -> set[str]:
+    """Return the modules that a command of plutoc loads."""
+    code = (
+        "import sys; before = set(sys.modules); from plutoc.cli import main; main(sys.argv[1:]);"
+        "print(*(set(sys.modules) - before))"
+    )
+    return set(python("-c", code, *arguments).stdout.splitlines()[-1].split())
+
+
+def test_who_asks_for_the_version_does_not_wait_for_the_compiler() -> None:
+    """Neither the parser of the language nor that of the command line is loaded."""
+    assert not loaded("--version").intersection(HEAVY + FOR_APPS)
+
+
+@pytest.mark.parametrize("example", EXAMPLES)
+def test_checking_a_sound_app_loads_nothing_heavy(example: str, tmp_path: Path) -> None:
+    """Not even where there is a hooks.py, or a warning to be told."""
+    for name in ("app.pluto", "hooks.py"):
+        if (ROOT / "examples" / example / name).exists():
+            shutil.copy(ROOT / "examples" / example / name, tmp_path)
+    assert not loaded("check", str(tmp_path / "app.pluto")).intersection(HEAVY)
+
+
+def test_the_cold_start_is_measured() -> None:
+    """Every command gets a line, and the sample apps are what they are meant to be."""
+    said = python(str(ROOT / "benchmarks" / "cold_start.py"), "--rounds", "1").stdout
+    lines = {line[:24].strip(): line for line in said.splitlines()[1:]}
+    assert "networkx" in lines["check, with networkx"]
+    assert "networkx" not in lines["check"]
+    assert "networkx" not in lines["check, with a hooks.py"]
+    assert "black" in lines["compile"]
+
+
+def test_large_apps_are_measured() -> None:
+    """Here with few blocks: every shape is an app that passes and compiles."""
+    script = str(ROOT / "benchmarks" / "large_apps.py")
+    said = python(script, "--sizes", "12", "24", "--rounds", "1").stdout.splitlines()[1:]
+    assert [line.split()[:2] for line in said] == [
+        [shape, command] for shape in ("chain", "wide", "forks") for command in ("check", "compile")
+    ]
