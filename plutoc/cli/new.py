@@ -44,6 +44,8 @@ def new(options: Options) -> int:
 
 
 def _check_name(name: str) -> None:
+    if not name:
+        raise Unusable("an app needs a name\nhelp: choose a plain name, such as crop_watch")
     found: list[Diagnostic] = []
     span = Span(0, len(name))
     check_app_name(Source("NAME", name), Name(text=name, span=span), found)

@@ -13,7 +13,6 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from plutoc.check.model import Checked
-from plutoc.cli.cache import cache_folder
 from plutoc.cli.endings import Unusable
 from plutoc.cli.files import default_folder, find_hooks, hooks_path, read_app, read_module, shown
 from plutoc.cli.options import Options
@@ -24,6 +23,7 @@ from plutoc.emit.lock import NAME as LOCK
 from plutoc.emit.package import Package
 from plutoc.emit.write import CannotWrite, compare, write
 from plutoc.source import Source
+from plutoc.syntax.cache import cache_folder
 from plutoc_runtime.cli import output
 from plutoc_runtime.words import printable
 

@@ -16,7 +16,8 @@ import plutoc
 import plutoc_blocks
 import plutoc_grammar
 import plutoc_runtime
-from plutoc.syntax.grammar import _cache_file as cache_file
+from plutoc.syntax.cache import cache_file
+from plutoc.syntax.grammar import parser
 from tests.cli.conftest import APP, Call
 
 FOLDERS = [Path(one.__path__[0]) for one in (plutoc, plutoc_runtime, plutoc_blocks, plutoc_grammar)]
@@ -128,7 +129,7 @@ class Trap:
         return open, (str(self.path), "w")
 
 
-def check_with_cache(home: Path, app: Path) -> None:
+def check_with_cache(home: Path, app: Path, code: int = 0) -> None:
     """Check an app in a process of its own, with this cache folder."""
     environment = {**os.environ, "XDG_CACHE_HOME": str(home)}
     environment["PYTHONPATH"] = os.pathsep.join(path for path in sys.path if path)
@@ -139,7 +140,20 @@ def check_with_cache(home: Path, app: Path) -> None:
         text=True,
         check=False,
     )
-    assert done.returncode == 0, done.stderr
+    assert done.returncode == code, done.stderr
+
+
+def poison_parser(kept: Path, trap: Path) -> bytes:
+    """Write a trap in the place of the parser, with the digest that belongs to it."""
+    poison = pickle.dumps(Trap(trap))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("plutoc.syntax.grammar.kept", lambda *_: None)
+        patch.setattr("plutoc.syntax.grammar.cache_file", lambda _: kept)
+        patch.setattr("lark.Lark.save", lambda _, file: file.write(poison))
+        parser.__wrapped__()
+    poisoned = kept.read_bytes()
+    assert poisoned.endswith(poison)
+    return poisoned
 
 
 @pytest.mark.parametrize(
@@ -155,9 +169,7 @@ def test_no_parser_is_unpickled_that_others_could_have_written(
     check_with_cache(home, app)
     (kept,) = (path for path in (home / "pluto").iterdir() if path.is_file())
     assert kept.stat().st_mode & 0o777 == 0o600
-    digest = kept.read_bytes().split(b"\n")[0]
-    poisoned = digest + b"\n" + pickle.dumps(Trap(trap)) + pickle.dumps(Trap(trap))
-    kept.write_bytes(poisoned)
+    poisoned = poison_parser(kept, trap)
     if poison == "folder for all":
         kept.parent.chmod(0o777)
     elif poison == "folder is a link":
@@ -183,8 +195,8 @@ def test_the_trap_works(tmp_path: Path, app: Path) -> None:
     check_with_cache(tmp_path, app)
     (kept,) = (path for path in (tmp_path / "pluto").iterdir() if path.is_file())
     trap = tmp_path / "hacked"
-    kept.write_bytes(kept.read_bytes().split(b"\n")[0] + b"\n" + pickle.dumps(Trap(trap)))
-    check_with_cache(tmp_path, app)
+    poison_parser(kept, trap)
+    check_with_cache(tmp_path, app, code=70)
     assert trap.exists()
 
 
@@ -195,15 +207,15 @@ def test_what_belongs_to_somebody_else_is_not_used(
 ) -> None:
     """Even if its mode is right."""
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    file = cache_file()
+    file = cache_file("kept")
     assert file is not None
     file.write_bytes(b"poison")
     file.chmod(0o600)
     os.chown(file if what == "file" else file.parent, 12345, 12345)
     if what == "folder":
-        assert cache_file() is None
+        assert cache_file("kept") is None
     else:
-        assert cache_file() == file
+        assert cache_file("kept") == file
         assert not file.exists()
 
 
@@ -212,6 +224,6 @@ def test_an_app_is_read_the_same_with_no_home_at_all(
 ) -> None:
     """No cache is no error."""
     monkeypatch.setenv("XDG_CACHE_HOME", "/dev/null/nowhere")
-    assert cache_file() is None
+    assert cache_file("kept") is None
     Path("crop.pluto").write_text(APP)
     assert plutoc("check", "crop.pluto").code == 0

@@ -223,3 +223,41 @@ def test_cache_folder_that_cannot_be_made_is_no_error(cache_home: Path) -> None:
     """A read-only home compiles too."""
     (cache_home / "pluto").write_text("in the way")
     assert grammar.parser()
+
+
+def test_a_parser_that_is_not_as_it_was_written_is_made_anew(cache_home: Path) -> None:
+    """A flipped bit could be unpickled, and make another language of it."""
+    grammar.parser()
+    (file,) = (cache_home / "pluto").iterdir()
+    good = file.read_bytes()
+    for bad in (
+        b"",
+        good[:40],
+        good[: len(good) // 2],
+        good[:-1],
+        good + b".",
+        bytes(len(good)),
+        *(
+            good[:i] + bytes([good[i] ^ 1]) + good[i + 1 :]
+            for i in (0, 64, 65, 6162, len(good) - 1)
+        ),
+    ):
+        file.write_bytes(bad)
+        assert grammar.parser().parse("pluto 1\napp demo {}")
+        anew = file.read_bytes()
+        assert anew != bad
+        assert grammar.parser().parse("pluto 1\napp demo {}")
+        assert file.read_bytes() == anew
+    assert list((cache_home / "pluto").iterdir()) == [file]
+
+
+def test_a_parser_of_another_grammar_is_not_used(
+    cache_home: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Nor one of other options: of whatever it was made, all of it counts."""
+    grammar.parser()
+    (file,) = (cache_home / "pluto").iterdir()
+    good = file.read_bytes()
+    monkeypatch.setattr(grammar, "_OPTIONS", (*grammar._OPTIONS, ("debug", True)))
+    grammar.parser()
+    assert file.read_bytes().partition(b"\n")[0] != good.partition(b"\n")[0]
