@@ -10,6 +10,7 @@ from lark import Token
 from plutoc.diagnostic import Diagnostic, Fix
 from plutoc.source import Source, Span
 from plutoc.syntax import errors
+from plutoc.syntax.hints import conflict, hint, role_of_a_name
 from plutoc.syntax.newlines import CLOSING, END, EQUAL, NAME, NEWLINE, OPENING, WORDS
 from plutoc.syntax.slips import slip
 from plutoc.syntax.state import State, made_up, span, would_feed
@@ -80,8 +81,10 @@ def explain(
     first = tokens[0]
     if i == 1 and first.type.lower() in _STATEMENT_WORDS and token.type in _CHOICES:
         return errors.reserved_word(source, span(first))
-    help, fix = _help(base, state, tokens, i, accepts)
-    return errors.unexpected(source, here, expected(accepts), found(token), help, fix)
+    merge = conflict(source.text, here.start) if i == 0 else None
+    help, fix = (merge, None) if merge else _help(base, state, tokens, i, accepts)
+    wanted = expected(accepts, role_of_a_name(tokens[:i]))
+    return errors.unexpected(source, here, wanted, found(token), help, fix)
 
 
 def _special(
@@ -150,6 +153,9 @@ def _help(
         number = written_out(tokens[i - 1])
         if number:
             return number, None
+    said = hint(tokens, i, accepts)
+    if said:
+        return said, None
     if token.type == "QUANTITY" and NAME in accepts:
         return "a name begins with a letter", None
     return _missing(state, tokens, i, accepts)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import unicodedata
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -12,11 +13,18 @@ from plutoc.diagnostic import Diagnostic, Fix
 from plutoc.source import Source, Span
 from plutoc.syntax import errors
 from plutoc.syntax.grammar import parser
+from plutoc.syntax.hints import conflict
+from plutoc.syntax.newlines import NAME
 from plutoc.syntax.state import State, span, would_feed
 from plutoc.syntax.texts import HIDDEN, SPACES
 
-_ARROW = re.compile(r"[=\-‐‑–—−~]+[>›≥]|[→⇒⟶⟹➔➜➝⇨]")
+_ARROW = re.compile(r"[=\-‐‑–—−~－＝]+[>›≥＞]|[→⇒⟶⟹➔➜➝⇨]")
 _LONGEST = 2000
+_CONFLICT = 7
+"""The length of the marks that a merge leaves."""
+_PLAIN = {chr(ord(char) + 0xFEE0): char for char in '#%(),:=[]{}"'} | {"、": ","}
+"""Signs as wide as Chinese characters, as their keyboards write them."""
+_WIDE = str.maketrans(_PLAIN)
 _QUOTED = re.compile(r"'([^'\"\\\n]*)'|[“”„«‘‚]([^“”„«»‘’‚\"\\\n]*)[“”»’‘]")
 
 
@@ -37,7 +45,8 @@ def _mends(source: Source, base: State, tokens: Sequence[Token], fix: Fix) -> bo
     if end < 0 or len(line) > _LONGEST:
         return False
     # One of several is a mend, too.
-    return would_feed(base, parser().lex(_ARROW.sub("->", line.replace(";", " "))))
+    plain = _ARROW.sub("->", line.replace(";", " ")).translate(_WIDE)
+    return would_feed(base, parser().lex(plain))
 
 
 def _slip(source: Source, tokens: Sequence[Token], i: int) -> Diagnostic | None:
@@ -55,6 +64,15 @@ def _slip(source: Source, tokens: Sequence[Token], i: int) -> Diagnostic | None:
         two = Span(here.start, here.start + 2)
         return _replaced(source, two, "#", "a comment begins with `#`")
     char = text[here.start]
+    merge = conflict(text, here.start)
+    if merge:
+        line = Span(here.start, min(here.start + _CONFLICT, len(text)))
+        return errors.unknown_character(source, line, merge)
+    beside = None if char in _PLAIN else _between(tokens, i, char)
+    if beside:
+        return errors.unknown_character(source, here, beside)
+    if char in _PLAIN:
+        return _replaced(source, here, _PLAIN[char], f"write the ordinary `{_PLAIN[char]}`")
     if char == ";" and i == len(tokens) - 2:
         return _replaced(source, here, "", "a statement ends with its line: write no `;`")
     if SPACES.fullmatch(char):
@@ -62,6 +80,32 @@ def _slip(source: Source, tokens: Sequence[Token], i: int) -> Diagnostic | None:
     if HIDDEN.match(text, here.start) and char != "\r":
         return _replaced(source, here, "", "remove it: nobody sees it")
     return None
+
+
+def _between(tokens: Sequence[Token], i: int, char: str) -> str | None:
+    """Explain a sign by what stands on its two sides."""
+    if not 0 < i < len(tokens) - 1:
+        return None
+    left, here, right = tokens[i - 1], tokens[i], tokens[i + 1]
+    touches = left.end_pos == here.start_pos and here.end_pos == right.start_pos
+    names = left.type == right.type == NAME
+    if left.type == NAME and left.end_pos == here.start_pos and _is_picture(char):
+        return "names have only the letters a to z, digits and `_`"
+    if char == "-" and names and right.isupper() and not left.isupper():
+        return f"write `when {right}` at the end of the statement"
+    if char == "-" and names and touches:
+        return f"a name has no `-`: for instance `{left}_{right}`; an arrow is written `->`"
+    if char == "<" and right[:1] == "-":
+        return "arrows point to the right: write `A -> B` instead of `B <- A`"
+    if char == "/" and left.type == "QUANTITY" and right.type == NAME:
+        return f"a unit has no space in it: `{left}/{right}`"
+    if char == "/" and left.type == "NUMBER":
+        return "a fraction is written with a point: `0.5`"
+    return None
+
+
+def _is_picture(char: str) -> bool:
+    return char > "\u2000" and unicodedata.category(char) == "So"
 
 
 def _replaced(source: Source, where: Span, text: str, help: str) -> Diagnostic:

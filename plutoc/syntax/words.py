@@ -38,15 +38,17 @@ _GROUPS = (
 _IN_A_STATEMENT = frozenset({"ACTION", "EVALUATOR", "POLICY"})
 
 
-def expected(types: Iterable[str]) -> str:
-    """Say what could stand here: "`,` or `)`"."""
+def expected(types: Iterable[str], name: str = "a name") -> str:
+    """Say what could stand here: "`,` or `)`"; `name` is what a name would be."""
     left = set(types)
     said = []
     for group, words in _GROUPS:
         if group <= left:
             said.append(words)
             left -= group | _IN_A_STATEMENT
-    said.extend(words for kind, words in _NAMED.items() if kind in left)
+    for kind, words in _NAMED.items():
+        if kind in left:
+            said.append(name if kind == "NAME" else words)
     return alternatives(said)
 
 

@@ -1,0 +1,153 @@
+"""What people write who think of another language, and how it is said here."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+
+from lark import Token
+
+from plutoc.syntax.newlines import ARROW, EQUAL, NAME, NEWLINE
+
+_AMOUNTS = frozenset({"NUMBER", "QUANTITY"})
+_OPENING = frozenset({"LPAR", "LSQB", "LBRACE"})
+_LISTS = frozenset({"WHEN", "EMITS", "CAN", "WRITES"})
+_GUARDED = frozenset({"WHEN", "EMITS"})
+_ALONE = frozenset({"EVALUATOR", "POLICY"})
+_BEFORE_A_NAME = frozenset({"let", "var", "val", "const", "block", "node", "new", "set", "auto"})
+_OF_PYTHON = frozenset({"def", "class", "async", "await", "return", "from", "lambda", "print"})
+_CONFLICT = ("<<<<<<<", "=======", ">>>>>>>", "|||||||")
+
+
+def hint(tokens: Sequence[Token], i: int, accepts: set[str]) -> str | None:
+    """Say how it is written, where the i-th token of a line is no accident."""
+    if i == 0:
+        return "`pluto 1` stands once, on the first line" if tokens[0].type == "PLUTO" else None
+    return (
+        _of_values(tokens, i)
+        or _of_guards(tokens, i, accepts)
+        or _of_flows(tokens, i)
+        or _of_declarations(tokens, i, accepts)
+    )
+
+
+def conflict(text: str, start: int) -> str | None:
+    """Say what to do with the marks that a merge leaves."""
+    if text.startswith(_CONFLICT, start) and text[start - 1 : start] in ("", "\n"):
+        return "two versions were merged here: keep one, and remove the lines that mark them"
+    return None
+
+
+def _of_values(tokens: Sequence[Token], i: int) -> str | None:
+    token, before, after = tokens[i], tokens[i - 1], _at(tokens, i + 1)
+    if token.type in _AMOUNTS and before.type == "COMMA" and i > 1:
+        whole = tokens[i - 2]
+        if whole.type == "NUMBER" and _touch(whole, before, token):
+            return f"a number has a point instead of the comma: `{whole}.{token}`"
+    if token.type in _AMOUNTS and before.type == "QUANTITY":
+        return "a value is one number with one unit"
+    if token.type == "DOT" and after and after.type in _AMOUNTS and _touch(token, after):
+        return f"a number has a digit before its point: `0.{after}`"
+    if token.type == "DOT" and before.type == "NUMBER":
+        return f"a number has a digit behind its point: `{before}.0`"
+    if token.type in ("RPAR", "COMMA") and before.type == NAME and _names_a_parameter(tokens, i):
+        if _at(tokens, 1) is not None and tokens[1].type == EQUAL:
+            return f"a value stands behind the name of its parameter: `NAME: {before}`"
+        return f"a parameter has a type: `{before}: TYPE`"
+    return None
+
+
+def _names_a_parameter(tokens: Sequence[Token], i: int) -> bool:
+    """Say whether the name before the i-th token is the first of a `NAME: VALUE`."""
+    depth = [token.type for token in tokens[:i] if token.type in ("LPAR", "LSQB", "RSQB", "RPAR")]
+    return bool(depth) and depth[-1] == "LPAR" and tokens[i - 2].type in ("LPAR", "COMMA")
+
+
+def _of_guards(tokens: Sequence[Token], i: int, accepts: set[str]) -> str | None:
+    token, before, after = tokens[i], tokens[i - 1], _at(tokens, i + 1)
+    if before.type in _LISTS and token.type in _OPENING:
+        return f"the names behind `{before}` stand there without brackets"
+    if any(each.type in _GUARDED for each in tokens[:i]) and "COMMA" in accepts:
+        if before == "not":
+            return "name the statuses that are meant, or write `otherwise` for all the others"
+        if token in ("and", "or"):
+            return f"several statuses have a comma between them: write `,` instead of `{token}`"
+        if token.type == EQUAL:
+            return "only the names of statuses stand here, as in `when COMPLETED`"
+        if token.type == ARROW:
+            return "a guard ends its statement: begin the next one on a new line"
+    if "WHEN" in accepts:
+        if token.type == NAME and token.isupper():
+            return f"write `when {token}`"
+        if token.type in ("LSQB", "LPAR", "COLON") and after and after.isupper():
+            return f"write `when {after}`"
+    return None
+
+
+def _of_flows(tokens: Sequence[Token], i: int) -> str | None:
+    token, before = tokens[i], tokens[i - 1]
+    if before.type == ARROW and token.type in ("LPAR", "LBRACE"):
+        return "branches stand in `[` and `]`"
+    if token.type == EQUAL and i > 1 and tokens[i - 2].type == ARROW:
+        return f"declare it in a statement of its own: `{before} = KIND`"
+    if token.type == "WHEN" and i == 1:
+        return f"a guard stands at the end: `{before} -> BLOCK when STATUS`"
+    return None
+
+
+def _of_declarations(tokens: Sequence[Token], i: int, accepts: set[str]) -> str | None:
+    token, before, first, after = tokens[i], tokens[i - 1], tokens[0], _at(tokens, i + 1)
+    if first.type in _ALONE and i == 2 and token.type in ("LPAR", "COMMA"):
+        if token.type == "COMMA":
+            return f"write `{first}` on a line of its own for each of them"
+        return f"remove the brackets: what a hook gets is clear from its being {_a(first)}"
+    if token.type == NAME and "CAN" in accepts:
+        return "write `can` before it"
+    if token.type != NAME or before.type != NAME:
+        return None
+    if i == 1:
+        if before in _OF_PYTHON:
+            return "Python stands in the package's hooks.py; here, a hook is only declared"
+        if before in _BEFORE_A_NAME:
+            return f"remove `{before}`"
+        if _is_kind(before) and token[:1].islower():
+            return f"to declare a block, write `{token} = {before}`"
+        if after and after.type == EQUAL:
+            return f"a name has no space in it: for instance `{before}_{token}`"
+    if i == 3 and tokens[1].type == EQUAL and before[:1].islower() and _is_kind(token):
+        return f"remove `{before}`"
+    if NEWLINE in accepts and after and after.type in (EQUAL, ARROW) and tokens[1].type == EQUAL:
+        return "every statement begins on a line of its own"
+    return None
+
+
+def role_of_a_name(before: Sequence[Token]) -> str:
+    """Say what the name would be that is missing behind these tokens of a line."""
+    j = len(before) - 1
+    while j > 0 and before[j].type in ("COMMA", NAME):
+        j -= 1
+    if j < 0:
+        return "a name"
+    kind = before[j].type
+    if kind == ARROW or (kind == "LSQB" and (j == 0 or before[j - 1].type == ARROW)):
+        return "a block"
+    if (kind == EQUAL and j == 1) or (kind == "DOT" and j == 3):
+        return "a kind of block"
+    return {"WHEN": "a status", "EMITS": "a status", "CAN": "an action"}.get(kind, "a name")
+
+
+def _is_kind(token: Token) -> bool:
+    return token[:1].isupper() and not token.isupper()
+
+
+def _a(word: str) -> str:
+    return f"an {word}" if word[0] in "aeiou" else f"a {word}"
+
+
+def _touch(*tokens: Token) -> bool:
+    return all(one.end_pos == other.start_pos for one, other in pairwise(tokens))
+
+
+def _at(tokens: Sequence[Token], i: int) -> Token | None:
+    """Return the i-th token of a line, if it is more than the end of it."""
+    return tokens[i] if i < len(tokens) - 1 else None
