@@ -15,6 +15,7 @@ from plutoc.cli.endings import (
     INTERRUPTED,
     REFUSED,
     USAGE,
+    Terminated,
     Unusable,
 )
 from plutoc_runtime.cli import output
@@ -30,7 +31,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run one command and return its exit code; `argv` is without the program."""
     output.prepare()
     ending = _Ending()
-    with _seldom_collecting(), ending:
+    with ending, _seldom_collecting():
         ending.code = _command(argv)
         output.flush()
     return ending.code
@@ -76,6 +77,9 @@ class _Ending:
             case KeyboardInterrupt():
                 output.tell("plutoc: interrupted")
                 self.code = INTERRUPTED
+            case Terminated():
+                output.tell("plutoc: terminated")
+                self.code = error.code
             case Exception():
                 _report_bug(error)
                 self.code = INTERNAL
@@ -94,6 +98,7 @@ def _command(argv: Sequence[str] | None) -> int:
         return CLEAN
     from plutoc.cli.options import parse
     from plutoc.cli.say import say
+    from plutoc.cli.termination import tidy_when_told_to_end
     from plutoc.diagnostic import Rejected
 
     try:
@@ -101,7 +106,8 @@ def _command(argv: Sequence[str] | None) -> int:
     except SystemExit as end:  # the help or the version is printed, or what is wrong
         return end.code if isinstance(end.code, int) else USAGE
     try:
-        return _run(options)
+        with tidy_when_told_to_end():
+            return _run(options)
     except Rejected as rejected:
         from plutoc.emit.write import Refused
 

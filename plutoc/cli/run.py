@@ -13,7 +13,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from plutoc.check.model import Checked
-from plutoc.cli.endings import Unusable
+from plutoc.cli.endings import Terminated, Unusable
 from plutoc.cli.files import default_folder, find_hooks, hooks_path, read_app, read_module, shown
 from plutoc.cli.options import Options
 from plutoc.cli.say import say
@@ -110,4 +110,7 @@ def _simulate(path: Path, app: str, arguments: list[str]) -> int:
                 break
             except KeyboardInterrupt:
                 continue  # the terminal told the child, too: it ends in its own way
+            except Terminated:
+                child.terminate()  # nobody told the child
+                raise
     return code if code >= 0 else 128 - code

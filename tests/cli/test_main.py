@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -10,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from plutoc.source import Source
-from tests.cli.conftest import Call
+from tests.cli.conftest import Call, tree
 
 
 def test_alone_it_prints_the_help_and_is_wrong_usage(plutoc: Call) -> None:
@@ -116,6 +117,58 @@ def test_an_interrupt_ends_with_130(
     said = plutoc("check", app)
     assert said.code == 130
     assert said.err == "plutoc: interrupted\n"
+
+
+@pytest.mark.skipif(os.name != "posix", reason="nothing tells so elsewhere")
+@pytest.mark.parametrize("name", ["SIGTERM", "SIGHUP"])
+@pytest.mark.parametrize(
+    ("command", "moment"),
+    [("fmt", "os.replace"), ("compile", "os.rename"), ("compile", "os.mkdir")],
+)
+def test_who_is_told_to_end_leaves_nothing_half_done(
+    app: Path, name: str, command: str, moment: str
+) -> None:
+    """As a CI job is when it is cancelled, and a shell's when its terminal is closed."""
+    app.write_text(app.read_text().replace(" = ", "  =  "))
+    before = tree(Path())
+    done = python(
+        "import os, signal, sys; from plutoc.cli import main;"
+        f"{moment} = lambda *_, **__: os.kill(os.getpid(), signal.{name});"
+        f"sys.exit(main(['{command}', 'crop.pluto']))"
+    )
+    assert (done.returncode, done.stderr) == (128 + signal.Signals[name], "plutoc: terminated\n")
+    assert tree(Path()) == before
+
+
+@pytest.mark.skipif(os.name != "posix", reason="nothing tells so elsewhere")
+def test_who_ignores_it_goes_on(app: Path) -> None:
+    """With `nohup` a closed terminal is nothing to end for."""
+    done = python(
+        "import os, signal, sys; from plutoc.cli import check, main;"
+        "signal.signal(signal.SIGHUP, signal.SIG_IGN);"
+        "before = check.analyse;"
+        "check.analyse = lambda _: os.kill(os.getpid(), signal.SIGHUP) or before(_);"
+        "sys.exit(main(['check', 'crop.pluto']))"
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+@pytest.mark.skipif(os.name != "posix", reason="nothing tells so elsewhere")
+def test_a_simulation_ends_with_the_command_that_began_it(app: Path) -> None:
+    """Nobody is left behind to go on simulating."""
+    Path("hooks.py").write_text(
+        "import os, signal\n"
+        "async def pollinate(drone, trip, context, *, dose): ...\n"
+        "def find_blooms(mission, results):\n"
+        "    signal.signal(signal.SIGALRM, lambda *_: open('late', 'w').close())\n"
+        "    signal.alarm(30)\n"
+        "    os.kill(os.getppid(), signal.SIGTERM)\n"
+        "    signal.pause()\n"
+    )
+    done = python("import sys; from plutoc.cli import main; sys.exit(main(['run', 'crop.pluto']))")
+    assert done.returncode == 143
+    assert done.stderr.endswith("plutoc: terminated\n")
+    assert not Path("late").exists()
 
 
 def python(code: str, *arguments: str) -> subprocess.CompletedProcess[str]:

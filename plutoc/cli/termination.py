@@ -1,0 +1,39 @@
+"""Being told to end: by `kill`, by a CI job that is cancelled, by a terminal that is closed."""
+
+from __future__ import annotations
+
+import signal
+from collections.abc import Iterator
+from contextlib import contextmanager
+from types import FrameType
+
+from plutoc.cli.endings import Terminated
+
+_SIGNALS = tuple(one for one in signal.Signals if one.name in ("SIGTERM", "SIGHUP"))
+
+
+@contextmanager
+def tidy_when_told_to_end() -> Iterator[None]:
+    """Raise `Terminated` when we are told to end: unfinished work is taken away on its way out.
+
+    Whoever says so twice does not have to wait for that.
+    """
+    before = {one: signal.getsignal(one) for one in _SIGNALS}
+    try:
+        for one, handler in before.items():
+            if handler == signal.SIG_DFL:  # `nohup` has it ignored, and that shall stay
+                signal.signal(one, _terminate)
+    except ValueError:  # we are in a thread, where signals are not heard
+        yield
+        return
+    try:
+        yield
+    finally:
+        for one in _SIGNALS:
+            if signal.getsignal(one) == _terminate:
+                signal.signal(one, signal.SIG_DFL)
+
+
+def _terminate(number: int, _: FrameType | None) -> None:
+    signal.signal(number, signal.SIG_DFL)
+    raise Terminated(number)
