@@ -89,7 +89,9 @@ def test_missing_arrow_of_the_tutorial_is_found(
     assert main(["check", str(app)]) == 1
     said = capsys.readouterr().err
     assert "leaves `first` STANDBY is stuck" in said
-    assert "create (UNEXECUTED) → allocate (UNEXECUTED) → launch (RUNNING) → watch (STANDBY)" in said
+    assert (
+        "create (UNEXECUTED) → allocate (UNEXECUTED) → launch (RUNNING) → watch (STANDBY)" in said
+    )
 
 
 def test_a_trip_is_put_back_as_the_reference_says(
