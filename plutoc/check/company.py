@@ -11,19 +11,21 @@ from plutoc_runtime.status import WORST_FIRST, Status
 
 Came = Mapping[int, Iterable[Place]]
 """The arrivals at one gate, by branch."""
+Passing = tuple[Status, int]
+"""A status that passes a gate, and how often at least the next trip has been flown then."""
 
 
-def passing(gate: Gate, came: Came) -> dict[Status, Place]:
-    """Return the statuses that pass when every branch has come, and who brings each."""
-    brought: dict[Status, Place] = {}
+def passing(gate: Gate, came: Came) -> dict[Passing, Place]:
+    """Return what passes when every branch has come, and who brings each."""
+    brought: dict[Passing, Place] = {}
     for arrivals in came.values():
         for arrival in arrivals:
-            brought.setdefault(arrival.status, arrival)
+            brought.setdefault((arrival.status, arrival.facts.attempts), arrival)
     if gate is Gate.FIRST:
         return brought
     # at best, every branch brings the best that it can: nothing better than that passes
     floor = min(_best(arrivals) for arrivals in came.values())
-    return {s: place for s, place in brought.items() if _goodness(s) <= floor}
+    return {what: place for what, place in brought.items() if _goodness(what[0]) <= floor}
 
 
 def with_each(gate: Gate, came: Came) -> Iterator[tuple[Place, Status]]:

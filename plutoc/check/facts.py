@@ -11,8 +11,9 @@ from plutoc_runtime.status import Status
 
 OUTCOMES = (Status.STANDBY, Status.COMPLETED, Status.FAILED)
 """How a trip can end: well with more to fly, well as the last one, or not well."""
-_MOST_BOUNDS = 16
-"""With more different bounds in one graph than this, none is remembered: that is still sound."""
+_MOST_REMEMBERED = 200_000
+"""Blocks times different bounds; in a graph with more, no bound is remembered, only its block's
+own word is taken: then a loop that only trips with attempts left can leave is not found."""
 
 
 def bound_of(node: Node) -> int:
@@ -23,7 +24,12 @@ def bound_of(node: Node) -> int:
 
 def remembers_attempts(graph: Graph) -> bool:
     """Say whether it is worth it to follow which bounds a trip has used up."""
-    return len({bound_of(node) for node in graph.nodes}) <= _MOST_BOUNDS
+    return len({bound_of(node) for node in graph.nodes}) * len(graph.nodes) <= _MOST_REMEMBERED
+
+
+def puts_trips(node: Node) -> bool:
+    """Say whether a block's hook may put another trip first."""
+    return bool(node.hook and node.hook.emits)
 
 
 def leaving(node: Node, place: Place, remember: bool) -> Iterator[tuple[Status, Facts]]:
@@ -55,6 +61,6 @@ def _behind(node: Node, facts: Facts) -> tuple[Facts, ...]:
         )
     if node.block.allocates:
         return (replace(facts, allocated=True, outcome=None),)
-    if node.hook and node.hook.emits:
-        return (replace(facts, attempts=0),)  # it may have put another trip first
+    if puts_trips(node):
+        return (replace(facts, attempts=0),)
     return (facts,)

@@ -11,11 +11,11 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from plutoc.block import Gate
 from plutoc.check import company
-from plutoc.check.facts import leaving, remembers_attempts
+from plutoc.check.facts import leaving, puts_trips, remembers_attempts
 from plutoc.check.flow import Facts, Flow, Frame, Place, Split, Step
 from plutoc.graph.model import END, START, Edge, Graph
 from plutoc_runtime.status import Status
@@ -26,7 +26,8 @@ Places = dict[Place, None]
 
 def explore(graph: Graph, edges: tuple[Edge, ...], beginnings: Iterable[Place]) -> Flow:
     """Return where missions can be, from these places on, along these edges."""
-    walk = _Walk(graph=graph, edges=edges, remember=remembers_attempts(graph))
+    forgets = any(puts_trips(node) for node in graph.nodes)
+    walk = _Walk(graph=graph, edges=edges, remember=remembers_attempts(graph), forgets=forgets)
     walk.run(beginnings)
     return walk.flow()
 
@@ -43,6 +44,8 @@ class _Walk:
     graph: Graph
     edges: tuple[Edge, ...]
     remember: bool
+    forgets: bool
+    """A hook may put another trip first, in one branch while another one is in a gate."""
     hasty: dict[Split, None] = field(default_factory=dict)
     """Forks whose gate has stopped waiting for a branch that never arrives."""
     outgoing: dict[str, list[Edge]] = field(default_factory=dict)
@@ -52,8 +55,8 @@ class _Walk:
     loose: dict[tuple[Place, Status], None] = field(default_factory=dict)
     entries: dict[Split, Places] = field(default_factory=dict)
     closes: dict[Split, dict[str, dict[int, Places]]] = field(default_factory=dict)
-    through: dict[Split, dict[tuple[str, Status], Place]] = field(default_factory=dict)
-    """What each fork's gate has let through, and the arrival that brought it."""
+    through: dict[Split, dict[str, dict[company.Passing, Place]]] = field(default_factory=dict)
+    """What each fork's gates have let through, and the arrival that brought it."""
     waiting: dict[Split, None] = field(default_factory=dict)
     """Forks with a clone at a gate that has let nothing through yet."""
     strays: dict[Split, Places] = field(default_factory=dict)
@@ -115,10 +118,11 @@ class _Walk:
                 target = Place(frame=frame, node=edge.target, status=status, facts=facts)
                 self.reach(target, Step(before=place, leaving=status, enters=True))
             # others forked here before: their gate's findings hold for this mission too
-            for (_, passed), arrival in tuple(self.through.get(split, {}).items()):
-                self.go_on(arrival, passed, place)
+            for gate in tuple(self.through.get(split, {}).values()):
+                for passed, arrival in tuple(gate.items()):
+                    self.go_on(arrival, passed, place)
             for lost in tuple(self.strays.get(split, ())):
-                self.go_on(lost, lost.status, place)
+                self.go_on(lost, (lost.status, lost.facts.attempts), place)
 
     def close(self, place: Place, frame: Frame, gate: Gate) -> None:
         """A clone arrives at the gate of its fork."""
@@ -128,32 +132,38 @@ class _Walk:
 
     def let_through(self, split: Split, name: str, gate: Gate) -> None:
         """Let missions go on behind a gate, as far as its branches have come."""
-        passed = self.through.setdefault(split, {})
-        for status, arrival in self.passing(split, gate, self.closes[split][name]).items():
-            if (name, status) not in passed:
-                passed[name, status] = arrival
+        passed = self.through.setdefault(split, {}).setdefault(name, {})
+        for what, arrival in self.passing(split, gate, self.closes[split][name]).items():
+            if what not in passed:
+                passed[what] = arrival
                 for entry in tuple(self.entries[split]):
-                    self.go_on(arrival, status, entry)
-        if passed:
+                    self.go_on(arrival, what, entry)
+        if any(self.through[split].values()):
             self.waiting.pop(split, None)
         else:
             self.waiting[split] = None
 
-    def passing(self, split: Split, gate: Gate, branches: dict[int, Places]) -> dict[Status, Place]:
+    def passing(
+        self, split: Split, gate: Gate, branches: dict[int, Places]
+    ) -> dict[company.Passing, Place]:
         """Return what a gate lets through, given what each branch has brought so far."""
         if gate is Gate.ALL and len(branches) < self.width(split) and split not in self.hasty:
             return {}
-        return company.passing(gate, branches)
+        passing = company.passing(gate, branches)
+        if self.forgets:
+            for (status, _), arrival in tuple(passing.items()):
+                passing.setdefault((status, 0), arrival)
+        return passing
 
-    def go_on(self, arrival: Place, status: Status, entry: Place) -> None:
+    def go_on(self, arrival: Place, what: company.Passing, entry: Place) -> None:
         """The branch is left where the clone has arrived; the mission goes on from there."""
-        target = self.beyond(arrival, status, entry)
+        target = self.beyond(arrival, what, entry)
         self.reach(target, Step(before=arrival, leaving=None, back_to=entry))
 
-    def beyond(self, arrival: Place, status: Status, entry: Place) -> Place:
-        """Return the place of the mission behind the gate. What one branch alone knows is lost."""
-        assert arrival.frame is not None, "only a branch is left"
-        facts = min(arrival.frame.split.facts, arrival.facts, key=lambda facts: facts.attempts)
+    def beyond(self, arrival: Place, what: company.Passing, entry: Place) -> Place:
+        """Return the place of the mission behind the gate."""
+        status, attempts = what
+        facts = replace(arrival.facts, attempts=attempts)
         return Place(frame=entry.frame, node=arrival.node, status=status, facts=facts, out=True)
 
     def accompany(self) -> None:
@@ -163,19 +173,20 @@ class _Walk:
         """
         for split, gates in self.closes.items():
             for name, branches in gates.items():
+                passed: dict[Status, list[tuple[company.Passing, Place]]] = {}
+                for what, bringer in self.through[split][name].items():
+                    passed.setdefault(what[0], []).append((what, bringer))
                 for arrival, status in company.with_each(self.gate(name), branches):
-                    bringer = self.through[split].get((name, status))
-                    for entry in self.entries[split] if bringer else ():
-                        assert bringer is not None
-                        self.after.setdefault(arrival, {})[
-                            self.beyond(bringer, status, entry)
-                        ] = None
+                    after = self.after.setdefault(arrival, {})
+                    for what, bringer in passed.get(status, ()):
+                        for entry in self.entries[split]:
+                            after[self.beyond(bringer, what, entry)] = None
 
     def stray(self, place: Place, split: Split) -> None:
         """A clone is flown before its gate: an error, walked on as if its branch ended here."""
         self.strays.setdefault(split, {})[place] = None
         for entry in tuple(self.entries[split]):
-            self.go_on(place, place.status, entry)
+            self.go_on(place, (place.status, place.facts.attempts), entry)
 
     def width(self, split: Split) -> int:
         return sum(split.status in e.takes for e in self.outgoing[split.node])

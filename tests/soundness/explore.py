@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass, field
 
 from tests.soundness.app import END, START, App, Arrow, takes
-from tests.soundness.kinds import BADNESS, END_ACCEPTS, GATES, LIMITS, WATCHES, R, Status, U
+from tests.soundness.kinds import BADNESS, END_ACCEPTS, FUNNEL, GATES, LIMITS, WATCHES, R, Status, U
 from tests.soundness.state import Branch, Stack, State, Token, Verdict, Wrong
 from tests.soundness.steps import MOST_TRIPS, landed, outcomes
 from tests.soundness.walk import Run, Walk
@@ -37,7 +37,7 @@ class Seen:
 class Explorer:
     """Explores the runs of one app."""
 
-    def __init__(self, app: App, *, strict: bool, patient: bool) -> None:
+    def __init__(self, app: App, *, strict: bool, patient: Collection[str] = ()) -> None:
         self.blocks = {block.name: block for block in app.blocks}
         self.leaving: dict[tuple[str, Status], list[Arrow]] = {}
         for arrow, statuses in takes(app).items():
@@ -45,7 +45,7 @@ class Explorer:
                 self.leaving.setdefault((arrow.source, status), []).append(arrow)
         self.strict = strict
         self.patient = patient
-        """No gate calls a branch off: shows branches that would never have closed."""
+        """Gates that call no branch off: shows branches that would never have closed."""
         self.most_flights = max((block.limit for block in app.blocks), default=0)
         self.seen = Seen()
 
@@ -92,6 +92,12 @@ class Explorer:
         """Yield everything that can happen next."""
         if not state.tokens:
             return
+        for place, token in enumerate(state.tokens):
+            # a funnel takes in what comes in any order: it makes no difference which
+            if token.phase == "at" and not self.calls_off(token):
+                rest = state.tokens[:place] + state.tokens[place + 1 :]
+                yield f"{token.block} gets {token.status}", self.gated(state, rest, token)
+                return
         if state.flight == R:
             for then in landed(state):
                 yield f"the trip ends {then.flight}", then
@@ -161,10 +167,14 @@ class Explorer:
         self.seen.closed.setdefault(stack[-1][:2], set()).add(name)
         return (Token(name, status, stack, "at"),)
 
+    def calls_off(self, token: Token) -> bool:
+        """Say whether the gate where a clone is lets it pass before the others have come."""
+        return self.blocks[token.block].kind != FUNNEL and token.block not in self.patient
+
     def gated(self, state: State, rest: tuple[Token, ...], token: Token) -> State:
         """Return the state when a gate has taken in a clone."""
         outer = token.stack[:-1]
-        if self.blocks[token.block].kind == "GateFIFO" and not self.patient:
+        if self.calls_off(token):
             others = (t for t in rest if t.stack[: len(outer)] != outer)
             return with_tokens(state, (*others, Token(token.block, token.status, outer)))
         rest = (*rest, token._replace(phase="waits"))

@@ -42,4 +42,5 @@ GUARDED: dict[str, tuple[Status, ...]] = {"DroneAllocator": (F,)}
 WATCHES = "TripMonitor"
 LIMITS = ("TimerMonitor", "GapMonitor")
 MONITORS = (WATCHES, *LIMITS)
-GATES = ("GateFIFO", "GateFunnel")
+FUNNEL = "GateFunnel"
+GATES = ("GateFIFO", FUNNEL)

@@ -15,8 +15,14 @@ from tests.soundness.mutants import mutants
 
 DEEPEST = 2
 MOST_BLOCKS = 11
-EMITTED: tuple[tuple[Status, ...], ...] = ((), (), (S, C, F), (R, F), (F,), (S,))
-"""What hooks declare: nothing, what a monitor would say, what it would say too early."""
+EMITTED: tuple[tuple[Status, ...], ...] = ((), (), (S, C, F), (R, F), (F,), (S,), FIVE)
+"""What hooks declare: nothing, what a monitor would say, what it would say too early, anything."""
+WIDEST = 10
+JUDGES: tuple[tuple[str, Status, tuple[Status, ...]], ...] = (
+    ("PriorityManager", F, (S, F)),
+    ("MissionEvaluator", C, (S, C, F)),
+    ("MissionRepeater", C, (S, C)),
+)
 
 
 def random_app(rng: Random) -> App:
@@ -43,6 +49,8 @@ class _Drawing:
         self.arrow("block0", self.block("DroneAllocator"))
         self.arrow("block1", self.block("TripLauncher"))
         last, left = self.part("block2", (R,), 0)
+        if self.rng.random() < 0.2 and not self.full:  # a fork that begins where another closed
+            last, left = self.fork(last, left, 0)
         if R in left:
             watch = self.block("TripMonitor")
             self.arrow(last, watch, (R,))
@@ -57,7 +65,7 @@ class _Drawing:
         if again:
             self.arrow(source, "block1", again)
         if F in statuses and self.rng.random() < 0.3:
-            retry = self.block("PriorityManager")
+            retry = self.block("PriorityManager", limit=self.rng.choice((0, 2, 3, 3)))
             self.arrow(source, retry, (F,))
             self.arrow(retry, "block1", (S,))
             self.arrow(retry, END)
@@ -95,10 +103,14 @@ class _Drawing:
     def fork(
         self, source: str, statuses: tuple[Status, ...], depth: int
     ) -> tuple[str, tuple[Status, ...]]:
-        kind = self.rng.choice(GATES)
-        gate = self.block(kind)
+        wide = self.rng.random() < 0.08 and not self.full
+        width = self.rng.randint(4, WIDEST) if wide else self.rng.choice((2, 2, 3))
+        gate = self.gate()
         passed: list[Status] = []
-        for _ in range(self.rng.choice((2, 2, 3))):
+        for branch in range(width):
+            if branch and self.rng.random() < (0.85 if wide else 0.1):
+                passed.extend(self.bare(source, statuses, gate, wide))
+                continue
             last, left = self.part(source, statuses, depth + 1)
             if self.rng.random() < 0.3 and not self.full:
                 some = left[: self.rng.randint(1, len(left))]
@@ -108,16 +120,52 @@ class _Drawing:
                 self.arrow(last, hook, some)
                 self.arrow(hook, gate)
                 passed.extend(emits or some)
+            left, said = self.judged(last, left, gate)
+            passed.extend(said)
             if left:
                 self.arrow(last, gate, left)
             passed.extend(left)
         return gate, tuple(s for s in FIVE if s in passed)
 
+    def gate(self) -> str:
+        """Draw a gate, or take one that closes another fork already."""
+        gates = [block.split()[0] for block in self.blocks if block.split()[2] in GATES]
+        if gates and self.rng.random() < 0.1:
+            return self.rng.choice(gates)
+        return self.block(self.rng.choice(GATES))
+
+    def bare(
+        self, source: str, statuses: tuple[Status, ...], gate: str, wide: bool
+    ) -> tuple[Status, ...]:
+        """Draw a branch of one block, and of none now and then."""
+        if self.rng.random() < 0.2:
+            self.arrow(source, gate, statuses)
+            return statuses
+        emits = self.rng.choice(((), (), (), (F,))) if wide else ()
+        hook = self.block("MissionModifier", emits)
+        self.arrow(source, hook, statuses)
+        self.arrow(hook, gate)
+        return emits or statuses
+
+    def judged(
+        self, last: str, left: tuple[Status, ...], gate: str
+    ) -> tuple[tuple[Status, ...], tuple[Status, ...]]:
+        """Put a retry or a judge into a branch; return what is left, and what they say."""
+        if self.full or self.rng.random() > 0.25:
+            return left, ()
+        kind, takes, says = self.rng.choice(JUDGES)
+        if takes not in left:
+            return left, ()
+        judge = self.block(kind, limit=self.rng.choice((0, 2, 3)))
+        self.arrow(last, judge, (takes,))
+        self.arrow(judge, gate, says)
+        return tuple(s for s in left if s != takes), says
+
     @property
     def full(self) -> bool:
         return len(self.blocks) >= MOST_BLOCKS
 
-    def block(self, kind: str, emits: Sequence[Status] = ()) -> str:
+    def block(self, kind: str, emits: Sequence[Status] = (), limit: int = 3) -> str:
         name = f"block{len(self.blocks)}"
         said = f" emits {', '.join(emits)}" if emits else ""
         if kind == "MissionModifier":
@@ -126,6 +174,8 @@ class _Drawing:
         elif kind == "MissionEvaluator":
             self.hooks.append(f"evaluator do_{name}")
             self.blocks.append(f"{name} = {kind}(hook: do_{name})")
+        elif kind == "PriorityManager":
+            self.blocks.append(f"{name} = {kind}(max_attempts: {limit})")
         else:
             self.blocks.append(f"{name} = {kind}")
         return name

@@ -38,9 +38,33 @@ app always_worst {
   all_there -> end
 }
 """
+EXHAUSTED_BESIDE = """pluto 1
+app exhausted_beside {
+  modifier note
+  create = MissionCreator
+  allocate = DroneAllocator
+  launch = TripLauncher
+  watch = TripMonitor
+  again = MissionModifier(hook: note)
+  mark = MissionModifier(hook: note)
+  retry = PriorityManager
+  first = GateFIFO
+  start -> create -> allocate -> launch -> watch
+  watch -> allocate when STANDBY
+  watch -> end when COMPLETED
+  watch -> again when FAILED
+  again -> [retry, mark] -> first
+  first -> allocate when STANDBY
+  first -> again when FAILED
+}
+"""
 
 
-@pytest.mark.parametrize("text", [EXHAUSTED, ALWAYS_WORST], ids=["exhausted", "always_worst"])
+@pytest.mark.parametrize(
+    "text",
+    [EXHAUSTED, ALWAYS_WORST, EXHAUSTED_BESIDE],
+    ids=["exhausted", "always_worst", "exhausted_beside"],
+)
 def test_oracle_finds_no_way_out(text: str) -> None:
     assert judge(read(text)).runs.keys() == {Verdict.ENDLESS}
 
@@ -48,6 +72,10 @@ def test_oracle_finds_no_way_out(text: str) -> None:
 def test_attempts_that_are_used_up_stay_used_up() -> None:
     """Otherwise the mission goes round where no time passes, and its app hangs."""
     assert "P2010" in refused(EXHAUSTED)
+
+
+def test_what_a_branch_has_used_up_is_used_up_behind_its_gate() -> None:
+    assert "P2010" in refused(EXHAUSTED_BESIDE)
 
 
 def test_branch_that_always_fails_fails_its_funnel() -> None:
