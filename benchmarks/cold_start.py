@@ -8,6 +8,7 @@ which of the costly modules it imported.
 from __future__ import annotations
 
 import argparse
+import os
 import subprocess
 import sys
 import tempfile
@@ -88,10 +89,13 @@ def program() -> list[str]:
 def measured(calls: Mapping[str, list[str]], rounds: int) -> dict[str, list[float]]:
     """Return how long each call took, in seconds; one of each a round."""
     took: dict[str, list[float]] = {name: [] for name in calls}
+    # what is installed has its bytecode beside it: measure that, not how long Python compiles
+    unwanted = ("PYTHONDONTWRITEBYTECODE", "PYTHONPROFILEIMPORTTIME")
+    environment = {name: value for name, value in os.environ.items() if name not in unwanted}
     for number in range(rounds + 1):
         for name, call in calls.items():
             begun = time.perf_counter()
-            subprocess.run(call, check=True, capture_output=True)
+            subprocess.run(call, check=True, capture_output=True, env=environment)
             if number:  # the first round fills caches: bytecode, the parser's tables
                 took[name].append(time.perf_counter() - begun)
     return took

@@ -18,6 +18,14 @@ def file(source: Source, node: Node) -> tree.File:
     return tree.File(source=source, uses=tuple(map(_use, uses)), app=_app(app))
 
 
+def empty(source: Source) -> tree.File:
+    """Return the tree of a source that is not read at all."""
+    nowhere = Span(0, 0)
+    name = tree.Name(text="", span=nowhere)
+    app = tree.AppDecl(name=name, title=None, statements=(), span=nowhere)
+    return tree.File(source=source, uses=(), app=app)
+
+
 def _use(node: Node) -> tree.Use:
     package, alias = node.children
     end = _token(alias or package).end_pos

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import sys
 from functools import cache
-from importlib.resources import files
 from io import BytesIO
+from pkgutil import get_data
 
 import lark
 
@@ -16,7 +16,7 @@ from plutoc.syntax.newlines import Newlines
 @cache
 def parser() -> lark.Lark:
     """Return the parser of the language."""
-    grammar = files("plutoc_grammar").joinpath("pluto.lark").read_text(encoding="utf-8")
+    grammar = (get_data("plutoc_grammar", "pluto.lark") or b"").decode()
     python = ".".join(map(str, sys.version_info[:2]))
     file = cache_file(f"grammar-lark{lark.__version__}-py{python}")
     if file is None:

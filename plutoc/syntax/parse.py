@@ -11,7 +11,6 @@ from plutoc.source import Source, Span
 from plutoc.syntax import build, errors
 from plutoc.syntax.grammar import parser
 from plutoc.syntax.newlines import END, NEWLINE
-from plutoc.syntax.recover import empty_file, recover
 from plutoc.syntax.state import beginning, span
 from plutoc.syntax.texts import HIDDEN, wrong_escapes
 from plutoc.syntax.tree import File
@@ -37,15 +36,17 @@ def read(source: Source) -> tuple[File, tuple[Diagnostic, ...]]:
     version of the language, nothing is read: there can be more wrong with it than is told.
     """
     if len(source.text.encode("utf-8", "surrogatepass")) > LARGEST:
-        return empty_file(source), (errors.too_large(source, LARGEST),)
+        return build.empty(source), (errors.too_large(source, LARGEST),)
     tokens = _tokens(source.text)
     version = _other_version(source, tokens)
     if version is not None:
-        return empty_file(source), (version,)
+        return build.empty(source), (version,)
     found = [*_hidden_characters(source, tokens), *_wrong_escapes(source, tokens)]
     lark_tree = _lark_tree(tokens)
     if lark_tree is not None:
         return build.file(source, lark_tree), in_order(found)
+    from plutoc.syntax.recover import recover  # much, and of use for mistakes alone
+
     file, mistakes = recover(source, tokens)
     return file, in_order((*found, *mistakes))
 

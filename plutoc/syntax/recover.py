@@ -21,7 +21,7 @@ from plutoc.syntax.newlines import END, NEWLINE
 from plutoc.syntax.sections import sections
 from plutoc.syntax.split import is_exchanged, is_shifted, is_split, is_torn
 from plutoc.syntax.state import State, beginning, copied, feeds, made_up
-from plutoc.syntax.tree import AppDecl, BadStatement, File, Name
+from plutoc.syntax.tree import BadStatement, File, Name
 
 _HEADER = (("PLUTO", "pluto"), ("NUMBER", "1"), (NEWLINE, ""))
 _APP = (("APP", "app"), ("NAME", ""), ("LBRACE", "{"))
@@ -46,13 +46,6 @@ class _Judged:
 
     good: tuple[Line, ...]
     bad: tuple[BadStatement, ...]
-
-
-def empty_file(source: Source) -> File:
-    """Return the tree of a source that is not read at all."""
-    nowhere = Span(0, 0)
-    app = AppDecl(name=Name(text="", span=nowhere), title=None, statements=(), span=nowhere)
-    return File(source=source, uses=(), app=app)
 
 
 def recover(source: Source, tokens: Sequence[Token]) -> tuple[File, list[Diagnostic]]:
