@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
 from tests.soundness.app import END, START, App, Arrow, takes
@@ -37,7 +37,7 @@ class Seen:
 class Explorer:
     """Explores the runs of one app."""
 
-    def __init__(self, app: App, *, strict: bool, patient: Collection[str] = ()) -> None:
+    def __init__(self, app: App, *, strict: bool, patient: bool) -> None:
         self.blocks = {block.name: block for block in app.blocks}
         self.leaving: dict[tuple[str, Status], list[Arrow]] = {}
         for arrow, statuses in takes(app).items():
@@ -45,7 +45,7 @@ class Explorer:
                 self.leaving.setdefault((arrow.source, status), []).append(arrow)
         self.strict = strict
         self.patient = patient
-        """Gates that call no branch off: shows branches that would never have closed."""
+        """No gate calls a branch off: shows branches that would never have closed."""
         self.most_flights = max((block.limit for block in app.blocks), default=0)
         self.seen = Seen()
 
@@ -96,7 +96,8 @@ class Explorer:
             # a funnel takes in what comes in any order: it makes no difference which
             if token.phase == "at" and not self.calls_off(token):
                 rest = state.tokens[:place] + state.tokens[place + 1 :]
-                yield f"{token.block} gets {token.status}", self.gated(state, rest, token)
+                for then in self.gated(state, rest, token):
+                    yield f"{token.block} gets {token.status}", then
                 return
         if state.flight == R:
             for then in landed(state):
@@ -106,7 +107,8 @@ class Explorer:
                 continue
             rest = state.tokens[:place] + state.tokens[place + 1 :]
             if token.phase == "at":
-                yield f"{token.block} gets {token.status}", self.gated(state, rest, token)
+                for then in self.gated(state, rest, token):
+                    yield f"{token.block} gets {token.status}", then
                 continue
             block = self.blocks[token.block]
             try:
@@ -169,14 +171,15 @@ class Explorer:
 
     def calls_off(self, token: Token) -> bool:
         """Say whether the gate where a clone is lets it pass before the others have come."""
-        return self.blocks[token.block].kind != FUNNEL and token.block not in self.patient
+        return self.blocks[token.block].kind != FUNNEL and not self.patient
 
-    def gated(self, state: State, rest: tuple[Token, ...], token: Token) -> State:
-        """Return the state when a gate has taken in a clone."""
+    def gated(self, state: State, rest: tuple[Token, ...], token: Token) -> Iterator[State]:
+        """Yield the state when a gate has taken in a clone: one, but for a gate that is patient."""
         outer = token.stack[:-1]
         if self.calls_off(token):
-            others = (t for t in rest if t.stack[: len(outer)] != outer)
-            return with_tokens(state, (*others, Token(token.block, token.status, outer)))
+            others = tuple(t for t in rest if t.stack[: len(outer)] != outer)
+            yield with_tokens(state, (*others, Token(token.block, token.status, outer)))
+            return
         rest = (*rest, token._replace(phase="waits"))
         fork = [
             t
@@ -184,10 +187,14 @@ class Explorer:
             if t.phase == "waits" and t.block == token.block and t.stack[:-1] == outer
         ]
         if len(fork) < token.stack[-1].width:
-            return with_tokens(state, rest)
-        worst = max((t.status for t in fork), key=BADNESS.index)
-        others = (t for t in rest if t not in fork)
-        return with_tokens(state, (*others, Token(token.block, worst, outer)))
+            yield with_tokens(state, rest)
+            return
+        others = tuple(t for t in rest if t not in fork)
+        statuses = sorted({t.status for t in fork}, key=BADNESS.index)
+        # any of them could have been the first
+        passing = statuses[-1:] if self.blocks[token.block].kind == FUNNEL else statuses
+        for status in passing:
+            yield with_tokens(state, (*others, Token(token.block, status, outer)))
 
 
 def with_tokens(state: State, tokens: Iterable[Token]) -> State:

@@ -57,12 +57,9 @@ def _judged(app: App, first: str, *, strict: bool) -> Judgement:
 
 
 def _seen(app: App, first: str, *, strict: bool) -> Seen:
-    seen = Explorer(app, strict=strict).explore(first)
-    hasty = [block.name for block in app.blocks if block.kind == "GateFIFO"]
-    for gates in (hasty, *([gate] for gate in hasty if len(hasty) > 1)):
-        if seen.wrong or not gates:
-            break
-        patient = Explorer(app, strict=strict, patient=gates).explore(first)
+    seen = Explorer(app, strict=strict, patient=False).explore(first)
+    if not seen.wrong and any(block.kind == "GateFIFO" for block in app.blocks):
+        patient = Explorer(app, strict=strict, patient=True).explore(first)
         for verdict in (Verdict.DEADLOCKED, Verdict.ENDLESS):
             if verdict in patient.wrong:
                 seen.wrong.setdefault(Verdict.UNCLOSED, patient.wrong[verdict])
