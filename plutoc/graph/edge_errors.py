@@ -6,22 +6,32 @@ from collections.abc import Iterable, Sequence
 
 from plutoc.diagnostic import Diagnostic, error
 from plutoc.edits import without_arrow
-from plutoc.graph.wording import all_of, meant, related
+from plutoc.graph.names import in_snake_case
+from plutoc.graph.wording import all_of, alternatives, meant, related
 from plutoc.source import Source, Span
 from plutoc.syntax.tree import Name
 from plutoc_runtime.status import IN_GRAPH, Status
 
 
 def unknown_block(
-    source: Source, name: Name, blocks: Sequence[str], role: str | None
+    source: Source,
+    name: Name,
+    blocks: Sequence[str],
+    role: str | None,
+    of_kind: Sequence[str] = (),
 ) -> Diagnostic:
-    """An edge from or to what is not a block."""
+    """An edge from or to what is not a block; `of_kind` are blocks of the kind with its name."""
+    snake = in_snake_case(name.text)
     if role:
         message = f"`{name.text}` is {role}, not a block"
         help = "only blocks stand in a flow: declare one with `NAME = KIND`"
+    elif of_kind:
+        message = f"`{name.text}` is a kind of block, and an arrow leads to a block"
+        help = alternatives(of_kind, "did you mean ", "?") or ""
     else:
         message = f"there is no block `{name.text}`"
-        help = f"declare it in the app: `{name.text} = KIND`"
+        kind = "KIND" if snake == name.text else name.text
+        help = f"declare it in the app: `{snake} = {kind}`"
     return error("P1032", message, source, name.span, help=meant(name.text, blocks) or help)
 
 

@@ -17,7 +17,7 @@ from plutoc.graph.wording import (
 )
 from plutoc.source import Source, Span
 from plutoc.syntax.tree import Name
-from plutoc_runtime.quantities import Type
+from plutoc_runtime.quantities import UNITS, Type
 from plutoc_runtime.status import IN_GRAPH
 
 
@@ -73,6 +73,8 @@ def declared_twice(
     source: Source, name: Name, role: str, first: Name, first_role: str
 ) -> Diagnostic:
     """Two declarations of one name."""
+    one, other = (source.line(source.position(n.span.start)[0]).strip() for n in (first, name))
+    same = one == other and first.span.start != name.span.start
     return error(
         "P1005",
         f"`{name.text}` is declared twice" + _as(role, first_role),
@@ -80,7 +82,7 @@ def declared_twice(
         name.span,
         label="the second time",
         related=(related(source, first.span, "the first time"),),
-        help="give one of them another name",
+        help="remove one of them" if same else "give one of them another name",
     )
 
 
@@ -206,15 +208,39 @@ def named_twice(source: Source, name: Name, first: Name) -> Diagnostic:
     )
 
 
+_OTHER_TYPES = {
+    **dict.fromkeys(("str", "string", "char"), "text"),
+    **dict.fromkeys(("boolean", "truth", "flag"), "bool"),
+    **dict.fromkeys(("integer", "long", "whole"), "int"),
+    **dict.fromkeys(("double", "number", "real", "decimal"), "float"),
+    **dict.fromkeys(("gram", "kilogram", "weight"), "mass"),
+    **dict.fromkeys(("metre", "meter", "distance", "height"), "length"),
+    **dict.fromkeys(("second", "seconds", "minute", "minutes", "duration", "delay"), "time"),
+    **dict.fromkeys(("degree", "degrees", "radian", "heading"), "angle"),
+    **dict.fromkeys(("share", "ratio", "percentage", "fraction"), "percent"),
+    **dict.fromkeys(("velocity",), "speed"),
+    **dict.fromkeys(("celsius", "kelvin"), "temperature"),
+}
+"""What other languages and people call them."""
+
+
 def unknown_type(source: Source, name: Name) -> Diagnostic:
     """A parameter of a type that the language does not know."""
     known = [kind.value for kind in Type]
+    other = _OTHER_TYPES.get(name.text.lower())
+    measured = UNITS[name.text][0].value if name.text in UNITS else None
+    if measured:
+        help = f"`{name.text}` is a unit: the type is `{measured}`"
+    elif other:
+        help = f"did you mean `{other}`?"
+    else:
+        help = meant(name.text, known) or f"types are {either(known)}"
     return error(
         "P1026",
         f"there is no type `{name.text}`",
         source,
         name.span,
-        help=meant(name.text, known) or f"types are {either(known)}",
+        help=help,
     )
 
 
@@ -250,7 +276,7 @@ def unknown_status(source: Source, name: Name, legal: Sequence[str]) -> Diagnost
         help=(
             f"did you mean `{other}`?"
             if other in legal
-            else meant(name.text, legal) or there_are(legal, "what can stand here:")
+            else meant(name.text, legal) or alternatives(legal, "only ", " can stand here")
         ),
     )
 

@@ -16,7 +16,7 @@ from plutoc.graph.scope import ACTION, HOOK_ROLES, Scope
 from plutoc.graph.unclear import Unclear
 from plutoc.graph.values import EXAMPLES, at_least, typed, written
 from plutoc.source import Source
-from plutoc.syntax.tree import Argument, BlockDecl, Bool, Name, Value
+from plutoc.syntax.tree import Argument, BlockDecl, Bool, Name, Text, Value
 
 _ROLES = {HookKind.ACTION: ACTION} | {HookKind(kind): role for kind, role in HOOK_ROLES.items()}
 
@@ -120,7 +120,9 @@ def _choose(place: Place, param: Choice, argument: Argument | None) -> Choose:
         example = f"{param.name}: {param.default}"
         span = argument.value.span
         place.found.append(
-            value_errors.wrong_type(place.source, span, param.name, "a name", example)
+            value_errors.wrong_type(
+                place.source, span, param.name, "a name", example, _unquoted(argument, options)
+            )
         )
         return default
     if name.text in param.options:
@@ -143,22 +145,28 @@ def _hook(
     place: Place, declared: BlockDecl, param: HookParam, given: Mapping[str, Argument]
 ) -> Hook | None:
     argument = given.get(param.name)
+    hooks = [hook.name for hook in place.hooks.values() if hook.kind is param.kind]
+    example = hooks[0] if hooks else f"my_{param.kind.value}"
     if argument is None:
         if param.required:
-            example = next(
-                (hook.name for hook in place.hooks.values() if hook.kind is param.kind),
-                f"my_{param.kind.value}",
-            )
             _missing(place, declared, param.name, example)
         return None
     name = _name(place, argument.value)
     if name is None:
         role = f"the name of {_ROLES[param.kind]}"
-        example = f"{param.name}: my_{param.kind.value}"
+        example, mended = f"{param.name}: {example}", _unquoted(argument, hooks)
         span = argument.value.span
-        place.found.append(value_errors.wrong_type(place.source, span, param.name, role, example))
+        place.found.append(
+            value_errors.wrong_type(place.source, span, param.name, role, example, mended)
+        )
         return None
     return _of_kind(place, name, param.kind)
+
+
+def _unquoted(argument: Argument, names: Sequence[str]) -> str | None:
+    """Return the name that stands in quotes, if it is one of these."""
+    value = argument.value
+    return value.value if isinstance(value, Text) and value.value in names else None
 
 
 def _of_kind(place: Place, name: Name, kind: HookKind) -> Hook | None:

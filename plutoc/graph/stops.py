@@ -58,6 +58,7 @@ def check_stops(
     """Check that every stop is a block, or `start` at a beginning, or `end` at an end."""
     blocks = [name for name, declared in scope.items() if declared.role == BLOCK]
     proposals: dict[str, list[str]] = {}
+    kin: dict[str, list[str]] = {}
     for flow in flows:
         last = len(flow.stops) - 1
         for i, stop in enumerate(flow.stops):
@@ -76,8 +77,18 @@ def check_stops(
                         enough = len(proposals) >= _MOST_PROPOSALS
                         legal = () if enough else _legal(flow, i, blocks, nodes)
                         proposals[name.text] = near(name.text, legal)
+                        kin[name.text] = [] if enough else _of_kind(name.text, nodes)
                     role = declared.role if declared else None
-                    found.append(errors.unknown_block(source, name, proposals[name.text], role))
+                    found.append(
+                        errors.unknown_block(
+                            source, name, proposals[name.text], role, kin[name.text]
+                        )
+                    )
+
+
+def _of_kind(kind: str, nodes: Mapping[str, Node]) -> list[str]:
+    """Return the first blocks that are of a kind."""
+    return [node.name for node in nodes.values() if node.block.name == kind][:3]
 
 
 def _legal(

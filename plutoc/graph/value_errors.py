@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Container, Sequence
+from decimal import Decimal
 
 from plutoc.diagnostic import Diagnostic, Fix, error
 from plutoc.graph.wording import a_kind, either, meant, related, there_are, unit_meant
@@ -88,13 +89,17 @@ def unknown_unit(
 def missing_unit(source: Source, span: Span, name: str, kind: Type) -> Diagnostic:
     """A number where a quantity is wanted."""
     number = source.quote(span)
+    help = "write " + either([f"{number} {unit}" for unit in units_of(kind)])
+    if kind is Type.PERCENT and 0 < Decimal(number) <= 1:
+        hundredths = format((Decimal(number) * 100).normalize(), "f")
+        help = f"write `{hundredths} %`: a share is said in hundredths"
     return error(
         "P1018",
         f"`{name}` is {a_kind(kind)} and needs a unit",
         source,
         span,
         label="the unit is missing",
-        help="write " + either([f"{number} {unit}" for unit in units_of(kind)]),
+        help=help,
     )
 
 

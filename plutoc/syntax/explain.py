@@ -82,7 +82,7 @@ def explain(
     if i == 1 and first.type.lower() in _STATEMENT_WORDS and token.type in _CHOICES:
         return errors.reserved_word(source, span(first))
     merge = conflict(source.text, here.start) if i == 0 else None
-    help, fix = (merge, None) if merge else _help(base, state, tokens, i, accepts)
+    help, fix = (merge, None) if merge else _help(source, base, state, tokens, i, accepts)
     wanted = expected(accepts, role_of_a_name(tokens[:i]))
     return errors.unexpected(source, here, wanted, found(token), help, fix)
 
@@ -125,7 +125,7 @@ def _left_open(tokens: Sequence[Token]) -> Token | None:
 
 
 def _help(
-    base: State, state: State, tokens: Sequence[Token], i: int, accepts: set[str]
+    source: Source, base: State, state: State, tokens: Sequence[Token], i: int, accepts: set[str]
 ) -> tuple[str | None, Fix | None]:
     """Say how to mend it, where that is clear."""
     token, first, rest = tokens[i], tokens[0], tokens[i + 1 :]
@@ -153,7 +153,7 @@ def _help(
         number = written_out(tokens[i - 1])
         if number:
             return number, None
-    said = hint(tokens, i, accepts)
+    said = hint(source, tokens, i, accepts)
     if said:
         return said, None
     if token.type == "QUANTITY" and NAME in accepts:

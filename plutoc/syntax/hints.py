@@ -7,6 +7,7 @@ from itertools import pairwise
 
 from lark import Token
 
+from plutoc.source import Source
 from plutoc.syntax.newlines import ARROW, EQUAL, NAME, NEWLINE
 
 _AMOUNTS = frozenset({"NUMBER", "QUANTITY"})
@@ -19,10 +20,12 @@ _OF_PYTHON = frozenset({"def", "class", "async", "await", "return", "from", "lam
 _CONFLICT = ("<<<<<<<", "=======", ">>>>>>>", "|||||||")
 
 
-def hint(tokens: Sequence[Token], i: int, accepts: set[str]) -> str | None:
+def hint(source: Source, tokens: Sequence[Token], i: int, accepts: set[str]) -> str | None:
     """Say how it is written, where the i-th token of a line is no accident."""
     if i == 0:
         return "`pluto 1` stands once, on the first line" if tokens[0].type == "PLUTO" else None
+    if i == len(tokens) - 1 and i == 1 and _follows_a_comma(source, tokens[0]):
+        return "a list ends with its line: go on in the line above, behind the comma"
     return (
         _of_values(tokens, i)
         or _of_guards(tokens, i, accepts)
@@ -134,6 +137,11 @@ def role_of_a_name(before: Sequence[Token]) -> str:
     if (kind == EQUAL and j == 1) or (kind == "DOT" and j == 3):
         return "a kind of block"
     return {"WHEN": "a status", "EMITS": "a status", "CAN": "an action"}.get(kind, "a name")
+
+
+def _follows_a_comma(source: Source, token: Token) -> bool:
+    line = source.line(max(1, source.position(token.start_pos or 0)[0] - 1))
+    return line.split("#")[0].rstrip().endswith(",")
 
 
 def _is_kind(token: Token) -> bool:

@@ -92,6 +92,12 @@ def test_a_missing_name_is_called_by_what_it_names(line: str, expected: str) -> 
     assert found.code == "P0011" or found.message.startswith(f"expected {expected}, found")
 
 
+def test_list_without_brackets_ends_with_its_line() -> None:
+    """What follows in the next line is not taken for it, and it is told why."""
+    (found,) = mistakes("pluto 1\napp demo {\ncategory a can x,  # and\ny\n}\n")
+    assert found.help == "a list ends with its line: go on in the line above, behind the comma"
+
+
 def test_marks_of_a_merge_are_called_that() -> None:
     """Each, for each has to go."""
     text = "<<<<<<< HEAD\na = K\n=======\na = L\n>>>>>>> theirs"
