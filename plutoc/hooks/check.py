@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from plutoc.check.model import Checked
 from plutoc.diagnostic import Diagnostic, Rejected
@@ -115,14 +115,38 @@ def _of_parameters(
     rest = by_place[count:]
     by_name = {arg.arg for arg in (*rest, *arguments.kwonlyargs)}
     only_by_place = {arg.arg for arg in arguments.posonlyargs[count:]}
+    strange = [
+        arg
+        for arg in _without_default(arguments)
+        if arg not in by_place[:count] and arg.arg not in hook.own_names
+    ]
+    taken = {*by_name, *only_by_place}
+    missing = [each for each in hook.own_names if each not in taken and not arguments.kwarg]
+    renamed = _renamed(missing, strange)
     for name in hook.own_names:
         if name in only_by_place:
             yield errors.by_position_only(app, hooks, hook, span, name)
-        elif name not in by_name and arguments.kwarg is None:
+        elif name in renamed:
+            at = arg_span(hooks, renamed[name])
+            yield errors.renamed_parameter(app, hooks, hook, at, renamed[name].arg, name)
+        elif name in missing:
             yield errors.missing_parameter(app, hooks, hook, span, name)
-    for arg in _without_default(arguments):
-        if arg not in by_place[:count] and arg.arg not in hook.own_names:
+    for arg in strange:
+        if arg not in renamed.values():
             yield errors.unfilled_parameter(app, hooks, hook, arg_span(hooks, arg), arg.arg)
+
+
+def _renamed(missing: Sequence[str], strange: Sequence[ast.arg]) -> dict[str, ast.arg]:
+    """Find which parameters were meant to be those that are missing: that is one mistake."""
+    if len(missing) == len(strange) == 1:
+        return {missing[0]: strange[0]}
+    by_name = {arg.arg: arg for arg in strange}
+    found: dict[str, ast.arg] = {}
+    for name in missing:
+        left = [each for each in by_name if by_name[each] not in found.values()]
+        for meant in near(name, left)[:1]:
+            found[name] = by_name[meant]
+    return found
 
 
 def _without_default(arguments: ast.arguments) -> list[ast.arg]:

@@ -40,7 +40,8 @@ def missing(app: Source, hook: Expected, path: str, near: str | None) -> Diagnos
         app,
         hook.span,
         label=f"this {hook.kind.value} is a function that you write",
-        help=f"{similar}write it there, to begin with like this:\n{hook.stub}",
+        help=f"{similar}write it there, as `plutoc compile --add-stubs` does, to begin with like "
+        f"this:\n{hook.stub}",
     )
 
 
@@ -100,6 +101,21 @@ def missing_parameter(
         hook,
         span,
         label=f"no parameter `{name}`",
+    )
+
+
+def renamed_parameter(
+    app: Source, hooks: Source, hook: Expected, span: Span, given: str, name: str
+) -> Diagnostic:
+    """A declared parameter that the hook calls by another name."""
+    return _on_hook(
+        "P3007",
+        f"`{hook.name}` does not take `{name}`, which the app declares, but `{given}`",
+        app,
+        hooks,
+        hook,
+        span,
+        label=f"nothing gives `{given}` a value; is it `{name}`?",
     )
 
 

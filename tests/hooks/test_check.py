@@ -105,6 +105,25 @@ def test_all_findings_come_in_the_order_of_the_app(crop: Checked) -> None:
     assert codes(crop, hooks) == ["P3003", "P3004", "P3003", "P3005"]
 
 
+@pytest.mark.parametrize(
+    ("parameters", "expected"),
+    [
+        ("dos", ["P3007"]),
+        ("amount", ["P3007"]),
+        ("amount, dosage", ["P3007", "P3008"]),
+        ("far, off", ["P3007", "P3008", "P3008"]),
+        ("dos, **others", ["P3008"]),
+        ("dos=1.0", ["P3007"]),
+        ("dose, dos", ["P3008"]),
+    ],
+)
+def test_a_parameter_by_another_name_is_one_mistake(
+    crop: Checked, parameters: str, expected: list[str]
+) -> None:
+    """Not one that is missing and one too many."""
+    assert codes(crop, GOOD.replace("*, dose", f"*, {parameters}")) == expected
+
+
 def test_stubs_make_any_hooks_complete(crop: Checked) -> None:
     """An empty file, and one of which only the last hook is there."""
     for text in ("", '"""Mine."""\n', "import os\n\nx = os.sep\n", "def by_battery(a, b): ...\n"):
