@@ -136,6 +136,17 @@ def test_a_mistake_is_found_before_a_commit_and_in_ci(
     assert run(project, steps()[STEPS[name]]).returncode != 0
 
 
+@pytest.mark.parametrize("name", ["--fix.pluto", "-o.pluto"])
+def test_a_file_that_looks_like_an_option_is_a_file(project: Path, name: str) -> None:
+    """Whoever sends a change chooses the names in it."""
+    shutil.copy(project / APP, project / name)
+    assert run(project, "git", "add", "--", name).returncode == 0
+    for one in (FORM, SOUND):
+        assert committed(project, one) == 0
+        assert run(project, steps()[STEPS[one]]).returncode == 0
+    assert run(project, steps()[FINDINGS]).returncode == 0
+
+
 def test_findings_are_uploaded_though_there_are_errors(project: Path) -> None:
     """The step that writes them passes: another one has failed."""
     app = project / APP

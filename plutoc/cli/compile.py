@@ -134,7 +134,9 @@ def _outcome(compiled: Compiled, changes: Changes) -> Iterator[str]:
             yield f"  {compiled.hooks.path} was copied to {own}: edit that one from now on"
         elif graph.hooks or graph.actions:
             yield f"  your own code goes into {own}"
-        yield f"  install it with: pip install {quote(os.path.join('.', changes.folder))}"
+        path = os.path.join(".", changes.folder)
+        if printable(path) == path:  # else a shell would need it otherwise than can be shown
+            yield f"  install it with: pip install {quote(path)}"
     elif changes.files:
         yield f"{folder}: {counted(len(changes.files), 'file')} changed"
         for change in changes.files:

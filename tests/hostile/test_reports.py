@@ -69,3 +69,18 @@ def test_a_terminal_gets_nothing_that_acts(plutoc: Call, here: Path, format: str
         assert done.out.isascii()
     elif format == "sarif":
         assert json.loads(done.out)["version"] == "2.1.0"
+
+
+@pytest.mark.parametrize("name", [*NAMES, "a\n::error::b"])
+def test_a_folder_with_an_odd_name_is_compiled_in_peace(
+    plutoc: Call, here: Path, name: str
+) -> None:
+    """Its name comes into what a person is told to type, too."""
+    Path(name).mkdir()
+    (Path(name) / "crop.pluto").write_text(APP)
+    for _ in range(2):
+        done = plutoc("compile", Path(name) / "crop.pluto")
+        assert (done.code, done.err) == (0, "")
+        assert all(line.isprintable() for line in done.out.split("\n")), ascii(done.out)
+        assert not any(line.lstrip().startswith("::") for line in done.out.splitlines()[1:])
+        (Path(name) / "crop.pluto").write_text(APP.replace("Crop watch", "Another title"))
