@@ -65,7 +65,10 @@ def _open(flow: Flow, found: Branches, branches: Branched) -> Diagnostic | None:
     graph, gates = flow.graph, gates_of(branches)
     astray = [(branch, branch.astray) for branch in branches if branch.astray]
     if astray:
-        return errors.astray(graph, astray, gates, flow.way(*astray[0][1]))
+        ways = [flow.way(*lost) for _, lost in astray]
+        nearest = min(range(len(ways)), key=lambda i: len(ways[i]))
+        astray.insert(0, astray.pop(nearest))
+        return errors.astray(graph, astray, gates, ways[nearest])
     if len(gates) > 1:
         first = {gate: place for b in reversed(branches) for gate, place in b.gates.items()}
         ways = [flow.way(first[gate]) for gate in gates]
