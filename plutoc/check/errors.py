@@ -182,6 +182,15 @@ def stuck(
     )
 
 
+_ARROWS = 8
+"""So many are proposed at once."""
+
+
+def _missing_arrow(graph: Graph, node: Node, statuses: Sequence[Status], gate: str) -> str:
+    guard = f" when {', '.join(s.value for s in statuses)}" if graph.outgoing[node.name] else ""
+    return f"{node.name} -> {gate}{guard}"
+
+
 def stuck_in_fork(
     graph: Graph,
     fork: Fork,
@@ -193,8 +202,8 @@ def stuck_in_fork(
     if gate is None:
         meet = "let its branches meet at a gate"
     else:
-        guard = f" when {', '.join(s.value for s in statuses)}" if graph.outgoing[node.name] else ""
-        meet = f"lead its branches to `{gate}`: add `{node.name} -> {gate}{guard}`"
+        missing = [_missing_arrow(graph, each, stays, gate) for each, stays in left[:_ARROWS]]
+        meet = f"lead its branches to `{gate}`: add {names(missing)}"
     return error(
         "P2009",
         (graph, node.name_span),

@@ -8,6 +8,7 @@ from plutoc.diagnostic import Diagnostic, error, warning
 from plutoc.edits import without_item, without_statement
 from plutoc.graph.names import LONGEST, Style, in_plain_letters, in_snake_case
 from plutoc.graph.wording import (
+    all_of,
     alternatives,
     either,
     meant,
@@ -289,7 +290,7 @@ def status_outside_graph(source: Source, name: Name) -> Diagnostic:
         source,
         name.span,
         label="a status outside the graph",
-        help=f"blocks and edges know {either([status.value for status in IN_GRAPH])}",
+        help=f"blocks and edges know {all_of([status.value for status in IN_GRAPH])}",
     )
 
 

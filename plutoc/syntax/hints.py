@@ -14,6 +14,7 @@ _AMOUNTS = frozenset({"NUMBER", "QUANTITY"})
 _OPENING = frozenset({"LPAR", "LSQB", "LBRACE"})
 _LISTS = frozenset({"WHEN", "EMITS", "CAN", "WRITES"})
 _GUARDED = frozenset({"WHEN", "EMITS"})
+_TYPED = frozenset({"ACTION", "MODIFIER"})
 _ALONE = frozenset({"EVALUATOR", "POLICY"})
 _BEFORE_A_NAME = frozenset({"let", "var", "val", "const", "block", "node", "new", "set", "auto"})
 _OF_PYTHON = frozenset({"def", "class", "async", "await", "return", "from", "lambda", "print"})
@@ -53,17 +54,16 @@ def _of_values(tokens: Sequence[Token], i: int) -> str | None:
         return f"a number has a digit before its point: `0.{after}`"
     if token.type == "DOT" and before.type == "NUMBER":
         return f"a number has a digit behind its point: `{before}.0`"
-    if token.type in ("RPAR", "COMMA") and before.type == NAME and _names_a_parameter(tokens, i):
-        if _at(tokens, 1) is not None and tokens[1].type == EQUAL:
-            return f"a value stands behind the name of its parameter: `NAME: {before}`"
+    names_one = before.type == NAME and tokens[i - 2].type in ("LPAR", "COMMA")
+    if not names_one or _open_bracket(tokens, i) != "LPAR":
+        return None
+    if token.type == EQUAL and tokens[0].type in _TYPED and after:
+        return f"a parameter has a type: `{before}: TYPE = {after}`"
+    if token.type in ("RPAR", "COMMA") and tokens[0].type in _TYPED:
         return f"a parameter has a type: `{before}: TYPE`"
+    if token.type in ("RPAR", "COMMA"):
+        return f"a value stands behind the name of its parameter: `NAME: {before}`"
     return None
-
-
-def _names_a_parameter(tokens: Sequence[Token], i: int) -> bool:
-    """Say whether the name before the i-th token is the first of a `NAME: VALUE`."""
-    depth = [token.type for token in tokens[:i] if token.type in ("LPAR", "LSQB", "RSQB", "RPAR")]
-    return bool(depth) and depth[-1] == "LPAR" and tokens[i - 2].type in ("LPAR", "COMMA")
 
 
 def _of_guards(tokens: Sequence[Token], i: int, accepts: set[str]) -> str | None:
@@ -93,6 +93,11 @@ def _of_flows(tokens: Sequence[Token], i: int) -> str | None:
         return "branches stand in `[` and `]`"
     if token.type == EQUAL and i > 1 and tokens[i - 2].type == ARROW:
         return f"declare it in a statement of its own: `{before} = KIND`"
+    if any(each.type == ARROW for each in tokens[:i]) and _open_bracket(tokens, i) == "LSQB":
+        if token.type == ARROW and any(each.type == "RSQB" for each in tokens[i:]):
+            return "only names stand in brackets: draw a chain of blocks in a statement of its own"
+        if token.type == "LSQB":
+            return "name all branches in one pair of brackets"
     if token.type == "WHEN" and i == 1:
         return f"a guard stands at the end: `{before} -> BLOCK when STATUS`"
     return None
@@ -142,6 +147,12 @@ def role_of_a_name(before: Sequence[Token]) -> str:
 def _follows_a_comma(source: Source, token: Token) -> bool:
     line = source.line(max(1, source.position(token.start_pos or 0)[0] - 1))
     return line.split("#")[0].rstrip().endswith(",")
+
+
+def _open_bracket(tokens: Sequence[Token], i: int) -> str | None:
+    """Return the bracket that the i-th token of a line stands in; none has others in it."""
+    signs = [token.type for token in tokens[:i] if token.type in ("LPAR", "LSQB", "RSQB", "RPAR")]
+    return signs[-1] if signs and signs[-1] in ("LPAR", "LSQB") else None
 
 
 def _is_kind(token: Token) -> bool:

@@ -271,7 +271,10 @@ def test_a_stuck_mission_is_shown_the_way_out_and_the_way_there() -> None:
 @pytest.mark.parametrize(
     ("name", "meet"),
     [
-        ("branches that stop before their gate", "to `first`: add `watch -> first`;"),
+        (
+            "branches that stop before their gate",
+            "to `first`: add `watch -> first` and `timer -> first`;",
+        ),
         ("a branch that stops beside one that closes", "to `first`: add `timer -> first`;"),
         ("branches that stop where there is no gate", "let its branches meet at a gate;"),
     ],
