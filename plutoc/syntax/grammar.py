@@ -8,6 +8,7 @@ from io import BytesIO
 from pkgutil import get_data
 
 import lark
+from lark.lexer import BasicLexer
 
 from plutoc.syntax.cache import cache_file, keep, kept
 from plutoc.syntax.newlines import Newlines
@@ -17,6 +18,12 @@ from plutoc.syntax.newlines import Newlines
 def parser() -> lark.Lark:
     """Return the parser of the language."""
     grammar = (get_data("plutoc_grammar", "pluto.lark") or b"").decode()
+    parser = _kept_or_made(grammar)
+    parser.lexer = BasicLexer(parser.lexer_conf)  # else it makes one for each text, however short
+    return parser
+
+
+def _kept_or_made(grammar: str) -> lark.Lark:
     python = ".".join(map(str, sys.version_info[:2]))
     file = cache_file(f"grammar-lark{lark.__version__}-py{python}")
     if file is None:
