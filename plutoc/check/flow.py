@@ -112,8 +112,8 @@ class Flow:
     carries: Mapping[Edge, frozenset[Status]]
 
     def branches(self, node: str, status: Status) -> tuple[Edge, ...]:
-        """The edges that take this status from this block."""
-        return tuple(e for e in self.edges if e.source == node and status in e.takes)
+        """The edges that this status was seen to take from this block."""
+        return tuple(e for e in self.graph.outgoing[node] if status in self.carries[e])
 
     def way_to(self, node: str, leaving: Status | None = None) -> Way:
         """Return the shortest way to a block, and on with that status if one is given."""

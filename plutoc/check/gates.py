@@ -9,8 +9,12 @@ from plutoc.check.forks import gates_of
 from plutoc.diagnostic import Diagnostic
 
 
-def idle(flow: Flow, found: Branches) -> list[Diagnostic]:
-    """Find gates that missions come to outside of any fork."""
+def idle(flow: Flow, found: Branches, *, lacking: bool) -> dict[str, Diagnostic]:
+    """Find gates that missions come to outside of any fork, by name.
+
+    Where something else is `lacking`, a block that nothing leads to, that may be the branch which a
+    gate waits for: it has a message already.
+    """
     # where branches close at different gates, what comes behind them has been said already
     torn = {
         g for branches in found.values() if len(gates_of(branches)) > 1 for g in gates_of(branches)
@@ -20,14 +24,16 @@ def idle(flow: Flow, found: Branches) -> list[Diagnostic]:
     for place in flow.places:
         if place.frame is None and not place.out:
             alone.setdefault(place.node, place)
-    # a branch that nothing leads to has its own message, and may be the one that a gate lacks
-    spare = any(not flow.arrives[node.name] for node in flow.graph.nodes)
-    diagnostics = []
-    for node in flow.graph.nodes:
-        if spare and node.name not in closing:
+    idle: dict[str, Diagnostic] = {}
+    for name, place in alone.items():
+        node = flow.graph.node.get(name)
+        if node is None or node.block.gate is None or name in torn:
             continue
-        if node.block.gate is None or node.name in torn or node.name not in alone:
-            continue
-        wrong = errors.outside_fork if node.name in closing else errors.closes_nothing
-        diagnostics.append(wrong(flow.graph, node, flow.way(alone[node.name])))
-    return diagnostics
+        way = flow.way(place)
+        # behind a gate that closes nothing comes what was meant to be in a fork
+        behind_another = any(hop.node in idle for hop in way)
+        if name in closing:
+            idle[name] = errors.outside_fork(flow.graph, node, way)
+        elif not lacking and not behind_another:
+            idle[name] = errors.closes_nothing(flow.graph, node, way)
+    return idle

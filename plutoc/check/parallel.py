@@ -15,9 +15,11 @@ def written_twice(flow: Flow, found: Branches) -> list[Diagnostic]:
     """Find attributes that the hooks of two branches of one fork write."""
     diagnostics: dict[tuple[str, str, str], Diagnostic] = {}
     for branches in found.values():
-        for one, other in combinations(branches, 2):
-            for first in _writers(flow, found, one):
-                for second in _writers(flow, found, other):
+        writers = [_writers(flow, found, branch) for branch in branches]
+        # of many branches few write anything: only those are held against each other
+        for one, other in combinations(filter(None, writers), 2):
+            for first in one:
+                for second in other:
                     for attribute in _common(first, second):
                         key = (first.name, second.name, attribute)
                         diagnostics.setdefault(
@@ -55,8 +57,8 @@ def _ways(flow: Flow, first: Node, second: Node) -> list[Way]:
 
 
 def _nodes(flow: Flow, found: Branches, branch: Branch) -> list[Node]:
-    names = {name for inner in within(found, branch) for name in inner.nodes}
-    return [node for node in flow.graph.nodes if node.name in names]
+    names = dict.fromkeys(name for inner in within(found, branch) for name in inner.nodes)
+    return sorted((flow.graph.node[name] for name in names), key=lambda node: node.span.start)
 
 
 def _watched(flow: Flow, found: Branches, frame: Frame | None, seen: set[Fork]) -> bool:

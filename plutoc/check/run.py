@@ -35,14 +35,16 @@ def check(graph: Graph) -> tuple[Checked, tuple[Diagnostic, ...]]:
     flow = explore(graph, edges, (creation(creator.name),))
     stopped = _after_a_stop(flow)
     parallels = branches(flow)
-    found += _in_flight(flow, parallels)
-    found += reach.unreached(flow, creator.name)
-    found += reach.starved(flow)
+    lacking = reach.unreached(flow, creator.name) + reach.starved(flow)
+    found += _in_flight(flow, parallels, lacking=bool(lacking))
+    found += lacking
     found += reach.untaken(flow, stopped)
     found += parallel.written_twice(flow, parallels)
     found += parallel.unwatched_limits(flow, parallels)
     # after a Stop the same things go wrong once more: say only what goes wrong there alone
-    found = found or [*map(errors.after_a_stop, _in_flight(stopped, branches(stopped)))]
+    found = found or [
+        *map(errors.after_a_stop, _in_flight(stopped, branches(stopped), lacking=False))
+    ]
     if found:
         raise Rejected(in_order(found))
     checked = Checked(
@@ -70,13 +72,14 @@ def _warnings(flow: Flow, stopped: Flow) -> list[Diagnostic]:
     ]
 
 
-def _in_flight(flow: Flow, parallels: Branches) -> list[Diagnostic]:
+def _in_flight(flow: Flow, parallels: Branches, *, lacking: bool) -> list[Diagnostic]:
     """Find what can happen to a mission on its way: each shown by the shortest way to it."""
+    idle = gates.idle(flow, parallels, lacking=lacking)
     return [
-        *stuck.stuck(flow, parallels),
+        *stuck.stuck(flow, parallels, tuple(idle)),
         *ending.endless(flow),
         *forks.unclosed(flow, parallels),
-        *gates.idle(flow, parallels),
+        *idle.values(),
         *flights.undrawn(flow),
         *flights.unlaunched(flow),
     ]

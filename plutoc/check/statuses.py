@@ -49,6 +49,7 @@ class _Walk:
     hasty: dict[Split, None] = field(default_factory=dict)
     """Forks whose gate has stopped waiting for a branch that never arrives."""
     outgoing: dict[str, list[Edge]] = field(default_factory=dict)
+    widths: dict[Split, int] = field(default_factory=dict)
     queue: deque[Place] = field(default_factory=deque)
     places: dict[Place, Step | None] = field(default_factory=dict)
     after: dict[Place, Places] = field(default_factory=dict)
@@ -128,7 +129,9 @@ class _Walk:
         """A clone arrives at the gate of its fork."""
         branches = self.closes.setdefault(frame.split, {}).setdefault(place.node, {})
         branches.setdefault(frame.branch, {})[place] = None
-        self.let_through(frame.split, place.node, gate)
+        known = (place.node, place.status) in self.through.get(frame.split, ())
+        if gate is Gate.ALL or not known:  # what comes after the first changes nothing
+            self.let_through(frame.split, place.node, gate)
 
     def let_through(self, split: Split, name: str, gate: Gate) -> None:
         """Let missions go on behind a gate, as far as its branches have come."""
@@ -189,7 +192,9 @@ class _Walk:
             self.go_on(place, (place.status, place.facts.attempts), entry)
 
     def width(self, split: Split) -> int:
-        return sum(split.status in e.takes for e in self.outgoing[split.node])
+        if split not in self.widths:
+            self.widths[split] = sum(split.status in e.takes for e in self.outgoing[split.node])
+        return self.widths[split]
 
     def stop_waiting(self) -> None:
         """A gate that waits in vain would hide all that is behind it: one mistake, one message."""

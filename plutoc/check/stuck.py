@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 from plutoc.check import errors
 from plutoc.check.branches import Branch, Branches
 from plutoc.check.flow import Flow, Fork, Place, is_final
@@ -14,8 +16,11 @@ Left = tuple[Node, tuple[Status, ...], Place]
 """A block, the statuses of it that no edge takes, and where it is left with the first of them."""
 
 
-def stuck(flow: Flow, found: Branches) -> list[Diagnostic]:
-    """Find where missions are left: one message a block, or for all that a fork leaves open."""
+def stuck(flow: Flow, found: Branches, idle: Collection[str]) -> list[Diagnostic]:
+    """Find where missions are left: one message a block, or for all that a fork leaves open.
+
+    What comes to an `idle` gate was meant to be in a fork: what is left behind it is not said.
+    """
     diagnostics = []
     walked = set(flow.edges)
     # an arrow that must not be there has its own message, and was meant to take something
@@ -30,9 +35,10 @@ def stuck(flow: Flow, found: Branches) -> list[Diagnostic]:
         if place.frame is not None:
             open_forks.setdefault(place.frame.split.fork, []).append((node, statuses, place))
         else:
-            taker = _taker(flow, node, statuses[0])
             way = flow.way(place, statuses[0])
-            diagnostics.append(errors.stuck(flow.graph, node, statuses, way, taker))
+            if not any(hop.node in idle for hop in way):
+                taker = _taker(flow, node, statuses[0])
+                diagnostics.append(errors.stuck(flow.graph, node, statuses, way, taker))
     for fork, lost in open_forks.items():
         _, statuses, place = lost[0]
         blocks = [(node, left) for node, left, _ in lost]
