@@ -3,6 +3,13 @@
 from __future__ import annotations
 
 import pytest
+from hypothesis import HealthCheck, settings
+
+# The same examples in every run, however busy the machine is: a test that fails is a change's fault.
+settings.register_profile(
+    "pluto", deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow]
+)
+settings.load_profile("pluto")
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:

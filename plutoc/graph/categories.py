@@ -52,14 +52,14 @@ def category(
         value = typed(source, param.name, argument.value, param.type, found)
         if isinstance(value, float) and _is_possible(source, param, argument, value, found):
             values[param.name] = value
-    named = {name.text for name in declared.can}
-    for i, name in enumerate(declared.can):
-        first = next(other for other in declared.can if other.text == name.text)
+    firsts = {name.text: name for name in reversed(declared.can)}
+    others = [each for each in actions if each not in firsts]
+    for name in declared.can:
+        first = firsts[name.text]
         if name.text not in actions:
             if not unclear.may_declare(name.text):
-                others = [each for each in actions if each not in named]
                 found.append(errors.unknown_action(source, name, others))
-        elif first is not declared.can[i]:
+        elif first is not name:
             found.append(errors.named_twice(source, name, first))
     return _category(declared.name.text, values, tuple(dict.fromkeys(n.text for n in declared.can)))
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from lark import Token
 
 from plutoc.diagnostic import Diagnostic
+from plutoc.frozen import frozen
 from plutoc.source import Source, Span
 from plutoc.syntax import errors
 from plutoc.syntax.lines import Line, begins_a_statement, joined
@@ -16,7 +17,7 @@ from plutoc.syntax.state import span
 _OUTSIDE = ("USE", "APP", "RBRACE", "LBRACE")
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Sections:
     """The lines of a source, by where they stand."""
 
@@ -104,18 +105,17 @@ def _is_closing(line: Line) -> bool:
 
 def _nested(body: Sequence[Line]) -> list[Line]:
     """Join what stands in braces of its own, as long as a brace is left to close the app."""
-    closings = sum(map(_is_closing, body))
+    closings = [i for i, line in enumerate(body) if _is_closing(line)]
+    left = len(closings)
     lines: list[Line] = []
     i = 0
     while i < len(body):
         stop = i + 1
-        if body[i].has("LBRACE") and body[i].first != "APP" and closings > 1:
-            while not _is_closing(body[stop - 1]) and stop < len(body):
-                stop += 1
-            if stop > i + 1 and _is_closing(body[stop - 1]):
-                closings -= 1
-            else:
-                stop = i + 1
+        if body[i].has("LBRACE") and body[i].first != "APP" and left > 1:
+            next_one = bisect_left(closings, stop)
+            if next_one < len(closings):
+                stop = closings[next_one] + 1
+                left -= 1
         lines.append(joined(body[i:stop]))
         i = stop
     return lines
@@ -151,5 +151,5 @@ def _braces(
         found.append(errors.early_brace(source, body[closings[0]].span, body[last].span))
     elif last + 1 < len(body):
         found.append(errors.behind_the_app(source, body[last + 1].tokens[0]))
-    inside = [line for i, line in enumerate(body[:last]) if i not in closings]
+    inside = [line for line in body[:last] if not _is_closing(line)]
     return inside, [*body[last + 1 :]]

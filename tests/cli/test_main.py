@@ -126,15 +126,21 @@ def test_an_interrupt_ends_with_130(
     [("fmt", "os.replace"), ("compile", "os.rename"), ("compile", "os.mkdir")],
 )
 def test_who_is_told_to_end_leaves_nothing_half_done(
-    app: Path, name: str, command: str, moment: str
+    app: Path, monkeypatch: pytest.MonkeyPatch, name: str, command: str, moment: str
 ) -> None:
     """As a CI job is when it is cancelled, and a shell's when its terminal is closed."""
+    monkeypatch.setenv("XDG_CACHE_HOME", "/dev/null/nowhere")  # nothing else is to be renamed
     app.write_text(app.read_text().replace(" = ", "  =  "))
     before = tree(Path())
     done = python(
-        "import os, signal, sys; from plutoc.cli import main;"
-        f"{moment} = lambda *_, **__: os.kill(os.getpid(), signal.{name});"
-        f"sys.exit(main(['{command}', 'crop.pluto']))"
+        "import os, signal, sys\n"
+        "from plutoc.cli import main\n"
+        f"before = {moment}\n"
+        "def told(*_, **__):\n"
+        f"    {moment} = before\n"  # once: what is put back is put back by the same means
+        f"    os.kill(os.getpid(), signal.{name})\n"
+        f"{moment} = told\n"
+        f"sys.exit(main(['{command}', 'crop.pluto']))\n"
     )
     assert (done.returncode, done.stderr) == (128 + signal.Signals[name], "plutoc: terminated\n")
     assert tree(Path()) == before

@@ -102,8 +102,12 @@ def test_a_pipe_into_which_somebody_writes_is_read(plutoc: Call, here: Path) -> 
         ("pluto 1\n" + "use nobody\n" * 10_000 + "app a {\n}\n", "P1008"),
         (";" * 300_000, "P0"),
         ("pluto 1\napp a {" + "\t" * 500_000 + "}", "P2001"),
+        ("pluto 1\napp a {\n" + "}\n" * 60_000, "P0017"),
+        ("pluto 1\napp a {\n}\n}\n" + "x {\n" * 40_000, "P0"),
+        ("pluto 1\napp a {\n  category c can " + ", ".join(f"x{i}" for i in range(25_000)), "P0"),
+        ("pluto 1\napp a {\n  category c can " + "measure, " * 25_000 + "measure\n}\n", "P2001"),
     ],
-    ids=range(16),
+    ids=range(20),
 )
 def test_much_of_anything_is_refused_in_a_few_lines(
     plutoc: Call, here: Path, text: str, code: str
