@@ -1,20 +1,17 @@
-"""Every sentence of the checks, one function a diagnostic."""
+"""Every sentence of the checks, one function a diagnostic. Forks and gates: a file of their own."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from plutoc.check.branches import Astray, Branch
 from plutoc.check.flow import Fork, Way, ordered
 from plutoc.check.words import (
     accepts,
     arrows,
     emits_here,
     error,
-    fate,
     fork_of,
-    is_flown,
     listed,
     names,
     related_to,
@@ -239,155 +236,6 @@ def endless(graph: Graph, head: Node, way: Way, round_: Sequence[str]) -> Diagno
         label="no way leads from here to an end",
         help=f"it goes round {arrows((*round_, round_[0]))}: lead an arrow out of this loop"
         f"{there(way)}",
-    )
-
-
-# Forks and gates
-
-
-def astray(
-    graph: Graph, branches: Sequence[tuple[Branch, Astray]], gates: Sequence[str], way: Way
-) -> Diagnostic:
-    first, lost = branches[0]
-    guard = f"only one of the arrows was meant to take {first.fork[1].value}, guard the others"
-    if gates:
-        mend = f"close the fork first, at `{gates[0]}`; or, if {guard} with `when`"
-    else:
-        mend = f"if {guard} with `when`; else let the branches meet at a gate"
-    to = "" if lost[0].node == first.edge.target else f" to `{first.edge.target}`"
-    return error(
-        "P2012" if is_flown(lost) else "P2011",
-        (graph, first.edge.span),
-        f"{fork_of(first.fork)} is not closed: its branch{to} {fate(lost)}",
-        label="its mission would be flown twice" if is_flown(lost) else "this branch",
-        related=tuple(
-            related_to(
-                graph, branch.edge.span, f"the branch to `{branch.edge.target}` {fate(other)}, too"
-            )
-            for branch, other in branches[1:]
-        ),
-        help=f"{mend}{there(way)}",
-    )
-
-
-def different_gates(
-    graph: Graph, branches: Sequence[Branch], gates: Sequence[str], ways: Sequence[Way]
-) -> Diagnostic:
-    closing = [
-        related_to(
-            graph, b.edge.span, f"the branch to `{b.edge.target}` closes at {names([*b.gates])}"
-        )
-        for b in branches
-        if b.gates
-    ]
-    return error(
-        "P2013",
-        (graph, closing[0].span),
-        f"{fork_of(branches[0].fork)} closes at different gates: {names(gates)}",
-        label=closing[0].label,
-        related=tuple(closing[1:]),
-        help=f"lead all branches to one gate{there(*ways)}",
-    )
-
-
-def never_closes(graph: Graph, branch: Branch, gates: Sequence[str], way: Way | None) -> Diagnostic:
-    return error(
-        "P2014",
-        (graph, branch.edge.span),
-        f"the branch to `{branch.edge.target}` of {fork_of(branch.fork)} can go round for ever",
-        label="it does not always close",
-        help=f"lead every way through it to {f'`{gates[0]}`' if gates else 'a gate'}"
-        f"{there(way)}",
-    )
-
-
-def waits_in_vain(graph: Graph, branch: Branch, gate: str, way: Way | None) -> Diagnostic:
-    return error(
-        "P2015",
-        (graph, graph.node[gate].name_span),
-        f"`{gate}` waits for a branch of {fork_of(branch.fork)} that cannot arrive",
-        related=(
-            related_to(
-                graph, branch.edge.span, f"the branch to `{branch.edge.target}` never gets there"
-            ),
-        ),
-        help=f"lead the branch to `{gate}`{there(way)}",
-    )
-
-
-def outside_fork(graph: Graph, node: Node, way: Way) -> Diagnostic:
-    return error(
-        "P2016",
-        (graph, node.name_span),
-        f"a mission can come to `{node.name}` outside of the fork that closes there",
-        related=tuple(
-            related_to(graph, edge.span, "it comes along here")
-            for edge in graph.incoming[node.name]
-            if edge.source == way[-2].node
-        ),
-        help=f"lead this way past the gate{there(way)}",
-    )
-
-
-def closes_nothing(graph: Graph, node: Node, way: Way) -> Diagnostic:
-    return error(
-        "P2017",
-        (graph, node.name_span),
-        f"`{node.name}` closes no fork: a gate needs at least two branches",
-        help="fork before it (two arrows that take the same status), or remove the gate"
-        f"{there(way)}",
-    )
-
-
-def breeds(graph: Graph, first: Branch, way: Way) -> Diagnostic:
-    return error(
-        "P2018",
-        (graph, first.edge.span),
-        f"{fork_of(first.fork)} comes round to itself before it closes: its clones multiply without end",
-        help=f"close it at a gate before the way leads back{there(way)}",
-    )
-
-
-def shared_gate(
-    graph: Graph, outer: Sequence[Branch], inner: Sequence[Branch], gate: str, way: Way
-) -> Diagnostic:
-    return error(
-        "P2019",
-        (graph, inner[0].edge.span),
-        f"{fork_of(inner[0].fork)} closes at `{gate}`, which must close {fork_of(outer[0].fork)} around it",
-        label="the fork inside",
-        related=(
-            related_to(graph, outer[0].edge.span, "the fork around it"),
-            related_to(graph, graph.node[gate].name_span, "the gate of both"),
-        ),
-        help=f"give the fork inside a gate of its own, and lead that gate to `{gate}`{there(way)}",
-    )
-
-
-def written_twice(
-    graph: Graph, first: Node, second: Node, attribute: str, ways: Sequence[Way]
-) -> Diagnostic:
-    return error(
-        "P2020",
-        (graph, second.name_span),
-        (
-            f"`{second.name}` and `{first.name}` run side by side and both write `{attribute}`"
-            if first is not second
-            else f"`{first.name}` runs in two branches side by side, and both write `{attribute}`"
-        ),
-        label="who comes last would win",
-        related=(related_to(graph, first.name_span, "written here"),) if first != second else (),
-        help=f"let one of them write it, or put one behind the other{there(*ways)}",
-    )
-
-
-def unwatched_limit(graph: Graph, node: Node, way: Way) -> Diagnostic:
-    return error(
-        "P2023",
-        (graph, node.name_span),
-        f"`{node.name}` sets a limit to a flight, but no block beside it watches the flight",
-        help="put it on one branch of a fork, a block that only watches on another, and let both meet "
-        f"at a gate{there(way)}",
     )
 
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from plutoc.block import Gate
-from plutoc.check import errors, model
+from plutoc.check import fork_errors as errors
+from plutoc.check import model
 from plutoc.check.branches import Branch, Branches, within
 from plutoc.check.components import loops
 from plutoc.check.flow import Flow, Fork

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from plutoc.check import errors
+from plutoc.check import fork_errors as errors
 from plutoc.check.branches import Branches
 from plutoc.check.flow import Flow, Place
 from plutoc.check.forks import gates_of

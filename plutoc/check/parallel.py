@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from itertools import combinations
 
-from plutoc.check import errors
+from plutoc.check import fork_errors as errors
 from plutoc.check.branches import Branch, Branches, within
 from plutoc.check.flow import Flow, Fork, Frame, Way
 from plutoc.diagnostic import Diagnostic

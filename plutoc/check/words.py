@@ -13,6 +13,8 @@ from plutoc.source import Span
 from plutoc_runtime.status import Status
 
 _WIDEST_WAY = 88
+_LONGEST_WAY = 60
+"""Blocks of a way that are shown; of a longer one, its beginning and its end."""
 
 
 def listed(statuses: Sequence[Status], last: str = "and") -> str:
@@ -46,13 +48,21 @@ def there(*ways: Way | None) -> str:
 
 def _wrapped(way: Way) -> list[str]:
     lines = [""]
-    for hop in map(_hop, way):
+    for hop in _hops(way):
         step = f" → {hop}" if lines[-1] else hop
         if len(lines[-1]) + len(step) > _WIDEST_WAY:
             lines.append(f" {step}")
         else:
             lines[-1] += step
     return lines
+
+
+def _hops(way: Way) -> list[str]:
+    if len(way) <= _LONGEST_WAY:
+        return [_hop(hop) for hop in way]
+    half = _LONGEST_WAY // 2
+    between = f"… {len(way) - 2 * half:,} more …"
+    return [*map(_hop, way[:half]), between, *map(_hop, way[-half:])]
 
 
 def _hop(hop: Hop) -> str:
