@@ -72,10 +72,13 @@ def branches(flow: Flow) -> Branches:
 
 def within(found: Branches, branch: Branch) -> tuple[Branch, ...]:
     """Return the branch and all those of the forks in it, however deep."""
-    seen = [branch]
-    for one in seen:
-        seen.extend(b for fork in one.inner for b in found[fork] if b not in seen)
-    return tuple(seen)
+    seen = {branch: None}
+    queue = [branch]
+    for one in queue:
+        fresh = [b for fork in one.inner for b in found[fork] if b not in seen]
+        seen.update(dict.fromkeys(fresh))
+        queue.extend(fresh)
+    return tuple(queue)
 
 
 def _of(found: Branches, frame: Frame) -> Branch:
