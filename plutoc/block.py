@@ -12,6 +12,7 @@ from enum import Enum
 from types import MappingProxyType
 from typing import Any
 
+from plutoc.frozen import frozen
 from plutoc_runtime.fields import Field
 from plutoc_runtime.quantities import Type
 from plutoc_runtime.status import IN_GRAPH, Status
@@ -49,7 +50,7 @@ class Gate(Enum):
     ALL = "waits for every branch, then passes the worst status"
 
 
-@dataclass(frozen=True, kw_only=True)
+@frozen
 class Param:
     """A value written in the source, in parentheses after the block's kind."""
 
@@ -62,7 +63,7 @@ class Param:
     least: float | None = None
 
 
-@dataclass(frozen=True, kw_only=True)
+@frozen
 class HookParam:
     """The name of a hook. The block's step gets the function itself, as `hook`."""
 
@@ -90,7 +91,7 @@ class Choice:
 AnyParam = Param | HookParam | Choice
 
 
-@dataclass(frozen=True, kw_only=True)
+@frozen
 class Narrowed:
     """While a parameter has this value, the block emits no more than these statuses."""
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from plutoc.check.model import Checked
 from plutoc.check.run import check
 from plutoc.diagnostic import Diagnostic, Rejected, accept_or_raise
+from plutoc.frozen import frozen
 from plutoc.graph.resolve import resolved
 from plutoc.registry import blocks, standard
 from plutoc.source import Source
@@ -23,7 +23,7 @@ FindHooks = Callable[[Checked], Source | None]
 """Returns the hooks.py that is there already, if there is one."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Compiled:
     """An app from its source to its files."""
 

@@ -7,9 +7,10 @@ code is never used twice, not even after its diagnostic is gone.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from enum import Enum
 
+from plutoc.frozen import frozen
 from plutoc.source import Source, Span
 
 
@@ -20,7 +21,7 @@ class Severity(Enum):
     WARNING = "warning"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Related:
     """Another place that has to do with it, and how."""
 
@@ -29,7 +30,7 @@ class Related:
     label: str
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Fix:
     """A change that certainly mends it: put this text in place of the span."""
 
@@ -37,7 +38,7 @@ class Fix:
     text: str
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Diagnostic:
     """One finding: what is wrong, where, what has to do with it, and what to do."""
 

@@ -7,12 +7,12 @@ somebody's package: where ours are is known.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
 from types import MappingProxyType
 
 from plutoc.block import Block
+from plutoc.frozen import frozen
 
 GROUP = "plutoc.blocks"
 STD = "std"
@@ -25,7 +25,7 @@ class RegistryError(Exception):
     """A package of blocks cannot be used. The message is a sentence for a person."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Blocks:
     """The packages there are, and how to get one's blocks by kind."""
 

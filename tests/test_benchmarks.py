@@ -12,7 +12,7 @@ import pytest
 
 ROOT = Path(__file__).parents[1]
 EXAMPLES = sorted(path.parent.name for path in ROOT.glob("examples/*/app.pluto"))
-HEAVY = ("networkx", "jinja2", "black", "asyncio", "importlib.metadata")
+HEAVY = ("networkx", "jinja2", "black", "asyncio", "importlib.metadata", "lark", "pickle")
 FOR_APPS = ("lark", "argparse", "dataclasses", "typing", "plutoc.compile")
 
 

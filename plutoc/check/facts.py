@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 
 from plutoc.check.flow import Facts, Place, ordered
 from plutoc.graph.model import Graph, Node
@@ -42,7 +41,7 @@ def leaving(node: Node, place: Place, remember: bool) -> Iterator[tuple[Status, 
         emitted = (Status.FAILED,)
     for status in emitted:
         if bound and status is Status.FAILED:
-            yield status, replace(facts, attempts=max(facts.attempts, bound))
+            yield status, facts._replace(attempts=max(facts.attempts, bound))
         else:
             for behind in _behind(node, facts):
                 yield status, behind
@@ -60,7 +59,7 @@ def _behind(node: Node, facts: Facts) -> tuple[Facts, ...]:
             for outcome in OUTCOMES
         )
     if node.block.allocates:
-        return (replace(facts, allocated=True, outcome=None),)
+        return (facts._replace(allocated=True, outcome=None),)
     if puts_trips(node):
-        return (replace(facts, attempts=0),)
+        return (facts._replace(attempts=0),)
     return (facts,)

@@ -2,14 +2,17 @@
 
 A place inside a fork belongs to a branch, as a statement belongs to a function: the branch is
 entered where the mission forks, and left at the gate, towards wherever the fork was entered from.
+
+Places are looked up by the million, and so are tuples: to hash those is quicker than anything else.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from itertools import groupby
+from typing import NamedTuple
 
+from plutoc.frozen import frozen
 from plutoc.graph.model import Edge, Graph
 from plutoc_runtime.status import IN_GRAPH, Status
 
@@ -17,8 +20,7 @@ Fork = tuple[str, Status]
 """A block, and a status of it that several edges take."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Facts:
+class Facts(NamedTuple):
     """What a mission has behind it."""
 
     allocated: bool = False
@@ -32,8 +34,7 @@ class Facts:
     """At least so often the next trip has been flown: a bound that gave up once gives up again."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Split:
+class Split(NamedTuple):
     """A fork, and what the missions that come to it have behind them."""
 
     node: str
@@ -46,16 +47,14 @@ class Split:
         return self.node, self.status
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Frame:
+class Frame(NamedTuple):
     """One branch of a fork, by its number in the order of the source."""
 
     split: Split
     branch: int
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Place:
+class Place(NamedTuple):
     """A mission, or a clone of it, arrives at a block or at `end`."""
 
     frame: Frame | None
@@ -67,8 +66,7 @@ class Place:
     """Here it has just left its branch: at the gate, or, by mistake, at a block that flies it."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Step:
+class Step(NamedTuple):
     """How a place was first reached, by the shortest way."""
 
     before: Place
@@ -80,8 +78,7 @@ class Step:
     """A branch is left here: its fork began at that place."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Hop:
+class Hop(NamedTuple):
     """One block on a way, and the status that the mission leaves it with."""
 
     node: str
@@ -91,7 +88,7 @@ class Hop:
 Way = tuple[Hop, ...]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Flow:
     """Everything that the walk found. Mappings are in the order of discovery."""
 

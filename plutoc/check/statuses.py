@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Iterable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 from plutoc.block import Gate
 from plutoc.check import company
@@ -166,7 +166,7 @@ class _Walk:
     def beyond(self, arrival: Place, what: company.Passing, entry: Place) -> Place:
         """Return the place of the mission behind the gate."""
         status, attempts = what
-        facts = replace(arrival.facts, attempts=attempts)
+        facts = arrival.facts._replace(attempts=attempts)
         return Place(frame=entry.frame, node=arrival.node, status=status, facts=facts, out=True)
 
     def accompany(self) -> None:

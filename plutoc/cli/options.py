@@ -53,7 +53,11 @@ def parse(arguments: Sequence[str]) -> Options:
     )
     parser.add_argument("--version", action=_Version, help="print the version and end")
     commands = parser.add_subparsers(
-        dest="command", metavar="COMMAND", title="commands", required=True
+        prog=parser.prog,  # or argparse would lay out a whole help to find it
+        dest="command",
+        metavar="COMMAND",
+        title="commands",
+        required=True,
     )
 
     def command(name: str, what: str) -> ArgumentParser:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from plutoc.block import HookKind
 from plutoc.emit.callables import carried_functions, imports_of, names_of
@@ -12,11 +12,12 @@ from plutoc.emit.python import call, items, literal
 from plutoc.emit.render import render
 from plutoc.emit.statements import Scope, body_lines
 from plutoc.emit.walk import branches, nodes
+from plutoc.frozen import frozen
 from plutoc.graph.model import Action, Graph, Parameter
 from plutoc.plan.model import Body, Plan
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Function:
     """A branch of a fork."""
 
@@ -25,7 +26,7 @@ class Function:
     lines: list[str]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class FlowFile:
     """What the template places."""
 

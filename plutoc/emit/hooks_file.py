@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from textwrap import wrap
 
 from plutoc.block import HookKind
@@ -13,6 +12,7 @@ from plutoc.emit.imports import Import, import_lines, names
 from plutoc.emit.python import LINE_LENGTH, builtins_alias, formatted, shadows
 from plutoc.emit.render import render
 from plutoc.emit.stubs import Stub, in_order, stubs
+from plutoc.frozen import frozen
 from plutoc.graph.model import Graph
 from plutoc_runtime.fields import Entity
 from plutoc_runtime.quantities import PYTHON
@@ -27,7 +27,7 @@ TRIP_OFFERS = (
 )
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class HooksFile:
     """What the template places."""
 
@@ -38,14 +38,14 @@ class HooksFile:
     stubs: list[Stub]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Stubs:
     """What the template of stubs alone places."""
 
     stubs: list[Stub]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class HooksTest:
     """What the template of the tests places."""
 

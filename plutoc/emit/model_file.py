@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from dataclasses import fields as dataclass_fields
 
 from plutoc.emit.fields import fields_of, python_type
 from plutoc.emit.imports import Import, import_lines, names
 from plutoc.emit.python import annotation, builtins_alias, call, docstring, items, literal, shadows
 from plutoc.emit.render import render
+from plutoc.frozen import frozen
 from plutoc.graph import model as graph_model
 from plutoc.graph.model import Graph
 from plutoc_runtime.fields import Entity, Field
@@ -17,7 +17,7 @@ from plutoc_runtime.model import Category
 _DEFAULTS = {field.name: field.default for field in dataclass_fields(Category)}
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Attribute:
     """One line of a class, and its docstring."""
 
@@ -27,7 +27,7 @@ class Attribute:
     doc: str
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class ModelFile:
     """What the template places."""
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 import ast
 import sys
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import cache
 from importlib.util import find_spec
 from pathlib import PurePath
 
 import plutoc_runtime
+from plutoc.frozen import frozen
 
 RUNTIME = plutoc_runtime.__name__
 
@@ -19,7 +19,7 @@ class EmbedError(Exception):
     """An installed module cannot be carried along. The message says where and what to change."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Module:
     """An installed module: its text, byte for byte, read as UTF-8."""
 
@@ -38,7 +38,7 @@ class Module:
         return EmbedError(f"{self.file}:{line}: {problem}")
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class ImportFrom:
     """`from target import names`, the target spelled out in full."""
 

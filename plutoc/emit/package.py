@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 
 from plutoc.emit.callables import carried_functions
 from plutoc.emit.embed import FOLDER, embed
@@ -17,10 +16,11 @@ from plutoc.emit.project_files import attributes_file, init_file, main_file, pro
 from plutoc.emit.python import owned
 from plutoc.emit.render import verbatim
 from plutoc.emit.test_file import flow_test
+from plutoc.frozen import frozen
 from plutoc.plan.model import Plan
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Package:
     """The files of a generated package, by path; folders are separated by `/`."""
 

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from plutoc.emit.fields import fields_of
 from plutoc.emit.imports import Import, import_lines
 from plutoc.emit.markup import fence, markdown, one_line, toml_text
 from plutoc.emit.python import header
 from plutoc.emit.render import render
+from plutoc.frozen import frozen
 from plutoc.graph.model import Graph
 
 EXPORTS = {
@@ -29,21 +28,21 @@ EXPORTS = {
 """The types that hooks are written with, and where they are."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Headed:
     """A file that only needs its header."""
 
     header: str
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Entry:
     """`__main__.py`."""
 
     app: str
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Exports:
     """`__init__.py`."""
 
@@ -53,7 +52,7 @@ class Exports:
     homes: list[tuple[str, str]]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Project:
     """`pyproject.toml`."""
 
@@ -63,7 +62,7 @@ class Project:
     description: str
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class FieldRow:
     """A field of missions or trips, in the README's table."""
 
@@ -72,7 +71,7 @@ class FieldRow:
     doc: str
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Readme:
     """`README.md`."""
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import PurePosixPath
 
+from plutoc.frozen import frozen
 from plutoc_runtime.files.dotted import line_of_long_key
 
 _LARGEST = 1 << 24
@@ -17,7 +17,7 @@ class DamagedLock(Exception):
     """It cannot be read. The text says why, for a person."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Lock:
     """The record of a generated package."""
 

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from inspect import iscoroutinefunction
 
 from plutoc.block import Choice, HookParam, Param
 from plutoc.emit.callables import Names, chosen
 from plutoc.emit.embed import Carried
 from plutoc.emit.python import call, items, literal
+from plutoc.frozen import frozen
 from plutoc.graph.model import Node
 from plutoc.plan.model import (
     Arm,
@@ -29,7 +30,7 @@ from plutoc_runtime.fields import Entity, Field
 from plutoc_runtime.status import Status
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Scope:
     """What the lines around a statement settle."""
 

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from plutoc.emit.markup import toml_text
 from plutoc.emit.render import render
+from plutoc.frozen import frozen
 from plutoc.graph.model import Action, Graph
 from plutoc_runtime.actions import BUILT_IN, PICK, RELEASE
 from plutoc_runtime.quantities import Type
@@ -17,7 +16,7 @@ _TARGETS = ("[3.0, 4.0]", "[6.0, 2.5]")
 """Near the drones of a plain of 20 × 20 m."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class MissionTable:
     """A `[[mission]]`, in TOML."""
 
@@ -25,7 +24,7 @@ class MissionTable:
     trips: list[str]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class FlowTest:
     """What the template places."""
 

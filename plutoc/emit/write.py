@@ -12,7 +12,6 @@ import shutil
 import tempfile
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import Path, PurePosixPath
 from types import MappingProxyType
@@ -23,6 +22,7 @@ from plutoc.emit.errors import Place
 from plutoc.emit.lock import NAME as LOCK
 from plutoc.emit.package import Package
 from plutoc.emit.recorded import DamagedLock, Lock, read_lock
+from plutoc.frozen import frozen
 
 _ASIDE = ".plutoc-"
 """What the names of folders for unfinished work begin with; one is left only if we are killed."""
@@ -45,7 +45,7 @@ class CannotWrite(Exception):
         super().__init__(f"{name if told else folder}: {error.strerror or error}")
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Change:
     """One file: its text before and after; None where there is none."""
 
@@ -54,7 +54,7 @@ class Change:
     after: str | None
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Changes:
     """What writing would change in a folder, in the package's order."""
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from importlib.resources import files
+
+from plutoc.frozen import frozen
 
 GROUPS = {
     "P0": "Syntax",
@@ -16,7 +17,7 @@ GROUPS = {
 """What the codes that begin so are about."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Page:
     """What there is to know about a code."""
 

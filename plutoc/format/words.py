@@ -7,20 +7,20 @@ comments, for a source that was parsed holds nothing else.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import pairwise
 
-from lark import Token
-
-from plutoc.syntax.grammar import parser
+from plutoc.frozen import frozen
+from plutoc.syntax.lex import lexed
 from plutoc.syntax.newlines import NEWLINE
+from plutoc.syntax.tokens import Token
 
 COMMA, LBRACE, RBRACE = "COMMA", "LBRACE", "RBRACE"
 
 _BLANKS = " \t\r"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Word:
     """A token as it is to be written, and what follows it."""
 
@@ -41,7 +41,7 @@ def read(text: str) -> tuple[tuple[str, ...], Iterator[tuple[Word, ...]]]:
 
     A line is a statement, or ends with a brace. An empty comment stands for a blank line.
     """
-    tokens = list(parser().lex(text))
+    tokens = lexed(text)
     before = text[: tokens[0].start_pos].split("\n")[:-1]
     return _stripped(before), _lines(_without_commas(_words(text, tokens)))
 
@@ -57,7 +57,7 @@ def _lines(words: Iterator[Word]) -> Iterator[tuple[Word, ...]]:
 
 
 def _words(text: str, tokens: Sequence[Token]) -> Iterator[Word]:
-    beyond = Token("", "", len(text))
+    beyond = Token("", "", len(text), len(text), 0)
     words = [token for token in tokens if token.type != NEWLINE]
     ends = {id(token) for token, then in pairwise(tokens) if then.type == NEWLINE}
     for token, then in pairwise([*words, beyond]):

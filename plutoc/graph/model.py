@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from plutoc.block import Block, HookKind
+from plutoc.frozen import frozen
 from plutoc.source import Source, Span
 from plutoc_runtime.quantities import Type
 from plutoc_runtime.status import Status
@@ -16,7 +17,7 @@ END = "end"
 Plain = bool | int | float | str
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Parameter:
     """A parameter of an action or a modifier; without a default it must be given."""
 
@@ -25,7 +26,7 @@ class Parameter:
     default: Plain | None
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Action:
     """An action of the app's own: a hook that a drone does at the end of a trip."""
 
@@ -36,7 +37,7 @@ class Action:
     span: Span
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Hook:
     """An evaluator, a modifier or a policy of the app."""
 
@@ -49,7 +50,7 @@ class Hook:
     span: Span
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Category:
     """What drones of one shape can carry and do. SI units."""
 
@@ -63,7 +64,7 @@ class Category:
     """In the order written; None: every action there is."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Choose:
     """A `Choice` parameter's value: the option's name, or the hook's."""
 
@@ -71,7 +72,7 @@ class Choose:
     hook: Hook | None
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Node:
     """A block of the app."""
 
@@ -101,7 +102,7 @@ class Node:
         return out
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Edge:
     """An arrow from a block to a block, or from `start`, or to `end`."""
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import keyword
 import re
 import sys
@@ -103,6 +102,8 @@ def near(name: str, options: Iterable[str]) -> list[str]:
     by_lower: dict[str, str] = {}
     for each in possible:
         by_lower.setdefault(each.lower(), each)
+    import difflib  # only for mistakes
+
     return [by_lower[match] for match in difflib.get_close_matches(name.lower(), by_lower, 3, 0.65)]
 
 

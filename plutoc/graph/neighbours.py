@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Sequence
-from string import ascii_letters, digits
 
 from plutoc.diagnostic import Diagnostic, in_order
 from plutoc.source import Source
 
 _NAMES = frozenset({"P1002", "P1012", "P1024", "P1028", "P1032"})
 _BREAK = re.compile(r"[ \t]*(#[^\n]*)?\r?\n(?:\s|#[^\n]*\n)*")
-_LETTERS = ("", "_", *ascii_letters, *digits)
+_LETTERS = ("", *"_abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789")
 """What may have stood between two halves of a name: nothing, or what another sign replaced."""
 
 

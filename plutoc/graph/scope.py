@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from plutoc.diagnostic import Diagnostic
+from plutoc.frozen import frozen
 from plutoc.graph import errors, names
 from plutoc.graph.names import Style
 from plutoc.graph.unclear import bad_statements
@@ -28,7 +28,7 @@ _HOOKS = frozenset({ACTION, *HOOK_ROLES.values()})
 _BAD_ROLES = HOOK_ROLES | {"block": BLOCK, "category": CATEGORY, "action": ACTION, "use": PREFIX}
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Declared:
     """What a name stands for."""
 

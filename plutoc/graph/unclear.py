@@ -7,10 +7,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
-from difflib import SequenceMatcher
 from itertools import chain
 
+from plutoc.frozen import frozen
 from plutoc.graph.names import Style, has_style, reserved
 from plutoc.syntax.tree import BadStatement, BlockDecl, File
 
@@ -22,7 +21,7 @@ _SHORT = 3
 """A name of so many letters is found in most texts by chance."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Unclear:
     """Names that may be declared after all."""
 
@@ -80,4 +79,6 @@ def _in_place_of_a_kind(file: File) -> list[str]:
 
 def _is_meant(name: str, head: str) -> bool:
     one, other = name.lower(), head.lower()
+    from difflib import SequenceMatcher  # only for mistakes
+
     return not head or bool(reserved(head)) or SequenceMatcher(None, one, other).ratio() >= _ALIKE

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Container, Sequence
-from decimal import Decimal
 
 from plutoc.diagnostic import Diagnostic, Fix, error
 from plutoc.graph.wording import a_kind, either, meant, related, there_are, unit_meant
@@ -88,6 +87,8 @@ def unknown_unit(
 
 def missing_unit(source: Source, span: Span, name: str, kind: Type) -> Diagnostic:
     """A number where a quantity is wanted."""
+    from decimal import Decimal  # only for mistakes
+
     number = source.quote(span)
     help = "write " + either([f"{number} {unit}" for unit in units_of(kind)])
     if kind is Type.PERCENT and 0 < Decimal(number) <= 1:

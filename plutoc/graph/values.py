@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from decimal import Decimal
-
 from plutoc.diagnostic import Diagnostic
 from plutoc.graph import value_errors
 from plutoc.graph.model import Plain
@@ -117,5 +115,9 @@ def written(value: Value) -> str:
 
 def _digits(number: float) -> str:
     """Write a number without an exponent, which the language does not have."""
-    whole = int(number) if number == int(number) else number
-    return format(Decimal(repr(whole)), "f")
+    written = repr(int(number) if number == int(number) else number)
+    if "e" not in written:
+        return written
+    from decimal import Decimal  # dear to load, and seldom needed
+
+    return format(Decimal(written), "f")

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from plutoc.block import HookKind
 from plutoc.check.model import Checked
 from plutoc.emit.stubs import Stub, stubs
+from plutoc.frozen import frozen
 from plutoc.graph.model import Action, Hook, Parameter
 from plutoc.source import Span
 
@@ -19,7 +18,7 @@ _PASSED = {
 """What comes by position, whatever the hook calls it."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Expected:
     """One function of hooks.py, as the app calls it."""
 

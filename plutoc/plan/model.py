@@ -6,21 +6,20 @@ around it says, or by `Continue`, `Break` or `End`.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from plutoc.check.model import Checked
+from plutoc.frozen import frozen
 from plutoc.graph.model import Node
 from plutoc_runtime.status import Status
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Call:
     """The mission goes through a block: `status = step(run, status, …)`."""
 
     node: Node
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Branch:
     """One way through a fork, a function of its own; `End` in it is the arrival at the gate."""
 
@@ -31,7 +30,7 @@ class Branch:
     body: Body
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Join:
     """A fork and the gate that closes it: `status = gate(run, status, branch, branch)`."""
 
@@ -40,7 +39,7 @@ class Join:
     branches: tuple[Branch, ...]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Arm:
     """What is done for some of the statuses of a `Switch`; `to` names where it leads."""
 
@@ -49,14 +48,14 @@ class Arm:
     to: str
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Switch:
     """Goes on by status. The arms share no status, and the last one takes all that is left."""
 
     arms: tuple[Arm, ...]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Loop:
     """`while True`: falling off the end begins again."""
 
@@ -64,29 +63,29 @@ class Loop:
     body: Body
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Continue:
     """Begin the innermost loop again."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Break:
     """Leave the innermost loop and go on behind it."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class End:
     """The mission, or the branch, is at its end: `return status`."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Goto:
     """Inside a `Dispatch`: go on with the case of this name."""
 
     label: str
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Case:
     """One place of a `Dispatch`; its body ends with `Goto` or `End` on every way."""
 
@@ -94,7 +93,7 @@ class Case:
     body: Body
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Dispatch:
     """For a graph without structure: `match` on where the mission is, in one loop."""
 
@@ -106,7 +105,7 @@ Step = Call | Join | Switch | Loop | Continue | Break | End | Goto | Dispatch
 Body = tuple[Step, ...]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Plan:
     """An app's flow."""
 

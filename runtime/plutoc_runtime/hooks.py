@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import traceback
 from collections.abc import Callable
 from contextlib import suppress
 
@@ -40,4 +39,6 @@ def hook_name(hook: Hook) -> str:
 
 def trace_of(error: BaseException) -> str:
     """Return the traceback of a hook's error, for the log."""
+    import traceback  # not needed by those who only declare blocks
+
     return "".join(traceback.format_exception(error)).rstrip()

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from .errors import HookFault
 from .hooks import hook_name, said, trace_of
-from .model import Drone, Trip
+
+if TYPE_CHECKING:
+    from .model import Drone, Trip
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -35,7 +37,7 @@ Policy = Callable[[Iterable[Offer]], Iterable[Decision]]
 The offers come one by one: each has the drones that are left after the decisions so far.
 """
 
-Chooser = Callable[[Trip, Sequence[Drone]], tuple[Drone, str]]
+Chooser = Callable[["Trip", Sequence["Drone"]], tuple["Drone", str]]
 
 
 def one_by_one(offers: Iterable[Offer], choose: Chooser) -> Iterator[Decision]:

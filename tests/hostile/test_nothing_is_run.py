@@ -129,6 +129,14 @@ class Trap:
         return open, (str(self.path), "w")
 
 
+@pytest.fixture
+def broken(app: Path) -> Path:
+    """An app with a mistake: a sound one takes no parser that is kept anywhere."""
+    text = app.read_text(encoding="utf-8")
+    app.write_text(text.replace("{", "{\n  a = = b", 1), encoding="utf-8")
+    return app
+
+
 def check_with_cache(home: Path, app: Path, code: int = 0) -> None:
     """Check an app in a process of its own, with this cache folder."""
     environment = {**os.environ, "XDG_CACHE_HOME": str(home)}
@@ -160,13 +168,13 @@ def poison_parser(kept: Path, trap: Path) -> bytes:
     "poison", ["folder for all", "folder is a link", "file for all", "file is a link", "a folder"]
 )
 def test_no_parser_is_unpickled_that_others_could_have_written(
-    tmp_path: Path, app: Path, poison: str
+    tmp_path: Path, broken: Path, poison: str
 ) -> None:
     """What is made of it all the same is a right answer, and the poison has not run."""
     home, trap, elsewhere = tmp_path / "cache", tmp_path / "hacked", tmp_path / "elsewhere"
     home.mkdir()
     elsewhere.mkdir()
-    check_with_cache(home, app)
+    check_with_cache(home, broken, code=1)
     (kept,) = (path for path in (home / "pluto").iterdir() if path.is_file())
     assert kept.stat().st_mode & 0o777 == 0o600
     poisoned = poison_parser(kept, trap)
@@ -183,20 +191,20 @@ def test_no_parser_is_unpickled_that_others_could_have_written(
     else:
         kept.unlink()
         kept.mkdir()
-    check_with_cache(home, app)
+    check_with_cache(home, broken, code=1)
     assert not trap.exists()
     if poison == "file is a link":
         assert (elsewhere / "poison").read_bytes() == poisoned
         assert not kept.is_symlink()
 
 
-def test_the_trap_works(tmp_path: Path, app: Path) -> None:
+def test_the_trap_works(tmp_path: Path, broken: Path) -> None:
     """The same poison in a file of the user's own would run: it is the file that must be theirs."""
-    check_with_cache(tmp_path, app)
+    check_with_cache(tmp_path, broken, code=1)
     (kept,) = (path for path in (tmp_path / "pluto").iterdir() if path.is_file())
     trap = tmp_path / "hacked"
     poison_parser(kept, trap)
-    check_with_cache(tmp_path, app, code=70)
+    check_with_cache(tmp_path, broken, code=70)
     assert trap.exists()
 
 
