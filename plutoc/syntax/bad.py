@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import re
 
-from lark import Token
-
 from plutoc.source import Source
 from plutoc.syntax.lines import Line
 from plutoc.syntax.newlines import BEGINNERS, EQUAL, NAME
-from plutoc.syntax.state import span
+from plutoc.syntax.tokens import Token, span
 from plutoc.syntax.tree import BadStatement, Name
 
 _IN_A_FLOW = frozenset({NAME, "_ARROW", "COMMA", "LSQB", "RSQB", "WHEN", "OTHERWISE", "UNKNOWN"})

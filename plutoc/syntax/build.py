@@ -1,19 +1,16 @@
-"""From Lark's tree to ours: one function a rule, each rule checked by the grammar before."""
+"""From the parser's tree to ours: one function a rule, each rule checked by the grammar before."""
 
 from __future__ import annotations
 
-from lark import Token, Tree
-
 from plutoc.source import Source, Span
 from plutoc.syntax import tree
+from plutoc.syntax.lalr import Child, Node
 from plutoc.syntax.texts import unescaped
-
-Node = Tree[Token]
-Child = Node | Token | None
+from plutoc.syntax.tokens import Token
 
 
 def file(source: Source, node: Node) -> tree.File:
-    """Build the tree of a source from Lark's."""
+    """Build the tree of a source from the parser's."""
     _, *uses, app = _nodes(node)
     return tree.File(source=source, uses=tuple(map(_use, uses)), app=_app(app))
 
@@ -32,7 +29,7 @@ def _use(node: Node) -> tree.Use:
     return tree.Use(
         package=_name(package),
         alias=_name(alias) if alias else None,
-        span=Span(_span(node).start, end or 0),
+        span=Span(_span(node).start, end),
     )
 
 
@@ -112,7 +109,7 @@ def _flow(node: Node) -> tree.FlowDecl:
 
 def _stop(node: Node) -> tree.Stop:
     (only,) = node.children
-    names = _names(only) if isinstance(only, Tree) else (_name(only),)
+    names = _names(only) if isinstance(only, Node) else (_name(only),)
     return tree.Stop(names=names, span=_span(node))
 
 
@@ -150,7 +147,7 @@ def _parameter(node: Node) -> tree.Parameter:
 
 def _value(child: Child) -> tree.Value:
     span = _span(child)
-    if isinstance(child, Tree):
+    if isinstance(child, Node):
         items = tuple(_value(item) for item in child.children if item is not None)
         return tree.List(items=items, span=span)
     token = _token(child)
@@ -178,7 +175,7 @@ def _text(token: Token) -> tree.Text:
 
 
 def _names(child: Child) -> tuple[tree.Name, ...]:
-    return tuple(map(_name, child.children)) if isinstance(child, Tree) else ()
+    return tuple(map(_name, child.children)) if isinstance(child, Node) else ()
 
 
 def _name(child: Child) -> tree.Name:
@@ -186,18 +183,17 @@ def _name(child: Child) -> tree.Name:
 
 
 def _span(child: Child) -> Span:
-    place = child.meta if isinstance(child, Tree) else _token(child)
-    # Lark says None where it does not know; in our grammar no rule is empty but optional lists.
-    return Span(place.start_pos or 0, place.end_pos or 0)
+    assert child is not None
+    return Span(child.start_pos, child.end_pos)
 
 
 def _nodes(child: Child) -> list[Node]:
-    children = child.children if isinstance(child, Tree) else []
-    return [grandchild for grandchild in children if isinstance(grandchild, Tree)]
+    children = child.children if isinstance(child, Node) else []
+    return [grandchild for grandchild in children if isinstance(grandchild, Node)]
 
 
 def _node(child: Child) -> Node:
-    assert isinstance(child, Tree)
+    assert isinstance(child, Node)
     return child
 
 

@@ -5,16 +5,15 @@ from __future__ import annotations
 import difflib
 from collections.abc import Sequence
 
-from lark import Token
-
 from plutoc.diagnostic import Diagnostic, Fix
 from plutoc.source import Source, Span
 from plutoc.syntax import errors
 from plutoc.syntax.hints import conflict, hint, role_of_a_name
 from plutoc.syntax.newlines import CLOSING, END, EQUAL, NAME, NEWLINE, OPENING, WORDS
 from plutoc.syntax.slips import slip
-from plutoc.syntax.state import State, made_up, span, would_feed
+from plutoc.syntax.state import State, would_feed
 from plutoc.syntax.texts import written_out
+from plutoc.syntax.tokens import Token, made_up, span
 from plutoc.syntax.unreadable import DEEPEST, MOST_DIGITS
 from plutoc.syntax.words import expected, found
 
@@ -171,7 +170,7 @@ def _missing(
         if kind == EQUAL and arrow:
             continue
         if kind in accepts and would_feed(state, [made_up(kind, text), *tokens[i : i + 2]]):
-            at = Span(*[(tokens[i - 1].end_pos or 0) if i else span(token).start] * 2)
+            at = Span(*[(tokens[i - 1].end_pos) if i else span(token).start] * 2)
             more = [made_up(kind, text), *tokens[i:]]
             certain = kind == "COLON" or (kind == "COMMA" and tokens[i + 1].type == "COLON")
             fix = _certain(state, more, at, text) if certain else None
@@ -211,6 +210,6 @@ def _mends(state: State, tokens: Sequence[Token]) -> bool:
 def _place(tokens: Sequence[Token], i: int) -> Span:
     """Return where to point. What ends a line is missed behind the token before it."""
     if i == len(tokens) - 1 or tokens[i].type in (NEWLINE, END):
-        end = tokens[i - 1].end_pos or 0
+        end = tokens[i - 1].end_pos
         return Span(end, end)
     return span(tokens[i])

@@ -8,16 +8,14 @@ mistake in one of them costs no other.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 
-from lark import Token
-
+from plutoc.frozen import frozen
 from plutoc.source import Span
 from plutoc.syntax.newlines import BEGINNERS, END, EQUAL, NAME, NEWLINE
-from plutoc.syntax.state import made_up, span
+from plutoc.syntax.tokens import Token, made_up, span
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Line:
     """The tokens of a line (at least one), and what ends it."""
 
@@ -80,7 +78,7 @@ def _opens_the_app(tokens: Sequence[Token]) -> int:
         if token.type == "LBRACE":
             if first == "APP":
                 return i
-            if ends_its_line < 0 and (tokens[i + 1].line or 0) > (token.line or 0):
+            if ends_its_line < 0 and (tokens[i + 1].line) > (token.line):
                 ends_its_line = i
                 first = None
     return ends_its_line

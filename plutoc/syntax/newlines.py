@@ -9,10 +9,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from lark import Token
-from lark.lark import PostLex
+from plutoc.syntax.tokens import Token
 
-NEWLINE, END = "_NL", "$END"
+COMMENT, NEWLINE, END = "COMMENT", "_NL", "$END"
 NAME, ARROW, EQUAL = "NAME", "_ARROW", "EQUAL"
 OPENING = {"LPAR": "RPAR", "LSQB": "RSQB"}
 CLOSING = frozenset(OPENING.values())
@@ -29,18 +28,11 @@ _LINE_BEGINNERS = BEGINNERS | {"USE", "APP"}
 _FOLLOWS_A_FIRST_NAME = frozenset({EQUAL, ARROW, NAME})
 
 
-class Newlines(PostLex):
-    """Stands between Lark's lexer and its parser."""
+def ended(tokens: Sequence[Token]) -> Iterator[Token]:
+    """Give the tokens that the parser is to see, of those that are no comments.
 
-    always_accept = ("COMMENT", NEWLINE, "OPEN_TEXT", "UNKNOWN")
-
-    def process(self, stream: Iterator[Token]) -> Iterator[Token]:
-        """Give the tokens that the parser is to see."""
-        return _process([token for token in stream if token.type != "COMMENT"])
-
-
-def _process(tokens: Sequence[Token]) -> Iterator[Token]:
-    """Never gives two newlines in a row, nor one at the beginning or behind `{`."""
+    Never gives two newlines in a row, nor one at the beginning or behind `{`.
+    """
     following = _following(tokens)
     depth = 0
     last = "LBRACE"  # as behind one: nothing before the first statement needs an end
@@ -59,7 +51,7 @@ def _process(tokens: Sequence[Token]) -> Iterator[Token]:
             if last not in (NEWLINE, "LBRACE"):
                 yield _newline(tokens[i - 1])  # `}` on the line of the last statement
         elif depth and token.type in _WORDS:
-            token = token.update(type=NAME)
+            token = token.of_type(NAME)
         last = token.type
         yield token
     if last not in (NEWLINE, "LBRACE", "RBRACE"):
@@ -102,5 +94,4 @@ def _is_followed_by_an_arrow(tokens: Sequence[Token], i: int) -> bool:
 
 def _newline(after: Token) -> Token:
     """Return a newline that is not in the source, right behind a token."""
-    line, column = after.end_line, after.end_column
-    return Token(NEWLINE, "", after.end_pos, line, column, line, column, after.end_pos)
+    return Token(NEWLINE, "", after.end_pos, after.end_pos, after.line)

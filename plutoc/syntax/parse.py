@@ -4,15 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from lark import Token, Tree, UnexpectedToken
-
 from plutoc.diagnostic import Diagnostic, accept_or_raise, in_order
 from plutoc.source import Source, Span
 from plutoc.syntax import build, errors
-from plutoc.syntax.grammar import parser
+from plutoc.syntax.lalr import tree_of
+from plutoc.syntax.lex import lexed
 from plutoc.syntax.newlines import END, NEWLINE
-from plutoc.syntax.state import beginning, span
 from plutoc.syntax.texts import HIDDEN, wrong_escapes
+from plutoc.syntax.tokens import Token, span
 from plutoc.syntax.tree import File
 from plutoc.syntax.unreadable import marked
 
@@ -42,9 +41,9 @@ def read(source: Source) -> tuple[File, tuple[Diagnostic, ...]]:
     if version is not None:
         return build.empty(source), (version,)
     found = [*_hidden_characters(source, tokens), *_wrong_escapes(source, tokens)]
-    lark_tree = _lark_tree(tokens)
-    if lark_tree is not None:
-        return build.file(source, lark_tree), in_order(found)
+    node = tree_of(tokens)
+    if node is not None:
+        return build.file(source, node), in_order(found)
     from plutoc.syntax.recover import recover  # much, and of use for mistakes alone
 
     file, mistakes = recover(source, tokens)
@@ -56,20 +55,7 @@ def _tokens(text: str) -> list[Token]:
     if text.startswith(_BOM):
         text = " " + text[1:]
     size = len(text)
-    return [*marked(parser().lex(text)), Token(END, "", size, end_pos=size)]
-
-
-def _lark_tree(tokens: Sequence[Token]) -> Tree[Token] | None:
-    """Return Lark's tree, or None where the tokens are not in order."""
-    state = beginning()
-    tree = None
-    try:
-        for token in tokens:
-            tree = state.feed_token(token)
-    except UnexpectedToken:
-        return None
-    assert isinstance(tree, Tree)
-    return tree
+    return [*marked(lexed(text)), Token(END, "", size, size, 0)]
 
 
 def _hidden_characters(source: Source, tokens: Sequence[Token]) -> Iterator[Diagnostic]:
@@ -87,7 +73,7 @@ def _hidden_characters(source: Source, tokens: Sequence[Token]) -> Iterator[Diag
 def _wrong_escapes(source: Source, tokens: Sequence[Token]) -> Iterator[Diagnostic]:
     for token in tokens:
         if token.type == "TEXT":
-            start = token.start_pos or 0
+            start = token.start_pos
             for match in wrong_escapes(token):
                 yield errors.unknown_escape(
                     source, Span(start + match.start(), start + match.end())

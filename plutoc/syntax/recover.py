@@ -7,20 +7,21 @@ what the parser refuses becomes a `BadStatement`, and the rest is parsed.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-
-from lark import Token, Tree
+from dataclasses import replace
 
 from plutoc.diagnostic import Diagnostic
+from plutoc.frozen import frozen
 from plutoc.source import Source, Span
 from plutoc.syntax import build
 from plutoc.syntax.bad import bad_statement
 from plutoc.syntax.explain import explain
+from plutoc.syntax.lalr import tree_of
 from plutoc.syntax.lines import Line, goes_on, joined, lines_of
 from plutoc.syntax.newlines import END, NEWLINE
 from plutoc.syntax.sections import sections
 from plutoc.syntax.split import is_exchanged, is_shifted, is_split, is_torn
-from plutoc.syntax.state import State, beginning, copied, feeds, made_up
+from plutoc.syntax.state import State, beginning, copied, feeds
+from plutoc.syntax.tokens import Token, made_up
 from plutoc.syntax.tree import BadStatement, File, Name
 
 _HEADER = (("PLUTO", "pluto"), ("NUMBER", "1"), (NEWLINE, ""))
@@ -30,7 +31,7 @@ _BELOW = "if the next line belongs to this one, join the two"
 _CLOSING = (("RBRACE", "}"), (NEWLINE, ""), (END, ""))
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class _Placed:
     """A line, and the parser as it stands before it."""
 
@@ -40,7 +41,7 @@ class _Placed:
     """Whether what is wrong with it is told already."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class _Judged:
     """The lines that can be read, and what is left of the others."""
 
@@ -76,7 +77,9 @@ def recover(source: Source, tokens: Sequence[Token]) -> tuple[File, list[Diagnos
     for line in (*parts.body, *parts.behind):
         clean += line.ended if id(line) in good else []
     clean += _made_up(_CLOSING)
-    file = build.file(source, _parsed(clean))
+    node = tree_of(clean)
+    assert node is not None, "each of its lines can be read"
+    file = build.file(source, node)
     return _with_bad(file, parts.app, judged.bad, named), found
 
 
@@ -141,7 +144,7 @@ def _failing(placed: _Placed) -> tuple[State, int | None]:
 
 def _with_bad(file: File, app: Line | None, bad: Sequence[BadStatement], named: bool) -> File:
     """Put what cannot be read where it stands. A broken first line of an app may have its name."""
-    end = app.tokens[-1].end_pos or 0 if app else 0
+    end = app.tokens[-1].end_pos if app else 0
     inside = [each for each in bad if each.span.start >= end]
     name = file.app.name
     if not named:
@@ -152,15 +155,6 @@ def _with_bad(file: File, app: Line | None, bad: Sequence[BadStatement], named: 
     return replace(
         file, app=replace(file.app, name=name, statements=tuple(statements)), bad=outside
     )
-
-
-def _parsed(tokens: Sequence[Token]) -> Tree[Token]:
-    state = beginning()
-    tree = None
-    for token in tokens:
-        tree = state.feed_token(token)
-    assert isinstance(tree, Tree)
-    return tree
 
 
 def _fed(tokens: Sequence[tuple[str, str]]) -> State:

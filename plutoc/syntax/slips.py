@@ -7,16 +7,15 @@ import unicodedata
 from collections.abc import Sequence
 from dataclasses import replace
 
-from lark import Token
-
 from plutoc.diagnostic import Diagnostic, Fix
 from plutoc.source import Source, Span
 from plutoc.syntax import errors
-from plutoc.syntax.grammar import parser
 from plutoc.syntax.hints import conflict
+from plutoc.syntax.lex import lexed
 from plutoc.syntax.newlines import NAME
-from plutoc.syntax.state import State, span, would_feed
+from plutoc.syntax.state import State, would_feed
 from plutoc.syntax.texts import HIDDEN, SPACES
+from plutoc.syntax.tokens import Token, span
 
 _ARROW = re.compile(r"[=\-‐‑–—−~－＝]+[>›≥＞]|[→⇒⟶⟹➔➜➝⇨]")
 _LONGEST = 2000
@@ -46,7 +45,7 @@ def _mends(source: Source, base: State, tokens: Sequence[Token], fix: Fix) -> bo
         return False
     # One of several is a mend, too.
     plain = _ARROW.sub("->", line.replace(";", " ")).translate(_WIDE)
-    return would_feed(base, parser().lex(plain))
+    return would_feed(base, lexed(plain))
 
 
 def _slip(source: Source, tokens: Sequence[Token], i: int) -> Diagnostic | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from plutoc.source import Source
-from plutoc.syntax.grammar import parser
+from plutoc.syntax.lex import lexed
 from plutoc.syntax.lines import Line, joined
 from plutoc.syntax.newlines import NAME
 from plutoc.syntax.state import State, would_feed
@@ -28,7 +28,7 @@ def is_torn(source: Source, base: State, first: Line, second: Line) -> bool:
     if not _are_near(source, first, second):
         return False
     text = source.quote(first.span.to(second.span))
-    return would_feed(base, parser().lex(text.replace("\r", "").replace("\n", "")))
+    return would_feed(base, lexed(text.replace("\r", "").replace("\n", "")))
 
 
 def _are_near(source: Source, first: Line, second: Line) -> bool:
@@ -55,6 +55,6 @@ def is_exchanged(source: Source, above: State, first: Line, below: State, second
     last, head = str(first.tokens[-1]), _WORD.match(right)
     if head is None or not left.endswith(last):
         return False
-    return would_feed(above, parser().lex(left.removesuffix(last) + head[0])) and would_feed(
-        below, parser().lex(last + right[head.end() :])
+    return would_feed(above, lexed(left.removesuffix(last) + head[0])) and would_feed(
+        below, lexed(last + right[head.end() :])
     )

@@ -5,17 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Protocol, cast
 
-from lark import Token, Tree, UnexpectedToken
+from lark import UnexpectedToken
 
-from plutoc.source import Span
 from plutoc.syntax.grammar import parser
+from plutoc.syntax.tokens import Token
 
 
 class State(Protocol):
     """What we use of Lark's interactive parser, which has no types of its own for it."""
 
-    def feed_token(self, token: Token) -> Tree[Token] | None:
-        """Go on by one token; give the tree at the end."""
+    def feed_token(self, token: Token) -> object:
+        """Go on by one token."""
         ...
 
     def choices(self) -> dict[str, object]:
@@ -54,13 +54,3 @@ def would_feed(state: State, tokens: Iterable[Token]) -> bool:
     """Say whether it could go on with these."""
     trial = copied(state)
     return all(feeds(trial, token) for token in tokens)
-
-
-def made_up(kind: str, text: str) -> Token:
-    """Return a token that the source does not have, to stand where it should have it."""
-    return Token(kind, text, 0, 1, 1, 1, 1, 0)
-
-
-def span(token: Token) -> Span:
-    """Return the place of a token."""
-    return Span(token.start_pos or 0, token.end_pos or 0)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from decimal import Decimal
 
 ESCAPES = {'\\"': '"', "\\\\": "\\"}
 """The only two: a text cannot hold what a screen does not show."""
@@ -44,6 +43,8 @@ _MOST_DIGITS = 15
 
 def written_out(quantity: str) -> str | None:
     """Say how a number is written here that other languages write so: `1e9`, `1_000`."""
+    from decimal import Decimal  # only for mistakes
+
     match = _DIGITS.fullmatch("".join(quantity.split()))
     if match is None or not set(match[0]) & set("_eE"):
         return None

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+from plutoc.frozen import frozen
 from plutoc.source import Source, Span
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Name:
     """A word that names something."""
 
@@ -15,7 +14,7 @@ class Name:
     span: Span
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Number:
     """`3`, `-0.5`: whole numbers stay whole."""
 
@@ -23,7 +22,7 @@ class Number:
     span: Span
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Quantity:
     """`5 min`, `40 %`: not yet converted, the unit not yet known to exist."""
 
@@ -32,7 +31,7 @@ class Quantity:
     span: Span
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Text:
     """`"a text"`, its escapes resolved."""
 
@@ -40,7 +39,7 @@ class Text:
     span: Span
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Bool:
     """`yes` or `no`."""
 
@@ -48,7 +47,7 @@ class Bool:
     span: Span
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class List:
     """`[a, b]` as a value."""
 
@@ -59,7 +58,7 @@ class List:
 Value = Name | Number | Quantity | Text | Bool | List
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Argument:
     """`policy: nearest`, given to a block or a category."""
 
@@ -68,7 +67,7 @@ class Argument:
     span: Span
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Parameter:
     """`dose: mass = 50 mg`, declared by an action or a modifier."""
 
@@ -78,7 +77,7 @@ class Parameter:
     span: Span
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Use:
     """`use pluto_survey as survey`."""
 
@@ -87,7 +86,7 @@ class Use:
     span: Span
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class CategoryDecl:
     """`category scout(payload: 5 g) can take_photo`."""
 
@@ -97,7 +96,7 @@ class CategoryDecl:
     span: Span
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class ActionDecl:
     """`action pollinate(dose: mass = 50 mg) once`; `repeat` is the last word, if any."""
 
@@ -107,7 +106,7 @@ class ActionDecl:
     span: Span
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class HookDecl:
     """`evaluator NAME`, `policy NAME`, `modifier NAME(…) emits … writes …`."""
 
@@ -120,7 +119,7 @@ class HookDecl:
     span: Span
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class BlockDecl:
     """`launch = TripLauncher`, `scan = survey.GridScan(spacing: 2 m)`."""
 
@@ -131,7 +130,7 @@ class BlockDecl:
     span: Span
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Stop:
     """One stop of a flow: a name, or several in brackets."""
 
@@ -139,7 +138,7 @@ class Stop:
     span: Span
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Guard:
     """`when STANDBY, FAILED`; `otherwise` has no statuses."""
 
@@ -148,7 +147,7 @@ class Guard:
     span: Span
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class FlowDecl:
     """`a -> [b, c] -> d when STANDBY`: at least two stops."""
 
@@ -157,7 +156,7 @@ class FlowDecl:
     span: Span
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class BadStatement:
     """What cannot be read, up to the next statement. A tree without mistakes has none."""
 
@@ -173,7 +172,7 @@ class BadStatement:
 Statement = CategoryDecl | ActionDecl | HookDecl | BlockDecl | FlowDecl | BadStatement
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class AppDecl:
     """`app NAME ["Title"] { … }`."""
 
@@ -184,7 +183,7 @@ class AppDecl:
     span: Span
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class File:
     """A whole source."""
 

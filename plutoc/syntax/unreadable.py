@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from lark import Token
-
 from plutoc.syntax.newlines import CLOSING, NEWLINE, OPENING
+from plutoc.syntax.tokens import Token
 
 DEEPEST = 64
 """How deep brackets are nested at most."""
@@ -21,13 +20,13 @@ def marked(tokens: Iterable[Token]) -> Iterator[Token]:
         if token.type in OPENING:
             depth += 1
             if depth > DEEPEST:
-                token = token.update(type="TOO_DEEP")
+                token = token.of_type("TOO_DEEP")
         elif token.type in CLOSING:
             depth = max(depth - 1, 0)
         elif token.type == NEWLINE:
             depth = 0
         elif token.type in ("NUMBER", "QUANTITY") and digits(token) > MOST_DIGITS:
-            token = token.update(type="LONG_NUMBER")
+            token = token.of_type("LONG_NUMBER")
         yield token
 
 

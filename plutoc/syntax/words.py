@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from lark import Token
-
 from plutoc.syntax.newlines import END, NEWLINE, WORDS
+from plutoc.syntax.tokens import Token
 
 _NAMED = {
     "NAME": "a name",
