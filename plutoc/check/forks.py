@@ -11,6 +11,8 @@ from plutoc.check.flow import Flow, Fork
 from plutoc.diagnostic import Diagnostic
 
 Branched = tuple[Branch, ...]
+_MOST_WAYS = 200
+"""Of so many forks that go round for ever a way is shown; nobody reads those of thousands."""
 
 
 def unclosed(flow: Flow, found: Branches) -> list[Diagnostic]:
@@ -25,7 +27,8 @@ def unclosed(flow: Flow, found: Branches) -> list[Diagnostic]:
     for fork, branches in found.items():
         stuck = any(inner.stuck for branch in branches for inner in within(found, branch))
         if not stuck and not any(fork in part for part in breeding):
-            wrong = _shared(flow, found, branches) or _open(flow, found, branches)
+            shown = len(diagnostics) < _MOST_WAYS
+            wrong = _shared(flow, found, branches) or _open(flow, found, branches, shown)
             diagnostics.extend([wrong] if wrong else [])
     return diagnostics
 
@@ -60,7 +63,7 @@ def _shared(flow: Flow, found: Branches, branches: Branched) -> Diagnostic | Non
     return None
 
 
-def _open(flow: Flow, found: Branches, branches: Branched) -> Diagnostic | None:
+def _open(flow: Flow, found: Branches, branches: Branched, shown: bool) -> Diagnostic | None:
     # a fork inside that does not close has its own message
     branches = tuple(b for b in branches if all(_sound(found[fork]) for fork in b.inner))
     graph, gates = flow.graph, gates_of(branches)
@@ -75,7 +78,7 @@ def _open(flow: Flow, found: Branches, branches: Branched) -> Diagnostic | None:
         ways = [flow.way(first[gate]) for gate in gates]
         return errors.different_gates(graph, branches, gates, ways)
     for branch in branches:
-        way = flow.way(branch.circles) if branch.circles else None
+        way = flow.way(branch.circles) if branch.circles and shown else None
         if not branch.gates and gates and graph.node[gates[0]].block.gate is Gate.ALL:
             return errors.waits_in_vain(graph, branch, gates[0], way)
         if branch.circles or not branch.gates:

@@ -46,6 +46,7 @@ class Explorer:
         self.strict = strict
         self.patient = patient
         """No gate calls a branch off: shows branches that would never have closed."""
+        self.unlike = unlike_bounds(app)
         self.most_flights = max((block.limit for block in app.blocks), default=0)
         self.seen = Seen()
 
@@ -113,7 +114,12 @@ class Explorer:
             block = self.blocks[token.block]
             try:
                 found = outcomes(
-                    state, token, block, strict=self.strict, most_flights=self.most_flights
+                    state,
+                    token,
+                    block,
+                    strict=self.strict,
+                    most_flights=self.most_flights,
+                    unlike=self.unlike,
                 )
                 ways = list(found)
                 if not ways and block.emits and state.flight != R:
@@ -206,3 +212,9 @@ def first_block(app: App) -> str | None:
     makers = [block.name for block in app.blocks if block.kind == "MissionCreator"]
     starts = [arrow.target for arrow in app.arrows if arrow.source == START]
     return makers[0] if len(makers) == 1 and starts == makers else None
+
+
+def unlike_bounds(app: App) -> bool:
+    """Say whether retries give up at different numbers of flights."""
+    bounds = {block.limit for block in app.blocks if block.kind == "PriorityManager"}
+    return len(bounds - {0}) > 1

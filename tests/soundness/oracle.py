@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from tests.soundness.app import START, App, is_rest
-from tests.soundness.explore import Explorer, Seen, first_block
+from tests.soundness.explore import Explorer, Seen, first_block, unlike_bounds
 from tests.soundness.state import Verdict
 from tests.soundness.walk import Run
 
@@ -23,7 +23,8 @@ class Judgement:
     faults: tuple[str, ...]
     """What no single run shows, but all of them together."""
     doubtful: bool
-    """It depends on how far a modifier's hook may change a mission's trips."""
+    """It depends on how far a modifier's hook may change a mission's trips, or on which of several
+    unlike bounds is reached first; or there were too many runs."""
     states: int
 
     @property
@@ -37,8 +38,7 @@ def judge(app: App) -> Judgement:
     if first is None:
         return Judgement(runs={}, faults=("missions begin nowhere",), doubtful=False, states=0)
     strict = _judged(app, first, strict=True)
-    hooks = any(block.emits for block in app.blocks)
-    if hooks:
+    if unlike_bounds(app) or any(block.emits for block in app.blocks):
         loose = _judged(app, first, strict=False)
         doubtful = strict.doubtful or loose.doubtful or strict.sound != loose.sound
         return replace(strict, doubtful=doubtful)

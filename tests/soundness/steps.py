@@ -12,7 +12,13 @@ MOST_TRIPS = 3
 
 
 def outcomes(
-    state: State, token: Token, block: Block, *, strict: bool, most_flights: int
+    state: State,
+    token: Token,
+    block: Block,
+    *,
+    strict: bool,
+    most_flights: int,
+    unlike: bool = False,
 ) -> Iterator[tuple[Status, State]]:
     """Yield every status with which the mission can leave a block now, and what has become of it."""
     match block.kind:
@@ -34,7 +40,9 @@ def outcomes(
             yield from ((S, with_trips(state, trips)) for trips in (1, MOST_TRIPS))
             yield from ((C, state), (F, state))
         case "PriorityManager":
-            yield from ((status, state) for status in retried(state, block))
+            yield from (
+                (status, state) for status in retried(state, block, by_count=strict or not unlike)
+            )
         case "MissionModifier" if block.emits:
             for status, after in modified(state, token, block, strict):
                 early = status == F != token.status and state.flight == F
@@ -71,10 +79,14 @@ def with_trips(state: State, trips: int) -> State:
     return state._replace(trips=trips, flown=0)
 
 
-def retried(state: State, block: Block) -> tuple[Status, ...]:
+def retried(state: State, block: Block, *, by_count: bool) -> tuple[Status, ...]:
+    """Return what a retry may say; where several have unlike bounds, one of them can keep another
+    from ever giving up: that is beyond what has to be seen."""
     if not block.limit:
         return (S,)
-    if state.flight != F:  # somebody else judged it a failure
+    if state.flight != F or (
+        state.flown < block.limit and not by_count
+    ):  # somebody else judged it a failure
         return (S, F)
     return (F,) if state.flown >= block.limit else (S,)
 
