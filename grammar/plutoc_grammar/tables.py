@@ -1,9 +1,9 @@
 """What Lark makes of pluto.lark. Written by a test: `pytest tests/syntax/test_tables.py --update`.
 
-TERMINALS are tried in their order; WORDS are names that are terminals of their own. RULES: a name,
-how many parts it takes, and its children: n is the n-th part, ~n the children of the n-th, None an
-empty place; None for them all is every part as it is. STATES: for what comes next the next state,
-or ~n where the n-th rule is complete.
+TERMINALS are tried in their order; WORDS are those names and signs that are terminals of their own.
+RULES: a name, how many parts it takes, and its children: n is the n-th part, ~n the children of the
+n-th, None an empty place; None for them all is every part as it is. STATES: for what comes next the
+next state, or ~n where the n-th rule is complete.
 """
 
 from __future__ import annotations
@@ -19,16 +19,7 @@ TERMINALS: tuple[tuple[str, str], ...] = (
     ('__IGNORE_0', '[ \t]+'),
     ('_NL', '\r?\n'),
     ('_ARROW', '\\->'),
-    ('COLON', ':'),
-    ('COMMA', ','),
-    ('DOT', '\\.'),
-    ('EQUAL', '='),
-    ('LBRACE', '\\{'),
-    ('LPAR', '\\('),
-    ('LSQB', '\\['),
-    ('RBRACE', '\\}'),
-    ('RPAR', '\\)'),
-    ('RSQB', '\\]'),
+    ('SIGN', '[:,\\.=\\{\\(\\[\\}\\)\\]]'),
     ('OPEN_TEXT', '"([^"\\\\\n]|\\\\[^\n])*\\\\?'),
     ('UNKNOWN', '.'),
 )
@@ -38,6 +29,14 @@ IGNORED = (
 )
 
 WORDS = {
+    '(': 'LPAR',
+    ')': 'RPAR',
+    ',': 'COMMA',
+    '.': 'DOT',
+    ':': 'COLON',
+    '=': 'EQUAL',
+    '[': 'LSQB',
+    ']': 'RSQB',
     'action': 'ACTION',
     'app': 'APP',
     'as': 'AS',
@@ -52,6 +51,8 @@ WORDS = {
     'use': 'USE',
     'when': 'WHEN',
     'writes': 'WRITES',
+    '{': 'LBRACE',
+    '}': 'RBRACE',
 }
 
 RULES: tuple[tuple[str, int, tuple[int | None, ...] | None], ...] = (

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 
-from plutoc.syntax.newlines import COMMENT, NAME, NEWLINE, ended
+from plutoc.syntax.newlines import COMMENT, NEWLINE, ended
 from plutoc.syntax.tokens import Token
 from plutoc_grammar.tables import IGNORED, TERMINALS, WORDS
 
@@ -31,8 +31,7 @@ def scanned(text: str) -> list[Token]:
             continue
         found = match[0]
         start, end = match.span()
-        if kind == NAME:
-            kind = WORDS.get(found, kind)
+        kind = WORDS.get(found, kind)
         tokens.append(Token(kind, found, start, end, line))
         if kind == NEWLINE:
             line += 1  # no other token goes on in the next line

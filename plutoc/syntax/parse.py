@@ -10,7 +10,7 @@ from plutoc.syntax import build, errors
 from plutoc.syntax.lalr import tree_of
 from plutoc.syntax.lex import lexed
 from plutoc.syntax.newlines import END, NEWLINE
-from plutoc.syntax.texts import HIDDEN, wrong_escapes
+from plutoc.syntax.texts import wrong_escapes
 from plutoc.syntax.tokens import Token, span
 from plutoc.syntax.tree import File
 from plutoc.syntax.unreadable import marked
@@ -60,14 +60,23 @@ def _tokens(text: str) -> list[Token]:
 
 def _hidden_characters(source: Source, tokens: Sequence[Token]) -> Iterator[Diagnostic]:
     """Find them in texts and comments; anywhere else they are no token, and the parser says so."""
-    elsewhere = {token.start_pos for token in tokens if token.type == "UNKNOWN"}
-    for match in HIDDEN.finditer(source.text):
-        if match.start() not in elsewhere and (match[0] != _BOM or match.start()):
-            yield errors.hidden_character(source, Span(*match.span()))
+    if not _is_plain(source.text):
+        from plutoc.syntax.hidden import HIDDEN  # a large pattern
+
+        elsewhere = {token.start_pos for token in tokens if token.type == "UNKNOWN"}
+        for match in HIDDEN.finditer(source.text):
+            if match.start() not in elsewhere and (match[0] != _BOM or match.start()):
+                yield errors.hidden_character(source, Span(*match.span()))
     for token in tokens:
         if token.type == "TEXT" and "\t" in token:
             at = span(token).start + token.index("\t")
             yield errors.hidden_character(source, Span(at, at + 1))
+
+
+def _is_plain(text: str) -> bool:
+    """Say whether there are only letters and signs that stand on any keyboard, and blanks."""
+    shown = text.replace("\r\n", "").replace("\n", "").replace("\t", "")
+    return shown.isascii() and shown.isprintable()
 
 
 def _wrong_escapes(source: Source, tokens: Sequence[Token]) -> Iterator[Diagnostic]:

@@ -10,11 +10,11 @@ from dataclasses import replace
 from plutoc.diagnostic import Diagnostic, Fix
 from plutoc.source import Source, Span
 from plutoc.syntax import errors
+from plutoc.syntax.hidden import HIDDEN, SPACES
 from plutoc.syntax.hints import conflict
 from plutoc.syntax.lex import lexed
 from plutoc.syntax.newlines import NAME
 from plutoc.syntax.state import State, would_feed
-from plutoc.syntax.texts import HIDDEN, SPACES
 from plutoc.syntax.tokens import Token, span
 
 _ARROW = re.compile(r"[=\-‐‑–—−~－＝]+[>›≥＞]|[→⇒⟶⟹➔➜➝⇨]")

@@ -5,6 +5,7 @@ For those who change the grammar; no command of the compiler comes here.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Sequence
 from textwrap import wrap
 
@@ -18,10 +19,10 @@ from plutoc.syntax.grammar import START, made
 _HEAD = '''\
 """What Lark makes of pluto.lark. Written by a test: `pytest tests/syntax/test_tables.py --update`.
 
-TERMINALS are tried in their order; WORDS are names that are terminals of their own. RULES: a name,
-how many parts it takes, and its children: n is the n-th part, ~n the children of the n-th, None an
-empty place; None for them all is every part as it is. STATES: for what comes next the next state,
-or ~n where the n-th rule is complete.
+TERMINALS are tried in their order; WORDS are those names and signs that are terminals of their own.
+RULES: a name, how many parts it takes, and its children: n is the n-th part, ~n the children of the
+n-th, None an empty place; None for them all is every part as it is. STATES: for what comes next the
+next state, or ~n where the n-th rule is complete.
 """
 
 from __future__ import annotations
@@ -40,13 +41,17 @@ def tabulated() -> str:
     words = {
         each.pattern.value: each.name
         for each in lexer.terminals
-        if isinstance(each.pattern, PatternStr) and each.pattern.value.isidentifier()
+        if isinstance(each.pattern, PatternStr)
+        and (each.pattern.value.isidentifier() or len(each.pattern.value) == 1)
     }
     terminals = [
         (each.name, each.pattern.to_regexp())
         for each in lexer.terminals
         if each.name not in words.values()
     ]
+    # One pattern for all signs. It stands behind what can begin like one, and before `UNKNOWN`.
+    signs = "".join(re.escape(word) for word in words if not word.isidentifier())
+    terminals.insert([name for name, _ in terminals].index("_ARROW") + 1, ("SIGN", f"[{signs}]"))
     rules = sorted(lark.rules, key=lambda rule: (rule.origin.name, rule.order))
     states, accepts = _numbered(lark)
     parts = (

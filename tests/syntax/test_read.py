@@ -134,6 +134,15 @@ def test_invisible_characters_are_refused(char: str) -> None:
     assert read_text(f"pluto 1  # b{char}c\napp a {{\n}}\n")[1] == ["P0004"]
 
 
+@pytest.mark.parametrize("before", ["", "ж"])
+def test_every_control_character_is_refused(before: str) -> None:
+    """Beside plain letters as beside others; but tabs and what ends a line."""
+    for char in map(chr, range(0x100)):
+        hidden = char not in "\t\n" and not char.isprintable() and char != "\u00a0"
+        _, codes = read_text(f"pluto 1  # {before}{char} # {before}\napp a {{\n}}\n")
+        assert ("P0004" in codes) == hidden, repr(char)
+
+
 @pytest.mark.parametrize("seen", ["👩\u200d🌾", "❤\ufe0f", "1\ufe0f\u20e3", "می\u200cخواهم"])
 def test_what_joins_signs_that_are_seen_is_allowed(seen: str) -> None:
     """Emoji and scripts need it."""
