@@ -96,7 +96,7 @@ def measured(calls: Mapping[str, list[str]], rounds: int) -> dict[str, list[floa
         for name, call in calls.items():
             begun = time.perf_counter()
             subprocess.run(call, check=True, capture_output=True, env=environment)
-            if number:  # the first round fills caches: bytecode, the parser's tables
+            if number:  # the first round fills caches: bytecode
                 took[name].append(time.perf_counter() - begun)
     return took
 

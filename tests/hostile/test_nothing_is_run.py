@@ -235,3 +235,6 @@ def test_an_app_is_read_the_same_with_no_home_at_all(
     assert cache_file("kept") is None
     Path("crop.pluto").write_text(APP)
     assert plutoc("check", "crop.pluto").code == 0
+    parser.cache_clear()
+    Path("crop.pluto").write_text(APP + "}")
+    assert plutoc("check", "crop.pluto").code == 1
