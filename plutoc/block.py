@@ -75,7 +75,7 @@ class HookParam:
     """The hook's own parameters are written beside it, and its step gets them by name."""
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
+@dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Choice:
     """One of several functions of the runtime, by name, or one of the app's hooks."""
 
@@ -100,7 +100,7 @@ class Narrowed:
     emits: frozenset[Status]
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
+@dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Block:
     """One kind of block.
 

@@ -14,7 +14,7 @@ Astray = tuple[Place, Status | None]
 """A place, and the status that it is left with where no edge takes that."""
 
 
-@dataclass(kw_only=True, eq=False)
+@dataclass(kw_only=True, repr=False, eq=False)
 class Branch:
     """One branch of a fork, over all the missions that come through it."""
 

@@ -37,7 +37,7 @@ def creation(creator: str) -> Place:
     return Place(frame=None, node=creator, status=Status.UNEXECUTED, facts=Facts())
 
 
-@dataclass(kw_only=True)
+@dataclass(kw_only=True, repr=False, eq=False)
 class _Walk:
     """The walk while it goes on. Dicts stand in for sets: their order is certain."""
 

@@ -15,7 +15,7 @@ FORMATS = ("text", "json", "github", "sarif")
 PICTURES = ("mermaid", "dot", "svg", "json")
 
 
-@dataclass  # no slots: argparse puts what it does not know into the object's own dictionary
+@dataclass(repr=False, eq=False)  # no slots: argparse puts what it does not know into the object's own dictionary
 class Options:
     """What was asked for."""
 
