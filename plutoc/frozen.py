@@ -17,6 +17,7 @@ T = TypeVar("T")
 @dataclass_transform(frozen_default=True, kw_only_default=True)
 def frozen(cls: type[T]) -> type[T]:
     """Make a dataclass with slots, whose fields are given by name and never change."""
+    cls.__doc__ = cls.__doc__ or cls.__name__  # or the library would spell out its signature
     made: Any = dataclass(init=False, repr=False, eq=False, slots=True, kw_only=True)(cls)
     names = tuple(field.name for field in fields(made))
     defaults = {f.name: f.default for f in fields(made) if f.default is not MISSING}

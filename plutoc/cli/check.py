@@ -55,6 +55,8 @@ def _check(file: Path, options: Options, troubles: list[str]) -> tuple[Diagnosti
 
 @frozen
 class _Findings:
+    """What was found, and at what cost."""
+
     found: tuple[Diagnostic, ...]
     explored: int
     """How many states of a mission were looked at: what the answer has cost."""

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import os
 import sys
-from argparse import SUPPRESS, Action, ArgumentParser, ArgumentTypeError
+from argparse import SUPPRESS, Action, ArgumentParser, ArgumentTypeError, HelpFormatter
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 
 from plutoc.cli.endings import USAGE
@@ -15,7 +17,9 @@ FORMATS = ("text", "json", "github", "sarif")
 PICTURES = ("mermaid", "dot", "svg", "json")
 
 
-@dataclass(repr=False, eq=False)  # no slots: argparse puts what it does not know into the object's own dictionary
+@dataclass(
+    repr=False, eq=False
+)  # no slots: argparse puts what it does not know into the object's own dictionary
 class Options:
     """What was asked for."""
 
@@ -43,8 +47,11 @@ class Options:
 
 def parse(arguments: Sequence[str]) -> Options:
     """Read the command line; raise SystemExit, as argparse does, after help or an error."""
+    # argparse lays out each argument, if only to see that it can, and asks each time how wide
+    layout = partial(HelpFormatter, width=_columns() - 2)
     parser = _plain(
         ArgumentParser(
+            formatter_class=layout,
             prog="plutoc",
             description="Turns graphs of drone missions into Python packages that fly them.",
             epilog="`plutoc COMMAND --help` says more about a command.",
@@ -61,7 +68,11 @@ def parse(arguments: Sequence[str]) -> Options:
     )
 
     def command(name: str, what: str) -> ArgumentParser:
-        return _plain(commands.add_parser(name, help=what, description=what, allow_abbrev=False))
+        return _plain(
+            commands.add_parser(
+                name, help=what, description=what, allow_abbrev=False, formatter_class=layout
+            )
+        )
 
     _new(command("new", "Make a folder with a small app to begin with."))
     _check(command("check", "Say what is wrong with apps; with --fix, mend what is certain."))
@@ -86,6 +97,18 @@ class _Version(Action):
     def __call__(self, parser: ArgumentParser, *_: object) -> None:
         tell_version()
         parser.exit()
+
+
+def _columns() -> int:
+    """Return how wide the terminal is; `shutil` knows, too, but loads three compressors first."""
+    try:
+        return int(os.environ.get("COLUMNS", "")) or 80
+    except ValueError:
+        pass
+    try:
+        return os.get_terminal_size().columns or 80
+    except (OSError, ValueError):
+        return 80
 
 
 def _plain(parser: ArgumentParser) -> ArgumentParser:

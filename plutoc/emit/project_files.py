@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from plutoc.emit.exports import EXPORTS
 from plutoc.emit.fields import fields_of
 from plutoc.emit.imports import Import, import_lines
 from plutoc.emit.markup import fence, markdown, one_line, toml_text
@@ -9,23 +10,6 @@ from plutoc.emit.python import header
 from plutoc.emit.render import render
 from plutoc.frozen import frozen
 from plutoc.graph.model import Graph
-
-EXPORTS = {
-    "ActionFailed": "._runtime.errors",
-    "Category": "._runtime.model",
-    "Context": "._runtime.context",
-    "Drone": "._runtime.model",
-    "Item": "._runtime.model",
-    "Mission": ".model",
-    "Photo": "._runtime.model",
-    "Point": "._runtime.model",
-    "Result": ".model",
-    "Results": ".model",
-    "Status": "._runtime.status",
-    "Trip": ".model",
-    "Verdict": "._runtime.verdict",
-}
-"""The types that hooks are written with, and where they are."""
 
 
 @frozen

@@ -6,6 +6,7 @@ import re
 from collections.abc import Collection, Iterable
 
 from plutoc.graph.model import Plain
+from plutoc_runtime.status import Status
 
 LINE_LENGTH = 100
 
@@ -80,3 +81,8 @@ def annotation(type_name: str, taken: Collection[str]) -> str:
 def shadows(taken: Collection[str], type_names: Iterable[str]) -> bool:
     """Say whether one of these types would be hidden by one of these names."""
     return any(annotation(name, taken) != name for name in type_names)
+
+
+def status_tuple(statuses: tuple[Status, ...]) -> str:
+    """Return some statuses as Python writes them."""
+    return items(f"Status.{status.name}" for status in statuses)

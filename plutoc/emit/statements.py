@@ -9,7 +9,7 @@ from inspect import iscoroutinefunction
 from plutoc.block import Choice, HookParam, Param
 from plutoc.emit.callables import Names, chosen
 from plutoc.emit.embed import Carried
-from plutoc.emit.python import call, items, literal
+from plutoc.emit.python import call, literal, status_tuple
 from plutoc.frozen import frozen
 from plutoc.graph.model import Node
 from plutoc.plan.model import (
@@ -27,7 +27,6 @@ from plutoc.plan.model import (
     Switch,
 )
 from plutoc_runtime.fields import Entity, Field
-from plutoc_runtime.status import Status
 
 
 @frozen
@@ -132,11 +131,6 @@ def _choice(node: Node, choice: Choice, scope: Scope) -> str:
         return f"hooks.{hook}"
     name = scope.names[Carried(package=node.package, function=function)]
     return f"{name}(hooks.{hook})" if hook else name
-
-
-def status_tuple(statuses: tuple[Status, ...]) -> str:
-    """Return some statuses as Python writes them."""
-    return items(f"Status.{status.name}" for status in statuses)
 
 
 def _picture(join: Join) -> str:

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from plutoc.block import HookKind
 from plutoc.check.model import Checked
-from plutoc.emit.python import annotation, literal
-from plutoc.emit.statements import status_tuple
+from plutoc.emit.python import annotation, literal, status_tuple
 from plutoc.frozen import frozen
 from plutoc.graph.model import Action, Graph, Hook, Parameter
 from plutoc_runtime.quantities import PYTHON, Type
