@@ -32,7 +32,8 @@ def read(source: Source) -> tuple[File, tuple[Diagnostic, ...]]:
     """Return the tree of any text, and every mistake in its syntax.
 
     What cannot be read is a `BadStatement` there. Of a source that is too large, or in another
-    version of the language, nothing is read: there can be more wrong with it than is told.
+    version of the language, nothing is read: there can be more wrong with it than is told. So there
+    can behind the first thousand mistakes.
     """
     if len(source.text.encode("utf-8", "surrogatepass")) > LARGEST:
         return build.empty(source), (errors.too_large(source, LARGEST),)

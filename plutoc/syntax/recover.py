@@ -24,6 +24,9 @@ from plutoc.syntax.state import State, beginning, copied, feeds
 from plutoc.syntax.tokens import Token, made_up
 from plutoc.syntax.tree import BadStatement, File, Name
 
+MOST_MISTAKES = 1_000
+"""Of more mistakes in one source nothing is told: nobody reads that many."""
+
 _HEADER = (("PLUTO", "pluto"), ("NUMBER", "1"), (NEWLINE, ""))
 _APP = (("APP", "app"), ("NAME", ""), ("LBRACE", "{"))
 _ABOVE = "if this belongs to the line above, join the two"
@@ -98,6 +101,10 @@ def _judged(
         if at is None:
             good.append(line)
             previous = each
+            continue
+        if len(found) >= MOST_MISTAKES:  # to ask of each why it is wrong takes its time
+            bad.append(bad_statement(source, line))
+            previous = None
             continue
         lines = [line]
         above = below = False

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from plutoc.source import Source
 from plutoc.syntax.parse import LARGEST, parse, read
+from plutoc.syntax.recover import MOST_MISTAKES
 from plutoc.syntax.tree import BadStatement, BlockDecl, File, FlowDecl, Statement
 from tests.syntax.test_parse import SAMPLE
 
@@ -147,3 +148,14 @@ def test_every_control_character_is_refused(before: str) -> None:
 def test_what_joins_signs_that_are_seen_is_allowed(seen: str) -> None:
     """Emoji and scripts need it."""
     assert read_text(f'pluto 1\napp a "{seen}" {{\n}}\n')[1] == []
+
+
+def test_of_very_many_mistakes_the_first_are_told() -> None:
+    """A file of nothing but mistakes is refused in seconds, and still has a tree."""
+    text = "pluto 1\napp a {\n" + "x = = y\n" * (MOST_MISTAKES + 500) + "  b = Clock\n}\n"
+    file, found = read(Source("app.pluto", text))
+    assert len(found) == MOST_MISTAKES
+    assert found[-1].span.start < len(text) - 500
+    *bad, last = file.app.statements
+    assert len(bad) == MOST_MISTAKES + 500
+    assert isinstance(last, BlockDecl)
