@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterator
+from collections.abc import Callable, Container, Iterator
 
 from plutoc.check import errors
 from plutoc.check.components import behind, components
 from plutoc.check.flow import Flow, is_final, ordered
 from plutoc.diagnostic import Diagnostic
-from plutoc.graph.model import END, START, Edge, Graph
+from plutoc.graph.model import END, START, Edge, Graph, Node
 from plutoc_runtime.status import Status
 
 
-def unreached(flow: Flow, creator: str) -> list[Diagnostic]:
+def unreached(flow: Flow, creator: str, missed: Callable[[Node], bool]) -> list[Diagnostic]:
     """Find blocks to which no path leads, one message for what hangs together.
 
     Where a mission is stuck, its arrow is missing to one of those that could take it: not to reach
-    them follows from that, and is not said again.
+    them follows from that, and is not said again. So it is with blocks that are missed elsewhere.
     """
     graph = flow.graph
     after: dict[str, list[str]] = {}
@@ -33,14 +33,16 @@ def unreached(flow: Flow, creator: str) -> list[Diagnostic]:
     island = {name: index for index, part in enumerate(parts) for name in part}
     led_to = {t for n in lost for t in lost[n] if t in island and island[t] != island[n]}
     left = {status for _, status in flow.loose if not is_final(status)}
+
+    def is_told(name: str) -> bool:
+        return bool(left & graph.node[name].block.accepts) or missed(graph.node[name])
+
     return [
         errors.unreached(graph, graph.node[part[0]], _behind(lost, part[0]))
         for part in parts
         if led_to.isdisjoint(part)
         and not _creator_leads(graph, reached, part)
-        and not any(
-            left & graph.node[name].block.accepts for name in behind(lost, part) if name in lost
-        )
+        and not any(is_told(name) for name in behind(lost, part) if name in lost)
     ]
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from plutoc.check import (
     ending,
     errors,
@@ -21,7 +23,7 @@ from plutoc.check.flow import Flow
 from plutoc.check.model import Checked
 from plutoc.check.statuses import creation, explore
 from plutoc.diagnostic import Diagnostic, Rejected, in_order
-from plutoc.graph.model import Graph
+from plutoc.graph.model import Graph, Node
 
 
 def check(graph: Graph) -> tuple[Checked, tuple[Diagnostic, ...]]:
@@ -35,12 +37,14 @@ def check(graph: Graph) -> tuple[Checked, tuple[Diagnostic, ...]]:
     flow = explore(graph, edges, (creation(creator.name),))
     stopped = _after_a_stop(flow)
     parallels = branches(flow)
-    lacking = reach.unreached(flow, creator.name) + reach.starved(flow)
-    found += _in_flight(flow, parallels, lacking=bool(lacking))
+    unwatched = parallel.unwatched_limits(flow, parallels)
+    missed = _missed(forks.unclosed(flow, parallels), unwatched)
+    lacking = reach.unreached(flow, creator.name, missed) + reach.starved(flow)
+    found += _in_flight(flow, parallels, lacking=bool(lacking or unwatched))
     found += lacking
     found += reach.untaken(flow, stopped)
     found += parallel.written_twice(flow, parallels)
-    found += parallel.unwatched_limits(flow, parallels)
+    found += unwatched
     # after a Stop the same things go wrong once more: say only what goes wrong there alone
     found = found or [
         *map(errors.after_a_stop, _in_flight(stopped, branches(stopped), lacking=False))
@@ -58,6 +62,17 @@ def check(graph: Graph) -> tuple[Checked, tuple[Diagnostic, ...]]:
         explored=len(flow.places),
     )
     return checked, in_order(_warnings(flow, stopped))
+
+
+def _missed(unclosed: list[Diagnostic], unwatched: list[Diagnostic]) -> Callable[[Node], bool]:
+    """Say which blocks were most likely meant to be where these findings miss one."""
+
+    def missed(node: Node) -> bool:
+        block = node.block
+        closes = bool(unclosed) and block.gate is not None
+        return closes or (bool(unwatched) and block.watches and not block.limits)
+
+    return missed
 
 
 def _warnings(flow: Flow, stopped: Flow) -> list[Diagnostic]:
