@@ -41,7 +41,8 @@ def meant_to_declare(
         names = [name for stop in flow.stops for name in stop.names]
         if len(names) == 2 and flow.guard is None:
             name, kind = names
-            if name.text not in (*scope, START) and kind.text in kinds and kind.text not in scope:
+            free = name.text != START and name.text not in scope
+            if free and kind.text in kinds and kind.text not in scope:
                 found.append(errors.kind_in_a_flow(source, name, kind))
                 declaring[name.text] = flow
     return declaring
