@@ -33,22 +33,24 @@ def check(graph: Graph) -> tuple[Checked, tuple[Diagnostic, ...]]:
     """
     creator, edges, found = entry(graph)
     if creator is None or (found and not graph.outgoing[creator.name]):
-        raise Rejected(found)  # nothing moves: there is nothing else to say
+        raise Rejected(in_order(found))  # nothing moves: there is nothing else to say
     flow = explore(graph, edges, (creation(creator.name),))
     stopped = _after_a_stop(flow)
     parallels = branches(flow)
     unwatched = parallel.unwatched_limits(flow, parallels)
-    missed = _missed(forks.unclosed(flow, parallels), unwatched)
+    unclosed = forks.unclosed(flow, parallels)
+    missed = _missed(unclosed, unwatched)
     lacking = reach.unreached(flow, creator.name, missed) + reach.starved(flow)
     found += _in_flight(flow, parallels, lacking=bool(lacking or unwatched))
+    found += unclosed
     found += lacking
     found += reach.untaken(flow, stopped)
     found += parallel.written_twice(flow, parallels)
     found += unwatched
-    # after a Stop the same things go wrong once more: say only what goes wrong there alone
-    found = found or [
-        *map(errors.after_a_stop, _in_flight(stopped, branches(stopped), lacking=False))
-    ]
+    if not found:  # else the same things go wrong once more after a Stop
+        again = branches(stopped)
+        wrong = _in_flight(stopped, again, lacking=False) + forks.unclosed(stopped, again)
+        found = [errors.after_a_stop(each) for each in wrong]
     if found:
         raise Rejected(in_order(found))
     checked = Checked(
@@ -93,7 +95,6 @@ def _in_flight(flow: Flow, parallels: Branches, *, lacking: bool) -> list[Diagno
     return [
         *stuck.stuck(flow, parallels, tuple(idle)),
         *ending.endless(flow),
-        *forks.unclosed(flow, parallels),
         *idle.values(),
         *flights.undrawn(flow),
         *flights.unlaunched(flow),

@@ -129,8 +129,9 @@ class _Walk:
         """A clone arrives at the gate of its fork."""
         branches = self.closes.setdefault(frame.split, {}).setdefault(place.node, {})
         branches.setdefault(frame.branch, {})[place] = None
-        known = (place.node, place.status) in self.through.get(frame.split, ())
-        if gate is Gate.ALL or not known:  # what comes after the first changes nothing
+        passed = self.through.get(frame.split, {}).get(place.node, {})
+        known = (place.status, place.facts.attempts) in passed
+        if gate is Gate.ALL or not known:  # the second to bring the same changes nothing
             self.let_through(frame.split, place.node, gate)
 
     def let_through(self, split: Split, name: str, gate: Gate) -> None:

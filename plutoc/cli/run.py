@@ -12,6 +12,7 @@ from hashlib import sha256
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from plutoc.cache import cache_folder
 from plutoc.check.model import Checked
 from plutoc.cli.endings import Terminated, Unusable
 from plutoc.cli.files import default_folder, find_hooks, hooks_path, read_app, read_module, shown
@@ -23,7 +24,6 @@ from plutoc.emit.lock import NAME as LOCK
 from plutoc.emit.package import Package
 from plutoc.emit.write import CannotWrite, compare, write
 from plutoc.source import Source
-from plutoc.syntax.cache import cache_folder
 from plutoc_runtime.cli import output
 from plutoc_runtime.words import printable
 

@@ -15,7 +15,7 @@ import lark
 from lark.lark import PostLex
 from lark.lexer import BasicLexer, Token
 
-from plutoc.syntax.cache import cache_file, keep, kept
+from plutoc.cache import cache_file, keep, kept
 from plutoc.syntax.newlines import COMMENT, NEWLINE
 
 START = "file"

@@ -162,7 +162,7 @@ def test_a_closed_standard_input_is_said(
     assert (said.code, said.err) == (2, "plutoc: standard input is closed\n")
 
 
-@pytest.mark.skipif(os.name != "posix", reason="permissions are otherwise elsewhere")
+@pytest.mark.skipif(os.name != "posix", reason="Windows has no permissions of this kind")
 def test_permissions_are_kept(plutoc: Call, app: Path) -> None:
     """A file that nobody else may read stays so."""
     app.write_text(UNTIDY)
@@ -182,7 +182,7 @@ def test_a_read_only_file_is_left_alone(plutoc: Call, app: Path) -> None:
     assert plutoc("fmt", app, "--check").code == 1
 
 
-@pytest.mark.skipif(os.name != "posix", reason="links need leave elsewhere")
+@pytest.mark.skipif(os.name != "posix", reason="on Windows an ordinary user may make no link")
 def test_a_link_stays_a_link(plutoc: Call, app: Path) -> None:
     """What it leads to is formatted."""
     app.write_text(UNTIDY)
@@ -195,7 +195,7 @@ def test_a_link_stays_a_link(plutoc: Call, app: Path) -> None:
     assert os.listdir("deep") == ["link.pluto"]
 
 
-@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no pipes with names")
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="this system has no named pipes")
 def test_what_is_no_ordinary_file_is_not_replaced(app: Path) -> None:
     """A pipe would be gone afterwards."""
     os.mkfifo("pipe")
@@ -253,7 +253,7 @@ def test_the_new_source_comes_into_its_place_at_once(
     assert seen == [UNTIDY, TIDY]
 
 
-@pytest.mark.skipif(os.name != "posix", reason="nothing kills so elsewhere")
+@pytest.mark.skipif(os.name != "posix", reason="Windows has no SIGKILL")
 @pytest.mark.parametrize(
     "moment",
     [

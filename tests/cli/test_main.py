@@ -119,7 +119,7 @@ def test_an_interrupt_ends_with_130(
     assert said.err == "plutoc: interrupted\n"
 
 
-@pytest.mark.skipif(os.name != "posix", reason="nothing tells so elsewhere")
+@pytest.mark.skipif(os.name != "posix", reason="Windows does not send these signals")
 @pytest.mark.parametrize("name", ["SIGTERM", "SIGHUP"])
 @pytest.mark.parametrize(
     ("command", "moment"),
@@ -146,7 +146,7 @@ def test_who_is_told_to_end_leaves_nothing_half_done(
     assert tree(Path()) == before
 
 
-@pytest.mark.skipif(os.name != "posix", reason="nothing tells so elsewhere")
+@pytest.mark.skipif(os.name != "posix", reason="Windows does not send these signals")
 def test_who_ignores_it_goes_on(app: Path) -> None:
     """With `nohup` a closed terminal is nothing to end for."""
     done = python(
@@ -159,7 +159,7 @@ def test_who_ignores_it_goes_on(app: Path) -> None:
     assert (done.returncode, done.stderr) == (0, "")
 
 
-@pytest.mark.skipif(os.name != "posix", reason="nothing tells so elsewhere")
+@pytest.mark.skipif(os.name != "posix", reason="Windows does not send these signals")
 def test_a_simulation_ends_with_the_command_that_began_it(app: Path) -> None:
     """Nobody is left behind to go on simulating."""
     Path("hooks.py").write_text(

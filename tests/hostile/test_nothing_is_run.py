@@ -16,7 +16,7 @@ import plutoc
 import plutoc_blocks
 import plutoc_grammar
 import plutoc_runtime
-from plutoc.syntax.cache import cache_file
+from plutoc.cache import cache_file
 from plutoc.syntax.grammar import parser
 from tests.cli.conftest import APP, Call
 
