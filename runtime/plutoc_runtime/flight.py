@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from .actions import PICK, RELEASE, Action
 from .context import Context
@@ -17,6 +17,7 @@ from .navigation import Order
 if TYPE_CHECKING:
     from .core import Core
     from .model import Drone, Trip
+    from .run import Run
     from .state import Flight, State
     from .status import Status
 
@@ -151,3 +152,10 @@ async def outcome(core: Core, state: State, key: Key, limit: Limit | None = None
     ):
         abort(core, state, limit.reason)
     return await flight.ended
+
+
+async def watch(run: Run[Any], *limits: Limit | None) -> Status:
+    """Wait for the end of the flight under all limits; the soonest fails the trip."""
+    given = [limit for limit in limits if limit is not None]
+    soonest = min(given, key=lambda limit: limit.until, default=None)
+    return await outcome(run.core, run.state, run.key, soonest)
