@@ -9,7 +9,7 @@ from pathlib import Path
 from shlex import quote
 
 from plutoc.check.model import Checked
-from plutoc.cli.diff import diff
+from plutoc.cli.patch import diff
 from plutoc.cli.endings import CLEAN, ERRORS, REFUSED, Unusable
 from plutoc.cli.files import default_folder, find_hooks, hooks_path, read_app, shown
 from plutoc.cli.options import Options

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from plutoc.cli.diff import diff
+from plutoc.cli.patch import diff
 from plutoc.cli.endings import CLEAN, ERRORS, USAGE, Unusable
 from plutoc.cli.files import STANDARD_INPUT, read_app, read_standard_input, shown
 from plutoc.cli.options import Options
