@@ -9,10 +9,10 @@ from pathlib import Path
 from shlex import quote
 
 from plutoc.check.model import Checked
-from plutoc.cli.patch import diff
 from plutoc.cli.endings import CLEAN, ERRORS, REFUSED, Unusable
 from plutoc.cli.files import default_folder, find_hooks, hooks_path, read_app, shown
 from plutoc.cli.options import Options
+from plutoc.cli.patch import diff
 from plutoc.cli.say import say
 from plutoc.compile import Compiled, analyse, compile_source, planned
 from plutoc.diagnostic import Diagnostic, Rejected

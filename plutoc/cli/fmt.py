@@ -5,10 +5,10 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from plutoc.cli.patch import diff
 from plutoc.cli.endings import CLEAN, ERRORS, USAGE, Unusable
 from plutoc.cli.files import STANDARD_INPUT, read_app, read_standard_input, shown
 from plutoc.cli.options import Options
+from plutoc.cli.patch import diff
 from plutoc.cli.rewrite import rewrite
 from plutoc.cli.say import say
 from plutoc.diagnostic import Diagnostic, Rejected
