@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
-
-import networkx as nx
+from collections.abc import Iterable, Mapping
 
 from plutoc.frozen import frozen
 from plutoc.plan.chart import Chart, Spot
+from plutoc.plan.dominators import immediate_dominators
 
 
 @frozen
@@ -68,7 +67,7 @@ def shape(chart: Chart) -> Shape:
     before: list[list[int]] = [[] for _ in order]
     for one, two in arrows:
         before[two].append(one)
-    parent = _parents(arrows)
+    parent = immediate_dominators(before)
     size = [1] * len(order)
     for spot in reversed(range(1, len(order))):
         size[parent[spot]] += size[spot]
@@ -94,7 +93,7 @@ def shape(chart: Chart) -> Shape:
         order=order,
         place=place,
         before={order[i]: tuple(order[j] for j in sources) for i, sources in enumerate(before)},
-        parent={order[spot]: order[above] for spot, above in parent.items()},
+        parent={order[spot]: order[parent[spot]] for spot in range(1, len(order))},
         children={spot: tuple(order[c] for c in children[i]) for i, spot in enumerate(order)},
         number=dict(zip(order, number, strict=True)),
         size=dict(zip(order, size, strict=True)),
@@ -106,14 +105,6 @@ def shape(chart: Chart) -> Shape:
         # in this order an arrow that leads back, and not to where all ways pass, enters a loop
         reducible=all(one < two for one, two in forward),
     )
-
-
-def _parents(arrows: Sequence[tuple[int, int]]) -> dict[int, int]:
-    graph = nx.DiGraph(arrows)
-    graph.add_node(0)
-    found: dict[int, int] = dict(nx.immediate_dominators(graph, 0))
-    found.pop(0, None)
-    return found
 
 
 def _last_things_first(chart: Chart) -> list[Spot]:
