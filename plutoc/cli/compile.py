@@ -12,7 +12,6 @@ from plutoc.check.model import Checked
 from plutoc.cli.endings import CLEAN, ERRORS, REFUSED, Unusable
 from plutoc.cli.files import default_folder, find_hooks, hooks_path, read_app, shown
 from plutoc.cli.options import Options
-from plutoc.cli.patch import diff
 from plutoc.cli.say import say
 from plutoc.compile import Compiled, analyse, compile_source, planned
 from plutoc.diagnostic import Diagnostic, Rejected
@@ -64,6 +63,8 @@ def _compile(options: Options, said: _Said) -> None:
     try:
         changes = _changes(options, compiled)
         if options.diff:
+            from plutoc.cli.patch import diff
+
             said.lines += diff(changes)
         if options.check:
             _refuse(compiled.checked, changes)

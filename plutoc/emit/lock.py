@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from hashlib import sha256
-from importlib.metadata import PackageNotFoundError, entry_points, version
 
+from plutoc import __version__
 from plutoc.emit.markup import toml_text
 from plutoc.emit.python import header
 from plutoc.registry import GROUP, STD
@@ -20,7 +20,7 @@ def lock(app: str, source_name: str, packages: Iterable[str], files: Mapping[str
     the packages, and the SHA-256 of each file.
     """
     others = sorted(set(packages) - {STD})
-    versions = {"plutoc": _version(), **{package: _of_blocks(package) for package in others}}
+    versions = {"plutoc": __version__, **{package: _of_blocks(package) for package in others}}
     digests = {path: sha256(text.encode()).hexdigest() for path, text in sorted(files.items())}
     lines = [
         f"# {header(source_name)}",
@@ -35,15 +35,10 @@ def lock(app: str, source_name: str, packages: Iterable[str], files: Mapping[str
     return "\n".join(lines) + "\n"
 
 
-def _version() -> str:
-    try:
-        return version("plutoc")
-    except PackageNotFoundError:  # a checkout that nobody has installed
-        return "not installed"
-
-
 def _of_blocks(package: str) -> str:
     """Return the version of the distribution that brings a package of blocks."""
+    from importlib.metadata import entry_points  # slow to import, and ours needs no looking up
+
     for point in entry_points(group=GROUP, name=package):
         if point.dist is not None:
             return f"{point.dist.name} {point.dist.version}"

@@ -8,8 +8,6 @@ from __future__ import annotations
 
 import errno
 import os
-import shutil
-import tempfile
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from hashlib import sha256
@@ -200,11 +198,15 @@ def create(folder: Path, texts: Mapping[str, str], *, save: Save = Path.write_by
 @contextmanager
 def _aside(parent: Path) -> Iterator[Path]:
     """Give a folder for unfinished work, on the same disk as its place, and take it away again."""
-    aside = Path(tempfile.mkdtemp(prefix=_ASIDE, dir=parent))
+    # not by tempfile, nor with shutil before it is needed: they take longer to import than this does
+    aside = parent / f"{_ASIDE}{os.urandom(8).hex()}"
+    aside.mkdir(mode=0o700)
     try:
         yield aside
     finally:
-        shutil.rmtree(aside, ignore_errors=True)
+        from shutil import rmtree
+
+        rmtree(aside, ignore_errors=True)
 
 
 @contextmanager
@@ -229,6 +231,8 @@ def _make_folders(folder: Path) -> list[Path]:
 
 def _prepare(changes: Changes, aside: Path, save: Save) -> None:
     """Write the new texts aside, and keep the old ones there. Most of what can fail fails here."""
+    from shutil import copy2
+
     for change in changes.files:
         if change.after is not None:
             new = aside / "new" / change.path
@@ -237,7 +241,7 @@ def _prepare(changes: Changes, aside: Path, save: Save) -> None:
         if change.before is not None:
             old = aside / "old" / change.path
             old.parent.mkdir(parents=True, exist_ok=True)
-            shutil.copy2(changes.folder / change.path, old, follow_symlinks=False)
+            copy2(changes.folder / change.path, old, follow_symlinks=False)
 
 
 def _replace(changes: Changes, aside: Path) -> None:

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import subprocess
-from shutil import which
-
 
 class NoGraphviz(Exception):
     """Graphviz is not there, or it could not draw. The text says what to do."""
@@ -12,6 +9,9 @@ class NoGraphviz(Exception):
 
 def dot_to_svg(text: str) -> str:
     """Have Graphviz draw what `dot` wrote; raise `NoGraphviz` where that fails."""
+    import subprocess  # slow to import, and other pictures do without
+    from shutil import which
+
     program = which("dot")
     if program is None:
         raise NoGraphviz(
