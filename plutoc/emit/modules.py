@@ -10,6 +10,7 @@ from importlib.util import find_spec
 from pathlib import PurePath
 
 import plutoc_runtime
+from plutoc.emit.scan import Written, written_imports
 from plutoc.frozen import frozen
 
 RUNTIME = plutoc_runtime.__name__
@@ -89,7 +90,26 @@ def imports_from(module: Module) -> tuple[ImportFrom, ...]:
     Imports inside functions count too. A plain `import` of such a module is refused: it would bind
     a name that a carried module does not have.
     """
-    return tuple(_imports(module))
+    written = written_imports(module.text) if is_within(module.name, RUNTIME) else None
+    return tuple(_imports(module) if written is None else _scanned(module, written))
+
+
+def _scanned(module: Module, written: list[Written]) -> Iterator[ImportFrom]:
+    """Yield the same as `_imports`, for a module whose texts say it plainly."""
+    for one in written:
+        line = module.text.count("\n", 0, one.start) + 1
+        level = len(one.target) - len(one.target.lstrip("."))
+        if not one.names:
+            if not is_standard(one.target):
+                raise module.refuse(line, _no_plain_import(one.target))
+        elif level or not is_standard(one.target):
+            yield ImportFrom(
+                target=_target(module, one.target[level:], level, line),
+                names=one.names,
+                line=line,
+                offset=len(module.text[: one.start].encode()),
+                written=one.target,
+            )
 
 
 def _imports(module: Module) -> Iterator[ImportFrom]:
@@ -102,7 +122,7 @@ def _imports(module: Module) -> Iterator[ImportFrom]:
                 if not is_standard(alias.name):
                     raise module.refuse(node.lineno, _no_plain_import(alias.name))
         elif isinstance(node, ast.ImportFrom):
-            target = _target(module, node)
+            target = _target(module, node.module or "", node.level, node.lineno)
             if node.level or not is_standard(target):
                 yield ImportFrom(
                     target=target,
@@ -119,11 +139,11 @@ def _no_plain_import(name: str) -> str:
     return f"{name} is not of the standard library: it cannot be carried along"
 
 
-def _target(module: Module, node: ast.ImportFrom) -> str:
-    if not node.level:
-        return node.module or ""
+def _target(module: Module, written: str, level: int, line: int) -> str:
+    if not level:
+        return written
     parts = module.package.split(".")
-    if node.level > len(parts):
-        raise module.refuse(node.lineno, "the import leads out of its package")
-    base = parts[: len(parts) - node.level + 1]
-    return ".".join([*base, node.module] if node.module else base)
+    if level > len(parts):
+        raise module.refuse(line, "the import leads out of its package")
+    base = parts[: len(parts) - level + 1]
+    return ".".join([*base, written] if written else base)
