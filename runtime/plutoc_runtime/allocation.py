@@ -2,91 +2,128 @@
 
 It is served at the end of every instant in which something changed, so that all requests and all
 free drones of the instant are known: by priority, higher first, then by arrival.
+
+Nobody who waits in vain is looked at again and again: a free drone that is too low for all who wait
+is put aside until it is charged, or until somebody comes for whom it is enough.
 """
 
 from __future__ import annotations
 
-from bisect import insort
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from itertools import groupby
+from heapq import heappop, heappush
 from math import inf
 from typing import TYPE_CHECKING
 
-from .eligibility import Demand
+from .capability import chain_of
+from .eligibility import Demand, Reach
 from .energy import docked
-from .errors import MissionFailed
-from .kernel import FLEET, Kernel, Kind, Signal, Timer
-from .policy import Decision, Offer, Policy
+from .errors import HookFault, MissionFailed
+from .kernel import FLEET, Kernel, Kind, Timer
+from .policy import BatchPool, Choice, Policy, Pool
+from .signals import Signal
 from .status import DroneStatus
 
 if TYPE_CHECKING:
-    from .airspace import Airspace
-    from .app import App
     from .model import Drone, Trip
 
 _GONE = (DroneStatus.LOST, DroneStatus.OFFLINE)
 _IN_THE_AIR = (DroneStatus.BUSY, DroneStatus.RETURNING, DroneStatus.RECOVERING)
 
+Entry = tuple[int, int, "Request"]
+"""Priority, higher first; arrival; who waits."""
 
-class Request:
-    """A mission that waits for a drone."""
 
-    def __init__(self, demand: Demand, policy: Policy, priority: int, arrival: int) -> None:
-        self.demand, self.policy, self.priority = demand, policy, priority
-        self.place = (-priority, arrival)
-        self.answer: Signal[Decision] = Signal()
-        self.fresh = True
-        """It has not been served yet."""
+class Request(Signal["Drone"]):
+    """A mission that waits for a drone; it is set to the one that it gets."""
+
+    __slots__ = ("demand", "left", "policy", "pool", "refused_of", "why")
+
+    def __init__(self, demand: Demand, policy: Policy, pool: Pool) -> None:
+        self.is_set = False
+        self._value = self.error = self._watchers = None
+        self.demand, self.policy, self.pool = demand, policy, pool
+        self.why = ""
+        """Why it got its drone."""
+        self.left = False
+        """It does not wait any longer."""
         self.refused_of = -1
         """How many drones were lost when it was last asked whether any drone is able."""
+
+    @property
+    def trip(self) -> Trip:
+        """What the drone is wanted for."""
+        return self.demand.chain[0]
+
+    @property
+    def waits(self) -> bool:
+        """Whether it still wants a drone."""
+        return not (self.is_set or self.left)
 
 
 class Queue:
     """The missions that wait, and the drones that they wait for."""
 
     def __init__(
-        self,
-        kernel: Kernel,
-        app: App,
-        airspace: Airspace,
-        drones: Sequence[Drone],
-        max_airborne: int | None,
+        self, kernel: Kernel, reach: Reach, drones: Sequence[Drone], max_airborne: int | None
     ) -> None:
-        self._kernel, self._app, self._airspace = kernel, app, airspace
+        self._kernel, self._reach = kernel, reach
         self._drones, self._max_airborne = drones, max_airborne
-        self._requests: list[Request] = []
-        self._arrivals = 0
-        self.served: Callable[[], None] = lambda: None
-        """Called after each serving, while some still wait."""
-        self._round: Timer | None = None
-        self._recheck: Timer | None = None
+        self._entries: list[Entry] = []
+        self._fresh: list[Request] = []
+        """Those that have not been served yet."""
+        self._waiting = self._arrivals = 0
+        self._pools: dict[Policy, Pool] = {}
+        self._batches: dict[Policy, BatchPool] = {}
+        """Those of the pools that look at all trips at once."""
+        self._high = {drone: None for drone in drones if drone.status is DroneStatus.FREE}
+        """The free drones that are in the pools."""
         self._low: dict[Drone, float] = {}
         """Free drones that are too low for all that has waited so far, and until when they are."""
+        self._gone = sum(drone.status in _GONE for drone in drones)
+        self._airborne = sum(drone.status in _IN_THE_AIR for drone in drones)
+        self._recheck: Timer | None = None
+        self.served: Callable[[], None] = lambda: None
+        """Called after each serving, while some still wait."""
 
-    def enter(self, chain: Sequence[Trip], policy: Policy, priority: int) -> Request:
-        """Wait for a drone; the answer comes at the end of this instant or later."""
+    def enter(self, trips: Sequence[Trip], policy: Policy, priority: int) -> Request:
+        """Wait for a drone for the first trip; the answer comes at the end of this instant or later."""
+        pool = self._pools.get(policy)
+        if pool is None:
+            pool = self._new_pool(policy)
+        request = Request(Demand(self._reach, chain_of(trips)), policy, pool)
         self._arrivals += 1
-        demand = Demand(self._app, self._airspace, chain)
-        request = Request(demand, policy, priority, self._arrivals)
-        insort(self._requests, request, key=lambda request: request.place)
-        self.changed()
+        self._waiting += 1
+        heappush(self._entries, (-priority, self._arrivals, request))
+        self._fresh.append(request)
+        self._kernel.at_last(self._serve)
         return request
 
     def leave(self, request: Request) -> None:
         """Do not wait any longer."""
-        if request in self._requests:
-            self._requests.remove(request)
+        if request.waits:
+            request.left = True
+            self._waiting -= 1
+
+    def moved(self, drone: Drone, before: DroneStatus, after: DroneStatus) -> None:
+        """A drone has changed its status: serve the queue at the end of this instant."""
+        self._airborne += (after in _IN_THE_AIR) - (before in _IN_THE_AIR)
+        self._gone += (after in _GONE) - (before in _GONE)
+        if after is DroneStatus.FREE:
+            self._raise(drone)
+        elif before is DroneStatus.FREE:
+            self._take(drone)
+        self.changed()
 
     def changed(self) -> None:
         """Something changed: serve the queue at the end of this instant."""
-        if self._requests and (self._round is None or self._round.call is None):
-            self._round = self._kernel.at(self._kernel.now, Kind.ALLOCATE, FLEET, self._serve)
+        if self._waiting:
+            self._kernel.at_last(self._serve)
 
     @property
     def waiting(self) -> bool:
         """Whether anybody waits."""
-        return bool(self._requests)
+        return self._waiting > 0
 
     def standing(self) -> str:
         """Say what the drones are doing: why a mission waits."""
@@ -96,107 +133,168 @@ class Queue:
     @property
     def room(self) -> bool:
         """Whether one more drone may fly."""
-        return self._places() > 0
+        return self._max_airborne is None or self._airborne < self._max_airborne
 
     def too_low(self) -> Iterator[Drone]:
         """Give the free drones that waiting missions could use if they were charged."""
-        for drone in self._free():
-            if any(request.demand.never(drone) is None for request in self._requests):
+        for drone in sorted(self._low, key=lambda drone: drone.index):
+            if any(request.demand.never(drone) is None for request in self._waiters()):
                 yield drone
 
-    def _free(self) -> list[Drone]:
-        return [drone for drone in self._drones if drone.status is DroneStatus.FREE]
+    def _waiters(self) -> Iterator[Request]:
+        return (request for _, _, request in self._entries if request.waits)
+
+    # The free drones
+
+    def _new_pool(self, policy: Policy) -> Pool:
+        pool = self._pools[policy] = policy()
+        if isinstance(pool, BatchPool):
+            self._batches[policy] = pool
+        for drone in self._high:
+            pool.add(drone)
+        return pool
+
+    def _raise(self, drone: Drone) -> None:
+        """A drone may be handed out."""
+        self._low.pop(drone, None)
+        self._high[drone] = None
+        for pool in self._pools.values():
+            pool.add(drone)
+
+    def _take(self, drone: Drone) -> None:
+        """A drone may not be handed out."""
+        if drone in self._high:
+            del self._high[drone]
+            for pool in self._pools.values():
+                pool.remove(drone)
+        self._low.pop(drone, None)
+
+    # Serving
 
     def _serve(self) -> None:
         self._refuse_what_cannot_be()
-        free, places = self._free(), self._places()
-        self._low = {drone: until for drone, until in self._low.items() if drone in free}
-        high = [drone for drone in free if self._low.get(drone, 0.0) <= self._kernel.now]
-        waiting = groupby(self._requests[:], key=lambda request: (request.priority, request.policy))
-        for (_, policy), requests in waiting:
-            asked: dict[Offer, Request] = {}
-            for decision in policy(_offers(requests, free, high, asked)):
-                if decision.drone is not None:
-                    if places == 0:
-                        break
-                    places -= 1
-                    free.remove(decision.drone)
-                    if decision.drone in high:
-                        high.remove(decision.drone)
-                self._answer(asked[decision.offer], decision)
-            if not free or places == 0:
-                break
-        self._look_again_when_charged(free, high)
-        if self._requests:
+        if self._low:
+            self._raise_who_is_high_enough()
+        if self._high and self._waiting and self.room:
+            self._share_out()
+        if self._waiting:
+            self._lower_who_is_of_no_use()
             self.served()
+        self._fresh.clear()
 
-    def _answer(self, request: Request, decision: Decision) -> None:
-        self.leave(request)
-        if decision.fault is not None:
-            request.answer.fail(decision.fault)
-        elif decision.drone is not None:
-            decision.drone.status = DroneStatus.BUSY  # at once: nobody else may have it
-            request.answer.set(decision)
+    def _share_out(self) -> None:
+        entries, passed = self._entries, list[Entry]()
+        while entries and self._high and self.room:
+            entry = heappop(entries)
+            request = entry[2]
+            if not request.waits:
+                continue
+            batch = self._batches.get(request.policy)
+            if batch is not None:
+                passed += self._share_among(batch, [entry, *self._alike(entry)])
+            elif not self._chosen(request):
+                passed.append(entry)
+        for entry in passed:
+            heappush(entries, entry)
 
-    def _places(self) -> int:
-        """Return how many more drones may fly."""
-        if self._max_airborne is None:
-            return len(self._drones)
-        airborne = sum(drone.status in _IN_THE_AIR for drone in self._drones)
-        return max(0, self._max_airborne - airborne)
+    def _chosen(self, request: Request) -> bool:
+        """Let the policy choose a drone for a request; say whether the request is over."""
+        try:
+            choice = request.pool.choose(request.demand.chain[0], request.demand.met_by)
+        except HookFault as fault:
+            self._refuse(request, fault)
+            return True
+        if choice is not None:
+            self._give(request, choice)
+        return choice is not None
+
+    def _alike(self, entry: Entry) -> Iterator[Entry]:
+        """Take the entries that come next and have the same priority and policy."""
+        entries = self._entries
+        while entries and entries[0][0] == entry[0]:
+            if entries[0][2].waits and entries[0][2].policy != entry[2].policy:
+                return
+            following = heappop(entries)
+            if following[2].waits:
+                yield following
+
+    def _share_among(self, pool: BatchPool, entries: Sequence[Entry]) -> Iterator[Entry]:
+        """Let the policy choose for all of them at once; give those that got nothing."""
+        offers = [(entry[2].trip, entry[2].demand.met_by) for entry in entries]
+        for entry, choice in zip(entries, pool.share(offers), strict=True):
+            if choice is None or not self.room:
+                yield entry
+            else:
+                self._give(entry[2], choice)
+
+    def _give(self, request: Request, choice: Choice) -> None:
+        drone, request.why = choice
+        self._waiting -= 1
+        self._airborne += 1
+        self._take(drone)
+        drone.status = DroneStatus.BUSY  # at once: nobody else may have it
+        request.set(drone)
+
+    def _refuse(self, request: Request, error: MissionFailed) -> None:
+        self._waiting -= 1
+        request.fail(error)
 
     def _refuse_what_cannot_be(self) -> None:
-        left = [drone for drone in self._drones if drone.status not in _GONE]
-        gone = len(self._drones) - len(left)
-        for request in self._requests[:]:
-            if request.refused_of == gone:
-                continue
-            request.refused_of = gone
-            reasons = [request.demand.never(drone) for drone in left]
-            if None not in reasons:
-                self.leave(request)
-                lost = [f"{gone} of {len(self._drones)} drones are lost"] if gone else []
-                because = "; ".join([*lost, *dict.fromkeys(reason for reason in reasons if reason)])
-                trip = request.demand.chain[0].name
-                request.answer.fail(
-                    MissionFailed(f"no drone of the fleet can fly trip {trip}: {because}")
-                )
+        """Refuse those who have come, and after a loss all who wait, if no drone is able."""
+        for request in self._fresh if not self._gone else list(self._waiters()):
+            if request.refused_of != self._gone and request.waits:
+                request.refused_of = self._gone
+                if all(request.demand.never(drone) is not None for drone in self._left()):
+                    self._refuse(request, self._unable(request))
 
-    def _look_again_when_charged(self, free: Iterable[Drone], high: Sequence[Drone]) -> None:
+    def _left(self) -> Iterator[Drone]:
+        return (drone for drone in self._drones if drone.status not in _GONE)
+
+    def _unable(self, request: Request) -> MissionFailed:
+        lost = [f"{self._gone} of {len(self._drones)} drones are lost"] if self._gone else []
+        reasons = (request.demand.never(drone) for drone in self._left())
+        because = "; ".join([*lost, *dict.fromkeys(reason for reason in reasons if reason)])
+        return MissionFailed(f"no drone of the fleet can fly trip {request.trip.name}: {because}")
+
+    # Who is too low
+
+    def _raise_who_is_high_enough(self) -> None:
+        """Those that have charged, and those that are high enough for somebody who has come."""
+        now = self._kernel.now
+        for drone, until in list(self._low.items()):
+            if until <= now or any(
+                request.waits and request.demand.met_by(drone) for request in self._fresh
+            ):
+                self._raise(drone)
+            else:
+                self._low[drone] = min(until, self._charged_for(drone, self._fresh))
+
+    def _lower_who_is_of_no_use(self) -> None:
         """A docked drone that is too low for what waits will be high enough at a known time.
 
         One that is high enough and was not given (no more may fly, a policy wants it not) stays so.
         """
-        fresh = [request for request in self._requests if request.fresh]
-        for drone in free:
-            known, asking = (inf, self._requests) if drone in high else (self._low[drone], fresh)
-            waits = [self._kernel.now + _charging(drone, request.demand) for request in asking]
-            self._low[drone] = min([known, *waits])
-        for request in fresh:
-            request.fresh = False
+        if self.room:
+            for drone in list(self._high):
+                until = self._charged_for(drone, self._waiters())
+                if until > self._kernel.now:
+                    self._take(drone)
+                    self._low[drone] = until
         if self._recheck is not None:
             self._recheck.cancel()
-        later = (until for until in self._low.values() if until > self._kernel.now)
-        soonest = min(later, default=inf)
+        soonest = min(self._low.values(), default=inf)
         if soonest < inf:
             self._recheck = self._kernel.at(soonest, Kind.CLOCK, FLEET, self.changed)
 
-
-def _offers(
-    requests: Iterable[Request], free: list[Drone], high: list[Drone], asked: dict[Offer, Request]
-) -> Iterator[Offer]:
-    """Give what each mission is offered of the drones that are left when it is asked.
-
-    Of all that are free only a mission that has just come needs to look at those that are too low
-    for the others.
-    """
-    for request in requests:
-        drones = free if request.fresh else high
-        candidates = tuple(drone for drone in drones if request.demand.met_by(drone))
-        if candidates:
-            offer = Offer(trip=request.demand.chain[0], candidates=candidates)
-            asked[offer] = request
-            yield offer
+    def _charged_for(self, drone: Drone, requests: Iterable[Request]) -> float:
+        """Return when a drone can fly for one of them; now, if it can already."""
+        now, soonest = self._kernel.now, inf
+        for request in requests:
+            if request.waits:
+                soonest = min(soonest, now + _charging(drone, request.demand))
+                if soonest <= now:
+                    return now
+        return soonest
 
 
 def _charging(drone: Drone, demand: Demand) -> float:

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import isfinite
 from typing import TYPE_CHECKING, Any
 
-from .kernel import Kind, Signal
+from .kernel import Kind
+from .results import SoFar
+from .signals import Signal
 
 if TYPE_CHECKING:
     from .core import Core
@@ -25,12 +28,12 @@ class Context:
     @property
     def now(self) -> float:
         """The time, in seconds since the app started."""
-        return self._core.kernel.now
+        return self._core.kernel.time()
 
     @property
-    def results(self) -> tuple[Result[Any, Any], ...]:
+    def results(self) -> Sequence[Result[Any, Any]]:
         """What every action of the app has given so far."""
-        return tuple(self._core.results.results)
+        return SoFar(self._core.results.results)
 
     def log(self, text: str) -> None:
         """Write a line on the console."""
@@ -40,7 +43,7 @@ class Context:
         """Wait for so many seconds, simulated or real."""
         kernel, over = self._core.kernel, Signal[None]()
         _must_be_finite(seconds)
-        timer = kernel.at(kernel.now + seconds, Kind.CLOCK, self._key, lambda: over.set(None))
+        timer = kernel.at(kernel.time() + seconds, Kind.CLOCK, self._key, lambda: over.set(None))
         try:
             await kernel.offer(over)
         finally:
@@ -57,10 +60,10 @@ class Context:
             return trip.ended
         kernel, over = self._core.kernel, Signal[None]()
 
-        def wake() -> None:
+        def wake(_: object = None) -> None:
             over.set(None)
 
-        flight.ended.watch(wake)
+        flight.watch(wake)
         timer = None
         if within is not None:
             _must_be_finite(within)
@@ -69,10 +72,10 @@ class Context:
         try:
             await kernel.offer(over)
         finally:
-            flight.ended.unwatch(wake)
+            flight.unwatch(wake)
             if timer is not None:
                 timer.cancel()
-        return flight.ended.is_set
+        return flight.is_set
 
     @property
     def _key(self) -> tuple[int, ...]:

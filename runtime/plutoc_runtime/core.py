@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from .airspace import Airspace
+    from .allocation import Queue
     from .app import App
     from .fleet import Fleet
     from .kernel import Kernel
@@ -14,6 +15,7 @@ if TYPE_CHECKING:
     from .results import ResultStore
     from .trace import Trace
     from .transitions import Transitions
+    from .watching import Deadlines
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -27,8 +29,11 @@ class Core:
     trace: Trace
     results: ResultStore
     transitions: Transitions
+    queue: Queue
     fleet: Fleet
+    deadlines: Deadlines
 
     def log(self, text: str, mission: str | None = None) -> None:
         """Write a line on the console of whoever watches."""
-        self.trace.note("log", mission=mission, text=text)
+        if self.trace.live:
+            self.trace.note("log", mission=mission, text=text)

@@ -11,15 +11,16 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from .energy import docked
-from .errors import Failure, FlightFailed
-from .kernel import FLEET, Kernel, Key, Kind, Signal, Task
+from .errors import FlightFailed
+from .kernel import FLEET, Kernel, Key, Kind, Task
+from .navigation import permitted_way
+from .signals import Signal
 from .status import DroneStatus
-from .words import place
 
 if TYPE_CHECKING:
     from .airspace import Airspace
     from .allocation import Queue
-    from .model import Drone, Point
+    from .model import Drone
     from .navigation import Navigation
     from .trace import Trace
 
@@ -49,19 +50,9 @@ class Fleet:
         self._kernel, self._trace, self._airspace = kernel, trace, airspace
         self._navigation, self._after_trip = navigation, after_trip
         self._errands: dict[Drone, Task[None]] = {}
-        self._change: Signal[None] = Signal()
-        """The next change of any drone."""
+        self._change: Signal[None] | None = None
+        """The next change of any drone, if anybody waits for it."""
         queue.served = self._fetch_what_is_low
-
-    async def go_to(self, drone: Drone, target: Point) -> None:
-        """Fly a drone to a point by a permitted way."""
-        route = self._airspace.route(drone.location, target)
-        if route is None:
-            raise FlightFailed(
-                Failure.REFUSED, f"there is no permitted way from {drone.id} to {place(target)}"
-            )
-        for point in route:
-            await self._navigation.go_to(drone.id, point)
 
     def engage(self, drone: Drone) -> None:
         """A drone is about to fly for a mission: whatever it was doing for itself is over."""
@@ -86,7 +77,10 @@ class Fleet:
 
     def dismiss(self, drone: Drone) -> None:
         """A drone has done what it was allocated for."""
-        if self._after_trip is AfterTrip.HOME or self._is_low(drone):
+        if self._rests_here(drone):
+            self.engage(drone)
+            self._become(drone, DroneStatus.FREE)
+        elif self._after_trip is AfterTrip.HOME or self._is_low(drone):
             self.send_home(drone)
         else:
             self._send(drone, DroneStatus.RETURNING, self._stay, "lands")
@@ -105,7 +99,7 @@ class Fleet:
 
     async def all_down(self) -> None:
         """Wait until every drone has done what it does for itself: return, land, recover."""
-        while under_way := [task for task in self._errands.values() if not task.done.is_set]:
+        while under_way := [task for task in self._errands.values() if not task.is_set]:
             await under_way[0].ended()
 
     async def land_all(self) -> None:
@@ -118,7 +112,7 @@ class Fleet:
             if not drone.telemetry.landed
         ]
         for task in tasks:
-            await task.done
+            await task
 
     def _send(
         self,
@@ -140,17 +134,20 @@ class Fleet:
         del self._errands[drone]
 
     def _become(self, drone: Drone, status: DroneStatus) -> None:
-        if drone.status is not status:
+        before = drone.status
+        if before is not status:
             drone.status = status
-            self._trace.note(
-                f"drone.{status.value.lower()}",
-                drone=drone.id,
-                battery=round(drone.battery_level, 4),
-                at=[round(value, 3) for value in drone.location],
-            )
-        change, self._change = self._change, Signal()
-        change.set(None)
-        self.queue.changed()
+            if self._trace.live:
+                self._trace.note(
+                    f"drone.{status.value.lower()}",
+                    drone=drone.id,
+                    battery=round(drone.battery_level, 4),
+                    at=[round(value, 3) for value in drone.location],
+                )
+        self.queue.moved(drone, before, status)
+        if self._change is not None:
+            change, self._change = self._change, None
+            change.set(None)
 
     async def _land(self, drone: Drone) -> bool:
         """Land a drone where it is, and say whether it could; it is brought home otherwise."""
@@ -168,17 +165,24 @@ class Fleet:
         if self._after_trip is AfterTrip.NEXT:
             await self._kernel.sleep(0, Kind.ALLOCATE, self._key(drone))
             while self._is_stray(drone) and not self.queue.room:
-                await self._change
+                await self._next_change()
                 await self._kernel.sleep(0, Kind.ALLOCATE, self._key(drone))
             if self._is_stray(drone):
                 self._become(drone, DroneStatus.RETURNING)
                 await self._return(drone)
 
+    def _next_change(self) -> Signal[None]:
+        if self._change is None:
+            self._change = Signal()
+        return self._change
+
     async def _return(self, drone: Drone) -> None:
         try:
-            await self._navigation.takeoff(drone.id, self._airspace.cruise_height, None)
+            await self._navigation.takeoff(drone.id, self._airspace.cruise_height)
             x, y, _ = drone.home
-            await self.go_to(drone, (x, y, drone.location[2]))
+            home = (x, y, drone.location[2])
+            for point in permitted_way(self._airspace, drone.id, drone.location, home):
+                await self._navigation.go_to(drone.id, point)
             await self._navigation.land(drone.id)
         except FlightFailed:
             await self._bring_back(drone)
@@ -214,6 +218,14 @@ class Fleet:
         for drone in self.queue.too_low():
             if not self._is_docked(drone) and self.queue.room:
                 self.send_home(drone)
+
+    def _rests_here(self, drone: Drone) -> bool:
+        """Whether navigation has it down already where it shall be, with enough in its battery."""
+        return (
+            drone.telemetry.landed
+            and drone.battery_level > drone.category.reserve
+            and (self._after_trip is AfterTrip.STAY or docked(drone.location, drone.home))
+        )
 
     def _is_low(self, drone: Drone) -> bool:
         """Whether there is little more in it than the way home takes."""

@@ -1,92 +1,161 @@
-"""One flight: to the source, to the target, the action, and how it ends."""
+"""One flight: how it begins, what navigation reports of it, and how it ends."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from .actions import PICK, RELEASE, Action
 from .context import Context
-from .energy import flight_seconds
 from .errors import ActionFailed, Failure, FlightFailed, HookFault
 from .hooks import call_hook
-from .kernel import Key, Kind, Signal
-from .navigation import Order
+from .signals import Signal
+from .status import Status, TripStatus
 
 if TYPE_CHECKING:
+    from .actions import Plain
     from .core import Core
-    from .model import Drone, Trip
-    from .run import Run
-    from .state import Flight, State
-    from .status import Status
+    from .kernel import Task
+    from .model import Drone, Item, Point, Trip
+    from .state import State
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Limit:
-    """A time by which a trip must be over, and what to say when it is not."""
+class Flight(Signal[Status]):
+    """One trip's flight by one drone, and the job that its navigation gets.
 
-    until: float
-    reason: str
+    It is set when the trip is over, to how the mission stands then.
+    """
+
+    __slots__ = ("_work", "core", "flier", "launched_at", "retry", "state", "succeeded", "trip")
+
+    def __init__(
+        self, core: Core, state: State, trip: Trip, flier: Drone, now: float, retry: bool
+    ) -> None:
+        self.is_set = False
+        self._value = self.error = self._watchers = None
+        self.core, self.state, self.trip, self.flier = core, state, trip, flier
+        self.launched_at = now
+        self.retry = retry
+        """The mission's flight before this one was of the same trip, and failed."""
+        self.succeeded = False
+        self._work: Task[None] | None = None
+
+    # What navigation may ask
+
+    @property
+    def id(self) -> str:
+        """`mission/trip/round/attempt`: the same flight has the same id in every run."""
+        mission, trip = self.state.mission, self.trip
+        return f"{mission.name}/{trip.name}/{mission.round}/{trip.attempt}"
+
+    @property
+    def drone(self) -> str:
+        """Who flies."""
+        return self.flier.id
+
+    @property
+    def stops(self) -> tuple[Point, ...]:
+        """Where to fly, in order."""
+        source, target = self.trip.source, self.trip.target
+        return (target,) if source is None else (source, target)
+
+    @property
+    def action(self) -> str | None:
+        """What to do at the last stop; None: hover, for an action of the app's own."""
+        return self.trip.action if self._action.hook is None else None
+
+    @property
+    def seconds(self) -> float:
+        """How long the action is expected to take."""
+        return self._action.seconds
+
+    @property
+    def parameters(self) -> Mapping[str, Plain]:
+        """How to do it."""
+        return self.trip.parameters
+
+    @property
+    def item(self) -> Item | None:
+        """What to pick or to release."""
+        return self.trip.item
+
+    @property
+    def _action(self) -> Action:
+        return self.core.app.actions[self.trip.action]
+
+    # What navigation tells
+
+    def report(self, result: object) -> None:
+        """Hear that the job is done and what it gave, or the `FlightFailed` that ended it."""
+        self.core.kernel.post(self._reported, result)
+
+    def _reported(self, result: object) -> None:
+        state = self.state
+        if state.flight is not self or self.trip.status is not TripStatus.EXECUTING:
+            return  # it was called off meanwhile
+        if isinstance(result, FlightFailed):
+            fail(self.core, state, self, str(result))
+        elif self._action.hook is None:
+            complete(self.core, state, self, result)
+        else:
+            self._work = self.core.kernel.spawn(
+                self._act(),
+                (state.mission.index,),
+                f"{state.mission.name}: {self.trip.action}",
+            )
+
+    async def _act(self) -> None:
+        """Let the drone do an action of the app's own while it hovers."""
+        core, state = self.core, self.state
+        try:
+            value = await self._done_while_hovering()
+        except FlightFailed as error:
+            fail(core, state, self, str(error))
+        except HookFault as fault:
+            core.log(fault.detail, state.mission.name)
+            fail(core, state, self, str(fault), mends=False)
+        else:
+            complete(core, state, self, value)
+
+    async def _done_while_hovering(self) -> object:
+        core, state, trip, drone = self.core, self.state, self.trip, self.flier
+        kernel, key, hook = core.kernel, (state.mission.index,), self._action.hook
+        if hook is None:
+            raise RuntimeError(f"action {trip.action} is navigation's, not the app's")
+        call = call_hook(kernel, hook, drone, trip, Context(core, state), **trip.parameters)
+        work = kernel.spawn(call, key, f"{state.mission.name}: {trip.action}")
+        hover = kernel.spawn(core.navigation.hold(drone.id), key, f"{drone.id} hovers")
+        over: Signal[None] = Signal()
+        work.watch(over.set)
+        hover.watch(over.set)
+        try:
+            await over
+            if hover.is_set:
+                hover.result()  # raises what went wrong with the drone
+            return work.result()
+        except ActionFailed as error:
+            raise FlightFailed(Failure.ACTION, f"{trip.action} failed: {error}") from error
+        finally:
+            work.cancel()
+            hover.cancel()
+
+    def break_off(self) -> None:
+        """Stop where it is; nothing of it is reported any more."""
+        if self._work is not None:
+            self._work.cancel()
+        self.core.navigation.break_off(self.flier.id)
 
 
 def launch(core: Core, state: State, drone: Drone) -> None:
     """Send a drone on the mission's next trip."""
+    trip, last = state.mission.current, state.flight
     core.fleet.engage(drone)
-    flight = state.begin_flight(drone, core.kernel.now)
-    core.transitions.launch(state.mission, flight.trip, drone)
-    flight.task = core.kernel.spawn(
-        _fly(core, state, flight),
-        (state.mission.index,),
-        f"{state.mission.name}: trip {flight.trip.name}",
-    )
-
-
-async def _fly(core: Core, state: State, flight: Flight) -> None:
-    trip, drone = flight.trip, flight.drone
-    action = core.app.actions[trip.action]
-    stops = [point for point in (trip.source, trip.target) if point is not None]
-    order = Order(
-        id=f"{state.mission.name}/{trip.name}/{state.mission.round}/{trip.attempt}",
-        seconds=flight_seconds(
-            drone.category, core.airspace, drone.location, stops, action.seconds
-        ),
-    )
-    try:
-        await core.navigation.takeoff(drone.id, core.airspace.cruise_height, order)
-        for stop in stops:
-            await core.fleet.go_to(drone, stop)
-        value = await _act(core, state, trip, drone, action)
-    except FlightFailed as error:
-        fail(core, state, flight, str(error))
-    except HookFault as fault:
-        core.log(fault.detail, state.mission.name)
-        fail(core, state, flight, str(fault), mends=False)
-    else:
-        complete(core, state, flight, value)
-
-
-async def _act(core: Core, state: State, trip: Trip, drone: Drone, action: Action) -> object:
-    """Let the drone do its action; an action of the app's own runs while the drone hovers."""
-    if action.hook is None:
-        return await core.navigation.act(drone.id, trip.action, trip.parameters, trip.item)
-    key = (state.mission.index,)
-    call = call_hook(core.kernel, action.hook, drone, trip, Context(core, state), **trip.parameters)
-    work = core.kernel.spawn(call, key, f"{state.mission.name}: {trip.action}")
-    hover = core.kernel.spawn(core.navigation.hold(drone.id), key, f"{drone.id} hovers")
-    over: Signal[None] = Signal()
-    work.done.watch(lambda: over.set(None))
-    hover.done.watch(lambda: over.set(None))
-    try:
-        await over
-        if hover.done.is_set:
-            hover.done.result()  # raises what went wrong with the drone
-        return work.done.result()
-    except ActionFailed as error:
-        raise FlightFailed(Failure.ACTION, f"{trip.action} failed: {error}") from error
-    finally:
-        work.cancel()
-        hover.cancel()
+    retry = last is not None and last.trip is trip and not last.succeeded
+    flight = Flight(core, state, trip, drone, core.kernel.now, retry)
+    state.flight, state.allocated = flight, None
+    core.transitions.launch(state.mission, trip, drone)
+    core.navigation.fly(flight, flight.report)
 
 
 def complete(core: Core, state: State, flight: Flight, value: object) -> None:
@@ -96,16 +165,16 @@ def complete(core: Core, state: State, flight: Flight, value: object) -> None:
         fail(core, state, flight, "a hook took it from the mission's trips", mends=False)
         return
     if trip.action == PICK:
-        state.carries, state.carrier = trip.item, flight.drone
+        state.carries, state.carrier = trip.item, flight.flier
     elif trip.action == RELEASE:
         state.carries = state.carrier = None
     flight.succeeded, state.last_action_end = True, core.kernel.now
     core.transitions.complete(mission, trip, value)
     if state.carrier is None:
-        core.fleet.dismiss(flight.drone)
+        core.fleet.dismiss(flight.flier)
     else:
-        core.fleet.keep(flight.drone, partial(_lose, state))
-    flight.ended.set(mission.status)
+        core.fleet.keep(flight.flier, partial(_lose, state))
+    flight.set(mission.status)
 
 
 def _lose(state: State, reason: str) -> None:
@@ -113,7 +182,7 @@ def _lose(state: State, reason: str) -> None:
     if state.carries is not None:
         reason = f"{reason}, with {state.carries.name} aboard"
     state.carries = state.carrier = state.allocated = None
-    state.doom.set(reason)
+    state.end(reason)
 
 
 def fail(core: Core, state: State, flight: Flight, reason: str, *, mends: bool = True) -> None:
@@ -123,39 +192,16 @@ def fail(core: Core, state: State, flight: Flight, reason: str, *, mends: bool =
         mends = False
     state.carries = state.carrier = None
     core.transitions.fail(state.mission, flight.trip, reason)
-    core.fleet.recover(flight.drone)
+    core.fleet.recover(flight.flier)
     if mends:
-        flight.ended.set(state.mission.status)
+        flight.set(state.mission.status)
     else:
-        state.doom.set(reason)
+        state.end(reason)
 
 
 def abort(core: Core, state: State, reason: str) -> None:
     """Fail the trip that flies now; its drone breaks off and comes home."""
     flight = state.in_flight
     if flight is not None:
-        if flight.task is not None:
-            flight.task.cancel()
+        flight.break_off()
         fail(core, state, flight, reason)
-
-
-async def outcome(core: Core, state: State, key: Key, limit: Limit | None = None) -> Status:
-    """Wait for the end of the flight, and say how the mission stands then.
-
-    A limit fails the trip; a trip that ends at that very instant has ended first.
-    """
-    flight = state.flight
-    if flight is None:
-        raise RuntimeError(f"mission {state.mission.name} has no flight to watch")
-    if limit is not None and not await core.kernel.within(
-        flight.ended, limit.until, Kind.TIMER, key
-    ):
-        abort(core, state, limit.reason)
-    return await flight.ended
-
-
-async def watch(run: Run[Any], *limits: Limit | None) -> Status:
-    """Wait for the end of the flight under all limits; the soonest fails the trip."""
-    given = [limit for limit in limits if limit is not None]
-    soonest = min(given, key=lambda limit: limit.until, default=None)
-    return await outcome(run.core, run.state, run.key, soonest)

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from .realtime import RealTime
-from .session import Listener, Outcome, Session
+from .session import Listener, Outcome, Simulation
 
 if TYPE_CHECKING:
     from .app import App
@@ -27,15 +27,15 @@ async def fly_simulated(
 ) -> Outcome:
     """Fly the missions with simulated drones in real time; when cancelled, land them all first."""
     kernel = RealTime()
-    session = Session(app, fleet, kernel, seed, faults, on_event)
-    over = session.start(missions).done
+    simulation = Simulation(app, fleet, kernel, seed, faults, on_event)
+    session = simulation.session
     try:
-        ended = await kernel.run(over)
+        ended = await kernel.run(session.start(missions))
     except asyncio.CancelledError:
         session.engine.halt()
         landing = kernel.spawn(session.core.fleet.land_all(), (), "land all")
-        await kernel.run(landing.done)
+        await kernel.run(landing)
         raise
     finally:
         kernel.close()
-    return session.outcome(missions, ended)
+    return simulation.outcome(missions, ended)

@@ -1,16 +1,21 @@
 """Coroutines and time: one small kernel, driven by the wall's clock or by a virtual one.
 
-Everything that happens is an event in one heap, ordered by (time, kind, key): simultaneous events
-are taken in declared order, never by the accident of which task ran. Both drivers (`virtual.py`,
-`realtime.py`) take events from the same heap, so the same coroutines run in simulation and for real.
+Everything that happens is an event, ordered by (time, kind, key): simultaneous events are taken in
+declared order, never by the accident of which task ran. Both drivers (`virtual.py`, `realtime.py`)
+take events by the same `drain`, so the same coroutines run in simulation and for real.
+
+Coroutines that go on and the queue for drones are by far the most frequent events, and they belong
+to the instant that is being taken: they need not pass through the heap of all that is to come.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Coroutine, Generator
+from collections.abc import Callable, Coroutine
 from enum import IntEnum
 from heapq import heappop, heappush
-from typing import Any, Generic, TypeVar, cast
+from typing import Any, TypeVar
+
+from .signals import Signal
 
 T = TypeVar("T")
 
@@ -31,6 +36,10 @@ class Kind(IntEnum):
     ALLOCATE = 4  # last: all requests and all free drones of the instant are known
 
 
+WHATEVER: tuple[type[BaseException], ...] = (BaseException,)
+"""To catch whatever a coroutine or a hook ends with, and hand it on to those who wait for it."""
+
+
 class Cancelled(BaseException):
     """Thrown into a coroutine that is no longer wanted."""
 
@@ -39,156 +48,89 @@ class ForeignAwait(RuntimeError):
     """A coroutine awaited what this kernel does not know."""
 
 
-class Signal(Generic[T]):
-    """Something that happens once. Await it for its value; any number of coroutines may."""
-
-    __slots__ = ("_value", "_watchers", "error", "is_set")
-
-    def __init__(self) -> None:
-        self.is_set = False
-        self._value: T | None = None
-        self.error: BaseException | None = None
-        self._watchers: list[Callable[[], None]] = []
-
-    def set(self, value: T) -> None:
-        """It happened. Only the first time counts."""
-        if not self.is_set:
-            self._value = value
-            self._happened()
-
-    def fail(self, error: BaseException) -> None:
-        """It will never happen: whoever awaits it gets the error."""
-        if not self.is_set:
-            self.error = error
-            self._happened()
-
-    def _happened(self) -> None:
-        self.is_set = True
-        watchers, self._watchers = self._watchers, []
-        for watcher in watchers:
-            watcher()
-
-    def watch(self, watcher: Callable[[], None]) -> None:
-        """Call this when it happens; at once if it has."""
-        if self.is_set:
-            watcher()
-        else:
-            self._watchers.append(watcher)
-
-    def unwatch(self, watcher: Callable[[], None]) -> None:
-        """Do not call this after all."""
-        if watcher in self._watchers:
-            self._watchers.remove(watcher)
-
-    @property
-    def watched(self) -> bool:
-        """Whether anybody waits for it."""
-        return bool(self._watchers)
-
-    def result(self) -> T:
-        """Return the value, or raise the error; only once it is set."""
-        if self.error is not None:
-            raise self.error
-        return cast(T, self._value)
-
-    def __await__(self) -> Generator[Signal[Any], None, T]:
-        if not self.is_set:
-            yield self
-        return self.result()
-
-
 class Timer:
     """A call at a time to come."""
 
     __slots__ = ("call",)
 
-    def __init__(self, call: Callable[[], None]) -> None:
-        self.call: Callable[[], None] | None = call
+    def __init__(self, call: Callable[[], object]) -> None:
+        self.call: Callable[[], object] | None = call
 
     def cancel(self) -> None:
         """Do not call after all."""
         self.call = None
 
 
-class Ending:
-    """Keeps whatever something ends with, to be handed on to those who wait for it."""
+class Task(Signal[T]):
+    """A coroutine on its way; it is set when the coroutine ends."""
 
-    error: BaseException
-
-    def __init__(self, passing: tuple[type[BaseException], ...] = (KeyboardInterrupt,)) -> None:
-        self._passing = passing
-
-    def __enter__(self) -> None:
-        pass
-
-    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> bool:
-        if error is None or isinstance(error, self._passing):
-            return False
-        self.error = error
-        return True
-
-
-class Task(Generic[T]):
-    """A coroutine on its way."""
-
-    __slots__ = ("_coroutine", "_kernel", "_turn", "_waits_for", "done", "key", "name")
+    __slots__ = ("_coroutine", "_kernel", "_turn", "_waits_for", "key", "name")
 
     def __init__(
         self, kernel: Kernel, coroutine: Coroutine[Any, Any, T], key: Key, name: str
     ) -> None:
+        super().__init__()
         self._kernel, self._coroutine = kernel, coroutine
         self._waits_for: Signal[Any] | None = None
-        self._turn: Timer | None = None
+        self._turn = 0
+        """The number of its next turn; another one is not its any longer."""
         self.key, self.name = key, name
-        self.done: Signal[T] = Signal()
         kernel.tasks[self] = None
 
-    def wake(self) -> None:
+    def wake(self, _: object = None) -> None:
         """Go on, when its turn comes."""
-        self._turn = self._kernel.at(self._kernel.now, Kind.READY, self.key, self._resume)
+        self._turn = self._kernel.ready(self)
 
-    def _resume(self) -> None:
-        if not self.done.is_set:
+    def resume(self, turn: int) -> None:
+        """Go on, if this is its turn."""
+        if turn == self._turn and not self.is_set:
             self._waits_for = None
-            self._step(lambda: self._coroutine.send(None))
+            self._step(self._coroutine.send, None)
 
-    def _step(self, advance: Callable[[], object]) -> None:
+    def _step(self, advance: Callable[[Any], object], value: object) -> None:
         """Let the coroutine run up to its next wait."""
-        end = Ending((KeyboardInterrupt, SystemExit))
-        with end:
-            waits_for = advance()
+        failed: BaseException | None = None
+        returned: Any = None
+        try:
+            waits_for = advance(value)
             while not isinstance(waits_for, Signal):
                 error = ForeignAwait(f"it awaited {type(waits_for).__name__}")
                 waits_for = self._coroutine.throw(error)
+        except StopIteration as end:
+            returned = end.value
+        except (KeyboardInterrupt, SystemExit):
+            raise
+        except WHATEVER as error:
+            failed = error
+        else:
             self._waits_for = waits_for
             waits_for.watch(self.wake)
             return
         del self._kernel.tasks[self]
-        if isinstance(end.error, StopIteration):
-            self.done.set(end.error.value)
+        if failed is None:
+            self.set(returned)
             return
-        if not isinstance(end.error, Cancelled) and not self.done.watched:
-            self._kernel.crash(end.error)
-        self.done.fail(end.error)
+        if not isinstance(failed, Cancelled) and not self.watched:
+            self._kernel.crash(failed)
+        self.fail(failed)
 
     def cancel(self) -> None:
         """Stop it where it waits, now."""
-        if self.done.is_set:
+        if self.is_set:
             return
         if self._waits_for is not None:
             self._waits_for.unwatch(self.wake)
             self._waits_for = None
-        if self._turn is not None:
-            self._turn.cancel()  # it may wait once more, to clean up: not for this any longer
-        self._step(lambda: self._coroutine.throw(Cancelled()))
+        self._turn = 0  # it may wait once more, to clean up: not for this any longer
+        self._step(self._coroutine.throw, Cancelled())
 
     async def ended(self) -> None:
         """Wait until it is over, even if it is cancelled."""
         over: Signal[None] = Signal()
-        self.done.watch(lambda: over.set(None))
+        self.watch(lambda _: over.set(None))
         await over
-        if not isinstance(self.done.error, Cancelled):
-            self.done.result()
+        if not isinstance(self.error, Cancelled):
+            self.result()
 
     def drop(self) -> None:
         """Forget it where it waits: the run is over."""
@@ -196,30 +138,46 @@ class Task(Generic[T]):
 
 
 class Kernel:
-    """The heap of events, and the coroutines that wait for them."""
+    """The events to come, and the coroutines that wait for them."""
 
     def __init__(self) -> None:
-        self._heap: list[tuple[float, int, Key, int, Timer]] = []
-        self._count = 0
+        self.now = 0.0
+        """Seconds since the start, of the instant whose events are being taken."""
         self.tasks: dict[Task[Any], None] = {}
         self.crashed: BaseException | None = None
+        self.over = False
+        """What is run for is done, or something crashed: no further event is taken."""
+        self._heap: list[tuple[float, int, Key, int, Timer]] = []
+        self._ready: list[tuple[Key, int, Task[Any]]] = []
+        self._last: Callable[[], None] | None = None
+        self._count = 0
 
-    @property
-    def now(self) -> float:
-        """Seconds since the start."""
-        raise NotImplementedError
+    def time(self) -> float:
+        """Return the seconds since the start; asked between events it is later than `now`."""
+        return self.now
 
     @property
     def time_of_day(self) -> float:
         """Seconds since midnight, local time."""
         raise NotImplementedError
 
-    def at(self, when: float, kind: Kind, key: Key, call: Callable[[], None]) -> Timer:
+    def at(self, when: float, kind: Kind, key: Key, call: Callable[[], object]) -> Timer:
         """Call this at a time; a time that has passed, or is none, means now."""
         timer = Timer(call)
         self._count += 1
-        heappush(self._heap, (max(self.now, when), kind, key, self._count, timer))
+        now = self.now
+        heappush(self._heap, (max(now, when), kind, key, self._count, timer))
         return timer
+
+    def ready(self, task: Task[Any]) -> int:
+        """Let a coroutine go on at this instant; return the number of its turn."""
+        self._count = turn = self._count + 1
+        heappush(self._ready, (task.key, turn, task))
+        return turn
+
+    def at_last(self, call: Callable[[], None]) -> None:
+        """Call this, the fleet's queue, when all else of this instant is done."""
+        self._last = call
 
     def spawn(self, coroutine: Coroutine[Any, Any, T], key: Key, name: str) -> Task[T]:
         """Set a coroutine on its way; it begins when its turn comes."""
@@ -240,7 +198,7 @@ class Kernel:
         """Wait until it happens or the time comes; say whether it has happened."""
         either: Signal[None] = Signal()
 
-        def over() -> None:
+        def over(_: object = None) -> None:
             either.set(None)
 
         timer = self.at(until, kind, key, over)
@@ -262,10 +220,15 @@ class Kernel:
         """Return what a hook may await for this signal."""
         raise NotImplementedError
 
+    def post(self, call: Callable[..., object], *args: object) -> None:
+        """Tell the kernel something: an answer of a drone, of a hook, of a person."""
+        call(*args)
+
     def crash(self, error: BaseException) -> None:
         """Remember an error that no coroutine caught: the driver stops and raises it."""
         if self.crashed is None:
             self.crashed = error
+        self.over = True
 
     def close(self) -> None:
         """Drop what still waits; nothing of it runs on."""
@@ -273,14 +236,30 @@ class Kernel:
             task.drop()
 
     def next_time(self) -> float | None:
-        """Return the time of the next event; None: nothing will ever happen."""
+        """Return the time of the next event to come; None: nothing will ever happen."""
+        if self._ready or self._last is not None:
+            return self.now
         while self._heap and self._heap[0][4].call is None:
             heappop(self._heap)
         return self._heap[0][0] if self._heap else None
 
-    def take(self) -> None:
-        """Take the next event; there is one."""
-        timer = heappop(self._heap)[4]
-        call, timer.call = timer.call, None
-        if call is not None:
-            call()
+    def drain(self) -> None:
+        """Take all events of this instant, in order, and those that come of them."""
+        heap, ready = self._heap, self._ready
+        while not self.over:
+            if ready:
+                _, turn, task = heappop(ready)
+                task.resume(turn)
+            elif heap and heap[0][0] <= self.now and (heap[0][1] < _LAST or self._last is None):
+                timer = heappop(heap)[4]
+                call, timer.call = timer.call, None
+                if call is not None:
+                    call()
+            elif self._last is not None:
+                last, self._last = self._last, None
+                last()
+            else:
+                return
+
+
+_LAST = int(Kind.ALLOCATE)

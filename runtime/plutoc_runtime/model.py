@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 Point = tuple[float, float, float]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Category:
     """A shape category: what drones of one kind carry and do (thesis 4.1). SI units."""
 

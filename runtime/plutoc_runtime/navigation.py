@@ -1,29 +1,63 @@
 """How drones are flown: the protocol between the fleet and whatever moves the drones (thesis 4.4).
 
-Metres, seconds. Each command returns when it is done: on arrival, when landed. It raises
-`FlightFailed` when the drone cannot finish it. A command that is cancelled leaves the drone
-hovering where it is. The protocol knows no missions: an `Order` only tells one flight from another.
+Metres, seconds. A trip is one job, given once and reported once. What a drone does for itself
+(return, land, recover) are single commands, which return when they are done: on arrival, when
+landed; they raise `FlightFailed` when the drone cannot finish. A command that is cancelled leaves
+the drone hovering where it is. The protocol knows no missions: a job's id only tells one flight
+from another.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Protocol
+
+from .errors import Failure, FlightFailed
+from .words import place
 
 if TYPE_CHECKING:
     from .actions import Plain
+    from .airspace import Airspace
     from .model import Item, Point, Telemetry
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Order:
-    """The flight that a take-off begins. The same flight has the same id in every run."""
+class Job(Protocol):
+    """What a drone is to do for a trip."""
 
-    id: str
-    """`mission/trip/round/attempt`."""
-    seconds: float
-    """How long the flight is expected to take until its action is done."""
+    @property
+    def id(self) -> str:
+        """`mission/trip/round/attempt`: the same flight has the same id in every run."""
+        ...
+
+    @property
+    def drone(self) -> str:
+        """Who flies."""
+        ...
+
+    @property
+    def stops(self) -> tuple[Point, ...]:
+        """Where to fly, in order; which way is navigation's to find."""
+        ...
+
+    @property
+    def action(self) -> str | None:
+        """Which of the built-in actions to do at the last stop; None: hover there."""
+        ...
+
+    @property
+    def parameters(self) -> Mapping[str, Plain]:
+        """How to do it."""
+        ...
+
+    @property
+    def item(self) -> Item | None:
+        """What to pick or to release."""
+        ...
+
+    @property
+    def seconds(self) -> float:
+        """How long the action is expected to take."""
+        ...
 
 
 class Navigation(Protocol):
@@ -33,22 +67,28 @@ class Navigation(Protocol):
         """Return what is known of a drone; the value stays current."""
         ...
 
-    async def takeoff(self, drone: str, height: float, order: Order | None) -> None:
-        """Rise to a height; does nothing for a drone that flies. No order: on the way home."""
+    def fly(self, job: Job, report: Callable[[object], None]) -> None:
+        """Take off, fly to the job's stops and do its action.
+
+        `report` is told once, and never from within this call, what the action gave or the
+        `FlightFailed` that ended it; with no action to do, None on arrival.
+        """
         ...
 
-    async def go_to(self, drone: str, target: Point) -> None:
-        """Fly straight to a point."""
-        ...
-
-    async def act(
-        self, drone: str, action: str, parameters: Mapping[str, Plain], item: Item | None
-    ) -> object:
-        """Do one of the built-in actions here, and return what came of it."""
+    def break_off(self, drone: str) -> None:
+        """Stop a drone's job, if it has one, and hover; nothing of it is reported any more."""
         ...
 
     async def hold(self, drone: str) -> None:
         """Hover, for as long as an action of the app's own takes; never returns by itself."""
+        ...
+
+    async def takeoff(self, drone: str, height: float) -> None:
+        """Rise to a height; does nothing for a drone that flies."""
+        ...
+
+    async def go_to(self, drone: str, target: Point) -> None:
+        """Fly straight to a point."""
         ...
 
     async def land(self, drone: str) -> None:
@@ -58,3 +98,13 @@ class Navigation(Protocol):
     async def recover(self, drone: str) -> bool:
         """Bring a drone home after a failed flight, landed; False: it is lost."""
         ...
+
+
+def permitted_way(airspace: Airspace, drone: str, start: Point, end: Point) -> tuple[Point, ...]:
+    """Return the points to fly through, the end included; raise `FlightFailed` if there is no way."""
+    route = airspace.route(start, end)
+    if route is None:
+        raise FlightFailed(
+            Failure.REFUSED, f"there is no permitted way from {drone} to {place(end)}"
+        )
+    return route

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
 
 from .errors import HookFault
 from .hooks import hook_name, said, trace_of
@@ -12,39 +12,40 @@ from .hooks import hook_name, said, trace_of
 if TYPE_CHECKING:
     from .model import Drone, Trip
 
+Able = Callable[["Drone"], bool]
+"""Says whether a drone may fly the trip now."""
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Offer:
-    """A trip that waits, and the free drones that could fly it now, in the fleet's order."""
-
-    trip: Trip
-    candidates: tuple[Drone, ...]
+Choice = tuple["Drone", str]
+"""The drone that gets a trip, and why it was chosen."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Decision:
-    """The drone that gets a trip, and why it was chosen."""
+class Pool(Protocol):
+    """The free drones, kept so that a policy finds the one it wants fast."""
 
-    offer: Offer
-    drone: Drone | None = None
-    why: str = ""
-    fault: HookFault | None = None
+    def add(self, drone: Drone) -> None:
+        """A drone is free; it stays where it is while it is."""
+        ...
 
+    def remove(self, drone: Drone) -> None:
+        """A drone is not free any more."""
+        ...
 
-Policy = Callable[[Iterable[Offer]], Iterable[Decision]]
-"""Shares free drones out among trips of equal priority; a trip without a decision waits.
-
-The offers come one by one: each has the drones that are left after the decisions so far.
-"""
-
-Chooser = Callable[["Trip", Sequence["Drone"]], tuple["Drone", str]]
+    def choose(self, trip: Trip, able: Able) -> Choice | None:
+        """Return the drone that the policy wants for a trip; None: it has none for it."""
+        ...
 
 
-def one_by_one(offers: Iterable[Offer], choose: Chooser) -> Iterator[Decision]:
-    """Serve the trips in their order, each from the drones that are left."""
-    for offer in offers:
-        drone, why = choose(offer.trip, offer.candidates)
-        yield Decision(offer=offer, drone=drone, why=why)
+@runtime_checkable
+class BatchPool(Pool, Protocol):
+    """A pool whose policy looks at all trips that wait at once."""
+
+    def share(self, offers: Sequence[tuple[Trip, Able]]) -> Sequence[Choice | None]:
+        """Return a drone, or None, for each trip of one priority; no drone twice."""
+        ...
+
+
+Policy = Callable[[], Pool]
+"""Makes the pool from which the drones are chosen."""
 
 
 def own_policy(hook: Callable[[Any, Sequence[Drone]], Drone | None]) -> Policy:
@@ -58,27 +59,42 @@ class OwnPolicy:
 
     hook: Callable[[Any, Sequence[Drone]], Drone | None]
 
-    def __call__(self, offers: Iterable[Offer]) -> Iterator[Decision]:
-        """Ask the hook for each trip in turn."""
-        name = hook_name(self.hook)
-        for offer in offers:
-            try:
-                drone = self._answer(name, offer.trip, offer.candidates)
-            except HookFault as fault:
-                yield Decision(offer=offer, fault=fault)
-            else:
-                if drone is not None:
-                    yield Decision(offer=offer, drone=drone, why=f"chosen by {name}")
+    def __call__(self) -> Pool:
+        """Return an empty pool."""
+        return Asked(self.hook)
 
-    def _answer(self, name: str, trip: Trip, left: tuple[Drone, ...]) -> Drone | None:
+
+class Asked:
+    """The free drones, in the fleet's order, for a hook to choose from."""
+
+    def __init__(self, hook: Callable[[Any, Sequence[Drone]], Drone | None]) -> None:
+        self._hook, self._name = hook, hook_name(hook)
+        self._free: dict[Drone, None] = {}
+
+    def add(self, drone: Drone) -> None:
+        """A drone is free."""
+        self._free[drone] = None
+
+    def remove(self, drone: Drone) -> None:
+        """A drone is not free any more."""
+        self._free.pop(drone, None)
+
+    def choose(self, trip: Trip, able: Able) -> Choice | None:
+        """Ask the hook; raise `HookFault` for what it may not answer."""
+        free = sorted(self._free, key=lambda drone: drone.index)
+        candidates = tuple(drone for drone in free if able(drone))
+        if not candidates:
+            return None
         try:
-            drone = self.hook(trip, left)
+            drone = self._hook(trip, candidates)
         except KeyboardInterrupt:
             raise
         except BaseException as error:
-            raise HookFault(f"policy {name} raised {said(error)}", trace_of(error)) from error
-        if drone is not None and drone not in left:
+            raise HookFault(f"policy {self._name} raised {said(error)}", trace_of(error)) from error
+        if drone is None:
+            return None
+        if drone not in candidates:
             raise HookFault(
-                f"policy {name} must return one of the candidates or None, not {drone!r}"
+                f"policy {self._name} must return one of the candidates or None, not {drone!r}"
             )
-        return drone
+        return drone, f"chosen by {self._name}"

@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import asyncio
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Coroutine
 from contextlib import suppress
-from functools import partial
-from inspect import iscoroutine, iscoroutinefunction
+from functools import lru_cache, partial
+from inspect import CO_COROUTINE, iscoroutine, iscoroutinefunction
+from math import inf
+from opcode import opmap
 from threading import Thread
-from typing import NoReturn, TypeVar
+from types import CodeType
+from typing import Any, NoReturn, TypeVar, cast
 
-from .kernel import Ending, Kernel, Key, Kind, Signal, Timer
+from .kernel import WHATEVER, Kernel, Key, Kind, Timer
+from .signals import Signal
 
 T = TypeVar("T")
 
@@ -23,14 +27,14 @@ class RealTime(Kernel):
         super().__init__()
         self._loop = asyncio.get_running_loop()
         self._start = self._loop.time()
-        self._frozen: float | None = None
+        self._draining = False
         self._armed: asyncio.TimerHandle | None = None
-        self._over = asyncio.Event()
+        self._armed_for = inf
+        self._woken = asyncio.Event()
 
-    @property
-    def now(self) -> float:
-        """Seconds since the start; it stands still while the events of one instant are taken."""
-        return self._loop.time() - self._start if self._frozen is None else self._frozen
+    def time(self) -> float:
+        """Return the seconds since the start; they stand still while an instant is taken."""
+        return self.now if self._draining else self._loop.time() - self._start
 
     @property
     def time_of_day(self) -> float:
@@ -38,63 +42,75 @@ class RealTime(Kernel):
         local = time.localtime()
         return local.tm_hour * 3600.0 + local.tm_min * 60.0 + local.tm_sec
 
-    def at(self, when: float, kind: Kind, key: Key, call: Callable[[], None]) -> Timer:
+    def at(self, when: float, kind: Kind, key: Key, call: Callable[[], object]) -> Timer:
         """Call this at a time; a hook may ask for it between the kernel's own events."""
+        if self._draining:
+            return super().at(when, kind, key, call)
+        self.now = self.time()
         timer = super().at(when, kind, key, call)
-        if self._frozen is None:
-            self._arm()
+        self._arm()
         return timer
 
-    def post(self, call: Callable[[], None]) -> None:
-        """Tell the kernel something from outside: an answer of a drone, of a hook, of a person."""
-        call()
-        self._arm()
+    def post(self, call: Callable[..., object], *args: object) -> None:
+        """Tell the kernel something from outside: that is an instant of its own."""
+        if self._draining:
+            call(*args)
+            return
+        self.now = self._loop.time() - self._start
+        self._draining = True
+        try:
+            call(*args)
+            self.drain()
+        except KeyboardInterrupt:
+            raise
+        except WHATEVER as error:  # it must not leave everybody waiting for ever
+            self.crash(error)
+        finally:
+            self._draining = False
+        if self.over:
+            self._woken.set()
+        else:
+            self._arm()
 
     async def run(self, done: Signal[T]) -> T:
         """Go on until it is done."""
-        done.watch(self._over.set)
-        self._arm()
-        while not (done.is_set or self.crashed):  # what was waited for before may end meanwhile
-            self._over.clear()
-            await self._over.wait()
+        done.watch(self._stop)
+        while not done.is_set and self.crashed is None:
+            self.over = False
+            self._woken.clear()
+            self.post(_nothing)
+            await self._woken.wait()
         if self.crashed is not None:
             raise self.crashed
         return done.result()
 
+    def _stop(self, _: object) -> None:
+        self.over = True
+        self._woken.set()
+
     def _arm(self) -> None:
-        if self._frozen is not None:
-            return  # the drain that is under way arms when it is through
+        """See to it that the next event is taken in time."""
+        when = self.next_time()
+        if when is None or when >= self._armed_for:
+            return  # what is armed comes early enough, and arms again
         if self._armed is not None:
             self._armed.cancel()
-        when = self.next_time()
-        self._armed = None
-        if when is not None:
-            self._armed = self._loop.call_at(self._start + when, self._drain)
+        self._armed_for = when
+        self._armed = self._loop.call_at(self._start + when, self._due)
 
-    def _drain(self) -> None:
-        self._frozen = self._loop.time() - self._start
-        try:
-            while (when := self.next_time()) is not None and when <= self._frozen:
-                self._take()
-                if self.crashed is not None:
-                    self._over.set()
-                    return
-        finally:
-            self._frozen = None
-        self._arm()
-
-    def _take(self) -> None:
-        """Take the next event; an error there must not leave everybody waiting for ever."""
-        end = Ending()
-        with end:
-            self.take()
-            return
-        self.crash(end.error)
+    def _due(self) -> None:
+        self._armed, self._armed_for = None, inf
+        self.post(_nothing)
 
     async def call_hook(
         self, hook: Callable[..., object], /, *args: object, **named: object
     ) -> object:
-        """Run a hook beside the missions: `async def` as a task, `def` in a thread."""
+        """Run a hook beside the missions: `async def` as a task, `def` in a thread.
+
+        One that never waits needs no task: it is over as soon as it is called.
+        """
+        if _never_waits(hook):
+            return await cast("Coroutine[Any, Any, object]", hook(*args, **named))
         result: Signal[object] = Signal()
         running = asyncio.ensure_future(self._answer(hook, partial(hook, *args, **named), result))
         try:
@@ -106,14 +122,16 @@ class RealTime(Kernel):
         self, hook: Callable[..., object], call: Callable[[], object], result: Signal[object]
     ) -> None:
         """Wait for a hook, and post what it ends with, whatever that is."""
-        end = Ending()
-        with end:
+        try:
             returned = call() if iscoroutinefunction(hook) else await self._in_thread(call)
             if iscoroutine(returned):
                 returned = await returned
-            self.post(partial(result.set, returned))
-            return
-        self.post(partial(result.fail, end.error))
+        except KeyboardInterrupt:
+            raise
+        except WHATEVER as error:
+            self.post(result.fail, error)
+        else:
+            self.post(result.set, returned)
 
     async def _in_thread(self, call: Callable[[], object]) -> object:
         """Call this in a thread of its own: one that never comes back keeps nobody from leaving."""
@@ -128,12 +146,12 @@ class RealTime(Kernel):
                 self._loop.call_soon_threadsafe(finish, end)
 
         def work() -> None:
-            end = Ending(())
-            with end:
+            try:
                 returned = call()
+            except WHATEVER as error:
+                tell(partial(_raise, error))
+            else:
                 tell(lambda: returned)
-                return
-            tell(partial(_raise, end.error))
 
         Thread(target=work, name="hook", daemon=True).start()
         return (await ended)()
@@ -141,12 +159,32 @@ class RealTime(Kernel):
     async def offer(self, signal: Signal[T]) -> T:
         """Return what a hook, an asyncio task here, may await for this signal."""
         happened = asyncio.Event()
-        signal.watch(happened.set)
+
+        def tell(_: object) -> None:
+            happened.set()
+
+        signal.watch(tell)
         try:
             await happened.wait()
         finally:
-            signal.unwatch(happened.set)
+            signal.unwatch(tell)
         return signal.result()
+
+
+def _never_waits(hook: Callable[..., object]) -> bool:
+    """Say whether this is an `async def` without any `await`, `async for` or `async with`."""
+    code = getattr(getattr(hook, "func", hook), "__code__", None)  # a partial carries its function
+    return isinstance(code, CodeType) and _runs_through(code)
+
+
+@lru_cache(maxsize=1_000)
+def _runs_through(code: CodeType) -> bool:
+    waits = opmap.get("SEND")  # what every way to wait is compiled to
+    return bool(waits and code.co_flags & CO_COROUTINE and waits not in code.co_code[::2])
+
+
+def _nothing() -> None:
+    """There is nothing to tell; what is due is taken all the same."""
 
 
 def _raise(error: BaseException) -> NoReturn:

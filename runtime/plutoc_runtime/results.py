@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any, Generic, TypeVar
+from itertools import islice
+from typing import Any, Generic, NamedTuple, TypeVar, overload
 
 from .model import Mission, Trip
 
+R = TypeVar("R")
 M = TypeVar("M", bound=Mission[Any])
 T = TypeVar("T", bound=Trip)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Result(Generic[M, T]):
+class Result(NamedTuple, Generic[M, T]):
     """What one action gave; (mission, trip, round, attempt) tells it from all others."""
 
     mission: M
@@ -22,13 +24,39 @@ class Result(Generic[M, T]):
     value: object
 
 
+class SoFar(Sequence[R]):
+    """The first so many of a list that only grows: a view, not a copy."""
+
+    __slots__ = ("_count", "_list")
+
+    def __init__(self, growing: list[R]) -> None:
+        self._list, self._count = growing, len(growing)
+
+    def __len__(self) -> int:
+        return self._count
+
+    @overload
+    def __getitem__(self, index: int) -> R: ...
+    @overload
+    def __getitem__(self, index: slice) -> Sequence[R]: ...
+    def __getitem__(self, index: int | slice) -> R | Sequence[R]:
+        if isinstance(index, slice):
+            return tuple(self._list[place] for place in range(*index.indices(self._count)))
+        if not -self._count <= index < self._count:
+            raise IndexError(index)
+        return self._list[index if index >= 0 else index + self._count]
+
+    def __iter__(self) -> Iterator[R]:
+        return islice(self._list, self._count)
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Results(Generic[M, T]):
     """What an evaluator gets to judge."""
 
     new: tuple[Result[M, T], ...]
     """The mission's results since its evaluator was last asked."""
-    all: tuple[Result[M, T], ...]
+    all: Sequence[Result[M, T]]
     """Every result of the app, of all missions."""
 
 
@@ -37,23 +65,19 @@ class ResultStore:
 
     def __init__(self) -> None:
         self.results: list[Result[Any, Any]] = []
-        self._judged: dict[Mission[Any], int] = {}
+        self._new: dict[Mission[Any], list[Result[Any, Any]]] = {}
+        """What each mission has brought since its evaluator was last asked."""
 
     def add(self, mission: Mission[Any], trip: Trip, value: object) -> None:
         """Keep what the trip's action gave."""
-        self.results.append(
-            Result(
-                mission=mission,
-                trip=trip,
-                round=mission.round,
-                attempt=trip.attempt,
-                value=value,
-            )
-        )
+        result = Result(mission, trip, mission.round, trip.attempt, value)
+        self.results.append(result)
+        new = self._new.get(mission)
+        if new is None:
+            self._new[mission] = [result]
+        else:
+            new.append(result)
 
     def for_evaluator(self, mission: Mission[Any]) -> Results[Any, Any]:
         """Return what a mission's evaluator gets now."""
-        since = self._judged.get(mission, 0)
-        self._judged[mission] = len(self.results)
-        new = tuple(result for result in self.results[since:] if result.mission is mission)
-        return Results(new=new, all=tuple(self.results))
+        return Results(new=tuple(self._new.pop(mission, ())), all=SoFar(self.results))

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from .allocation import Queue
 from .core import Core
+from .eligibility import Reach
 from .engine import Engine
 from .errors import BadInput
 from .fleet import Fleet
@@ -20,14 +21,16 @@ from .status import Status
 from .trace import Event, Trace
 from .transitions import Transitions
 from .virtual import Stuck, VirtualTime
+from .watching import Deadlines
 from .words import duration
 
 if TYPE_CHECKING:
     from .app import App
     from .files.fleet import FleetFile
+    from .navigation import Navigation
     from .simulation.faults import Faults
 
-Listener = Callable[[Event], None]
+Listener = Callable[[Event], object]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -58,58 +61,43 @@ class Outcome:
 
 
 class Session:
-    """One running app: its engine, over simulated drones, on any kernel."""
+    """One running app: its engine, over any navigation, on any kernel."""
 
     def __init__(
         self,
         app: App,
         fleet: FleetFile,
         kernel: Kernel,
-        seed: int,
-        faults: Faults,
-        listener: Listener | None,
+        navigation: Navigation,
+        listeners: Sequence[Listener],
     ) -> None:
         self._kernel = kernel
         categories = {category.name: category for category in app.categories}
-        simulated = [
-            SimulatedDrone(
-                id=entry.id, category=categories[entry.category], home=entry.home, index=index
-            )
-            for index, entry in enumerate(fleet.drones)
-        ]
-        world = World(seed, fleet.airspace, fleet.world)
-        self.navigation = SimulatedNavigation(
-            kernel, simulated, world, faults, seed, fleet.airspace
-        )
         self.drones = tuple(
             Drone(
-                id=drone.id,
-                category=drone.category,
-                home=drone.home,
-                telemetry=self.navigation.telemetry(drone.id),
-                index=drone.index,
+                id=entry.id,
+                category=categories[entry.category],
+                home=entry.home,
+                telemetry=navigation.telemetry(entry.id),
+                index=index,
             )
-            for drone in simulated
+            for index, entry in enumerate(fleet.drones)
         )
-        self.trace, results = Trace(kernel, listener), ResultStore()
-        queue = Queue(kernel, app, fleet.airspace, self.drones, fleet.max_airborne)
+        trace, results = Trace(kernel, listeners), ResultStore()
+        queue = Queue(kernel, Reach(app, fleet.airspace), self.drones, fleet.max_airborne)
         self.core = Core(
             app=app,
             kernel=kernel,
             airspace=fleet.airspace,
-            navigation=self.navigation,
-            trace=self.trace,
+            navigation=navigation,
+            trace=trace,
             results=results,
-            transitions=Transitions(kernel, self.trace, results),
+            transitions=Transitions(kernel, trace, results),
+            queue=queue,
             fleet=Fleet(
-                kernel,
-                self.trace,
-                fleet.airspace,
-                self.navigation,
-                self.drones,
-                queue,
-                fleet.after_trip,
+                kernel, trace, fleet.airspace, navigation, self.drones, queue, fleet.after_trip
             ),
+            deadlines=Deadlines(kernel),
         )
         self.engine = Engine(self.core)
 
@@ -127,14 +115,43 @@ class Session:
         await self.core.fleet.all_down()
         return ended
 
+
+class Simulation:
+    """A session over simulated drones, all of whose events are kept."""
+
+    def __init__(
+        self,
+        app: App,
+        fleet: FleetFile,
+        kernel: Kernel,
+        seed: int,
+        faults: Faults,
+        listener: Listener | None,
+    ) -> None:
+        categories = {category.name: category for category in app.categories}
+        simulated = [
+            SimulatedDrone(
+                id=entry.id, category=categories[entry.category], home=entry.home, index=index
+            )
+            for index, entry in enumerate(fleet.drones)
+        ]
+        world = World(seed, fleet.airspace, fleet.world)
+        self._navigation = SimulatedNavigation(
+            kernel, simulated, world, faults, seed, fleet.airspace
+        )
+        self._events: list[Event] = []
+        listeners = [self._events.append, *([listener] if listener else [])]
+        self.session = Session(app, fleet, kernel, self._navigation, listeners)
+
     def outcome(self, missions: Sequence[Mission[Any]], ended: float) -> Outcome:
         """Return what has come of the missions."""
+        drones = self.session.drones
         return Outcome(
             duration=ended,
             missions=tuple(missions),
-            drones=self.drones,
-            flown={drone.id: self.navigation.flown(drone.id) for drone in self.drones},
-            events=tuple(self.trace.events),
+            drones=drones,
+            flown={drone.id: self._navigation.flown(drone.id) for drone in drones},
+            events=tuple(self._events),
         )
 
 
@@ -150,12 +167,12 @@ def simulate(
 ) -> Outcome:
     """Fly the missions in virtual time, until the last one has ended or a time is reached."""
     kernel = VirtualTime()
-    session = Session(app, fleet, kernel, seed, faults, on_event)
-    over = session.start(missions).done
+    simulation = Simulation(app, fleet, kernel, seed, faults, on_event)
+    over = simulation.session.start(missions)
     try:
         ended = over.result() if kernel.run(over, until) else kernel.now
     except Stuck:
-        queue = session.core.fleet.queue
+        queue = simulation.session.core.queue
         if not queue.waiting:
             raise
         raise BadInput(
@@ -164,4 +181,4 @@ def simulate(
         ) from None
     finally:
         kernel.close()
-    return session.outcome(missions, ended)
+    return simulation.outcome(missions, ended)

@@ -19,38 +19,42 @@ class Transitions:
 
     def __init__(self, kernel: Kernel, trace: Trace, results: ResultStore) -> None:
         self._kernel, self._trace, self._results = kernel, trace, results
+        self._time = kernel.time
 
     def create(self, mission: Mission[Any]) -> None:
         """A mission of the user's trips exists."""
         mission.status = Status.UNEXECUTED
+        time = self._time
         for trip in mission.trips:
-            trip.now = self._now
-        self._trace.note(
-            "mission.created", mission=mission.name, trips=[trip.name for trip in mission.trips]
-        )
+            trip.now = time
+        if self._trace.live:
+            names = [trip.name for trip in mission.trips]
+            self._trace.note("mission.created", mission=mission.name, trips=names)
 
     def allocate(self, mission: Mission[Any], trip: Trip, drone: Drone, why: str) -> None:
         """A trip has its drone."""
         trip.drone = drone
-        self._trace.note(
-            "trip.allocated", mission=mission.name, trip=trip.name, drone=drone.id, why=why
-        )
+        if self._trace.live:
+            self._trace.note(
+                "trip.allocated", mission=mission.name, trip=trip.name, drone=drone.id, why=why
+            )
 
     def launch(self, mission: Mission[Any], trip: Trip, drone: Drone) -> None:
         """A trip's drone leaves for it."""
-        trip.status, trip.now = TripStatus.EXECUTING, self._now
+        trip.status, trip.now = TripStatus.EXECUTING, self._time
         trip.start_time, trip.end_time, trip.reason = self._kernel.now, None, ""
         mission.status, mission.reason = Status.RUNNING, ""
         mission.attempts += 1
         drone.trips += 1
-        self._trace.note(
-            "trip.launched",
-            mission=mission.name,
-            trip=trip.name,
-            drone=drone.id,
-            round=mission.round,
-            attempt=trip.attempt,
-        )
+        if self._trace.live:
+            self._trace.note(
+                "trip.launched",
+                mission=mission.name,
+                trip=trip.name,
+                drone=drone.id,
+                round=mission.round,
+                attempt=trip.attempt,
+            )
 
     def complete(self, mission: Mission[Any], trip: Trip, value: object) -> None:
         """A trip has ended well."""
@@ -59,23 +63,24 @@ class Transitions:
         mission.completed_trips.append(trip)
         mission.status = Status.STANDBY if mission.trips else Status.COMPLETED
         self._results.add(mission, trip, value)
-        self._ended(mission, trip, "trip.completed", {"value": shown(value)})
+        if self._trace.live:
+            self._ended(mission, trip, "trip.completed", {"value": shown(value)})
 
     def fail(self, mission: Mission[Any], trip: Trip, reason: str) -> None:
         """A trip has failed: it stays first in the list."""
         trip.status, trip.end_time, trip.reason = TripStatus.FAILED, self._kernel.now, reason
         mission.status, mission.reason = Status.FAILED, reason
-        self._ended(mission, trip, "trip.failed", {"reason": reason})
+        if self._trace.live:
+            self._ended(mission, trip, "trip.failed", {"reason": reason})
 
     def _ended(
         self, mission: Mission[Any], trip: Trip, event: str, facts: dict[str, object]
     ) -> None:
-        drone = trip.drone.id if trip.drone else None
         self._trace.note(
             event,
             mission=mission.name,
             trip=trip.name,
-            drone=drone,
+            drone=trip.drone.id if trip.drone else None,
             round=mission.round,
             attempt=trip.attempt,
             **facts,
@@ -88,7 +93,10 @@ class Transitions:
             trip.attempt += 1
         trip.reset()
         self._standby(mission)
-        self._trace.note("trip.reset", mission=mission.name, trip=trip.name, attempt=trip.attempt)
+        if self._trace.live:
+            self._trace.note(
+                "trip.reset", mission=mission.name, trip=trip.name, attempt=trip.attempt
+            )
 
     def redo(self, mission: Mission[Any], trips: tuple[Trip, ...], added: tuple[Trip, ...]) -> None:
         """A finished mission has trips again: some once more, some new ones."""
@@ -96,15 +104,16 @@ class Transitions:
             mission.completed_trips.remove(trip)
             trip.reset()
         for trip in added:
-            trip.added, trip.now = True, self._now
+            trip.added, trip.now = True, self._time
         mission.trips += [*trips, *added]
         self._standby(mission)
-        self._trace.note(
-            "mission.extended",
-            mission=mission.name,
-            redo=[trip.name for trip in trips],
-            add=[trip.name for trip in added],
-        )
+        if self._trace.live:
+            self._trace.note(
+                "mission.extended",
+                mission=mission.name,
+                redo=[trip.name for trip in trips],
+                add=[trip.name for trip in added],
+            )
 
     def begin_again(self, mission: Mission[Any]) -> None:
         """A finished mission starts a further round with the user's own trips."""
@@ -117,27 +126,27 @@ class Transitions:
         mission.trips.sort(key=lambda trip: trip.index)
         mission.completed_trips = []
         self._standby(mission)
-        self._trace.note("mission.repeated", mission=mission.name, round=mission.round)
+        if self._trace.live:
+            self._trace.note("mission.repeated", mission=mission.name, round=mission.round)
 
     def modify(self, mission: Mission[Any], status: Status, reason: str) -> None:
         """A modifier says how a mission stands."""
-        mission.status, mission.reason = status, reason
-        self._trace.note(
-            "mission.modified", mission=mission.name, status=status.value, reason=reason
-        )
+        self._stands(mission, status, reason, "mission.modified")
+
+    def end(self, mission: Mission[Any], status: Status, reason: str) -> None:
+        """A mission has come to its end."""
+        self._stands(mission, status, reason, "mission.ended")
 
     def judge_failed(self, mission: Mission[Any], reason: str) -> None:
         """A finished mission was judged and found wanting."""
         mission.status, mission.reason = Status.FAILED, reason
-        self._trace.note("mission.judged", mission=mission.name, reason=reason)
+        if self._trace.live:
+            self._trace.note("mission.judged", mission=mission.name, reason=reason)
 
-    def end(self, mission: Mission[Any], status: Status, reason: str) -> None:
-        """A mission has come to its end."""
+    def _stands(self, mission: Mission[Any], status: Status, reason: str, event: str) -> None:
         mission.status, mission.reason = status, reason
-        self._trace.note("mission.ended", mission=mission.name, status=status.value, reason=reason)
+        if self._trace.live:
+            self._trace.note(event, mission=mission.name, status=status.value, reason=reason)
 
     def _standby(self, mission: Mission[Any]) -> None:
         mission.status, mission.reason = Status.STANDBY, ""
-
-    def _now(self) -> float:
-        return self._kernel.now

@@ -9,7 +9,8 @@ from inspect import iscoroutine
 from types import coroutine
 from typing import Any, TypeVar
 
-from .kernel import Cancelled, ForeignAwait, Kernel, Signal
+from .kernel import Cancelled, ForeignAwait, Kernel
+from .signals import Signal
 
 T = TypeVar("T")
 
@@ -21,35 +22,31 @@ class Stuck(RuntimeError):
 class VirtualTime(Kernel):
     """The kernel of simulations. Its day begins at midnight."""
 
-    def __init__(self) -> None:
-        super().__init__()
-        self._now = 0.0
-
-    @property
-    def now(self) -> float:
-        """Seconds since the start."""
-        return self._now
-
     @property
     def time_of_day(self) -> float:
         """Seconds since midnight: the simulation starts then."""
-        return self._now % 86_400
+        return self.now % 86_400
 
     def run(self, done: Signal[T], until: float | None = None) -> bool:
         """Go on until it is done, or until a time; say whether it is done."""
-        while not done.is_set:
+        done.watch(self._stop)
+        while not done.is_set and self.crashed is None:
+            self.over = False
             when = self.next_time()
             if when is None:
                 waiting = ", ".join(sorted(task.name for task in self.tasks))
                 raise Stuck(f"nothing will ever happen again; waiting: {waiting}")
             if until is not None and when > until:
-                self._now = until
+                self.now = until
                 return False
-            self._now = when
-            self.take()
-            if self.crashed is not None:
-                raise self.crashed
+            self.now = when
+            self.drain()
+        if self.crashed is not None:
+            raise self.crashed
         return True
+
+    def _stop(self, _: object) -> None:
+        self.over = True
 
     async def call_hook(
         self, hook: Callable[..., object], /, *args: object, **named: object

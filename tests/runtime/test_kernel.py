@@ -7,8 +7,9 @@ from functools import partial
 
 import pytest
 
-from plutoc_runtime.kernel import Cancelled, Kind, Signal
+from plutoc_runtime.kernel import Cancelled, Kind
 from plutoc_runtime.realtime import RealTime
+from plutoc_runtime.signals import Signal
 from plutoc_runtime.virtual import Stuck, VirtualTime
 
 
@@ -33,7 +34,7 @@ def test_a_signal_that_comes_at_the_very_limit_has_come() -> None:
 
     task = kernel.spawn(wait(), (0,), "waiter")
     kernel.at(5.0, Kind.FLIGHT, (0,), partial(signal.set, None))
-    kernel.run(task.done)
+    kernel.run(task)
     assert won == [True]
 
 
@@ -41,8 +42,8 @@ def test_time_that_runs_out_says_so() -> None:
     kernel = VirtualTime()
     never: Signal[None] = Signal()
     task = kernel.spawn(kernel.within(never, 5.0, Kind.TIMER, (0,)), (0,), "waiter")
-    kernel.run(task.done)
-    assert (task.done.result(), kernel.now) == (False, 5.0)
+    kernel.run(task)
+    assert (task.result(), kernel.now) == (False, 5.0)
 
 
 def test_a_run_that_can_never_end_names_who_waits() -> None:
@@ -54,7 +55,7 @@ def test_a_run_that_can_never_end_names_who_waits() -> None:
 
     task = kernel.spawn(wait(), (0,), "the nurse's mission")
     with pytest.raises(Stuck, match="the nurse's mission"):
-        kernel.run(task.done)
+        kernel.run(task)
     kernel.close()
 
 
@@ -69,10 +70,10 @@ def test_a_cancelled_coroutine_stops_where_it_waits_and_cleans_up() -> None:
 
     task = kernel.spawn(wait(), (0,), "waiter")
     kernel.at(3.0, Kind.TIMER, (0,), task.cancel)
-    kernel.run(task.done)
+    kernel.run(task)
     assert seen == ["cleaned up at 3.0"]
     with pytest.raises(Cancelled):
-        task.done.result()
+        task.result()
 
 
 def test_a_coroutine_that_is_cancelled_in_its_turn_may_still_wait_to_clean_up() -> None:
@@ -94,7 +95,7 @@ def test_a_coroutine_that_is_cancelled_in_its_turn_may_still_wait_to_clean_up() 
 
     kernel.at(3.0, Kind.CLOCK, (0,), happen_and_cancel)
     over = kernel.spawn(kernel.sleep(10.0), (2,), "clock")
-    kernel.run(over.done)
+    kernel.run(over)
     assert seen == [5.0]
 
 
@@ -117,22 +118,22 @@ def test_an_error_reaches_whoever_awaits() -> None:
 
     async def awaiting() -> str:
         try:
-            await kernel.spawn(broken(), (0,), "broken").done
+            await kernel.spawn(broken(), (0,), "broken")
         except ZeroDivisionError:
             return "caught"
         return "missed"
 
     task = kernel.spawn(awaiting(), (0,), "awaiting")
-    kernel.run(task.done)
-    assert task.done.result() == "caught"
+    kernel.run(task)
+    assert task.result() == "caught"
 
 
 def test_a_run_stops_at_its_time_and_can_go_on() -> None:
     kernel = VirtualTime()
     task = kernel.spawn(kernel.sleep(10), (0,), "sleeper")
-    assert not kernel.run(task.done, until=4.0)
+    assert not kernel.run(task, until=4.0)
     assert kernel.now == 4.0
-    assert kernel.run(task.done)
+    assert kernel.run(task)
     assert kernel.now == 10.0
 
 
@@ -143,7 +144,7 @@ def test_real_time_takes_the_same_events_in_the_same_order() -> None:
         for kind, key in [(Kind.TIMER, (0,)), (Kind.FLIGHT, (1,)), (Kind.FLIGHT, (0,))]:
             kernel.at(when, kind, key, partial(seen.append, f"{kind.name} {key[0]}"))
         task = kernel.spawn(kernel.sleep(0.15), (0,), "sleeper")
-        await kernel.run(task.done)
+        await kernel.run(task)
         return seen
 
     assert asyncio.run(main()) == ["FLIGHT 0", "FLIGHT 1", "TIMER 0"]
@@ -157,7 +158,7 @@ def test_in_real_time_a_hook_may_await_anything_of_asyncio() -> None:
     async def main() -> object:
         kernel = RealTime()
         task = kernel.spawn(kernel.call_hook(hook, "done"), (0,), "hook")
-        return await kernel.run(task.done)
+        return await kernel.run(task)
 
     assert asyncio.run(main()) == "DONE"
 
@@ -168,7 +169,7 @@ def test_in_real_time_a_blocking_hook_does_not_hold_the_others_up() -> None:
 
         kernel, thread = RealTime(), threading.get_ident()
         task = kernel.spawn(kernel.call_hook(threading.get_ident), (0,), "hook")
-        return await kernel.run(task.done), thread == task.done.result()
+        return await kernel.run(task), thread == task.result()
 
     ident, same_thread = asyncio.run(main())
     assert isinstance(ident, int)
@@ -185,7 +186,7 @@ def test_in_virtual_time_a_hook_that_awaits_asyncio_is_told_what_it_may_await() 
     for hook in (sleeps, yields):
         kernel = VirtualTime()
         task = kernel.spawn(kernel.call_hook(hook), (0,), "hook")
-        task.done.watch(lambda: None)
-        kernel.run(task.done)
+        task.watch(lambda _: None)
+        kernel.run(task)
         with pytest.raises(RuntimeError, match=r"only what its context offers"):
-            task.done.result()
+            task.result()

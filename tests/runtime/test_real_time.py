@@ -215,7 +215,7 @@ async def main():
         threading.Event().wait()
 
     task = kernel.spawn(kernel.call_hook(stuck), (0,), "hook")
-    running = asyncio.ensure_future(kernel.run(task.done))
+    running = asyncio.ensure_future(kernel.run(task))
     while not inside.is_set():
         await asyncio.sleep(0)
     running.cancel()

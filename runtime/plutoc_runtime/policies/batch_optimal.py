@@ -7,40 +7,61 @@ out of reach, so that as many trips as can be get a drone, and among those the d
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from math import inf
+from typing import TYPE_CHECKING
 
-from ..policy import Decision, Offer
+from ..policy import Able, BatchPool, Choice
+
+if TYPE_CHECKING:
+    from ..model import Drone, Trip
 
 _FORBIDDEN = 1e7  # metres: farther than any drone flies, near enough to keep its decimals
 
 
-def batch_optimal(waiting: Iterable[Offer]) -> list[Decision]:
+def batch_optimal() -> BatchPool:
     """Share the free drones out so that their way to all trips together is shortest."""
-    offers = list(waiting)
-    drones = sorted(
-        {drone for offer in offers for drone in offer.candidates}, key=lambda drone: drone.index
-    )
-    if not drones:
-        return []
-    costs = [
-        [
-            (
-                drone.distance(offer.trip.source or offer.trip.target)
-                if drone in offer.candidates
-                else _FORBIDDEN
-            )
-            for drone in drones
+    return Batch()
+
+
+class Batch(BatchPool):
+    """The free drones, for all trips at once."""
+
+    def __init__(self) -> None:
+        self._free: dict[Drone, None] = {}
+
+    def add(self, drone: Drone) -> None:
+        """A drone is free."""
+        self._free[drone] = None
+
+    def remove(self, drone: Drone) -> None:
+        """A drone is not free any more."""
+        self._free.pop(drone, None)
+
+    def choose(self, trip: Trip, able: Able) -> Choice | None:
+        """Return the drone for a trip that waits alone."""
+        return self.share([(trip, able)])[0]
+
+    def share(self, offers: Sequence[tuple[Trip, Able]]) -> Sequence[Choice | None]:
+        """Return a drone, or None, for each trip."""
+        drones = sorted(self._free, key=lambda drone: drone.index)
+        costs = [
+            [
+                drone.distance(trip.source or trip.target) if able(drone) else _FORBIDDEN
+                for drone in drones
+            ]
+            + [_FORBIDDEN] * max(0, len(offers) - len(drones))
+            for trip, able in offers
         ]
-        + [_FORBIDDEN] * max(0, len(offers) - len(drones))
-        for offer in offers
-    ]
-    why = f"least total way for {len(offers)} waiting trips and {len(drones)} free drones"
-    return [
-        Decision(offer=offer, drone=drones[column], why=f"{why}: {row[column]:.1f} m away")
-        for offer, row, column in zip(offers, costs, assign(costs), strict=True)
-        if row[column] < _FORBIDDEN
-    ]
+        why = f"least total way for {len(offers)} waiting trips and {len(drones)} free drones"
+        return [
+            (
+                (drones[column], f"{why}: {row[column]:.1f} m away")
+                if row[column] < _FORBIDDEN
+                else None
+            )
+            for row, column in zip(costs, assign(costs), strict=True)
+        ]
 
 
 def assign(costs: Sequence[Sequence[float]]) -> list[int]:

@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from ..policy import Decision, Offer, one_by_one
+from .ordered import Ordered
 
 if TYPE_CHECKING:
-    from ..model import Drone, Trip
+    from ..model import Drone
+    from ..policy import Pool
 
 
-def first(offers: Iterable[Offer]) -> Iterator[Decision]:
+def first() -> Pool:
     """Give each trip, in turn, the first free drone of the fleet."""
-    return one_by_one(offers, _lowest)
+    return Ordered(lambda drone: (drone.index, 0), _why)
 
 
-def _lowest(trip: Trip, drones: Sequence[Drone]) -> tuple[Drone, str]:
-    drone = min(drones, key=lambda drone: drone.index)
-    return drone, f"first of {len(drones)} free in the fleet's order"
+def _why(drone: Drone, free: int) -> str:
+    return f"first of {free} free in the fleet's order"

@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from ..policy import Decision, Offer, one_by_one
+from .ordered import Ordered
 
 if TYPE_CHECKING:
-    from ..model import Drone, Trip
+    from ..model import Drone
+    from ..policy import Pool
 
 
-def least_used(offers: Iterable[Offer]) -> Iterator[Decision]:
+def least_used() -> Pool:
     """Give each trip, in turn, the free drone with the fewest trips behind it."""
-    return one_by_one(offers, _freshest)
+    return Ordered(lambda drone: (drone.trips, drone.index), _why)
 
 
-def _freshest(trip: Trip, drones: Sequence[Drone]) -> tuple[Drone, str]:
-    drone = min(drones, key=lambda drone: (drone.trips, drone.index))
-    return drone, f"least used of {len(drones)} free: {drone.trips} trips so far"
+def _why(drone: Drone, free: int) -> str:
+    return f"least used of {free} free: {drone.trips} trips so far"

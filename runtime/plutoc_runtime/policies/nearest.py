@@ -2,21 +2,37 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from ..policy import Decision, Offer, one_by_one
+from .grid import Places
 
 if TYPE_CHECKING:
     from ..model import Drone, Trip
+    from ..policy import Able, Choice, Pool
 
 
-def nearest(offers: Iterable[Offer]) -> Iterator[Decision]:
+def nearest() -> Pool:
     """Give each trip, in turn, the closest free drone."""
-    return one_by_one(offers, _closest)
+    return Nearest()
 
 
-def _closest(trip: Trip, drones: Sequence[Drone]) -> tuple[Drone, str]:
-    goal = trip.source or trip.target
-    drone = min(drones, key=lambda drone: (drone.distance(goal), drone.index))
-    return drone, f"nearest of {len(drones)} free: {drone.distance(goal):.1f} m away"
+class Nearest:
+    """The free drones, and where they stand."""
+
+    def __init__(self) -> None:
+        self._places: Places[Drone] = Places()
+
+    def add(self, drone: Drone) -> None:
+        """A drone is free; it stays where it is while it is."""
+        self._places.add(drone, drone.location)
+
+    def remove(self, drone: Drone) -> None:
+        """A drone is not free any more."""
+        self._places.remove(drone)
+
+    def choose(self, trip: Trip, able: Able) -> Choice | None:
+        """Return the closest drone that is able; of equals, the first of the fleet."""
+        away, drone = self._places.closest(trip.source or trip.target, able)
+        if drone is None:
+            return None
+        return drone, f"nearest of {len(self._places)} free: {away:.1f} m away"

@@ -2,22 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from math import dist, inf
 from typing import TYPE_CHECKING
 
 from ..actions import BUILT_IN, PICK, RELEASE, Plain
-from ..energy import CLIMB_SPEED
+from ..energy import CLIMB_SPEED, flight_seconds
 from ..errors import Failure, FlightFailed
-from ..kernel import Kernel, Kind
+from ..kernel import Kernel, Kind, Task
+from ..navigation import permitted_way
 from ..words import mass, place
 from .body import Body, SimulatedDrone
-from .faults import Faults, draw
+from .faults import Faults, Order, draw
 
 if TYPE_CHECKING:
     from ..airspace import Airspace
     from ..model import Item, Point, Telemetry
-    from ..navigation import Order
+    from ..navigation import Job
     from .world import World
 
 __all__ = ["SimulatedDrone", "SimulatedNavigation"]
@@ -42,7 +43,9 @@ class SimulatedNavigation:
     ) -> None:
         self._kernel, self._world, self._airspace = kernel, world, airspace
         self._faults, self._seed = faults, seed
-        self._bodies = {drone.id: Body(drone, lambda: kernel.now) for drone in drones}
+        self._jobs: dict[str, Task[None]] = {}
+        """The jobs under way, by the drones' ids."""
+        self._bodies = {drone.id: Body(drone, kernel.time) for drone in drones}
 
     def telemetry(self, drone: str) -> Telemetry:
         """Return what is known of a drone; the value stays current."""
@@ -58,7 +61,38 @@ class SimulatedNavigation:
         """Return how many metres a drone has flown, up and down included."""
         return self._bodies[drone].flown
 
-    async def takeoff(self, drone: str, height: float, order: Order | None) -> None:
+    def fly(self, job: Job, report: Callable[[object], None]) -> None:
+        """Take off, fly to the job's stops and do its action; then report."""
+        self._jobs[job.drone] = self._kernel.spawn(
+            self._done(job, report), self._bodies[job.drone].key, f"{job.drone} flies {job.id}"
+        )
+
+    def break_off(self, drone: str) -> None:
+        """Stop a drone's job, if it has one, and hover."""
+        task = self._jobs.pop(drone, None)
+        if task is not None:
+            task.cancel()
+
+    async def _done(self, job: Job, report: Callable[[object], None]) -> None:
+        drone, body = job.drone, self._bodies[job.drone]
+        result: object = None
+        seconds = flight_seconds(
+            body.drone.category, self._airspace, body.location, job.stops, job.seconds
+        )
+        try:
+            order = Order(id=job.id, seconds=seconds)
+            await self.takeoff(drone, self._airspace.cruise_height, order)
+            for stop in job.stops:
+                for point in permitted_way(self._airspace, drone, body.location, stop):
+                    await self.go_to(drone, point)
+            if job.action is not None:
+                result = await self.act(drone, job.action, job.parameters, job.item)
+        except FlightFailed as error:
+            result = error
+        del self._jobs[drone]
+        report(result)
+
+    async def takeoff(self, drone: str, height: float, order: Order | None = None) -> None:
         """Rise to a height; one that flies stays where it is, but what goes wrong is drawn anew."""
         body = self._bodies[drone]
         now = self._kernel.now
@@ -130,7 +164,7 @@ class SimulatedNavigation:
             return True
         drone, (x, y, _) = body.drone.id, body.drone.home
         try:
-            await self.takeoff(drone, self._airspace.cruise_height, None)
+            await self.takeoff(drone, self._airspace.cruise_height)
             here = body.location
             way = self._airspace.route(here, (x, y, here[2]))
             for point in way or ():

@@ -4,10 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from random import Random
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from ..navigation import Order
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Order:
+    """The flight that a take-off begins. The same flight has the same id in every run."""
+
+    id: str
+    """`mission/trip/round/attempt`."""
+    seconds: float
+    """How long the flight is expected to take until its action is done."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

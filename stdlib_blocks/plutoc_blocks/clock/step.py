@@ -29,7 +29,7 @@ async def wait_for_time(
     place = (block, trip.name, mission.round, trip.attempt)
     arrival = kernel.now
     until = arrival
-    if place not in state.waited:
+    if state.waited is None or place not in state.waited:
         until += delay or 0.0
     if not mission.completed_trips and trip.attempt == 1:
         if mission.round == 0 and at is not None and state.first_start is None:
@@ -38,8 +38,11 @@ async def wait_for_time(
             rounds = ceil(round((arrival - state.first_start) / every, 9))
             until = max(until, state.first_start + rounds * every)
     if until > arrival:
-        run.core.trace.note("trip.delayed", mission=mission.name, trip=trip.name, until=until)
+        if run.core.trace.live:
+            run.core.trace.note("trip.delayed", mission=mission.name, trip=trip.name, until=until)
         await kernel.sleep(until - arrival, Kind.CLOCK, run.key)
+    if state.waited is None:
+        state.waited = set()
     state.waited.add(place)
     if state.first_start is None:
         state.first_start = kernel.now

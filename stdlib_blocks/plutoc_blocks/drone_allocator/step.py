@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.capability import chain_of
 from plutoc_runtime.errors import MissionFailed
 from plutoc_runtime.kernel import FLEET, Kind
 from plutoc_runtime.status import Status
 from plutoc_runtime.words import duration
 
 if TYPE_CHECKING:
+    from plutoc_runtime.allocation import Request
     from plutoc_runtime.policy import Policy
     from plutoc_runtime.run import Run
 
@@ -30,7 +30,7 @@ async def allocate_drone(
     if status is Status.FAILED:
         core.transitions.put_back(mission)
         status = Status.STANDBY
-    trip = mission.current
+    trip = mission.trips[0]
     if state.allocated is not None:
         core.transitions.allocate(mission, trip, state.allocated, "allocated before")
         return status
@@ -38,21 +38,23 @@ async def allocate_drone(
         core.transitions.allocate(mission, trip, state.carrier, "carries the mission's item")
         state.allocated = state.carrier
         return status
-    request = core.fleet.queue.enter(chain_of(mission.trips), policy, priority)
+    request = core.queue.enter(mission.trips, policy, priority)
     try:
         if allocate_within is not None:
-            until = core.kernel.now + allocate_within
-            key = (*FLEET, *run.key)  # after the queue is served: who gets a drone then has one
-            if not await core.kernel.within(request.answer, until, Kind.ALLOCATE, key):
-                raise MissionFailed(
-                    f"trip {trip.name} had no drone within {duration(allocate_within)}: "
-                    f"waits for a drone ({core.fleet.queue.standing()})"
-                )
-        decision = await request.answer
+            await _no_longer_than(run, request, allocate_within)
+        state.allocated = drone = await request
     finally:
-        core.fleet.queue.leave(request)
-    if decision.drone is None:
-        raise RuntimeError("a decision without a drone and without a fault")
-    state.allocated = decision.drone
-    core.transitions.allocate(mission, trip, decision.drone, decision.why)
+        if not request.is_set:
+            core.queue.leave(request)
+    core.transitions.allocate(mission, trip, drone, request.why)
     return status
+
+
+async def _no_longer_than(run: Run[Any], request: Request, seconds: float) -> None:
+    kernel, queue = run.core.kernel, run.core.queue
+    key = (*FLEET, *run.key)  # after the queue is served: who gets a drone then has one
+    if not await kernel.within(request, kernel.now + seconds, Kind.ALLOCATE, key):
+        raise MissionFailed(
+            f"trip {request.trip.name} had no drone within {duration(seconds)}: "
+            f"waits for a drone ({queue.standing()})"
+        )

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.flight import Limit, outcome
+from plutoc_runtime.watching import Limit, watch
 from plutoc_runtime.words import duration
 
 if TYPE_CHECKING:
+    from plutoc_runtime.model import Trip
     from plutoc_runtime.run import Run
     from plutoc_runtime.status import Status
 
@@ -16,14 +17,21 @@ async def watch_gap(
     run: Run[Any], status: Status, *, default: float | None, gap: float | None
 ) -> Status:
     """Wait for the trip's end, and fail the trip when its action is overdue."""
-    flight, longest = run.state.flight, default if gap is None else gap
-    limit = None
-    if flight is not None and longest:
-        since = flight.launched_at if flight.retry else run.state.last_action_end
-        if since is not None:
-            reason = (
-                f"the action of trip {flight.trip.name} was not done within {duration(longest)} "
-                "of the previous one"
-            )
-            limit = Limit(until=since + longest, reason=reason)
-    return await outcome(run.core, run.state, run.key, limit)
+    return await watch(run, gap_limit(run, default=default, gap=gap))
+
+
+def gap_limit(run: Run[Any], *, default: float | None, gap: float | None) -> Limit | None:
+    """Return the limit of the trip in flight, from the action before it on; None: it has none."""
+    state, longest = run.state, default if gap is None else gap
+    flight = state.flight
+    if flight is None or not longest:
+        return None
+    since = flight.launched_at if flight.retry else state.last_action_end
+    return None if since is None else Limit(since, longest, _overdue)
+
+
+def _overdue(trip: Trip, longest: float) -> str:
+    return (
+        f"the action of trip {trip.name} was not done within {duration(longest)} "
+        "of the previous one"
+    )

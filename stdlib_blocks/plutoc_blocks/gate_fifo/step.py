@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.kernel import Signal, Task
+from plutoc_runtime.signals import Signal
 
 if TYPE_CHECKING:
+    from plutoc_runtime.kernel import Task
     from plutoc_runtime.run import Branch, Run
     from plutoc_runtime.status import Status
 
@@ -17,9 +17,9 @@ async def pass_first(run: Run[Any], status: Status, *branches: Branch[Any]) -> S
     first: Signal[Task[Status]] = Signal()
     clones = run.fork(status, branches)
     for clone in clones:
-        clone.done.watch(partial(first.set, clone))
+        clone.watch(first.set)
     try:
-        return (await first).done.result()
+        return (await first).result()
     finally:
         for clone in clones:
             clone.cancel()

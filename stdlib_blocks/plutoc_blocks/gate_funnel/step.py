@@ -6,10 +6,11 @@ from collections.abc import Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.kernel import Signal, Task
+from plutoc_runtime.signals import Signal
 from plutoc_runtime.status import WORST_FIRST, Status
 
 if TYPE_CHECKING:
+    from plutoc_runtime.kernel import Task
     from plutoc_runtime.run import Branch, Run
 
 
@@ -21,18 +22,18 @@ async def wait_for_all(run: Run[Any], status: Status, *branches: Branch[Any]) ->
     clones = run.fork(status, branches)
     over: Signal[None] = Signal()
     for clone in clones:
-        clone.done.watch(partial(_arrived, clones, clone, over))
+        clone.watch(partial(_arrived, clones, over))
     try:
         await over
-        arrived = {clone.done.result() for clone in clones}
+        arrived = {clone.result() for clone in clones}
     finally:
         for clone in clones:
             clone.cancel()
     return min(arrived, key=WORST_FIRST.index)
 
 
-def _arrived(clones: Sequence[Task[Status]], clone: Task[Status], over: Signal[None]) -> None:
-    if clone.done.error is not None:
-        over.fail(clone.done.error)
-    elif all(other.done.is_set for other in clones):
+def _arrived(clones: Sequence[Task[Status]], over: Signal[None], clone: Task[Status]) -> None:
+    if clone.error is not None:
+        over.fail(clone.error)
+    elif all(other.is_set for other in clones):
         over.set(None)

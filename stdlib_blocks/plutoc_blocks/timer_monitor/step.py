@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.flight import Limit, outcome
+from plutoc_runtime.watching import Limit, watch
 from plutoc_runtime.words import duration
 
 if TYPE_CHECKING:
+    from plutoc_runtime.model import Trip
     from plutoc_runtime.run import Run
     from plutoc_runtime.status import Status
 
@@ -16,9 +17,16 @@ async def watch_timer(
     run: Run[Any], status: Status, *, default: float | None, safe_time: float | None
 ) -> Status:
     """Wait for the trip's end, and fail the trip at its safe time."""
+    return await watch(run, timer_limit(run, default=default, safe_time=safe_time))
+
+
+def timer_limit(run: Run[Any], *, default: float | None, safe_time: float | None) -> Limit | None:
+    """Return the limit of the trip in flight, from its start on; None: it has none."""
     flight, safe = run.state.flight, default if safe_time is None else safe_time
-    limit = None
-    if flight is not None and safe:
-        reason = f"trip {flight.trip.name} took longer than its safe time of {duration(safe)}"
-        limit = Limit(until=flight.launched_at + safe, reason=reason)
-    return await outcome(run.core, run.state, run.key, limit)
+    if flight is None or not safe:
+        return None
+    return Limit(flight.launched_at, safe, _too_long)
+
+
+def _too_long(trip: Trip, safe: float) -> str:
+    return f"trip {trip.name} took longer than its safe time of {duration(safe)}"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.flight import outcome
+from plutoc_runtime.watching import watch
 
 if TYPE_CHECKING:
     from plutoc_runtime.run import Run
@@ -13,4 +13,4 @@ if TYPE_CHECKING:
 
 async def watch_trip(run: Run[Any], status: Status) -> Status:
     """Wait for the trip's end."""
-    return await outcome(run.core, run.state, run.key)
+    return await watch(run)

@@ -9,9 +9,8 @@ from plutoc_runtime.airspace import Airspace
 from plutoc_runtime.errors import FlightFailed
 from plutoc_runtime.kernel import FLEET, Kernel
 from plutoc_runtime.model import Category
-from plutoc_runtime.navigation import Order
 from plutoc_runtime.simulation.drones import SimulatedDrone, SimulatedNavigation
-from plutoc_runtime.simulation.faults import Faults
+from plutoc_runtime.simulation.faults import Faults, Order
 from plutoc_runtime.simulation.world import World
 from plutoc_runtime.virtual import VirtualTime
 
@@ -51,9 +50,9 @@ def team(
 def fly(kernel: VirtualTime, coroutine: Coroutine[Any, Any, T]) -> T:
     """Run one coroutine to its end in virtual time."""
     task = kernel.spawn(coroutine, FLEET, "test")
-    task.done.watch(lambda: None)
-    kernel.run(task.done)
-    return task.done.result()
+    task.watch(lambda _: None)
+    kernel.run(task)
+    return task.result()
 
 
 def failure(kernel: VirtualTime, coroutine: Coroutine[Any, Any, object]) -> FlightFailed:

@@ -71,7 +71,7 @@ def test_a_drone_is_seen_between_two_places() -> None:
     advance(kernel, 2.5)
     assert navigation.telemetry("cf1").location == pytest.approx((1.75, 2, 1.2))
     assert navigation.flown("cf1") == pytest.approx(1.2 + 1.25)
-    kernel.run(leg.done)
+    kernel.run(leg)
 
 
 def test_a_battery_drains_in_the_air_and_charges_in_the_dock() -> None:
@@ -217,7 +217,7 @@ def test_hovering_goes_on_until_it_is_cancelled() -> None:
     fly(kernel, navigation.takeoff("cf1", 1.2, order()))
     hover = kernel.spawn(navigation.hold("cf1"), FLEET, "hover")
     advance(kernel, 300)
-    assert not hover.done.is_set
+    assert not hover.is_set
     hover.cancel()
     assert navigation.telemetry("cf1").location == (1, 1, 1.2)
 
@@ -342,7 +342,7 @@ def test_the_same_drones_fly_in_real_time() -> None:
         await navigation.go_to("cf1", (1.001, 1, 0.0003))
         assert telemetry.location == (1.001, 1, 0.0003)
         far = kernel.spawn(navigation.go_to("cf1", (9, 1, 0.0003)), FLEET, "far")
-        far.done.watch(lambda: None)
+        far.watch(lambda _: None)
         await kernel.sleep(0.002)
         far.cancel()
         hovers_at = telemetry.location
@@ -355,7 +355,7 @@ def test_the_same_drones_fly_in_real_time() -> None:
 
     async def main() -> None:
         kernel = RealTime()
-        await kernel.run(kernel.spawn(flight(kernel, team(kernel)), FLEET, "flight").done)
+        await kernel.run(kernel.spawn(flight(kernel, team(kernel)), FLEET, "flight"))
 
     asyncio.run(main())
 

@@ -383,7 +383,7 @@ def test_whatever_happens_the_drone_comes_home_or_is_lost(
     navigation = team(kernel, faults, seed=seed, battery_level=level)
     telemetry = navigation.telemetry("cf1")
     trip = kernel.spawn(flight(navigation), FLEET, "trip")
-    trip.done.watch(lambda: None)
+    trip.watch(lambda _: None)
     fly(kernel, kernel.sleep(abort))
     trip.cancel()
     home = fly(kernel, navigation.recover("cf1"))
@@ -407,9 +407,9 @@ def test_faults_come_in_real_time_too() -> None:
         kernel = RealTime()
         navigation = team(kernel, battery_level=0.002 / SCOUT.flight_time)
         trip = kernel.spawn(flight(navigation), FLEET, "trip")
-        trip.done.watch(lambda: None)
+        trip.watch(lambda _: None)
         with pytest.raises(FlightFailed, match="cf1 ran out of battery at"):
-            await kernel.run(trip.done)
+            await kernel.run(trip)
         assert navigation.telemetry("cf1").landed
 
     asyncio.run(main())

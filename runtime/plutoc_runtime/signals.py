@@ -1,0 +1,72 @@
+"""Something that happens once, and whoever waits for it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Generator
+from typing import Any, Generic, TypeVar, cast
+
+T = TypeVar("T")
+
+Watcher = Callable[[Any], object]
+"""What is called, with the signal, when it has happened."""
+
+
+class Signal(Generic[T]):
+    """Something that happens once. Await it for its value; any number of coroutines may."""
+
+    __slots__ = ("_value", "_watchers", "error", "is_set")
+
+    def __init__(self) -> None:
+        self.is_set = False
+        self._value: T | None = None
+        self.error: BaseException | None = None
+        self._watchers: list[Watcher] | None = None
+
+    def set(self, value: T) -> None:
+        """It happened. Only the first time counts."""
+        if not self.is_set:
+            self._value = value
+            self._happened()
+
+    def fail(self, error: BaseException) -> None:
+        """It will never happen: whoever awaits it gets the error."""
+        if not self.is_set:
+            self.error = error
+            self._happened()
+
+    def _happened(self) -> None:
+        self.is_set = True
+        watchers, self._watchers = self._watchers, None
+        if watchers is not None:
+            for watcher in watchers:
+                watcher(self)
+
+    def watch(self, watcher: Watcher) -> None:
+        """Call this with the signal when it happens; at once if it has."""
+        if self.is_set:
+            watcher(self)
+        elif self._watchers is None:
+            self._watchers = [watcher]
+        else:
+            self._watchers.append(watcher)
+
+    def unwatch(self, watcher: Watcher) -> None:
+        """Do not call this after all."""
+        if self._watchers is not None and watcher in self._watchers:
+            self._watchers.remove(watcher)
+
+    @property
+    def watched(self) -> bool:
+        """Whether anybody waits for it."""
+        return bool(self._watchers)
+
+    def result(self) -> T:
+        """Return the value, or raise the error; only once it is set."""
+        if self.error is not None:
+            raise self.error
+        return cast("T", self._value)
+
+    def __await__(self) -> Generator[Signal[Any], None, T]:
+        if not self.is_set:
+            yield self
+        return self.result()
