@@ -86,12 +86,12 @@ def _attributes(fields: tuple[Field, ...], entity: Entity) -> list[Attribute]:
 
 
 def _field(field: Field) -> str:
+    """Return what a program needs to know of a field; its sentence is the attribute's."""
     arguments = [
         f"name={literal(field.name)}",
         f"on=Entity.{field.on.name}",
         f"type=FieldType.{field.type.name}",
         f"label={literal(field.label)}",
-        f"doc={literal(field.doc)}",
     ]
     if field.default is not None:
         arguments.append(f"default={literal(field.default)}")

@@ -12,8 +12,9 @@ from plutoc.emit.hooks_file import hooks_file, hooks_test
 from plutoc.emit.lock import NAME, lock
 from plutoc.emit.model_file import model_file
 from plutoc.emit.modules import RUNTIME
-from plutoc.emit.project_files import attributes_file, init_file, main_file, project_file, readme
+from plutoc.emit.project_files import attributes_file, init_file, main_file, project_file
 from plutoc.emit.python import owned
+from plutoc.emit.readme_file import readme
 from plutoc.emit.render import verbatim
 from plutoc.emit.test_file import flow_test
 from plutoc.frozen import frozen

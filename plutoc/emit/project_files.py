@@ -1,11 +1,10 @@
-"""The files of a package that are not its app: project, README, entry points, tests."""
+"""The files of a package that are not its app: project, entry points, what it offers."""
 
 from __future__ import annotations
 
 from plutoc.emit.exports import EXPORTS
-from plutoc.emit.fields import fields_of
 from plutoc.emit.imports import Import, import_lines
-from plutoc.emit.markup import fence, markdown, one_line, toml_text
+from plutoc.emit.markup import one_line, toml_text
 from plutoc.emit.python import header
 from plutoc.emit.render import render
 from plutoc.frozen import frozen
@@ -46,27 +45,6 @@ class Project:
     description: str
 
 
-@frozen
-class FieldRow:
-    """A field of missions or trips, in the README's table."""
-
-    name: str
-    on: str
-    doc: str
-
-
-@frozen
-class Readme:
-    """`README.md`."""
-
-    header: str
-    app: str
-    title: str
-    fence: str
-    picture: str
-    fields: list[FieldRow]
-
-
 def init_file(graph: Graph) -> str:
     """Return the text of `__init__.py`, not yet formatted."""
     imports = [Import(module=module, name=name) for name, module in EXPORTS.items()]
@@ -95,24 +73,6 @@ def project_file(graph: Graph, source_name: str) -> str:
             app=graph.name,
             distribution=toml_text(graph.name.rstrip("_")),  # a distribution cannot end with one
             description=toml_text(one_line(graph.title) or graph.name),
-        ),
-    )
-
-
-def readme(graph: Graph, source_name: str, picture: str) -> str:
-    """Return the text of `README.md`."""
-    return render(
-        "README.md",
-        Readme(
-            header=header(source_name),
-            app=graph.name,
-            title=markdown(graph.title),
-            fence=fence(picture),
-            picture=picture.rstrip("\n"),
-            fields=[
-                FieldRow(name=field.name, on=field.on.value, doc=markdown(field.doc))
-                for field in fields_of(graph)
-            ],
         ),
     )
 

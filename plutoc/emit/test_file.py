@@ -37,6 +37,11 @@ def flow_test(graph: Graph) -> str:
     return render("test_flow.py", FlowTest(app=graph.name, missions=_missions(graph)))
 
 
+def sample(graph: Graph) -> MissionTable:
+    """Return a mission that the app's drones can fly."""
+    return _missions(graph)[0]
+
+
 def _missions(graph: Graph) -> list[MissionTable]:
     """Return a mission for each action; items only where drones can do nothing else."""
     own = {action.name: action for action in graph.actions}

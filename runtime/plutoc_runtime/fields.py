@@ -41,5 +41,6 @@ class Field:
     type: FieldType
     label: str
     """As a screen asks for it."""
-    doc: str
+    doc: str = ""
+    """A sentence for pages. In a generated package it stands beside the attribute instead."""
     default: int | float | None = None

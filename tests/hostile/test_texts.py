@@ -149,7 +149,7 @@ def unmarked(line: str) -> str:
 @example("".join(ALWAYS))
 def test_a_title_is_one_plain_line_of_the_readme(text: str) -> None:
     """No link, no picture, no HTML, no heading, no code, no formula, no mention of anybody."""
-    from plutoc.emit.project_files import readme
+    from plutoc.emit.readme_file import readme
 
     written = readme(checked(text).graph, "crop.pluto", "flowchart TD\n").splitlines()
     plain = readme(checked(PLAIN).graph, "crop.pluto", "flowchart TD\n").splitlines()

@@ -25,25 +25,33 @@ def test_mermaid_shows_every_block_and_every_status() -> None:
 title: "A field"
 ---
 flowchart TD
-    b_start(["start"])
-    b_create["create<br/>MissionCreator"]
-    b_allocate["allocate<br/>DroneAllocator"]
-    b_launch["launch<br/>TripLauncher"]
-    b_watch["watch<br/>TripMonitor"]
-    b_timer["timer<br/>TimerMonitor"]
-    b_first{{"first<br/>GateFIFO"}}
-    b_end(["end"])
-    b_start -->|"UNEXECUTED"| b_create
-    b_create -->|"UNEXECUTED"| b_allocate
-    b_allocate -->|"UNEXECUTED<br/>STANDBY"| b_launch
-    b_launch ==>|"RUNNING"| b_watch
-    b_launch ==>|"RUNNING"| b_timer
-    b_watch -->|"STANDBY<br/>COMPLETED<br/>FAILED"| b_first
-    b_timer -->|"STANDBY<br/>COMPLETED<br/>FAILED"| b_first
-    b_first -->|"STANDBY"| b_allocate
-    b_first -->|"COMPLETED"| b_end
-    b_first -.->|"FAILED"| b_end
+    Start(["start"])
+    MissionCreator["create<br/>MissionCreator"]
+    DroneAllocator["allocate<br/>DroneAllocator"]
+    TripLauncher["launch<br/>TripLauncher"]
+    TripMonitor["watch<br/>TripMonitor"]
+    TimerMonitor["timer<br/>TimerMonitor"]
+    GateFIFO{{"first<br/>GateFIFO"}}
+    End(["end"])
+    Start -->|"UNEXECUTED"| MissionCreator
+    MissionCreator -->|"UNEXECUTED"| DroneAllocator
+    DroneAllocator -->|"UNEXECUTED<br/>STANDBY"| TripLauncher
+    TripLauncher ==>|"RUNNING"| TripMonitor
+    TripLauncher ==>|"RUNNING"| TimerMonitor
+    TripMonitor -->|"STANDBY<br/>COMPLETED<br/>FAILED"| GateFIFO
+    TimerMonitor -->|"STANDBY<br/>COMPLETED<br/>FAILED"| GateFIFO
+    GateFIFO -->|"STANDBY"| DroneAllocator
+    GateFIFO -->|"COMPLETED"| End
+    GateFIFO -.->|"FAILED"| End
 """)
+
+
+def test_a_further_block_of_a_kind_has_its_name_in_mermaid() -> None:
+    """So a new block renames no other, and a renamed one is a line of difference."""
+    lines = mermaid(check(build(APP.replace("timer = TimerMonitor", "timer = TripMonitor")))[0])
+    assert '    TripMonitor["watch<br/>TripMonitor"]\n' in lines
+    assert '    TripMonitor_timer["timer<br/>TripMonitor"]\n' in lines
+    assert '    TripLauncher ==>|"RUNNING"| TripMonitor_timer\n' in lines
 
 
 def test_a_title_cannot_leave_its_place_in_mermaid() -> None:
@@ -102,7 +110,7 @@ def test_an_arrow_that_takes_nothing_is_dotted() -> None:
     watch -> allocate when STANDBY
     watch -> end
     create -> end otherwise"""
-    assert "    b_create -.-> b_end\n" in mermaid(check(build(text))[0])
+    assert "    MissionCreator -.-> End\n" in mermaid(check(build(text))[0])
 
 
 def test_without_graphviz_the_message_says_what_to_install(

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
+
 from plutoc.check.model import Checked
+from plutoc.graph.model import END, START
 from plutoc.report.graph.picture import Arrow, Box, Shape, picture
 
 _SHAPES = {
@@ -14,30 +17,48 @@ _SHAPES = {
 
 _PLAIN = " ,.'()-"
 
+Ids = Mapping[str, str]
+
 
 def mermaid(checked: Checked) -> str:
     """Return the graph as a Mermaid flowchart; thick arrows are the branches of a fork."""
     drawn = picture(checked)
+    ids = _ids(drawn.boxes)
     lines = ["---", f"title: {_title(drawn.title)}", "---", "flowchart TD"]
-    lines.extend(f"    {_box(box)}" for box in drawn.boxes)
-    lines.extend(f"    {_arrow(arrow)}" for arrow in drawn.arrows)
+    lines.extend(f"    {_box(box, ids)}" for box in drawn.boxes)
+    lines.extend(f"    {_arrow(arrow, ids)}" for arrow in drawn.arrows)
     return "\n".join(lines) + "\n"
 
 
-def _box(box: Box) -> str:
+def _box(box: Box, ids: Ids) -> str:
     text = f"{box.name}<br/>{box.kind}" if box.kind else box.name
-    return _id(box.name) + _SHAPES[box.shape].format(text)
+    return ids[box.name] + _SHAPES[box.shape].format(text)
 
 
-def _arrow(arrow: Arrow) -> str:
+def _arrow(arrow: Arrow, ids: Ids) -> str:
     line = "-.->" if arrow.implicit or not arrow.statuses else "==>" if arrow.fork else "-->"
     label = f'|"{"<br/>".join(arrow.statuses)}"|' if arrow.statuses else ""
-    return f"{_id(arrow.source)} {line}{label} {_id(arrow.target)}"
+    return f"{ids[arrow.source]} {line}{label} {ids[arrow.target]}"
 
 
-def _id(name: str) -> str:
-    """A name that is no word of Mermaid's, such as `end`."""
-    return f"b_{name}"
+def _ids(boxes: Iterable[Box]) -> Ids:
+    """Return what the boxes are called within the text.
+
+    The first block of a kind goes by its kind: whoever renames it changes one line of a README. A
+    further one has its name behind, so that it renames no other. All begin with a capital: words of
+    Mermaid's, such as `end`, do not.
+    """
+    ids = {START: "Start", END: "End"}
+    taken = set(ids.values())
+    for box in boxes:
+        if box.name not in ids:
+            kind = f"{box.kind[:1].upper()}{box.kind[1:]}"
+            found = f"{kind}_{box.name}" if kind in taken else kind
+            while found in taken:
+                found += "_"
+            ids[box.name] = found
+            taken.add(found)
+    return ids
 
 
 def _title(text: str) -> str:

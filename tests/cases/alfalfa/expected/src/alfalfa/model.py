@@ -44,57 +44,13 @@ Results = results.Results[Mission, Trip]
 """What an evaluator of this app gets to judge."""
 
 FIELDS: tuple[Field, ...] = (
-    Field(
-        name="at",
-        on=Entity.MISSION,
-        type=FieldType.TIME_OF_DAY,
-        label="Start at",
-        doc="Time of day at which the mission's first trip may start.",
-    ),
-    Field(
-        name="every",
-        on=Entity.MISSION,
-        type=FieldType.TIME,
-        label="Repeat every",
-        doc="Time between the starts of two rounds.",
-    ),
-    Field(
-        name="safe_time",
-        on=Entity.MISSION,
-        type=FieldType.TIME,
-        label="Safe time",
-        doc="Longest time that one trip may take; 0 is no limit.",
-    ),
-    Field(
-        name="evaluator",
-        on=Entity.MISSION,
-        type=FieldType.EVALUATOR,
-        label="Evaluator",
-        doc="Which of the app's evaluators judges the mission.",
-    ),
-    Field(
-        name="repeat",
-        on=Entity.MISSION,
-        type=FieldType.ROUNDS,
-        label="Repeat",
-        doc="How many more rounds to fly after the first; true: until it is stopped.",
-        default=0,
-    ),
-    Field(
-        name="delay",
-        on=Entity.TRIP,
-        type=FieldType.TIME,
-        label="Delay",
-        doc="Time to wait before the trip.",
-    ),
-    Field(
-        name="priority",
-        on=Entity.TRIP,
-        type=FieldType.INT,
-        label="Priority",
-        doc="Trips of a higher priority get their drones first.",
-        default=0,
-    ),
+    Field(name="at", on=Entity.MISSION, type=FieldType.TIME_OF_DAY, label="Start at"),
+    Field(name="every", on=Entity.MISSION, type=FieldType.TIME, label="Repeat every"),
+    Field(name="safe_time", on=Entity.MISSION, type=FieldType.TIME, label="Safe time"),
+    Field(name="evaluator", on=Entity.MISSION, type=FieldType.EVALUATOR, label="Evaluator"),
+    Field(name="repeat", on=Entity.MISSION, type=FieldType.ROUNDS, label="Repeat", default=0),
+    Field(name="delay", on=Entity.TRIP, type=FieldType.TIME, label="Delay"),
+    Field(name="priority", on=Entity.TRIP, type=FieldType.INT, label="Priority", default=0),
 )
 """What the user of the app fills in besides the basics; the blocks of the graph need it."""
 

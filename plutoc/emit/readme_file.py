@@ -1,0 +1,71 @@
+"""`README.md`: the app's graph, its blocks, its missions file, and which file is whose."""
+
+from __future__ import annotations
+
+from plutoc.emit.fields import fields_of
+from plutoc.emit.markup import fence, markdown
+from plutoc.emit.python import header
+from plutoc.emit.render import render
+from plutoc.emit.test_file import MissionTable, sample
+from plutoc.frozen import frozen
+from plutoc.graph.model import Graph, Node
+
+
+@frozen
+class BlockRow:
+    """A block, in the README's table."""
+
+    name: str
+    kind: str
+    doc: str
+
+
+@frozen
+class FieldRow:
+    """A field of missions or trips, in the README's table."""
+
+    name: str
+    on: str
+    doc: str
+
+
+@frozen
+class Readme:
+    """What the template places."""
+
+    header: str
+    app: str
+    title: str
+    fence: str
+    picture: str
+    gates: bool
+    blocks: list[BlockRow]
+    sample: MissionTable
+    fields: list[FieldRow]
+
+
+def readme(graph: Graph, source_name: str, picture: str) -> str:
+    """Return the text of `README.md`."""
+    return render(
+        "README.md",
+        Readme(
+            header=header(source_name),
+            app=graph.name,
+            title=markdown(graph.title),
+            fence=fence(picture),
+            picture=picture.rstrip("\n"),
+            gates=any(node.block.gate is not None for node in graph.nodes),
+            blocks=[_block(node) for node in graph.nodes],
+            sample=sample(graph),
+            fields=[
+                FieldRow(name=field.name, on=field.on.value, doc=markdown(field.doc))
+                for field in fields_of(graph)
+            ],
+        ),
+    )
+
+
+def _block(node: Node) -> BlockRow:
+    """Return what a block does, in the one sentence that its documentation begins with."""
+    doc, _, _ = node.block.doc.partition("\n")
+    return BlockRow(name=node.name, kind=markdown(node.block.name), doc=markdown(doc))

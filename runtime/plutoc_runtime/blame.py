@@ -1,0 +1,58 @@
+"""In which block an error arose: `flow.py` quotes a block's declaration above each call of it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from types import FrameType, TracebackType
+from typing import Any
+
+
+def blame(error: BaseException, flow: Callable[..., Any]) -> None:
+    """Add to an error that escapes from a flow in which block it arose.
+
+    A traceback then ends like this:
+
+        ZeroDivisionError: division by zero
+        in block launch = TripLauncher
+    """
+    block = blamed(error, flow)
+    if block:
+        error.add_note(f"in block {block}")
+
+
+def blamed(error: BaseException, flow: Callable[..., Any]) -> str:
+    """Return the declaration of the block in which an error arose; empty if it was in none.
+
+    Of a fork and its gate it is what stands in their place: `launch -> [a, b] -> first = GateFIFO`.
+    """
+    file = getattr(flow, "__code__", None)
+    found = ""
+    for frame, line in _frames(error.__traceback__):
+        if file is not None and frame.f_code.co_filename == file.co_filename:
+            found = _above(frame, line) or found
+    return found
+
+
+def _frames(trace: TracebackType | None) -> Iterator[tuple[FrameType, int]]:
+    """Yield where an error came through, the place where it arose last."""
+    while trace is not None:
+        yield trace.tb_frame, trace.tb_lineno
+        trace = trace.tb_next
+
+
+def _above(frame: FrameType, line: int) -> str:
+    """Return the nearest comment above a line of a function that is not within an arm before it."""
+    import linecache  # only where something has gone wrong
+
+    margin = None
+    for number in range(line, frame.f_code.co_firstlineno, -1):
+        text = linecache.getline(frame.f_code.co_filename, number, frame.f_globals)
+        if not text.strip():
+            continue
+        indent = len(text) - len(text.lstrip())
+        if margin is not None and indent > margin:
+            continue
+        margin = indent
+        if text.lstrip().startswith("# "):
+            return text.strip().removeprefix("# ")
+    return ""
