@@ -137,9 +137,15 @@ class Block:
     launches: bool = False
     """Starts the next trip with the drone that was allocated."""
     watches: bool = False
-    """Ends with the outcome of the trip in flight."""
+    """Ends with the outcome of the trip in flight, and does nothing else before."""
     limits: bool = False
     """Watches, and fails the trip itself; goes beside a block that only watches."""
+    limit: Callable[..., Any] | None = None
+    """What it adds to a wait for the end of the trip, so that one wait can stand for several blocks.
+
+    Called as `limit(run, **parameters, **fields)`, it gives a `plutoc_runtime.watching.Limit`, or None
+    for no limit. The block's step must do no more than to wait under that limit.
+    """
     evaluates: bool = False
     """Judges a finished mission and may ask for more trips."""
     repeats: bool = False

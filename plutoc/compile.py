@@ -33,12 +33,14 @@ class Compiled:
     warnings: Warnings
 
 
-def compile_source(source: Source, *, source_name: str, find_hooks: FindHooks) -> Compiled:
+def compile_source(
+    source: Source, *, source_name: str, find_hooks: FindHooks, optimise: bool = True
+) -> Compiled:
     """Return a source's package; raise `Rejected` with all errors of the first phase that fails."""
     checked, warnings = analyse(source)
     hooks = find_hooks(checked)
     warnings += check_hooks(checked, hooks)
-    package = package_of(checked, source_name=source_name)
+    package = package_of(checked, source_name=source_name, optimise=optimise)
     return Compiled(checked=checked, hooks=hooks, package=package, warnings=warnings)
 
 
@@ -60,21 +62,23 @@ def check_hooks(checked: Checked, hooks: Source | None) -> Warnings:
     return check_hooks(checked, hooks)
 
 
-def planned(checked: Checked) -> Plan:
-    """Return the plan of a checked graph."""
+def planned(checked: Checked, *, optimise: bool = True) -> Plan:
+    """Return the plan of a checked graph: as good as we can make it, or as plain as it is built."""
     from plutoc.plan.build import build
+    from plutoc.plan.optimise import optimised
 
-    return build(checked)
+    return optimised(build(checked)) if optimise else build(checked)
 
 
-def package_of(checked: Checked, *, source_name: str) -> Package:
+def package_of(checked: Checked, *, source_name: str, optimise: bool = True) -> Package:
     """Return the files of a checked graph's package."""
     from plutoc.emit.errors import not_embeddable, place_of
     from plutoc.emit.modules import EmbedError
     from plutoc.emit.package import emit
     from plutoc.report.graph import mermaid
 
+    plan = planned(checked, optimise=optimise)
     try:
-        return emit(planned(checked), source_name=source_name, picture=mermaid(checked))
+        return emit(plan, source_name=source_name, picture=mermaid(checked))
     except EmbedError as error:  # a block that somebody else made
         raise Rejected([not_embeddable(place_of(checked.graph), str(error))]) from error

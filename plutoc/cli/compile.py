@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from shlex import quote
+from typing import TYPE_CHECKING
 
 from plutoc.check.model import Checked
 from plutoc.cli.endings import CLEAN, ERRORS, REFUSED, Unusable
@@ -20,6 +21,9 @@ from plutoc.emit.write import CannotWrite, Changes, Refused, compare, write
 from plutoc.source import Source
 from plutoc_runtime.cli import output
 from plutoc_runtime.words import counted, printable
+
+if TYPE_CHECKING:
+    from plutoc.plan.model import Plan
 
 
 @dataclass(slots=True)
@@ -52,12 +56,13 @@ def compile_(options: Options) -> int:
 def _compile(options: Options, said: _Said) -> None:
     source = read_app(options.file)
     if options.show is not None:
-        _show(source, options.show, said)
+        _show(source, options, options.show, said)
         return
     compiled = compile_source(
         source,
         source_name=options.file.name,
         find_hooks=lambda checked: _hooks(options, checked),
+        optimise=not options.plain,
     )
     said.found += compiled.warnings
     try:
@@ -76,7 +81,7 @@ def _compile(options: Options, said: _Said) -> None:
         said.lines += _outcome(compiled, changes)
 
 
-def _show(source: Source, what: str, said: _Said) -> None:
+def _show(source: Source, options: Options, what: str, said: _Said) -> None:
     checked, warnings = analyse(source)
     said.found += warnings
     if what == "graph":
@@ -86,8 +91,23 @@ def _show(source: Source, what: str, said: _Said) -> None:
     else:
         from plutoc.plan.show import show
 
-        text = show(planned(checked))
+        text = show(_plan(checked, options, what))
     said.lines.append(text.rstrip("\n"))
+
+
+def _plan(checked: Checked, options: Options, what: str) -> Plan:
+    """Return the last plan, or the one after the pass that is named behind `plan=`."""
+    _, asked, name = what.partition("=")
+    if not asked:
+        return planned(checked, optimise=not options.plain)
+    from plutoc.plan.build import build
+    from plutoc.plan.optimise import stages
+
+    plans = dict(stages(build(checked)))
+    if name not in plans:
+        known = ", ".join(plans)
+        raise Unusable(f"--show plan={printable(name)}: there is no such pass, only {known}")
+    return plans[name]
 
 
 def _folder(options: Options, checked: Checked) -> Path:

@@ -14,6 +14,7 @@ from plutoc.cli.endings import USAGE
 from plutoc.cli.version import tell_version
 
 FORMATS = ("text", "json", "github", "sarif")
+CHANGES = ("text", "markdown", "json")
 PICTURES = ("mermaid", "dot", "svg", "json")
 
 
@@ -41,6 +42,9 @@ class Options:
     fleet: Path | None = None
     seed: int | None = None
     json: bool = False
+    old: Path = field(default_factory=Path)
+    new: Path = field(default_factory=Path)
+    exit_code: bool = False
     kind: str | None = None
     code: str | None = None
 
@@ -80,6 +84,7 @@ def parse(arguments: Sequence[str]) -> Options:
     _run(command("run", "Compile an app and simulate its missions at once."))
     _fmt(command("fmt", "Write sources in canonical form; comments and meaning are kept."))
     _graph(command("graph", "Print the picture of an app, with the statuses on every edge."))
+    _diff(command("diff", "Say in words what changed in meaning from one app to another."))
     _blocks(command("blocks", "List the blocks that are installed, or explain one."))
     _explain(command("explain", "Say what the code of an error or a warning means."))
     if not arguments:
@@ -171,8 +176,10 @@ def _compile(parser: ArgumentParser) -> None:
     parser.add_argument("-O0", dest="plain", action="store_true", help="do not optimise the plan")
     parser.add_argument(
         "--show",
-        choices=("graph", "plan"),
-        help="write nothing; print the checked graph or the plan",
+        type=_shown,
+        metavar="WHAT",
+        help="write nothing; print the checked `graph` or the `plan`; `plan=PASS` is the plan after "
+        "that pass, `plan=built` the one before all",
     )
     _format(parser)
 
@@ -224,6 +231,25 @@ def _graph(parser: ArgumentParser) -> None:
     )
 
 
+def _diff(parser: ArgumentParser) -> None:
+    parser.add_argument(
+        "old",
+        metavar="OLD",
+        type=Path,
+        help="the app as it was: a .pluto file, a folder with an app.pluto, or - for standard input",
+    )
+    parser.add_argument("new", metavar="NEW", type=Path, help="the app as it is now: the same")
+    parser.add_argument(
+        "--format",
+        choices=CHANGES,
+        default=CHANGES[0],
+        help="how to report (default: %(default)s)",
+    )
+    parser.add_argument(
+        "--exit-code", action="store_true", help="end with 1 if something changed in meaning"
+    )
+
+
 def _blocks(parser: ArgumentParser) -> None:
     parser.add_argument("kind", metavar="KIND", nargs="?", help="one block, to read about it")
 
@@ -232,6 +258,12 @@ def _explain(parser: ArgumentParser) -> None:
     parser.add_argument(
         "code", metavar="CODE", nargs="?", help="such as P1003; without one, all are listed"
     )
+
+
+def _shown(text: str) -> str:
+    if text not in ("graph", "plan") and not text.startswith("plan="):
+        raise ArgumentTypeError(f"{text!r} is neither graph nor plan nor plan=PASS")
+    return text
 
 
 def _whole(text: str) -> int:

@@ -9,7 +9,10 @@ from typing import Any
 from plutoc.block import Choice
 from plutoc.emit.embed import OURS, Carried
 from plutoc.emit.imports import Import
-from plutoc.graph.model import Graph, Node
+from plutoc.emit.walk import branches, steps
+from plutoc.graph.model import Node
+from plutoc.plan.model import Call, Join, Plan, Watch
+from plutoc_runtime.watching import watch
 
 RESERVED = frozenset(
     {
@@ -22,14 +25,30 @@ RESERVED = frozenset(
 
 Names = Mapping[Carried, str]
 
+WATCH = Carried(package=OURS, function=watch)
+"""The one wait for the end of a trip."""
 
-def carried_functions(graph: Graph) -> tuple[Carried, ...]:
+
+def carried_functions(plan: Plan) -> tuple[Carried, ...]:
     """Return every function of an installed package that the flow calls, in source order."""
-    found = dict.fromkeys(
-        Carried(package=node.package, function=function)
-        for node in graph.nodes
-        for function in (node.block.step, *_chosen(node))
-    )
+    functions = (plan.body, *(branch.body for branch in branches(plan.body)))
+    called: set[str] = set()
+    limits: set[str] = set()
+    found: dict[Carried, None] = {}
+    for step in (step for body in functions for step in steps(body)):
+        match step:
+            case Call(node=node) | Join(gate=node):
+                called.add(node.name)
+            case Watch(watchers=watchers):
+                limits.update(node.name for node in watchers)
+                found[WATCH] = None
+            case _:
+                pass
+    for node in plan.checked.graph.nodes:
+        own = [node.block.step, *_chosen(node)] if node.name in called else []
+        if node.block.limit is not None and node.name in limits:
+            own.append(node.block.limit)
+        found |= dict.fromkeys(Carried(package=node.package, function=one) for one in own)
     return tuple(found)
 
 

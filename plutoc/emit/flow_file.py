@@ -42,7 +42,7 @@ def flow_file(plan: Plan) -> str:
     """Return the text of `flow.py`, not yet formatted."""
     graph = plan.checked.graph
     scope = Scope(
-        names=names_of(carried_functions(graph)),
+        names=names_of(carried_functions(plan)),
         fields={field.name: field for field in fields_of(graph)},
         mission="mission",
     )

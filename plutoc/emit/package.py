@@ -16,6 +16,7 @@ from plutoc.emit.project_files import attributes_file, init_file, main_file, pro
 from plutoc.emit.python import owned
 from plutoc.emit.readme_file import readme
 from plutoc.emit.render import verbatim
+from plutoc.emit.scan import written_imports
 from plutoc.emit.test_file import flow_test
 from plutoc.frozen import frozen
 from plutoc.plan.model import Plan
@@ -42,7 +43,7 @@ def emit(plan: Plan, *, source_name: str, picture: str) -> Package:
         "flow.py": flow_file(plan),
         "model.py": model_file(graph),
     }
-    carried = embed(carried_functions(graph), sorted(_runtime_modules(modules.values())))
+    carried = embed(carried_functions(plan), sorted(_runtime_modules(modules.values())))
     files = {
         ".gitattributes": attributes_file(source_name),
         "LICENSE": verbatim("LICENSE"),
@@ -67,10 +68,21 @@ def emit(plan: Plan, *, source_name: str, picture: str) -> Package:
 def _runtime_modules(texts: Iterable[str]) -> Iterator[str]:
     """Yield the modules of the runtime that the app's own modules import."""
     for text in texts:
-        for node in ast.walk(ast.parse(text)):
-            if isinstance(node, ast.ImportFrom) and (node.module or "").startswith(FOLDER):
-                inner = (node.module or "").removeprefix(FOLDER).removeprefix(".")
+        for target, names in _imports(text):
+            if target.startswith(f".{FOLDER}"):
+                inner = target.removeprefix(f".{FOLDER}").removeprefix(".")
                 if inner.startswith("blocks"):
                     continue
-                names = [alias.name for alias in node.names] if not inner else [inner]
-                yield from (f"{RUNTIME}.{name}" for name in names)
+                yield from (f"{RUNTIME}.{name}" for name in ([inner] if inner else names))
+
+
+def _imports(text: str) -> Iterator[tuple[str, tuple[str, ...]]]:
+    """Yield what a module imports names from, dots included, and the names."""
+    written = written_imports(text)
+    if written is not None:
+        yield from ((one.target, one.names) for one in written)
+        return
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.ImportFrom):
+            target = "." * node.level + (node.module or "")
+            yield target, tuple(alias.name for alias in node.names)

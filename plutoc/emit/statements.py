@@ -7,7 +7,7 @@ from dataclasses import replace
 from inspect import iscoroutinefunction
 
 from plutoc.block import Choice, HookParam, Param
-from plutoc.emit.callables import Names, chosen
+from plutoc.emit.callables import WATCH, Names, chosen
 from plutoc.emit.embed import Carried
 from plutoc.emit.python import call, literal, status_tuple
 from plutoc.frozen import frozen
@@ -25,8 +25,10 @@ from plutoc.plan.model import (
     Loop,
     Step,
     Switch,
+    Watch,
 )
 from plutoc_runtime.fields import Entity, Field
+from plutoc_runtime.status import Status
 
 
 @frozen
@@ -55,8 +57,11 @@ def body_lines(body: Body, scope: Scope) -> Iterator[str]:
                 yield f"# {_picture(step)}"
                 functions = tuple(branch.name for branch in branches)
                 yield from _go_through(_call(gate, functions, scope), following)
-            case Switch(arms=arms):
-                yield from _switch(arms, scope)
+            case Watch():
+                yield from _watched(step)
+                yield from _go_through(_wait(step, scope), following)
+            case Switch():
+                yield from _switch(step, scope)
             case Loop(head=head, body=inner):
                 yield "while True:"
                 yield from _indented(body_lines(inner, replace(scope, head=head, in_loop=True)))
@@ -79,7 +84,7 @@ def body_lines(body: Body, scope: Scope) -> Iterator[str]:
 
 def returns_at_once(body: Body) -> bool:
     """Say whether a body ends by returning what its last block gives."""
-    return len(body) > 1 and isinstance(body[-1], End) and isinstance(body[-2], Call | Join)
+    return len(body) > 1 and isinstance(body[-1], End) and isinstance(body[-2], Call | Join | Watch)
 
 
 def _go_through(called: str, following: Step | None) -> Iterator[str]:
@@ -91,6 +96,27 @@ def _call(node: Node, branches: tuple[str, ...], scope: Scope) -> str:
     arguments = ("run", "status", *branches, *_keywords(node, scope))
     called = call(scope.names[step], arguments)
     return f"await {called}" if iscoroutinefunction(node.block.step) else called
+
+
+def _wait(watch: Watch, scope: Scope) -> str:
+    limits = [
+        call(
+            scope.names[Carried(package=node.package, function=node.block.limit)],
+            ("run", *_keywords(node, scope)),
+        )
+        for node in watch.watchers
+        if node.block.limit is not None
+    ]
+    return f"await {call(scope.names[WATCH], ('run', *limits))}"
+
+
+def _watched(watch: Watch) -> Iterator[str]:
+    match watch.instead:
+        case Call(node=node):
+            yield f"# {node.declaration}"
+        case Join() as join:
+            yield f"# {_picture(join)}"
+            yield from (f"# {node.declaration}" for node in watch.watchers if node.block.limit)
 
 
 def _keywords(node: Node, scope: Scope) -> Iterator[str]:
@@ -139,11 +165,11 @@ def _picture(join: Join) -> str:
     return f"{join.fork.name} -> [{firsts}] -> {join.gate.declaration}"
 
 
-def _switch(arms: tuple[Arm, ...], scope: Scope) -> Iterator[str]:
+def _switch(switch: Switch, scope: Scope) -> Iterator[str]:
     """Yield early ways out first, flat; an arm that goes on below makes the rest its `else`."""
-    written = [(arm, _arm(arm, scope)) for arm in arms]
+    written = [(arm, _arm(arm, scope)) for arm in switch.arms]
     busy = [(arm, lines) for arm, lines in written if lines]
-    rest = busy[-1][0] if len(busy) == len(arms) else None
+    rest = busy[-1][0] if switch.decided and len(busy) == len(switch.arms) else None
     keyword = "if"
     for arm, lines in busy:
         if arm is rest and keyword == "if":
@@ -153,12 +179,33 @@ def _switch(arms: tuple[Arm, ...], scope: Scope) -> Iterator[str]:
             yield from _indented(lines)
         if not leaves(arm.body):
             keyword = "elif"
+    if not switch.decided:
+        idle = tuple(status for arm, lines in written if not lines for status in arm.statuses)
+        yield from _nothing_else(keyword, idle)
+
+
+def _nothing_else(keyword: str, known: tuple[Status, ...]) -> Iterator[str]:
+    """Yield what a plain plan asks last: no other status than these can come here."""
+    if known:
+        yield f"{keyword} {_is_not(known)}:"
+        yield "    raise AssertionError(status)"
+    elif keyword == "elif":
+        yield "else:"
+        yield "    raise AssertionError(status)"
+    else:
+        yield "raise AssertionError(status)"
 
 
 def _arm(arm: Arm, scope: Scope) -> list[str]:
     if arm.body[:1] == (Break(),):
         return [f"break  # -> {arm.to}"]
     return list(body_lines(arm.body, scope))
+
+
+def _is_not(statuses: tuple[Status, ...]) -> str:
+    if len(statuses) == 1:
+        return f"status is not Status.{statuses[0].name}"
+    return f"status not in {status_tuple(statuses)}"
 
 
 def _condition(arm: Arm) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from plutoc.graph.model import Node
-from plutoc.plan.model import Body, Branch, Call, Dispatch, Join, Loop, Step, Switch
+from plutoc.plan.model import Body, Branch, Call, Dispatch, Join, Loop, Step, Switch, Watch
 
 
 def steps(body: Body) -> Iterator[Step]:
@@ -26,11 +26,13 @@ def steps(body: Body) -> Iterator[Step]:
 
 
 def nodes(body: Body) -> Iterator[Node]:
-    """Yield the blocks that a function calls."""
+    """Yield the blocks that a function calls, and those for which it waits."""
     for step in steps(body):
         match step:
             case Call(node=node) | Join(gate=node):
                 yield node
+            case Watch(watchers=watchers):
+                yield from watchers
             case _:
                 pass
 

@@ -17,6 +17,7 @@ from plutoc.plan.model import (
     Loop,
     Step,
     Switch,
+    Watch,
 )
 
 Jump = Continue | Break | End | Goto
@@ -47,7 +48,7 @@ def continues(body: Body) -> bool:
 
 def _passes(step: Step) -> bool:
     match step:
-        case Call() | Join():
+        case Call() | Join() | Watch():
             return True
         case Switch():
             return any(falls(arm.body) for arm in step.arms)

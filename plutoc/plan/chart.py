@@ -15,6 +15,9 @@ from plutoc.check.model import Checked, Fork
 from plutoc.graph.model import END, Edge
 from plutoc_runtime.status import IN_GRAPH, WORST_FIRST, Status
 
+Leads = Mapping[Status, tuple[int, "Spot | None", str]]
+"""For each status that leaves a spot: the edge's number, the target, and its name."""
+
 
 class Kind(Enum):
     """What happens at a spot."""
@@ -45,6 +48,8 @@ class Way:
     """None: the mission, or the branch, is at its end."""
     to: str
     """The target as a person names it."""
+    asked: tuple[Status, ...] = ()
+    """What the source says that leads there, whether it can come or not; empty: all that comes."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -91,7 +96,7 @@ class Charts:
                     queue.append((target, leaving))
         return Chart(
             entry=first,
-            ways={spot: _ways(leads) for spot, leads in found.items()},
+            ways={spot: _ways(leads, self.asked(spot, leads)) for spot, leads in found.items()},
             arrives={spot: frozenset(statuses) for spot, statuses in arrives.items()},
             exits=frozenset(exits),
         )
@@ -116,11 +121,30 @@ class Charts:
             return self.numbers[fork.branches[0]], target, to
         for edge in graph.outgoing[spot.name]:
             if status in self.checked.carries[edge]:
-                # to a mission in a branch a gate is the end: behind it another body goes on
-                out = edge.target == END or graph.node[edge.target].block.gate is not None
-                entered = None if out else Spot(kind=Kind.BLOCK, name=edge.target)
-                return self.numbers[edge], entered, edge.target
+                return self.numbers[edge], self.entered(edge), edge.target
         return len(self.numbers), None, END
+
+    def asked(self, spot: Spot, leads: Leads) -> Mapping[Spot | None, frozenset[Status]]:
+        """Return the statuses that the source leads to each target, beyond those that come."""
+        edges = self.checked.graph.outgoing[spot.name]
+        if spot.kind is Kind.FORK or (len(edges) == 1 and edges[0].guard is None):
+            return {}
+        found = {
+            target: {s for s in leads if leads[s][1] == target} for _, target, _ in leads.values()
+        }
+        for status in IN_GRAPH:
+            takers = [edge for edge in edges if status in edge.takes]
+            if status not in leads and len(takers) == 1:
+                target = self.entered(takers[0])
+                if target in found:
+                    found[target].add(status)
+        return {target: frozenset(statuses) for target, statuses in found.items()}
+
+    def entered(self, edge: Edge) -> Spot | None:
+        """Return the spot that an edge leads to; to a mission in a branch a gate is the end."""
+        # behind the gate another body goes on
+        out = edge.target == END or self.checked.graph.node[edge.target].block.gate is not None
+        return None if out else Spot(kind=Kind.BLOCK, name=edge.target)
 
     def passing(self, fork: Spot, status: Status) -> frozenset[Status]:
         """Return what the gate lets through when missions fork with this status."""
@@ -136,7 +160,7 @@ class Charts:
         return self.brought[edge, status]
 
 
-def _ways(leads: Mapping[Status, tuple[int, Spot | None, str]]) -> tuple[Way, ...]:
+def _ways(leads: Leads, asked: Mapping[Spot | None, frozenset[Status]]) -> tuple[Way, ...]:
     """One way for each target, however many statuses and edges lead there."""
     targets: dict[Spot | None, tuple[int, str]] = {}
     for number, target, to in sorted(leads.values(), key=lambda lead: lead[0]):
@@ -146,6 +170,7 @@ def _ways(leads: Mapping[Status, tuple[int, Spot | None, str]]) -> tuple[Way, ..
             statuses=tuple(s for s in IN_GRAPH if s in leads and leads[s][1] == target),
             target=target,
             to=to,
+            asked=tuple(s for s in IN_GRAPH if s in asked.get(target, ())),
         )
         for target, (_, to) in targets.items()
     )

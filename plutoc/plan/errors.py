@@ -59,6 +59,10 @@ def few_arms(where: str) -> BadPlan:
     return BadPlan(f"{where}: a switch needs two arms, each with a status")
 
 
+def other_watchers(where: str) -> BadPlan:
+    return BadPlan(f"{where}: a wait does not stand for all blocks that watch the trip")
+
+
 def arms_overlap(where: str, status: Status) -> BadPlan:
     return BadPlan(f"{where}: two arms take {status.value}")
 

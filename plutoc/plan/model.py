@@ -40,6 +40,16 @@ class Join:
 
 
 @frozen
+class Watch:
+    """One wait for the end of the trip, under all limits: `status = watch(run, limit, limit)`."""
+
+    instead: Call | Join
+    """What the graph says: a block that watches the trip, or a fork of such blocks with its gate."""
+    watchers: tuple[Node, ...]
+    """The blocks that would each have waited, in the order of their branches."""
+
+
+@frozen
 class Arm:
     """What is done for some of the statuses of a `Switch`; `to` names where it leads."""
 
@@ -50,9 +60,11 @@ class Arm:
 
 @frozen
 class Switch:
-    """Goes on by status. The arms share no status, and the last one takes all that is left."""
+    """Goes on by status. The arms share no status."""
 
     arms: tuple[Arm, ...]
+    decided: bool = False
+    """Nothing else can arrive, so the last arm takes what the others leave, without asking."""
 
 
 @frozen
@@ -101,7 +113,7 @@ class Dispatch:
     cases: tuple[Case, ...]
 
 
-Step = Call | Join | Switch | Loop | Continue | Break | End | Goto | Dispatch
+Step = Call | Join | Watch | Switch | Loop | Continue | Break | End | Goto | Dispatch
 Body = tuple[Step, ...]
 
 

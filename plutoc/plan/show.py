@@ -17,6 +17,7 @@ from plutoc.plan.model import (
     Plan,
     Step,
     Switch,
+    Watch,
 )
 
 
@@ -37,8 +38,11 @@ def _step(step: Step) -> list[str]:
         case Join():
             lines = [line for branch in step.branches for line in _branch(branch)]
             return [f"join {step.fork.name} -> {step.gate.name}", *lines]
+        case Watch():
+            return [f"watch {_watched(step)}"]
         case Switch():
-            return ["switch", *(line for arm in step.arms for line in _arm(arm))]
+            head = "switch" if step.decided else "switch, asking all"
+            return [head, *(line for arm in step.arms for line in _arm(arm))]
         case Loop():
             return [f"loop {step.head}", *_inside(step.body)]
         case Continue():
@@ -54,6 +58,15 @@ def _step(step: Step) -> list[str]:
             for case in step.cases:
                 lines += [f"  case {case.label}", *(f"  {line}" for line in _inside(case.body))]
             return [f"dispatch from {step.start}", *lines]
+
+
+def _watched(watch: Watch) -> str:
+    names = ", ".join(node.name for node in watch.watchers)
+    match watch.instead:
+        case Join(fork=fork, gate=gate):
+            return f"{fork.name} -> [{names}] -> {gate.name}"
+        case Call():
+            return names
 
 
 def _branch(branch: Branch) -> list[str]:

@@ -12,9 +12,9 @@ from dataclasses import dataclass, field, replace
 
 from plutoc.plan.bodies import breaks, falls, switch, without_last_continue
 from plutoc.plan.chart import Kind, Spot, Way
-from plutoc.plan.model import Arm, Body, Break, Continue, End, Goto, Loop, Step
+from plutoc.plan.model import Arm, Body, Break, Continue, End, Goto, Loop, Step, Switch
 from plutoc.plan.shape import Shape, ahead, round_of
-from plutoc_runtime.status import IN_GRAPH
+from plutoc_runtime.status import IN_GRAPH, Status
 
 LOOPS = 12
 """Loops in loops; Python itself compiles no more than twenty."""
@@ -104,7 +104,9 @@ class Writer:
         early = [way for way in ways if way in early]
         if early:
             arms = [self.arm(way, spot, around) for way in early]
-            written = switch([*arms, Arm(statuses=last.statuses, body=(), to=last.to)])
+            written = switch([*arms, Arm(statuses=_asked(last), body=(), to=last.to)])
+        elif last.asked:
+            written = (Switch(arms=(Arm(statuses=last.asked, body=(), to=last.to),)),)
         if self.inlined(last, spot, around):
             return written, last.target
         return written + self.jump(last.target, around), None
@@ -155,7 +157,7 @@ class Writer:
         written, behind = self.merging(ways, merges, spot, around)
         if behind is not None:
             written += self.body(behind, around)
-        statuses = {status for way in ways for status in way.statuses}
+        statuses = {status for way in ways for status in _asked(way)}
         return Arm(
             statuses=tuple(s for s in IN_GRAPH if s in statuses),
             body=written,
@@ -178,7 +180,7 @@ class Writer:
             written = self.body(way.target, replace(around, arms=around.arms + 1))
         else:
             written = self.jump(way.target, around)
-        return Arm(statuses=way.statuses, body=written, to=way.to)
+        return Arm(statuses=_asked(way), body=written, to=way.to)
 
     def inlined(self, way: Way, spot: Spot, around: Around) -> bool:
         """Is the target written just where the way leads there?"""
@@ -288,3 +290,7 @@ class Writer:
         if spot not in self.reached:
             self.reached[spot] = ahead(self.shape, spot)
         return self.reached[spot]
+
+
+def _asked(way: Way) -> tuple[Status, ...]:
+    return way.asked or way.statuses

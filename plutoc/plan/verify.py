@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from keyword import iskeyword, issoftkeyword
 
+from plutoc.graph.model import Node
 from plutoc.plan import errors
 from plutoc.plan.bodies import continues, falls
 from plutoc.plan.model import (
@@ -11,6 +12,7 @@ from plutoc.plan.model import (
     Body,
     Branch,
     Break,
+    Call,
     Continue,
     Dispatch,
     Goto,
@@ -19,6 +21,7 @@ from plutoc.plan.model import (
     Plan,
     Step,
     Switch,
+    Watch,
 )
 from plutoc.plan.walk import walk
 from plutoc_runtime.status import Status
@@ -67,13 +70,15 @@ def _body(
     in_loop: bool,
     labels: tuple[str, ...] | None,
 ) -> None:
-    for number, step in enumerate(body):
-        if number and not falls(body[:number]):
+    left = False
+    for step in body:
+        if left:
             raise errors.after_jump(where)
+        left = not falls((step,))
         _step(step, where, in_loop=in_loop, labels=labels)
         match step:
-            case Join():
-                for branch in step.branches:
+            case Join(branches=branches) | Watch(instead=Join(branches=branches)):
+                for branch in branches:
                     _branch(branch, names)
             case Switch():
                 for arm in step.arms:
@@ -100,14 +105,30 @@ def _step(step: Step, where: str, *, in_loop: bool, labels: tuple[str, ...] | No
             raise errors.loop_in_case(where)
         case Dispatch():
             raise errors.dispatch_inside(where)
+        case Watch():
+            if step.watchers != _watchers(step.instead):
+                raise errors.other_watchers(where)
         case Switch():
-            _arms(step.arms, where)
+            _arms(step.arms, where, least=2 if step.decided else 1)
         case _:
             pass
 
 
-def _arms(arms: tuple[Arm, ...], where: str) -> None:
-    if len(arms) < 2 or not all(arm.statuses for arm in arms):
+def _watchers(step: Step) -> tuple[Node, ...]:
+    """Return the blocks that watch, of those that a wait stands for."""
+    match step:
+        case Call(node=node) if node.block.watches:
+            return (node,)
+        case Join(branches=branches):
+            return tuple(node for b in branches for one in b.body for node in _watchers(one))
+        case Watch(watchers=watchers):
+            return watchers
+        case _:
+            return ()
+
+
+def _arms(arms: tuple[Arm, ...], where: str, least: int) -> None:
+    if len(arms) < least or not all(arm.statuses for arm in arms):
         raise errors.few_arms(where)
     taken: set[Status] = set()
     for arm in arms:

@@ -27,6 +27,7 @@ from plutoc.plan.model import (
     Plan,
     Step,
     Switch,
+    Watch,
 )
 from plutoc_runtime.status import IN_GRAPH, Status
 
@@ -78,6 +79,8 @@ class _Walk:
                 return self.leave(step.node, {status: None for _, status in left})
             case Join():
                 return self.join(step, left, frame)
+            case Watch():
+                return self.step(step.instead, left, frame)
             case Switch():
                 return self.switch(step, left, frame)
             case Loop():
@@ -169,7 +172,7 @@ class _Walk:
 def _first(body: Body, gate: str) -> str:
     """Return the place that a branch comes to first."""
     match body[:1]:
-        case (Call() as call,):
+        case (Call() as call,) | (Watch(instead=Call() as call),):
             return call.node.name
         case (Loop() as loop,):
             return loop.head
@@ -192,7 +195,7 @@ def walk(plan: Plan, where: str) -> None:
     for place, step, seen in walked.switched.values():
         for arm in step.arms:
             for status in arm.statuses:
-                if status not in seen:
+                if step.decided and status not in seen:
                     raise errors.idle_arm(place, status)
     missed = [n.name for n in checked.graph.nodes if checked.arrives[n.name]]
     missed = [name for name in missed if name not in walked.called]

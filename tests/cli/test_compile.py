@@ -363,6 +363,16 @@ def test_show_prints_and_writes_nothing(plutoc: Call, app: Path, here: Path) -> 
     assert tree(here) == before
 
 
+def test_the_plan_after_each_pass_can_be_shown(plutoc: Call, app: Path) -> None:
+    """`built` is the plan before all, which `-O0` keeps; a name that is none lists them."""
+    built = plutoc("compile", app, "--show", "plan=built").out
+    assert plutoc("compile", app, "-O0", "--show", "plan").out == built
+    assert plutoc("compile", app, "--show", "plan=decided").out != built
+    said = plutoc("compile", app, "--show", "plan=magic")
+    assert said.code == 2
+    assert "there is no such pass, only built, impossible, decided" in said.err
+
+
 def test_json_says_nothing_but_diagnostics(plutoc: Call, app: Path) -> None:
     """A program reads standard output."""
     said = plutoc("compile", app, "--format", "json")
@@ -375,5 +385,8 @@ def test_json_says_nothing_but_diagnostics(plutoc: Call, app: Path) -> None:
 
 
 def test_the_plain_plan_can_be_asked_for(plutoc: Call, app: Path) -> None:
-    """`-O0` is part of the command line from the first day."""
+    """With `-O0` every fork is tasks; without, a wait for the trip's end is a single one."""
     assert plutoc("compile", app, "-O0").code == 0
+    plain = FLOW.read_text()
+    assert plutoc("compile", app).code == 0
+    assert ("watch_trip(" in plain, "watch_trip(" in FLOW.read_text()) == (True, False)

@@ -109,11 +109,15 @@ def switches(draw: st.DrawFn, depth: int, jumps: tuple[Step, ...]) -> Switch:
     order = draw(st.permutations(IN_GRAPH))
     cuts = sorted(draw(st.sets(st.integers(1, 4), min_size=1, max_size=3)))
     parts = [order[a:b] for a, b in zip([0, *cuts], [*cuts, 5], strict=True)]
+    decided = draw(st.booleans())
+    if not decided:  # then a status that no arm takes is possible, and an arm may be alone
+        parts = parts[draw(st.integers(0, 1)) :]
     return Switch(
         arms=tuple(
             Arm(statuses=tuple(part), to="n0", body=draw(bodies(depth - 1, jumps)))
             for part in parts
-        )
+        ),
+        decided=decided,
     )
 
 
@@ -168,8 +172,10 @@ def interpret(body: Body, world: World, status: Status) -> Status:
                     status = function(way.body, world, status)
                 status = world.step(closing.name, status)
             case Switch(arms=arms):
-                arm = next(arm for arm in arms if status in arm.statuses)
-                status = interpret(arm.body, world, status)
+                taken = [arm for arm in arms if status in arm.statuses]
+                if not taken:
+                    raise AssertionError(status)
+                status = interpret(taken[0].body, world, status)
             case Loop(body=inner):
                 status = looped(inner, world, status)
             case Dispatch(start=label, cases=cases):
@@ -224,6 +230,10 @@ def result(call: Any, world: World) -> tuple[Status | None, Trace]:
         return call(), world.trace
     except OutOfScript:
         return None, world.trace
+    except AssertionError as error:
+        (astray,) = error.args
+        assert isinstance(astray, Status)
+        return None, [*world.trace, ("astray", astray)]
 
 
 def whole(body: Body) -> Body:
@@ -287,7 +297,8 @@ def test_early_ways_out_stay_flat() -> None:
             Arm(statuses=(Status.STANDBY,), to="a", body=(Continue(),)),
             Arm(statuses=(Status.FAILED, Status.COMPLETED), to="b", body=(Break(),)),
             Arm(statuses=(Status.RUNNING,), to="end", body=(End(),)),
-        )
+        ),
+        decided=True,
     )
     assert list(lines(Loop(head="a", body=(switch,)))) == [
         "while True:",
@@ -296,4 +307,26 @@ def test_early_ways_out_stay_flat() -> None:
         "    if status in (Status.FAILED, Status.COMPLETED):",
         "        break  # -> b",
         "    return status",
+    ]
+
+
+def test_a_plain_switch_asks_for_every_status() -> None:
+    """What no arm takes is a mistake that does not pass unseen."""
+    switch = Switch(
+        arms=(
+            Arm(statuses=(Status.FAILED,), to="end", body=(End(),)),
+            Arm(statuses=(Status.STANDBY,), to="a", body=(Call(node=node("a")),)),
+            Arm(statuses=(Status.RUNNING, Status.COMPLETED), to="b", body=()),
+        ),
+    )
+    assert list(lines(switch, Call(node=node("b")), End())) == [
+        "if status is Status.FAILED:",
+        "    return status",
+        "if status is Status.STANDBY:",
+        "    # a = X",
+        "    status = step(run, status, block='a')",
+        "elif status not in (Status.RUNNING, Status.COMPLETED):",
+        "    raise AssertionError(status)",
+        "# b = X",
+        "return step(run, status, block='b')",
     ]

@@ -22,6 +22,7 @@ from plutoc.syntax.parse import parse
 from plutoc_runtime.status import Status
 from tests.check.graphs import BASIC, checked
 from tests.plan.graphs import GRAPHS, routes
+from tests.plan.plans import structured
 
 CASES = Path(__file__).parents[1] / "cases"
 ROOT = Path(__file__).parents[2]
@@ -62,7 +63,7 @@ def test_statuses_that_cannot_occur_do_not_appear() -> None:
     watch -> allocate when STANDBY
     watch -> end
     retry -> allocate when STANDBY"""
-    switches = [s for s in steps(build(checked(text)).body) if isinstance(s, Switch)]
+    switches = [s for s in steps(structured(text).body) if isinstance(s, Switch)]
     assert [[arm.to for arm in switch.arms] for switch in switches] == [
         ["allocate", "end", "retry"]
     ]
@@ -70,7 +71,7 @@ def test_statuses_that_cannot_occur_do_not_appear() -> None:
 
 def test_a_block_in_a_branch_gets_only_the_statuses_of_that_branch() -> None:
     """Outside, the same block leads on by another edge; the branch knows nothing of it."""
-    body = build(checked(GRAPHS["a block in a branch and outside"])).body
+    body = structured(GRAPHS["a block in a branch and outside"]).body
     (join,) = [step for step in body if isinstance(step, Join)]
     assert not any(isinstance(s, Switch) for b in join.branches for s in steps(b.body))
 
@@ -81,7 +82,7 @@ def test_an_end_that_nobody_wrote_is_an_end() -> None:
     start -> create -> allocate -> launch -> watch
     watch -> allocate when STANDBY
     watch -> end when COMPLETED"""
-    (switch,) = [s for s in steps(build(checked(text)).body) if isinstance(s, Switch)]
+    (switch,) = [s for s in steps(structured(text).body) if isinstance(s, Switch)]
     assert [(arm.statuses, arm.to) for arm in switch.arms] == [
         ((Status.COMPLETED, Status.FAILED), "end"),
         ((Status.STANDBY,), "allocate"),
@@ -130,7 +131,7 @@ def test_arms_that_leave_come_before_the_one_that_goes_on() -> None:
         c="STANDBY > d",
         d="STANDBY > a, COMPLETED > end",
     )
-    switches = [s for s in steps(build(checked(text)).body) if isinstance(s, Switch)]
+    switches = [s for s in steps(structured(text).body) if isinstance(s, Switch)]
     assert [arm.to for arm in switches[0].arms] == ["end", "b", "c"]
 
 

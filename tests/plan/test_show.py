@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from plutoc.plan.build import build
 from plutoc.plan.show import show
-from tests.check.graphs import checked
 from tests.plan.graphs import GRAPHS
+from tests.plan.plans import structured
 
 
 def shown(name: str) -> str:
-    return "\n" + show(build(checked(GRAPHS[name])))
+    return "\n" + show(structured(GRAPHS[name]))
 
 
 def test_alfalfa() -> None:

@@ -6,7 +6,6 @@ from dataclasses import replace
 
 import pytest
 
-from plutoc.plan.build import build
 from plutoc.plan.errors import BadPlan
 from plutoc.plan.model import (
     Arm,
@@ -28,10 +27,11 @@ from plutoc.plan.verify import verify
 from plutoc_runtime.status import Status
 from tests.check.graphs import checked
 from tests.plan.graphs import GRAPHS, TWO_ENTRIES, routes
+from tests.plan.plans import structured
 
 GRAPH = checked(routes(a="STANDBY > b, COMPLETED > end, FAILED > end", b="STANDBY > a"))
-FORKED = build(checked(GRAPHS["a fork before the first launch"]))
-FREE = build(checked(TWO_ENTRIES))
+FORKED = structured(GRAPHS["a fork before the first launch"])
+FREE = structured(TWO_ENTRIES)
 
 
 def call(name: str) -> Call:
@@ -44,7 +44,7 @@ def arm(body: Body, *names: str) -> Arm:
 
 def loop(*body: Arm, behind: Body = ()) -> Body:
     """The plan of `GRAPH`, but for the arms after its first block."""
-    inside = (call("a"), Switch(arms=body), call("b"))
+    inside = (call("a"), Switch(arms=body, decided=True), call("b"))
     return (call("create"), Loop(head="a", body=inside), *behind)
 
 
@@ -87,7 +87,7 @@ WRONG: dict[str, tuple[Body, str]] = {
         "from a no edge leads STANDBY to end",
     ),
     "a block left out": (
-        (call("create"), Loop(head="a", body=(call("a"), Switch(arms=(ENDS, ON))))),
+        (call("create"), Loop(head="a", body=(call("a"), Switch(arms=(ENDS, ON), decided=True)))),
         "from a no edge leads STANDBY to a",
     ),
 }

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from functools import partial
 
 import pytest
 from hypothesis import given, settings
@@ -13,6 +14,7 @@ from plutoc.check.run import check
 from plutoc.diagnostic import Rejected
 from plutoc.plan.build import build
 from plutoc.plan.model import Plan
+from plutoc.plan.optimise import stages
 from plutoc.plan.show import show
 from plutoc.plan.verify import verify
 from tests.check import graphs
@@ -21,18 +23,23 @@ from tests.plan.graphs import GRAPHS, random_graphs
 from tests.plan.walks import along_graph, kept, through_plan
 
 
-def compare(checked: Checked, plan: Plan, seeds: range) -> None:
-    verify(plan)
+def compare(checked: Checked, seeds: range) -> Plan:
+    """Walk the graph, the plan as it is built, and the plan after all passes."""
+    plans = [plan for _, plan in stages(build(checked))]
+    for plan in plans:
+        verify(plan)
     for seed in seeds:
         wanted = kept(lambda diary: along_graph(checked, diary), seed)
-        assert kept(lambda diary: through_plan(plan, diary), seed) == wanted
+        for plan in (plans[0], plans[-1]):
+            assert kept(partial(through_plan, plan), seed) == wanted
+    return plans[-1]
 
 
 @pytest.mark.parametrize("name", GRAPHS)
 def test_a_plan_visits_the_blocks_that_the_graph_does(name: str) -> None:
     """The same blocks, branches and gates, in the same order, with the same statuses."""
     checked = graphs.checked(GRAPHS[name])
-    compare(checked, build(checked), range(40))
+    compare(checked, range(40))
 
 
 def test_plans_of_random_graphs_do_what_the_graphs_do() -> None:
@@ -46,9 +53,7 @@ def test_plans_of_random_graphs_do_what_the_graphs_do() -> None:
             checked = graphs.checked(text)
         except Rejected:
             return
-        plan = build(checked)
-        compare(checked, plan, range(seed, seed + 6))
-        shown = show(plan)
+        shown = show(compare(checked, range(seed, seed + 6)))
         seen.update(word for word in ("call", "loop", "break", "join", "goto") if word in shown)
 
     each()
@@ -63,4 +68,4 @@ def test_plans_of_edited_graphs_do_what_the_graphs_do(text: str, seed: int) -> N
         checked, _ = check(graphs.build(text))
     except Rejected:
         return
-    compare(checked, build(checked), range(seed, seed + 6))
+    compare(checked, range(seed, seed + 6))

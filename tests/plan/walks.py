@@ -27,6 +27,7 @@ from plutoc.plan.model import (
     Plan,
     Step,
     Switch,
+    Watch,
 )
 from plutoc_runtime.status import IN_GRAPH, WORST_FIRST, Status
 
@@ -128,9 +129,13 @@ def _step(step: Step, status: Status, diary: Diary) -> tuple[Step | None, Status
                 brought.append(_function(branch.body, status, step.gate.name, diary))
             return None, diary.close(step.gate, brought)
         case Switch():
-            # the last arm takes what is left, as generated code will do it
-            taken = [arm for arm in step.arms[:-1] if status in arm.statuses]
-            return _body((taken or [step.arms[-1]])[0].body, status, diary)
+            asked = step.arms[:-1] if step.decided else step.arms
+            taken = [arm for arm in asked if status in arm.statuses]
+            if step.decided:  # the last arm takes what is left, as generated code will do it
+                taken.append(step.arms[-1])
+            return _body(taken[0].body, status, diary)
+        case Watch():
+            return _step(step.instead, status, diary)
         case Loop():
             while True:
                 jump, status = _body(step.body, status, diary)

@@ -5,7 +5,7 @@ from plutoc_runtime.fields import Entity, Field, FieldType
 from plutoc_runtime.quantities import Type
 from plutoc_runtime.status import Status
 
-from .step import watch_gap
+from .step import gap_limit, watch_gap
 
 GAP_MONITOR = Block(
     name="GapMonitor",
@@ -36,4 +36,5 @@ GAP_MONITOR = Block(
     ),
     watches=True,
     limits=True,
+    limit=gap_limit,
 )

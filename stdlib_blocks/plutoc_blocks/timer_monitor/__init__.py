@@ -5,7 +5,7 @@ from plutoc_runtime.fields import Entity, Field, FieldType
 from plutoc_runtime.quantities import Type
 from plutoc_runtime.status import Status
 
-from .step import watch_timer
+from .step import timer_limit, watch_timer
 
 TIMER_MONITOR = Block(
     name="TimerMonitor",
@@ -35,4 +35,5 @@ TIMER_MONITOR = Block(
     ),
     watches=True,
     limits=True,
+    limit=timer_limit,
 )

@@ -40,6 +40,8 @@ async def flow(run: Run[Mission]) -> Status:
         )
         # launch = TripLauncher
         status = launch_trip(run, status)
+        if status is not Status.RUNNING:
+            raise AssertionError(status)
         # launch -> [watch, timer] -> first = GateFIFO
         status = await pass_first(run, status, _watch, _timer)
         if status is Status.STANDBY:
@@ -47,9 +49,13 @@ async def flow(run: Run[Mission]) -> Status:
         if status is Status.FAILED:
             # retry = PriorityManager(max_attempts: 3)
             status = raise_priority(run, status, max_attempts=3, priority=mission.current.priority)
-            if status is Status.FAILED:
+            if status in (Status.COMPLETED, Status.FAILED):
                 return status
+            if status is not Status.STANDBY:
+                raise AssertionError(status)
             continue  # -> allocate
+        if status is not Status.COMPLETED:
+            raise AssertionError(status)
         # judge = MissionEvaluator(hook: find_blooms)
         status = await evaluate_mission(
             run, status, hook=hooks.find_blooms, evaluator=mission.evaluator
@@ -58,10 +64,14 @@ async def flow(run: Run[Mission]) -> Status:
             continue  # -> allocate
         if status is Status.FAILED:
             return status
+        if status is not Status.COMPLETED:
+            raise AssertionError(status)
         # again = MissionRepeater
         status = repeat_mission(run, status, repeat=mission.repeat)
         if status is Status.COMPLETED:
             return status
+        if status is not Status.STANDBY:
+            raise AssertionError(status)
 
 
 async def _watch(run: Run[Mission], status: Status) -> Status:

@@ -1,0 +1,135 @@
+"""Which statuses can arrive at each switch of a plan.
+
+Only statuses are walked with, and each step anew only if a further one comes to it: that is quick,
+however large the plan. What leaves a block is what it can give for what arrived, and no more than
+the checks have seen to leave it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+
+from plutoc.check.model import Checked
+from plutoc.graph.model import Node
+from plutoc.plan.chart import let_through
+from plutoc.plan.model import (
+    Body,
+    Branch,
+    Break,
+    Call,
+    Continue,
+    Dispatch,
+    End,
+    Goto,
+    Join,
+    Loop,
+    Plan,
+    Step,
+    Switch,
+    Watch,
+)
+from plutoc_runtime.status import Status
+
+Statuses = frozenset[Status]
+NONE = frozenset[Status]()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Frame:
+    """The function that is walked, and the jumps that were met in the innermost loop."""
+
+    ends: set[Status] = field(default_factory=set)
+    continued: set[Status] = field(default_factory=set)
+    broken: set[Status] = field(default_factory=set)
+    gone: dict[str, Statuses] = field(default_factory=dict)
+    """What came to each label."""
+    known: dict[int, tuple[set[Status], set[Status]]] = field(default_factory=dict)
+    """For each loop, by identity: what came to its head, and what leaves it by `Break`."""
+
+
+@dataclass(slots=True, kw_only=True)
+class _Walk:
+    checked: Checked
+    found: dict[int, set[Status]] = field(default_factory=dict)
+    brought: dict[tuple[int, Status], Statuses] = field(default_factory=dict)
+
+    def body(self, body: Body, statuses: Statuses, frame: _Frame) -> Statuses:
+        for step in body:
+            statuses = self.step(step, statuses, frame) if statuses else NONE
+        return statuses
+
+    def step(self, step: Step, statuses: Statuses, frame: _Frame) -> Statuses:
+        """Walk a step; return what falls off its end."""
+        match step:
+            case Call(node=node):
+                return self.leave(node, statuses)
+            case Join():
+                return self.join(step, statuses)
+            case Watch(instead=instead):
+                return self.step(instead, statuses, frame)
+            case Switch():
+                return self.switch(step, statuses, frame)
+            case Loop():
+                return self.loop(step, statuses, frame)
+            case Dispatch():
+                self.dispatch(step, statuses, frame)
+            case Continue():
+                frame.continued.update(statuses)
+            case Break():
+                frame.broken.update(statuses)
+            case Goto(label=label):
+                frame.gone[label] = frame.gone.get(label, NONE) | statuses
+            case End():
+                frame.ends.update(statuses)
+        return NONE
+
+    def leave(self, node: Node, statuses: Statuses) -> Statuses:
+        given = NONE.union(*(node.emitted(status) for status in statuses))
+        return given & self.checked.leaves[node.name]
+
+    def join(self, step: Join, statuses: Statuses) -> Statuses:
+        gate = step.gate.block.gate
+        passed = NONE.union(
+            *(let_through(gate, [self.brings(b, one) for b in step.branches]) for one in statuses)
+        )
+        return self.leave(step.gate, passed)
+
+    def brings(self, branch: Branch, status: Status) -> Statuses:
+        key = (id(branch), status)
+        if key not in self.brought:
+            frame = _Frame()
+            self.body(branch.body, frozenset((status,)), frame)
+            self.brought[key] = frozenset(frame.ends)
+        return self.brought[key]
+
+    def switch(self, step: Switch, statuses: Statuses, frame: _Frame) -> Statuses:
+        self.found.setdefault(id(step), set()).update(statuses)
+        out = NONE
+        for arm in step.arms:
+            out |= self.body(arm.body, statuses.intersection(arm.statuses), frame)
+        return out
+
+    def loop(self, step: Loop, statuses: Statuses, frame: _Frame) -> Statuses:
+        known, broken = frame.known.setdefault(id(step), (set(), set()))
+        while not statuses <= known:
+            known |= statuses
+            inside = replace(frame, continued=set(), broken=broken)
+            statuses = self.body(step.body, frozenset(known), inside) | inside.continued
+        return frozenset(broken)
+
+    def dispatch(self, step: Dispatch, statuses: Statuses, frame: _Frame) -> None:
+        bodies = {case.label: case.body for case in step.cases}
+        walked: dict[str, Statuses] = {}
+        frame.gone[step.start] = statuses
+        while fresh := [label for label, came in frame.gone.items() if walked.get(label) != came]:
+            for label in fresh:
+                walked[label] = frame.gone[label]
+                self.body(bodies[label], walked[label], frame)
+
+
+def arriving(plan: Plan) -> Mapping[int, set[Status]]:
+    """Return what can arrive at each switch, by its identity."""
+    walk = _Walk(checked=plan.checked)
+    walk.body(plan.body, frozenset((Status.UNEXECUTED,)), _Frame())
+    return walk.found

@@ -1,0 +1,36 @@
+"""Statuses that cannot arrive at a switch are asked for no more, and arms without any go.
+
+Before:                                     After:
+    call retry                                  call retry
+    switch, asking all                          switch, asking all
+      COMPLETED, FAILED -> end: end               FAILED -> end: end
+      STANDBY -> allocate: go on                  STANDBY -> allocate: go on
+
+A guard says what its edge takes; the checks have seen what really comes. Which it is depends on the
+way as well: behind one fork a block may leave with statuses that it never has behind another.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from plutoc.plan.arriving import arriving
+from plutoc.plan.model import Arm, Body, Plan, Step, Switch
+from plutoc.plan.rewrite import rewritten
+
+
+def impossible(plan: Plan) -> Plan:
+    """Ask for no status that cannot arrive."""
+    found = arriving(plan)
+
+    def narrowed(step: Step, before: Step) -> Body:
+        if not isinstance(step, Switch):
+            return (step,)
+        came = found.get(id(before), ())
+        arms = (
+            Arm(statuses=tuple(s for s in arm.statuses if s in came), body=arm.body, to=arm.to)
+            for arm in step.arms
+        )
+        return (replace(step, arms=tuple(arm for arm in arms if arm.statuses)),)
+
+    return rewritten(plan, narrowed)

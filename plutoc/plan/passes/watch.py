@@ -1,0 +1,65 @@
+"""A fork of nothing but blocks that wait for the trip's end becomes one wait under all limits.
+
+Before:                                     After:
+    call launch                                 call launch
+    join launch -> first                        watch launch -> [watch, timer] -> first
+      branch _watch: launch -> watch -> first
+        call watch
+        end
+      branch _timer: launch -> timer -> first
+        call timer
+        end
+
+A block with a limit fails the trip itself, so all of them see the same end at the same instant,
+and whichever gate closes the fork lets that status through. Two tasks, a fork and a gate become a
+single wait. A block that waits alone is the same wait without limits of others.
+
+A fork stays that has anything else in a branch. Blocks of other packages are fused too, if they say
+what their limit is, or have none and ask for nothing that a wait could not give them.
+"""
+
+from __future__ import annotations
+
+from itertools import chain
+
+from plutoc.block import Block, Gate
+from plutoc.graph.model import Node
+from plutoc.plan.model import Body, Branch, Call, End, Join, Plan, Step, Watch
+from plutoc.plan.rewrite import rewritten
+
+
+def watch(plan: Plan) -> Plan:
+    """Wait once for the end of a trip, however many blocks watch it."""
+    return rewritten(plan, _fused)
+
+
+def _fused(step: Step, _: Step) -> Body:
+    match step:
+        case Call(node=node) if _only_waits(node.block):
+            return (Watch(instead=step, watchers=(node,)),)
+        case Join(gate=gate, branches=branches):
+            found = [_watchers(branch, gate) for branch in branches]
+            watchers = tuple(chain.from_iterable(some for some in found if some))
+            if watchers and all(some is not None for some in found):
+                return (Watch(instead=step, watchers=watchers),)
+    return (step,)
+
+
+def _watchers(branch: Branch, gate: Node) -> tuple[Node, ...] | None:
+    """Return the blocks that wait in a branch, or None if it does something else."""
+    match branch.body:
+        case (Watch(watchers=watchers), End()):
+            return watchers
+        case (End(),) if gate.block.gate is Gate.ALL:
+            # it brings RUNNING, and of different statuses the gate passes on the worst
+            return ()
+        case _:
+            return None
+
+
+def _only_waits(block: Block) -> bool:
+    """Does the block do no more than to wait, under a limit that can be asked for?"""
+    if not block.watches:
+        return False
+    asks = block.params or block.needs or block.uses or block.named
+    return block.limit is not None or not (block.limits or asks)
