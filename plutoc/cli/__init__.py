@@ -142,6 +142,10 @@ def _run(options: Options) -> int:
             from plutoc.cli.graph import graph
 
             return graph(options)
+        case "diff":
+            from plutoc.cli.diff import diff
+
+            return diff(options)
         case "explain":
             from plutoc.cli.explain import explain
 

@@ -9,7 +9,7 @@ from plutoc.graph.arguments import once_each
 from plutoc.graph.model import Category
 from plutoc.graph.unclear import Unclear
 from plutoc.graph.values import typed
-from plutoc.source import Source
+from plutoc.source import Source, Span
 from plutoc.syntax.tree import Argument, CategoryDecl
 from plutoc_runtime.quantities import Type
 
@@ -28,7 +28,7 @@ _BY_NAME = {param.name: param for param in PARAMS}
 
 def implicit() -> Category:
     """Return the category of an app that declares none: it can do everything."""
-    return _category(IMPLICIT, {}, None)
+    return _category(IMPLICIT, {}, None, None)
 
 
 def category(
@@ -61,7 +61,8 @@ def category(
                 found.append(errors.unknown_action(source, name, others))
         elif first is not name:
             found.append(errors.named_twice(source, name, first))
-    return _category(declared.name.text, values, tuple(dict.fromkeys(n.text for n in declared.can)))
+    can = tuple(dict.fromkeys(name.text for name in declared.can))
+    return _category(declared.name.text, values, can, declared.name.span)
 
 
 def _is_possible(
@@ -78,7 +79,9 @@ def _is_possible(
     return possible
 
 
-def _category(name: str, given: dict[str, float], actions: tuple[str, ...] | None) -> Category:
+def _category(
+    name: str, given: dict[str, float], actions: tuple[str, ...] | None, span: Span | None
+) -> Category:
     def value(param: str) -> float:
         default = _BY_NAME[param].default
         assert isinstance(default, float)
@@ -92,4 +95,5 @@ def _category(name: str, given: dict[str, float], actions: tuple[str, ...] | Non
         charge_time=value("charge_time"),
         reserve=value("reserve"),
         actions=actions,
+        span=span,
     )

@@ -62,6 +62,8 @@ class Category:
     reserve: float
     actions: tuple[str, ...] | None
     """In the order written; None: every action there is."""
+    span: Span | None
+    """Its name; None where the source declares no category."""
 
 
 @frozen

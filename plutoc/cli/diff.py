@@ -1,0 +1,62 @@
+"""`diff`: what changed in meaning from one app to another, in words."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+from plutoc.cli.endings import CLEAN, ERRORS, Unusable
+from plutoc.cli.files import STANDARD_INPUT, read_app, read_standard_input
+from plutoc.cli.options import Options
+from plutoc.cli.say import in_colour
+from plutoc.compile import analyse
+from plutoc.diagnostic import Diagnostic, Rejected
+from plutoc.diff.model import Difference, Version
+from plutoc.diff.run import compare
+from plutoc.report.changes import json, markdown, text
+from plutoc.source import Source
+from plutoc_runtime.cli import output
+
+_APP = "app.pluto"
+"""The app of a folder."""
+
+
+def diff(options: Options) -> int:
+    """Say what changed; whether something did is the exit code only where that is asked for."""
+    if options.old == options.new == STANDARD_INPUT:
+        raise Unusable("`-`, standard input, can be one of the two apps, not both")
+    old, new = _versions(_read(options.old), _read(options.new))
+    found = compare(old, new)
+    output.line(_report(found, options.format).rstrip("\n"))
+    return ERRORS if options.exit_code and found.changes else CLEAN
+
+
+def _read(path: Path) -> Source:
+    if path == STANDARD_INPUT:
+        return read_standard_input()
+    return read_app(path / _APP if path.is_dir() else path)
+
+
+def _versions(*sources: Source) -> list[Version]:
+    """Check both apps; raise `Rejected` with the errors of both."""
+    versions: list[Version] = []
+    found: list[Diagnostic] = []
+    for source in sources:
+        try:
+            checked, warnings = analyse(source)
+            versions.append(Version(checked=checked, warnings=warnings))
+        except Rejected as rejected:
+            found += rejected.diagnostics
+    if found:
+        raise Rejected(found)
+    return versions
+
+
+def _report(found: Difference, format: str) -> str:
+    match format:
+        case "markdown":
+            return markdown(found)
+        case "json":
+            return json(found)
+        case _:
+            return text(found, colour=in_colour(sys.stdout))

@@ -1,0 +1,117 @@
+"""What goes on at once: branches that forks have got or lost, their order, and their gates."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from plutoc.check.model import Fork
+from plutoc.diff.both import Both, Side
+from plutoc.diff.journeys import Reroute, places, reroutes
+from plutoc.diff.model import Change, Spans
+from plutoc.diff.roles import Role, limited, role
+from plutoc.diff.words import forks as words
+from plutoc.graph.model import Node
+from plutoc_runtime.status import Status
+
+_Forks = dict[tuple[str, Status], Fork]
+
+
+def limits(both: Both) -> Iterator[Change]:
+    """Tell which times in flight are watched now, and which no more."""
+    before, after = _limits(both.old), _limits(both.new)
+    for what, nodes in before.items():
+        if what not in after:
+            yield words.limit_removed(what, nodes)
+    for what, nodes in after.items():
+        if what not in before:
+            yield words.limit_added(what, nodes)
+
+
+def branches(both: Both) -> Iterator[Change]:
+    """Tell what goes on beside something else now, and what no more."""
+    before, after = _limits(both.old), _limits(both.new)
+    for one in reroutes(both):
+        stays = [name for name in one.after if name in both.old.called(one.before)]
+        if not (one.forks and stays):
+            continue
+        for name in one.before:
+            node = both.old.graph.node.get(name)
+            if both.old.names.get(name, name) in one.after or _is_told(node, after):
+                continue
+            yield words.branch_removed(both.old.graph, one, name, stays, _spans(both, one))
+        for name in one.after:
+            node = both.new.graph.node.get(name)
+            if name in stays or _is_told(node, before):
+                continue
+            yield words.branch_added(both.new.graph, one, name, stays, _spans(both, one))
+
+
+def gates(both: Both) -> Iterator[Change]:
+    """Tell of forks that close by another rule: the first branch counts, or all do."""
+    before = _by_origin(both.old)
+    for origin, fork in _by_origin(both.new).items():
+        known = before.get(origin)
+        if known is None:
+            continue
+        old, new = both.old.graph.node[known.gate], both.new.graph.node[fork.gate]
+        was, now = old.block.gate, new.block.gate
+        if was and now and was is not now:
+            yield words.gate_changed(fork, old, new, was, now)
+
+
+def order(both: Both) -> Iterator[Change]:
+    """Tell of branches in another order: what falls on one instant happens in that order.
+
+    How a trip ended, and that its time is over, is the same to all branches, in any order. So it
+    counts only where a hook is called.
+    """
+    before = _by_origin(both.old)
+    for origin, fork in _by_origin(both.new).items():
+        known = before.get(origin)
+        if known is None:
+            continue
+        was = both.old.called(edge.target for edge in known.branches)
+        now = tuple(edge.target for edge in fork.branches)
+        if was != now and sorted(was) == sorted(now) and _calls(both.new, fork):
+            yield words.order_changed(known, fork, was, now)
+
+
+def _limits(side: Side) -> dict[str, tuple[Node, ...]]:
+    """What is watched in flight, and by which blocks."""
+    found: dict[str, tuple[Node, ...]] = {}
+    for node in side.graph.nodes:
+        if node.block.limits:
+            what = limited(node.block)
+            found[what] = (*found.get(what, ()), node)
+    return found
+
+
+def _is_told(node: Node | None, elsewhere: dict[str, tuple[Node, ...]]) -> bool:
+    """Say whether it is a limit that the other app knows nothing of: that is told as such."""
+    return node is not None and node.block.limits and limited(node.block) not in elsewhere
+
+
+def _spans(both: Both, one: Reroute) -> Spans:
+    return places(both.old, one.old, one.statuses), places(both.new, one.new, one.statuses)
+
+
+def _by_origin(side: Side) -> _Forks:
+    """The forks by where they begin, as the new app calls it."""
+    return {(side.called([f.node])[0], f.status): f for f in side.checked.forks}
+
+
+def _calls(side: Side, fork: Fork) -> bool:
+    """Say whether a block calls a hook in a branch of a fork."""
+    ahead = [(edge.target, fork.status) for edge in fork.branches]
+    known: dict[tuple[str, Status], None] = {}
+    while ahead:
+        name, status = ahead.pop()
+        node = side.graph.node.get(name)
+        if node is None or name == fork.gate or (name, status) in known:
+            continue
+        known[name, status] = None
+        if role(node) is Role.CALLS or node.hook:
+            return True
+        for left in side.checked.leaves[name]:
+            ahead.extend((target, left) for target in side.routes[name, left])
+    return False

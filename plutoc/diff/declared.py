@@ -1,0 +1,104 @@
+"""What an app declares beside its graph: its name, its categories, its actions and its hooks."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from plutoc.block import HookKind
+from plutoc.diff.both import Both
+from plutoc.diff.match_hooks import Declared, declared, kind_of
+from plutoc.diff.model import Change
+from plutoc.diff.settings import same
+from plutoc.diff.words import declared as words
+from plutoc.graph.categories import PARAMS
+from plutoc.graph.model import Action, Category, Hook
+
+
+def app(both: Both) -> Iterator[Change]:
+    """Compare what the apps are called."""
+    old, new = both.old.graph, both.new.graph
+    if old.name != new.name:
+        yield words.app_renamed(old, new)
+    if old.title != new.title:
+        yield words.title_changed(old, new)
+
+
+def categories(both: Both) -> Iterator[Change]:
+    """Compare what drones can carry and do."""
+    old = {one.name: one for one in both.old.graph.categories}
+    new = {one.name: one for one in both.new.graph.categories}
+    for was, now in both.categories.items():
+        before, after = old[was], new[now]
+        if was != now:
+            yield words.category_renamed(before, after)
+        for param in PARAMS:
+            value, other = getattr(before, param.name), getattr(after, param.name)
+            if value != other:
+                yield words.category_changed(before, after, param, value, other)
+        yield from _abilities(both, before, after)
+    kept = set(both.categories.values())
+    yield from (
+        words.category_removed(one) for one in old.values() if one.name not in both.categories
+    )
+    yield from (words.category_added(one) for one in new.values() if one.name not in kept)
+
+
+def _abilities(both: Both, before: Category, after: Category) -> Iterator[Change]:
+    was, now = before.actions, after.actions
+    if was is None or now is None:
+        if was is not None:
+            yield words.abilities_changed(before, after, None, ())
+        elif now is not None:
+            yield words.abilities_changed(before, after, (), None)
+        return
+    known = [both.hooks.get(name, name) for name in was]
+    gained = [name for name in now if name not in known]
+    lost = [name for name in known if name not in now]
+    if gained or lost:
+        yield words.abilities_changed(before, after, gained, lost)
+
+
+def hooks(both: Both) -> Iterator[Change]:
+    """Compare what a developer writes in hooks.py."""
+    old = {one.name: one for one in declared(both.old.graph)}
+    new = {one.name: one for one in declared(both.new.graph)}
+    for was, now in both.hooks.items():
+        before, after = old[was], new[now]
+        if was != now:
+            yield words.hook_renamed(before, after)
+        yield from _repeats(before, after)
+        yield from _parameters(before, after)
+        yield from _statuses(before, after)
+    kept = set(both.hooks.values())
+    yield from (words.hook_removed(one) for one in old.values() if one.name not in both.hooks)
+    yield from (words.hook_added(one) for one in new.values() if one.name not in kept)
+
+
+def _repeats(old: Declared, new: Declared) -> Iterator[Change]:
+    if isinstance(old, Action) and isinstance(new, Action) and old.repeat != new.repeat:
+        yield words.repeat_changed(old, new)
+
+
+def _statuses(old: Declared, new: Declared) -> Iterator[Change]:
+    if not (isinstance(old, Hook) and isinstance(new, Hook)):
+        return
+    if old.emits != new.emits:
+        yield words.emits_changed(old, new)
+    if sorted(old.writes) != sorted(new.writes):
+        yield words.writes_changed(old, new)
+
+
+def _parameters(old: Declared, new: Declared) -> Iterator[Change]:
+    before = {parameter.name: parameter for parameter in old.parameters}
+    after = {parameter.name: parameter for parameter in new.parameters}
+    for name, now in after.items():
+        was = before.get(name)
+        if was is None:
+            yield words.parameter_added(old, new, now)
+        elif was.type is not now.type:
+            yield words.type_changed(old, new, was, now)
+        elif kind_of(new) is HookKind.ACTION and not same(was.default, now.default):
+            yield words.default_changed(old, new, was, now)  # others get theirs from a block
+    for name, was in before.items():
+        if name not in after:
+            yield words.parameter_removed(old, new, was)

@@ -1,0 +1,131 @@
+"""Where missions go: what comes next for them now, and what came next before."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from plutoc.diff.both import Both, Side
+from plutoc.diff.model import Change
+from plutoc.diff.roles import Role, decides, role
+from plutoc.diff.words import routes as words
+from plutoc.frozen import frozen
+from plutoc.graph.model import END, Node
+from plutoc.source import Span
+from plutoc_runtime.status import IN_GRAPH, Status
+
+_WATCH = (Role.WATCHES, Role.LIMITS)
+
+
+@frozen
+class Reroute:
+    """Missions leave a block with these statuses for somewhere else than before."""
+
+    old: Node
+    new: Node
+    statuses: tuple[Status, ...]
+    before: tuple[str, ...]
+    """Blocks of the old app, by their names there, or `end`."""
+    after: tuple[str, ...]
+
+    @property
+    def forks(self) -> bool:
+        """Say whether missions are in several places at once, before or after."""
+        return len(self.before) > 1 or len(self.after) > 1
+
+
+def reroutes(both: Both) -> tuple[Reroute, ...]:
+    """Return all of them, each once: a gate passes on what was decided before it."""
+    every = list(_each(both))
+    told = {_way(both, one) for one in every if role(one.new) is not Role.GATE}
+    found: dict[object, Reroute] = {}
+    for one in every:
+        if role(one.new) is Role.GATE and _way(both, one) in told:
+            continue
+        if role(one.new) in _WATCH:  # they all say how the trip ended
+            key: object = _way(both, one)
+        elif decides(one.new):
+            key = (one.new.name, one.statuses)
+        else:
+            key = (one.new.name, one.before, one.after)
+        if key not in found:
+            found[key] = one
+        elif role(one.new) not in _WATCH:
+            found[key] = _with(found[key], one.statuses)
+    return tuple(found.values())
+
+
+def journeys(both: Both) -> Iterator[Change]:
+    """Tell what comes next for missions that went elsewhere before."""
+    for one in reroutes(both):
+        if not one.forks or not {*both.old.called(one.before)} & {*one.after}:
+            yield _told(both, one)
+
+
+def gained(both: Both) -> Iterator[Change]:
+    """Tell what a block can say of a mission that it never said before, or says no more."""
+    for old, new in both.common():
+        if not (decides(old) or decides(new)):
+            continue
+        for status in IN_GRAPH:
+            had = (old.name, status) in both.old.destinations
+            has = (new.name, status) in both.new.destinations
+            if has and not had:
+                leads = both.new.destinations[new.name, status]
+                yield words.outcome_added(both.new.graph, new, status, leads)
+            elif had and not has:
+                led = both.old.destinations[old.name, status]
+                yield words.outcome_removed(old, new, status, led)
+
+
+def places(side: Side, node: Node, statuses: tuple[Status, ...]) -> tuple[Span, ...]:
+    """Return the arrows by which missions leave; where there are none, the block."""
+    edges = side.graph.outgoing[node.name]
+    carrying = [e.span for e in edges if not side.checked.carries[e].isdisjoint(statuses)]
+    return tuple(carrying) or (node.name_span,)
+
+
+def _each(both: Both) -> Iterator[Reroute]:
+    for old, new in both.common():
+        for status in IN_GRAPH:
+            before = both.old.destinations.get((old.name, status))
+            after = both.new.destinations.get((new.name, status))
+            if before and after and {*both.old.called(before)} != {*after}:
+                yield Reroute(old=old, new=new, statuses=(status,), before=before, after=after)
+
+
+def _way(both: Both, one: Reroute) -> tuple[Status, frozenset[str], frozenset[str]]:
+    return one.statuses[0], frozenset(both.old.called(one.before)), frozenset(one.after)
+
+
+def _with(one: Reroute, statuses: tuple[Status, ...]) -> Reroute:
+    known = (*one.statuses, *statuses)
+    return Reroute(old=one.old, new=one.new, statuses=known, before=one.before, after=one.after)
+
+
+def _told(both: Both, one: Reroute) -> Change:
+    status = one.statuses[0]
+    spans = places(both.old, one.old, one.statuses), places(both.new, one.new, one.statuses)
+    goal = frozenset(both.old.called(one.before))
+    steps = _steps(both.new, one.after, status, goal)
+    if steps:
+        return words.step_added(both, one, steps, spans)
+    steps = _steps(both.old, one.before, status, frozenset(one.after))
+    if steps:
+        return words.step_removed(both, one, steps, spans)
+    return words.rerouted(both, one, spans)
+
+
+def _steps(
+    side: Side, names: tuple[str, ...], status: Status, goal: frozenset[str]
+) -> tuple[str, ...]:
+    """Return the blocks that a mission passes before it comes where it came, or comes, straight.
+
+    It passes a block that it can leave with the status that it came with.
+    """
+    steps: list[str] = []
+    while frozenset(side.called(names)) != goal:
+        if len(names) != 1 or names[0] == END or names[0] in steps:
+            return ()
+        steps.append(names[0])
+        names = side.destinations.get((names[0], status), ())
+    return tuple(steps)

@@ -1,0 +1,149 @@
+"""What the sentences are made of: who a mission is that leaves a block, and what becomes of it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import NamedTuple
+
+from plutoc.check.facts import bound_of
+from plutoc.diff.roles import Role, awaited, is_only, role
+from plutoc.graph.model import END, Graph, Node
+from plutoc_runtime.status import Status
+
+
+class Phrase(NamedTuple):
+    """Something that happens to a mission; `~` is where `now` or `no longer` stands."""
+
+    happens: str
+    happened: str
+
+    def __str__(self) -> str:
+        return self.happens.replace("~", "")
+
+    @property
+    def now(self) -> str:
+        """What happens now and did not before."""
+        return self.happens.replace("~", "now ")
+
+    @property
+    def no_longer(self) -> str:
+        """What happened before and does not now."""
+        return self.happens.replace("~", "no longer ")
+
+
+def named(names: Iterable[str], last: str = "and") -> str:
+    """`watch`, `timer` and `first`, each in backquotes."""
+    return listed([f"`{name}`" for name in names], last)
+
+
+def listed(words: Sequence[str], last: str = "and") -> str:
+    """Write words one after the other."""
+    if len(words) < 2:
+        return "".join(words)
+    return f"{', '.join(words[:-1])} {last} {words[-1]}"
+
+
+def retried(bound: int) -> str:
+    """Say how often a trip is flown; 0 is no bound."""
+    if not bound:
+        return "retried without a bound"
+    return f"retried up to {times(bound)} (flights of a trip, the first included)"
+
+
+def times(number: int) -> str:
+    """`once`, `3 times`."""
+    return "once" if number == 1 else f"{number} times"
+
+
+def whoever(graph: Graph, node: Node, statuses: Sequence[Status]) -> str:
+    """Say which mission leaves a block with these statuses: `a FAILED mission`."""
+    match role(node), tuple(statuses):
+        case Role.CREATES, _:
+            return "a new mission"
+        case Role.WATCHES | Role.LIMITS, (Status.STANDBY,):
+            who = "a mission with trips left"
+        case Role.WATCHES | Role.LIMITS, (status,):
+            who = f"a {status.value} mission"
+        case Role.EVALUATES, (Status.STANDBY,):
+            who = "a mission judged to need more trips"
+        case Role.EVALUATES, (Status.COMPLETED,):
+            who = "a mission judged to be complete"
+        case Role.EVALUATES, (Status.FAILED,):
+            who = "a mission judged a failure"
+        case Role.REPEATS, (Status.STANDBY,):
+            who = "a mission with another round to fly"
+        case Role.REPEATS, (Status.COMPLETED,):
+            who = "a mission without another round to fly"
+        case Role.RETRIES, (Status.STANDBY,):
+            who = "a mission whose failed trip was put back"
+        case Role.RETRIES, (Status.FAILED,):
+            who = "a mission whose trip has failed too often"
+        case Role.ALLOCATES, _:
+            who = "a mission that has got a drone"
+        case Role.HOLDS, _:
+            who = f"a mission that has waited for its {awaited(node)}"
+        case Role.LAUNCHES, _:
+            who = "a mission in flight"
+        case _:
+            said = listed([status.value for status in statuses], "or")
+            return f"a mission that leaves `{node.name}` {said}"
+    return who if is_only(graph, node) else f"{who} at `{node.name}`"
+
+
+def ahead(graph: Graph, names: Sequence[str], status: Status) -> Phrase:
+    """Say what becomes of a mission that goes there with this status."""
+    if len(names) != 1:
+        where = named(names)
+        return Phrase(f"is ~in {where} at once", f"was in {where} at once")
+    (name,) = names
+    if name == END:
+        return Phrase("~ends", "ended")
+    node = graph.node[name]
+    found = _retried(node) if _puts_back(node, status) else _visited(node, status)
+    where = "" if is_only(graph, node) or f"`{name}`" in found.happens else f" at `{name}`"
+    return Phrase(found.happens + where, found.happened + where)
+
+
+def _puts_back(node: Node, status: Status) -> bool:
+    return node.block.retries and status is Status.FAILED
+
+
+def _retried(node: Node) -> Phrase:
+    bound = bound_of(node)
+    if bound == 1:
+        through = f"through `{node.name}`, which allows a trip one flight only"
+        return Phrase(f"~goes {through}", f"went {through}")
+    return Phrase(f"is ~{retried(bound)}", f"was {retried(bound)}")
+
+
+def _visited(node: Node, status: Status) -> Phrase:
+    name = node.name
+    match role(node):
+        case Role.ALLOCATES if status is Status.FAILED:
+            again = "for a drone again, however often its trip has failed"
+            return Phrase(f"~waits {again}", f"waited {again}")
+        case Role.ALLOCATES:
+            return Phrase("~waits for a drone", "waited for a drone")
+        case Role.HOLDS:
+            what = f"for the {awaited(node)}"
+            return Phrase(f"~waits {what}", f"waited {what}")
+        case Role.LAUNCHES:
+            return Phrase("is ~launched", "was launched")
+        case Role.WATCHES | Role.LIMITS:
+            return Phrase(f"is ~watched by `{name}`", f"was watched by `{name}`")
+        case Role.EVALUATES if node.hook:
+            by = f"judged by `{node.hook.name}`"
+            return Phrase(f"is ~{by}", f"was {by}")
+        case Role.EVALUATES:
+            return Phrase("is ~judged", "was judged")
+        case Role.REPEATS:
+            if_asked = "another round if its user has asked for one"
+            return Phrase(f"~begins {if_asked}", f"began {if_asked}")
+        case Role.GATE:
+            return Phrase(f"~comes to the gate `{name}`", f"came to the gate `{name}`")
+        case Role.CALLS if node.hook:
+            to = f"to `{name}`, which calls `{node.hook.name}`"
+            return Phrase(f"~goes {to}", f"went {to}")
+        case _:
+            to = f"to `{name}` (`{node.block.name}`)"
+            return Phrase(f"~goes {to}", f"went {to}")

@@ -1,0 +1,57 @@
+"""All that changed in meaning, an aspect a line."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from plutoc.diff.blocks import blocks
+from plutoc.diff.both import Both, side_by_side
+from plutoc.diff.branches import branches, gates, limits, order
+from plutoc.diff.declared import app, categories, hooks
+from plutoc.diff.fields import fields
+from plutoc.diff.journeys import gained, journeys
+from plutoc.diff.model import Change, Difference, Importance, Version
+from plutoc.diff.settings import settings
+from plutoc.diff.stops import stops
+from plutoc.diff.warned import warned
+from plutoc.diff.words.blocks import arranged_otherwise
+
+
+def compare(old: Version, new: Version) -> Difference:
+    """Return what changed in meaning, most important first."""
+    both = side_by_side(old, new)
+    told = [
+        *warned(both),
+        *limits(both),
+        *gates(both),
+        *journeys(both),
+        *branches(both),
+        *gained(both),
+        *settings(both),
+        *stops(both),
+        *app(both),
+        *hooks(both),
+        *categories(both),
+        *fields(both),
+        *order(both),
+    ]
+    told += blocks(both, told)
+    if not told and _arrows_differ(both):
+        told.append(arranged_otherwise())
+    return Difference(old=both.old.graph.source, new=both.new.graph.source, changes=_in_order(told))
+
+
+def _in_order(told: Iterable[Change]) -> tuple[Change, ...]:
+    """Sort by importance; within it, in the order in which the aspects stand above."""
+    rank = {importance: place for place, importance in enumerate(Importance)}
+    return tuple(sorted(dict.fromkeys(told), key=lambda change: rank[change.importance]))
+
+
+def _arrows_differ(both: Both) -> bool:
+    """Say whether missions take other arrows, gates included."""
+    before = {
+        (both.old.called([name])[0], status): frozenset(both.old.called(targets))
+        for (name, status), targets in both.old.routes.items()
+    }
+    after = {leaving: frozenset(targets) for leaving, targets in both.new.routes.items()}
+    return before != after

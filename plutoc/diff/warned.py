@@ -1,0 +1,67 @@
+"""Warnings that there are now, and ones that there are no more."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+
+from plutoc.diagnostic import Diagnostic
+from plutoc.diff.both import Both, Side
+from plutoc.diff.model import Change, Importance
+from plutoc.diff.roles import awaited
+from plutoc.diff.words import blocks as words
+from plutoc.graph.model import Node
+
+_HELD, _UNMENDED, _UNBOUNDED = "P2054", "P2055", "P2056"
+_NAME = re.compile(r"`(\w+)`")
+
+
+def warned(both: Both) -> Iterator[Change]:
+    """Compare what the checks warn of: of each code, as many as there are more or fewer now."""
+    before = _by_code(both.old.version.warnings)
+    after = _by_code(both.new.version.warnings)
+    for code in sorted({*before, *after}):
+        was, now = before.get(code, []), after.get(code, [])
+        known = {_called(one, both.old.names) for one in was}
+        still = {one.message for one in now}
+        come = [one for one in now if one.message not in known] or now
+        gone = [one for one in was if _called(one, both.old.names) not in still] or was
+        yield from (_added(both.new, one) for one in come[: max(len(now) - len(was), 0)])
+        yield from (_removed(both.old, one) for one in gone[: max(len(was) - len(now), 0)])
+
+
+def _added(side: Side, warning: Diagnostic) -> Change:
+    node = _node_of(side, warning)
+    if warning.code == _HELD and node:
+        return words.held_added(awaited(node), node)
+    return words.warning_added(warning, _importance(warning), node)
+
+
+def _removed(side: Side, warning: Diagnostic) -> Change:
+    node = _node_of(side, warning)
+    if warning.code == _HELD and node:
+        return words.held_removed(awaited(node), node)
+    return words.warning_removed(warning, _importance(warning), node)
+
+
+def _node_of(side: Side, warning: Diagnostic) -> Node | None:
+    """Return the block that a warning points at."""
+    return next((n for n in side.graph.nodes if n.name_span == warning.span), None)
+
+
+def _importance(warning: Diagnostic) -> Importance:
+    """What becomes of failures is more than a matter of form."""
+    failures = warning.code in (_UNMENDED, _UNBOUNDED)
+    return Importance.SAFETY if failures else Importance.FORM
+
+
+def _by_code(warnings: Sequence[Diagnostic]) -> dict[str, list[Diagnostic]]:
+    found: dict[str, list[Diagnostic]] = {}
+    for warning in warnings:
+        found.setdefault(warning.code, []).append(warning)
+    return found
+
+
+def _called(warning: Diagnostic, names: Mapping[str, str]) -> str:
+    """Return a warning's sentence with blocks as the new app calls them."""
+    return _NAME.sub(lambda match: f"`{names.get(match[1], match[1])}`", warning.message)
