@@ -5,8 +5,8 @@ from __future__ import annotations
 from plutoc import registry
 from plutoc.check.model import Checked
 from plutoc.check.run import check
+from plutoc.compile import planned
 from plutoc.graph.resolve import resolve
-from plutoc.plan.build import build
 from plutoc.plan.model import Plan
 from plutoc.source import Source
 from plutoc.syntax.parse import parse
@@ -18,6 +18,6 @@ def checked_of(text: str, blocks: registry.Blocks | None = None) -> Checked:
     return check(graph)[0]
 
 
-def plan_of(text: str, blocks: registry.Blocks | None = None) -> Plan:
+def plan_of(text: str, blocks: registry.Blocks | None = None, *, optimise: bool = True) -> Plan:
     """Return the plan of an app."""
-    return build(checked_of(text, blocks))
+    return planned(checked_of(text, blocks), optimise=optimise)

@@ -69,8 +69,12 @@ def test_package_passes_its_own_tests(name: str, tmp_path: Path) -> None:
 
 
 def test_package_is_strictly_typed(tmp_path: Path) -> None:
-    """mypy has nothing to say, the runtime and odd names included."""
+    """mypy has nothing to say, the runtime, odd names and the plain flow included."""
     folder = write(package_of(ODD_NAMES), tmp_path)
+    plain = emit(plan_of(ODD_NAMES, optimise=False), source_name="app.pluto", picture="")
+    for path in plain.owned.keys() - package_of(ODD_NAMES).owned.keys():
+        (folder / path).write_text(plain.owned[path])
+    (folder / "src/odd_/plain_flow.py").write_text(plain.owned["src/odd_/flow.py"])
     command = (
         "import os, sys; from mypy import api; os.environ['MYPYPATH'] = 'src';"
         "out, err, code = api.run(['--strict', '--cache-dir', os.devnull, 'src']);"

@@ -9,18 +9,17 @@ from ._runtime.actions import BUILT_IN, Action, Parameter
 from ._runtime.app import App
 from ._runtime.blocks.clock import wait_for_time
 from ._runtime.blocks.drone_allocator import allocate_drone
-from ._runtime.blocks.gate_fifo import pass_first
 from ._runtime.blocks.mission_creator import create_mission
 from ._runtime.blocks.mission_evaluator import evaluate_mission
 from ._runtime.blocks.mission_repeater import repeat_mission
 from ._runtime.blocks.priority_manager import raise_priority
-from ._runtime.blocks.timer_monitor import watch_timer
+from ._runtime.blocks.timer_monitor import timer_limit
 from ._runtime.blocks.trip_launcher import launch_trip
-from ._runtime.blocks.trip_monitor import watch_trip
 from ._runtime.policies.nearest import nearest
 from ._runtime.quantities import Type
 from ._runtime.run import Run
 from ._runtime.status import Status
+from ._runtime.watching import watch
 from .model import CATEGORIES, FIELDS, Mission, Trip
 
 
@@ -40,22 +39,17 @@ async def flow(run: Run[Mission]) -> Status:
         )
         # launch = TripLauncher
         status = launch_trip(run, status)
-        if status is not Status.RUNNING:
-            raise AssertionError(status)
         # launch -> [watch, timer] -> first = GateFIFO
-        status = await pass_first(run, status, _watch, _timer)
+        # timer = TimerMonitor(default: 5 min)
+        status = await watch(run, timer_limit(run, default=300.0, safe_time=mission.safe_time))
         if status is Status.STANDBY:
             continue  # -> allocate
         if status is Status.FAILED:
             # retry = PriorityManager(max_attempts: 3)
             status = raise_priority(run, status, max_attempts=3, priority=mission.current.priority)
-            if status in (Status.COMPLETED, Status.FAILED):
+            if status is Status.FAILED:
                 return status
-            if status is not Status.STANDBY:
-                raise AssertionError(status)
             continue  # -> allocate
-        if status is not Status.COMPLETED:
-            raise AssertionError(status)
         # judge = MissionEvaluator(hook: find_blooms)
         status = await evaluate_mission(
             run, status, hook=hooks.find_blooms, evaluator=mission.evaluator
@@ -64,26 +58,10 @@ async def flow(run: Run[Mission]) -> Status:
             continue  # -> allocate
         if status is Status.FAILED:
             return status
-        if status is not Status.COMPLETED:
-            raise AssertionError(status)
         # again = MissionRepeater
         status = repeat_mission(run, status, repeat=mission.repeat)
         if status is Status.COMPLETED:
             return status
-        if status is not Status.STANDBY:
-            raise AssertionError(status)
-
-
-async def _watch(run: Run[Mission], status: Status) -> Status:
-    """launch -> watch -> first."""
-    # watch = TripMonitor
-    return await watch_trip(run, status)
-
-
-async def _timer(run: Run[Mission], status: Status) -> Status:
-    """launch -> timer -> first."""
-    # timer = TimerMonitor(default: 5 min)
-    return await watch_timer(run, status, default=300.0, safe_time=run.mission.safe_time)
 
 
 APP = App(
