@@ -60,7 +60,8 @@ def test_only_what_is_needed_is_carried() -> None:
     blocks = [path for path in files if path.startswith("_runtime/blocks/")]
     policies = [path for path in files if path.startswith("_runtime/policies/")]
     assert blocks == ["_runtime/blocks/__init__.py", "_runtime/blocks/clock.py"]
-    assert policies == ["_runtime/policies/__init__.py", "_runtime/policies/nearest.py"]
+    names = ("__init__", "grid", "nearest")
+    assert policies == [f"_runtime/policies/{name}.py" for name in names]
 
 
 def test_imports_inside_functions_count() -> None:
