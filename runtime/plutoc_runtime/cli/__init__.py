@@ -100,7 +100,10 @@ def _report_bug(name: str, error: Exception) -> None:
         import traceback
 
         output.tell("".join(traceback.format_exception(error)).rstrip())
+    where = getattr(error, "__notes__", ())  # the block, if it was in one
+    whose = "of ours, or of whoever made that block" if where else "of ours"
     output.tell(
-        f"{name}: internal error: {type(error).__name__}: {error}\n"
-        "This is a mistake of ours: please report it (PLUTO_DEBUG=1 shows where it happened)."
+        "\n".join([f"{name}: internal error: {type(error).__name__}: {error}", *where])
+        + f"\nThis is a mistake {whose}: please report it"
+        " (PLUTO_DEBUG=1 shows where it happened)."
     )

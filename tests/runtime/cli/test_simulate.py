@@ -204,6 +204,23 @@ def test_a_mistake_of_ours_is_exit_70(
     assert "in broken\n    return 1 // 0" in command("simulate", missions, app=app)[2]
 
 
+async def broken_in_a_block(run: Any) -> Any:
+    error = ZeroDivisionError("by accident")
+    error.add_note("in block scan = survey.GridScan")
+    raise error
+
+
+def test_a_mistake_in_a_block_names_the_block(missions: Path, command: Command) -> None:
+    """As its declaration has it: it may be somebody else's."""
+    err = command("simulate", missions, app=replace(APP, flow=broken_in_a_block))[2]
+    assert err == (
+        "alfalfa: internal error: ZeroDivisionError: by accident\n"
+        "in block scan = survey.GridScan\n"
+        "This is a mistake of ours, or of whoever made that block: please report it "
+        "(PLUTO_DEBUG=1 shows where it happened).\n"
+    )
+
+
 def test_every_fault_of_the_simulation_can_be_asked_for(missions: Path, command: Command) -> None:
     """By its own name, in their order."""
     assert tuple(Faults.__dataclass_fields__) == FAULTS

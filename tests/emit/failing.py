@@ -1,0 +1,48 @@
+"""Steps of blocks that fail when asked to: `run` is the set of names of those that do."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Coroutine
+from typing import Any
+
+from plutoc_runtime.status import Status
+
+Branch = Callable[[Any, Status], Coroutine[Any, Any, Status]]
+
+
+def hand_on(run: Any, status: Status, *, block: str) -> Status:
+    """Go on with the status as it is."""
+    return _go(run, block, status)
+
+
+async def allocate(run: Any, status: Status, *, block: str) -> Status:
+    """Go on with the status as it is, as a coroutine."""
+    return _go(run, block, status)
+
+
+def launch(run: Any, status: Status, *, block: str) -> Status:
+    """Go on as RUNNING."""
+    return _go(run, block, Status.RUNNING)
+
+
+async def watch(run: Any, status: Status, *, block: str) -> Status:
+    """End as COMPLETED."""
+    return _go(run, block, Status.COMPLETED)
+
+
+def limit(run: Any, *, block: str) -> None:
+    """Add no limit to a wait."""
+    _go(run, block, Status.RUNNING)
+
+
+async def close(run: Any, status: Status, *branches: Branch, block: str) -> Status:
+    """Go through the branches of a fork, one after the other."""
+    for branch in branches:
+        status = await branch(run, Status.RUNNING)
+    return _go(run, block, status)
+
+
+def _go(run: Any, block: str, status: Status) -> Status:
+    if block in run:
+        raise ZeroDivisionError(block)
+    return status
