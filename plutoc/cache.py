@@ -8,32 +8,44 @@ from __future__ import annotations
 
 import os
 import stat
+from collections.abc import Callable
 from contextlib import suppress
 from hashlib import sha256
 from pathlib import Path
 
+MOST = 1 << 26
+"""How many bytes a shelf may hold before what was not used for longest is taken away."""
 
-def cache_folder() -> Path | None:
-    """Return the folder, or None where it would not be safe or cannot be written."""
+
+def cache_folder(shelf: str = "") -> Path | None:
+    """Return the folder, or one in it, or None where it would not be safe or cannot be written."""
     try:
         root = os.environ.get("XDG_CACHE_HOME", "")
         base = Path(root) if os.path.isabs(root) else Path.home() / ".cache"
         folder = base / "pluto"
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
-        facts = folder.lstat()
-        if not stat.S_ISDIR(facts.st_mode) or not os.access(folder, os.W_OK):
-            return None
-        return None if _is_others(facts) else folder
+        if shelf:
+            if not _is_ours(folder):
+                return None
+            folder = folder / shelf
+            folder.mkdir(mode=0o700, exist_ok=True)
+        return folder if _is_ours(folder) else None
     except (OSError, RuntimeError):  # RuntimeError: there is no home folder
         return None
 
 
-def cache_file(name: str) -> Path | None:
+def _is_ours(folder: Path) -> bool:
+    """Say whether it is a folder in which the user can write, and nobody else."""
+    facts = folder.lstat()
+    return stat.S_ISDIR(facts.st_mode) and os.access(folder, os.W_OK) and not _is_others(facts)
+
+
+def cache_file(name: str, shelf: str = "") -> Path | None:
     """Return where something is kept, or None where that would not be safe.
 
     A file that others could have written is taken away first.
     """
-    folder = cache_folder()
+    folder = cache_folder(shelf)
     if folder is None:
         return None
     file = folder / name
@@ -59,17 +71,51 @@ def kept(file: Path, made_of: bytes) -> bytes | None:
 
 def keep(file: Path, made_of: bytes, data: bytes) -> None:
     """Keep something, wholly or not at all; where that cannot be, the next run makes it anew."""
-    from tempfile import mkstemp
-
+    # not by tempfile, which takes longer to import than this takes
+    aside = file.with_name(f".{os.urandom(8).hex()}")
     with suppress(OSError):
-        descriptor, aside = mkstemp(prefix=".", dir=file.parent)  # for the user alone
         try:
+            descriptor = os.open(aside, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
             with open(descriptor, "wb") as written:
                 written.write(_digest(made_of, data) + b"\n" + data)
             os.replace(aside, file)
         except BaseException:
-            os.unlink(aside)
+            with suppress(OSError):
+                os.unlink(aside)
             raise
+
+
+def recalled(shelf: str, made_of: bytes, make: Callable[[], bytes]) -> bytes:
+    """Return what is made of something: from the shelf where it was made before, or made now."""
+    file = cache_file(sha256(made_of).hexdigest(), shelf)
+    if file is None:
+        return make()
+    data = kept(file, made_of)
+    if data is None:
+        data = make()
+        keep(file, made_of, data)
+        if file.name.startswith("0"):  # seldom enough to cost nothing, and often enough
+            tidy(file.parent)
+    else:
+        with suppress(OSError):
+            os.utime(file)  # it was of use
+    return data
+
+
+def tidy(shelf: Path, most: int = MOST) -> None:
+    """Take away what was not used for longest, where there is too much of all."""
+    with suppress(OSError):
+        found = sorted(
+            (facts.st_mtime_ns, entry.name, facts.st_size)
+            for entry in os.scandir(shelf)
+            if (facts := entry.stat(follow_symlinks=False))
+        )
+        total = sum(size for *_, size in found)
+        for _, name, size in found:
+            if total <= most:
+                break
+            os.unlink(shelf / name)
+            total -= size
 
 
 def _digest(made_of: bytes, data: bytes) -> bytes:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Iterable
 
+from plutoc.emit.memory import edition, remembered, stamp
 from plutoc.graph.model import Plain
 from plutoc_runtime.status import Status
 
@@ -33,7 +34,12 @@ def owned(text: str, source_name: str) -> str:
 
 
 def formatted(text: str) -> str:
-    """Return a module as Black writes it."""
+    """Return a module as Black writes it, or wrote it before."""
+    made_of = (edition("black"), stamp(__file__), text)
+    return remembered(made_of, lambda: _formatted(text))
+
+
+def _formatted(text: str) -> str:
     import black  # heavy, and needed only where files are made
     from black.mode import TargetVersion
 

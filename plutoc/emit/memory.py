@@ -1,0 +1,52 @@
+"""What need not be done twice: a text that was made of the same before, by the same means.
+
+Black and Jinja2 take most of the time of a small compile, and most of that to be imported. What they
+once made of a text is kept in the user's cache, and looked up by all that it came of: the text, and
+who made it. What is not there exactly as it was written is made anew.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from functools import cache
+from importlib.util import find_spec
+
+from plutoc import __version__
+from plutoc.cache import recalled
+
+SHELF = "texts"
+
+
+def remembered(made_of: tuple[str, ...], make: Callable[[], str]) -> str:
+    """Return what is made of some texts, made now or at another time."""
+    facts = "".join(f"{len(one)}:{one}" for one in (__version__, *made_of))
+    made = recalled(SHELF, _bytes(facts), lambda: _bytes(make()))
+    return made.decode("utf-8", "surrogatepass")
+
+
+def _bytes(text: str) -> bytes:
+    return text.encode("utf-8", "surrogatepass")
+
+
+@cache
+def edition(package: str) -> str:
+    """Return what tells an installed package from another release of it, without importing it."""
+    spec = find_spec(package)
+    if spec is None or spec.origin is None:
+        return "none"
+    site = os.path.dirname(os.path.dirname(spec.origin))
+    try:
+        beside = sorted(name for name in os.listdir(site) if name.startswith(f"{package}-"))
+    except OSError:
+        beside = []
+    return "\n".join([stamp(spec.origin), *beside])  # the release is in the name of a folder
+
+
+def stamp(file: str) -> str:
+    """Return what changes with a file: where it is, how long, and since when."""
+    try:
+        facts = os.stat(file)
+    except OSError:  # in an archive
+        return file
+    return f"{file}\n{facts.st_size}\n{facts.st_mtime_ns}"
