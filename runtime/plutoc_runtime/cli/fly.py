@@ -35,7 +35,7 @@ def fly(app: App, options: Options) -> int:
     except asyncio.CancelledError:
         return TERMINATED  # Ctrl-C comes out as KeyboardInterrupt instead
     output.line()
-    for line in report(outcome):
+    for line in report(app, outcome):
         output.line(line)
     return exit_code(outcome)
 

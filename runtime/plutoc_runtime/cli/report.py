@@ -5,31 +5,34 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
+from ..fields import FieldType
 from ..status import Status
 from ..words import counted, duration, number, percent, printable
 from .as_json import trips_data
 
 if TYPE_CHECKING:
+    from ..app import App
     from ..model import Mission
     from ..session import Outcome
 
 
-def report(outcome: Outcome) -> Iterator[str]:
+def report(app: App, outcome: Outcome) -> Iterator[str]:
     """Yield the lines of the report."""
+    rounds = any(field.type is FieldType.ROUNDS for field in app.fields)
     yield from table(
-        ("mission", "status", "trips", "rounds", "attempts", "reason"),
+        ("mission", "status", "trips", *(["rounds"] if rounds else []), "attempts", "reason"),
         [
             (
                 mission.name,
                 mission.status.value,
                 done_of_all(mission),
-                str(mission.round + 1),
+                *([str(mission.round + 1)] if rounds else []),
                 str(mission.attempts),
                 mission.reason,
             )
             for mission in outcome.missions
         ],
-        right=(2, 3, 4),
+        right=(2, 3, 4) if rounds else (2, 3),
     )
     yield ""
     yield from table(

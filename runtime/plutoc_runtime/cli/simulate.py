@@ -71,7 +71,7 @@ def _once(app: App, options: Options, plan: Plan, progress: Progress) -> int:
             output.line(dumped(outcome_data(app.name, options.seed, outcome)))
         else:
             output.line()
-            for line in report(outcome):
+            for line in report(app, outcome):
                 output.line(line)
         output.flush()
     return exit_code(outcome)

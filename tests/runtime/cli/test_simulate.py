@@ -41,6 +41,15 @@ def test_the_log_is_told_as_it_happens_then_two_tables_and_a_last_line(
     assert last.endswith(" s (3 flights)\n")
 
 
+def test_an_app_that_repeats_nothing_has_no_column_for_rounds(
+    missions: Path, command: Command
+) -> None:
+    """A column is there because a field is; JSON has the same keys for every app."""
+    out = command("simulate", missions, app=replace(APP, fields=()))[1]
+    assert "\nmission  status     trips  attempts  reason\n" in out
+    assert "\nNorth    COMPLETED    2/2         2\n" in out
+
+
 def test_json_is_one_object_and_nothing_else(missions: Path, command: Command) -> None:
     """With just the keys that are promised, and numbers of three decimals."""
     code, out, err = command("simulate", missions, "--json", "--seed", 7)
