@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import permutations
 from typing import Any
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from plutoc_runtime.errors import BadInput
 from plutoc_runtime.fleet import AfterTrip
 from plutoc_runtime.model import Category, Drone, Trip
-from plutoc_runtime.policies.batch_optimal import assign, batch_optimal
+from plutoc_runtime.policies.batch_optimal import batch_optimal
 from plutoc_runtime.policies.first import first
 from plutoc_runtime.policies.least_used import least_used
 from plutoc_runtime.policies.nearest import nearest
@@ -51,24 +48,6 @@ def test_batch_optimal_shortens_the_way_of_all_together() -> None:
 
     assert chosen(fly(nearest, *missions())) == ["a:cf2", "b:cf1"]
     assert chosen(fly(batch_optimal, *missions())) == ["a:cf1", "b:cf2"]
-
-
-@given(
-    st.integers(1, 5).flatmap(
-        lambda n: st.lists(
-            st.lists(st.integers(0, 50), min_size=n, max_size=n), min_size=1, max_size=n
-        )
-    )
-)
-def test_the_assignment_is_the_cheapest_there_is(costs: list[list[int]]) -> None:
-    columns = assign(costs)
-    cost = sum(row[column] for row, column in zip(costs, columns, strict=True))
-    best = min(
-        sum(row[column] for row, column in zip(costs, way, strict=True))
-        for way in permutations(range(len(costs[0])), len(costs))
-    )
-    assert len(set(columns)) == len(columns)
-    assert cost == best
 
 
 def test_a_policy_of_the_apps_own_is_asked_again_until_it_chooses() -> None:

@@ -1,22 +1,21 @@
-"""`batch_optimal`: all waiting trips and all free drones at once, least total distance.
-
-The assignment problem is solved by shortest augmenting paths with potentials (the "Hungarian
-method": Kuhn 1955; in this O(n²m) form Jonker and Volgenant 1987). A pair that may not be is priced
-out of reach, so that as many trips as can be get a drone, and among those the distance is least.
-"""
+"""`batch_optimal`: all waiting trips and all free drones at once, least total distance."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from math import inf
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from ..policy import Able, BatchPool, Choice
+from .assignment import assign
+from .grid import FEW, Places
 
 if TYPE_CHECKING:
-    from ..model import Drone, Trip
+    from ..model import Drone, Point, Trip
+    from ..policy import Able, BatchPool, Choice
 
-_FORBIDDEN = 1e7  # metres: farther than any drone flies, near enough to keep its decimals
+
+_SOME = 16
+"""It takes more drones than these that squares for the goals are worth their making."""
 
 
 def batch_optimal() -> BatchPool:
@@ -24,77 +23,67 @@ def batch_optimal() -> BatchPool:
     return Batch()
 
 
-class Batch(BatchPool):
-    """The free drones, for all trips at once."""
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Offer:
+    """A trip that waits."""
+
+    index: int
+    goal: Point
+    able: Able
+
+
+class Batch:
+    """The free drones, and where they stand."""
 
     def __init__(self) -> None:
-        self._free: dict[Drone, None] = {}
+        self._places: Places[Drone] = Places()
 
     def add(self, drone: Drone) -> None:
-        """A drone is free."""
-        self._free[drone] = None
+        """A drone is free; it stays where it is while it is."""
+        self._places.add(drone, drone.location)
 
     def remove(self, drone: Drone) -> None:
         """A drone is not free any more."""
-        self._free.pop(drone, None)
+        self._places.remove(drone)
 
     def choose(self, trip: Trip, able: Able) -> Choice | None:
         """Return the drone for a trip that waits alone."""
         return self.share([(trip, able)])[0]
 
     def share(self, offers: Sequence[tuple[Trip, Able]]) -> Sequence[Choice | None]:
-        """Return a drone, or None, for each trip."""
-        drones = sorted(self._free, key=lambda drone: drone.index)
-        costs = [
-            [
-                drone.distance(trip.source or trip.target) if able(drone) else _FORBIDDEN
-                for drone in drones
-            ]
-            + [_FORBIDDEN] * max(0, len(offers) - len(drones))
-            for trip, able in offers
+        """Return a drone, or None, for each trip: for as many as can be, and the way is shortest."""
+        waiting = [
+            _Offer(index=index, goal=trip.source or trip.target, able=able)
+            for index, (trip, able) in enumerate(offers)
         ]
-        why = f"least total way for {len(offers)} waiting trips and {len(drones)} free drones"
-        return [
-            (
-                (drones[column], f"{why}: {row[column]:.1f} m away")
-                if row[column] < _FORBIDDEN
-                else None
-            )
-            for row, column in zip(costs, assign(costs), strict=True)
-        ]
+        if len(waiting) <= len(self._places):
+            pairs = assign([self._drones_for(offer) for offer in waiting])
+        else:
+            pairs = self._from_the_drones(waiting)
+        why = (
+            f"least total way for {len(waiting)} waiting trips and {len(self._places)} free drones"
+        )
+        return [pair and (pair[1], f"{why}: {pair[0]:.1f} m away") for pair in pairs]
+
+    def _drones_for(self, offer: _Offer) -> Iterator[tuple[float, Drone]]:
+        """Give the drones that are able to fly a trip, the closest first."""
+        return (pair for pair in self._places.outward(offer.goal) if offer.able(pair[1]))
+
+    def _from_the_drones(self, waiting: Sequence[_Offer]) -> list[tuple[float, Drone] | None]:
+        """Give each drone a trip: there are more trips than drones."""
+        drones = sorted(self._places, key=lambda drone: drone.index)
+        goals: Places[_Offer] = Places(FEW if len(drones) > _SOME else len(waiting))
+        for offer in waiting:
+            goals.add(offer, offer.goal)
+        pairs = assign([_trips_for(drone, goals) for drone in drones])
+        shared: list[tuple[float, Drone] | None] = [None] * len(waiting)
+        for drone, pair in zip(drones, pairs, strict=True):
+            if pair is not None:
+                away, offer = pair
+                shared[offer.index] = away, drone
+        return shared
 
 
-def assign(costs: Sequence[Sequence[float]]) -> list[int]:
-    """Return a column for each row so that the sum is least; at least as many columns as rows."""
-    rows, columns = len(costs), len(costs[0])
-    row_price, column_price = [0.0] * (rows + 1), [0.0] * (columns + 1)
-    row_of = [0] * (columns + 1)  # 1-based; 0 = free
-    for row in range(1, rows + 1):
-        row_of[0] = row
-        least, seen, came_from = [inf] * (columns + 1), [False] * (columns + 1), [0] * (columns + 1)
-        column = 0
-        while row_of[column]:
-            seen[column] = True
-            here, step, nearest = row_of[column], inf, 0
-            for other in range(1, columns + 1):
-                if seen[other]:
-                    continue
-                rest = costs[here - 1][other - 1] - row_price[here] - column_price[other]
-                if rest < least[other]:
-                    least[other], came_from[other] = rest, column
-                if least[other] < step:
-                    step, nearest = least[other], other
-            for other in range(columns + 1):
-                if seen[other]:
-                    row_price[row_of[other]] += step
-                    column_price[other] -= step
-                else:
-                    least[other] -= step
-            column = nearest
-        while column:
-            row_of[column], column = row_of[came_from[column]], came_from[column]
-    chosen = [0] * rows
-    for column in range(1, columns + 1):
-        if row_of[column]:
-            chosen[row_of[column] - 1] = column - 1
-    return chosen
+def _trips_for(drone: Drone, goals: Places[_Offer]) -> Iterator[tuple[float, _Offer]]:
+    """Give the trips that a drone is able to fly, the closest first."""
+    return (pair for pair in goals.outward(drone.location) if pair[1].able(drone))

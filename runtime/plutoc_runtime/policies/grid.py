@@ -1,16 +1,18 @@
-"""Where drones stand: the closest to a point is found without a look at each of many.
+"""Where things stand: the closest to a point is found without a look at each of many.
 
 A few are looked at one by one. More are kept in squares, two or so in each, and only the squares
 around the point are looked at; a crowded square has squares of its own. Heights count in the
-distance, not in the squares. Bounds have a grain of tolerance for rounding, so that the answer is,
-to the last digit, that of a look at every drone.
+distance, not in the squares. The answer is, to the last digit, that of a look at every thing.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from math import dist, inf, sqrt
+from collections.abc import Callable, Iterator, Mapping
+from heapq import heapify, heappop
+from math import dist, hypot, inf, sqrt
 from typing import TYPE_CHECKING, Generic, Protocol, TypeVar
+
+from .strips import GRAIN, Strips
 
 if TYPE_CHECKING:
     from ..model import Point
@@ -20,9 +22,7 @@ FEW = 96
 
 _IN_A_SQUARE = 2.0
 _SAME = 1e-9
-"""Metres: drones that stand no farther apart than this need no squares."""
-_GRAIN = 1e-12
-"""What is lost by rounding is a smaller share of a number than this."""
+"""Metres: things that stand no farther apart than this need no squares."""
 
 
 class Placed(Protocol):
@@ -40,17 +40,23 @@ T = TypeVar("T", bound=Placed)
 class Places(Generic[T]):
     """Things and where they stand."""
 
-    __slots__ = ("_grid", "_least", "_most", "_places")
+    __slots__ = ("_few", "_grid", "_least", "_most", "_places")
 
-    def __init__(self) -> None:
+    def __init__(self, few: int = FEW) -> None:
         self._places: dict[T, Point] = {}
         self._grid: _Grid[T] | None = None
-        self._least, self._most = 0, FEW
+        self._few = few
+        """More than these are kept in squares."""
+        self._least, self._most = 0, few
         """While so many are here, the squares stay as they are."""
 
     def __len__(self) -> int:
         """Return how many are here."""
         return len(self._places)
+
+    def __iter__(self) -> Iterator[T]:
+        """Give all that are here."""
+        return iter(self._places)
 
     def add(self, thing: T, place: Point) -> None:
         """Put a thing where it stands; it is not here yet."""
@@ -86,21 +92,45 @@ class Places(Generic[T]):
                 best, found = away, thing
         return best, found
 
+    def outward(self, goal: Point) -> Iterator[tuple[float, T]]:
+        """Give all things and how far away each is, the closest first."""
+        left, outer = len(self._places), -1.0
+        near, width = (0.0, inf) if self._grid is None else self._grid.first_look(goal)
+        while left:
+            inner, outer = outer, near + width
+            found = [(away, thing.index, thing) for away, thing in self.within(goal, inner, outer)]
+            left -= len(found)
+            width *= 2.0
+            heapify(found)  # not sorted: often only the first few are wanted
+            while found:
+                away, _, thing = heappop(found)
+                yield away, thing
+
+    def within(self, goal: Point, inner: float, outer: float) -> Iterator[tuple[float, T]]:
+        """Give what is farther away than the one and not farther than the other, in any order."""
+        if self._grid is not None:
+            yield from self._grid.within(goal, inner, outer)
+            return
+        for thing, place in self._places.items():
+            away = dist(place, goal)
+            if inner < away <= outer:
+                yield away, thing
+
     def _arrange(self) -> None:
         """Make new squares, for as many as there are now."""
         count = len(self._places)
-        self._least, self._most = count // 2, max(2 * count, FEW)
-        self._grid = _grid(self._places) if count > FEW else None
+        self._least, self._most = count // 2, max(2 * count, self._few)
+        self._grid = _grid(self._places, self._few) if count > self._few else None
 
 
-def _grid(places: Mapping[T, Point]) -> _Grid[T] | None:
+def _grid(places: Mapping[T, Point], few: int) -> _Grid[T] | None:
     """Return squares for these; none where all stand in one place."""
     xs, ys, zs = zip(*places.values(), strict=True)
     wide, deep, share = max(xs) - min(xs), max(ys) - min(ys), _IN_A_SQUARE / len(places)
     if max(wide, deep) <= _SAME:
         return None
     side = max(sqrt(wide * deep * share), max(wide, deep) * share)
-    grid: _Grid[T] = _Grid(_Strips(xs, side), _Strips(ys, side), _Strips(zs, inf))
+    grid: _Grid[T] = _Grid(Strips(xs, side), Strips(ys, side), Strips(zs, inf), side, few)
     for thing, place in places.items():
         grid.square(place).add(thing, place)
     return grid
@@ -109,10 +139,11 @@ def _grid(places: Mapping[T, Point]) -> _Grid[T] | None:
 class _Grid(Generic[T]):
     """Squares that hold things: columns and rows, and one layer."""
 
-    __slots__ = ("_columns", "_layer", "_rows", "_squares")
+    __slots__ = ("_columns", "_few", "_layer", "_rows", "_side", "_squares")
 
-    def __init__(self, columns: _Strips, rows: _Strips, layer: _Strips) -> None:
+    def __init__(self, columns: Strips, rows: Strips, layer: Strips, side: float, few: int) -> None:
         self._columns, self._rows, self._layer = columns, rows, layer
+        self._side, self._few = side, few
         self._squares: list[Places[T] | None] = [None] * (columns.count * rows.count)
 
     def square(self, place: Point) -> Places[T]:
@@ -122,7 +153,7 @@ class _Grid(Generic[T]):
         index = self._rows.hold(y) * self._columns.count + self._columns.hold(x)
         square = self._squares[index]
         if square is None:
-            square = self._squares[index] = Places()
+            square = self._squares[index] = Places(self._few)
         return square
 
     def closest(
@@ -147,57 +178,29 @@ class _Grid(Generic[T]):
                         best, reach = away, _reach(away, off)
         return best, found
 
+    def within(self, goal: Point, inner: float, outer: float) -> Iterator[tuple[float, T]]:
+        """Look into all squares that are near enough."""
+        x, y, z = goal
+        above, nearest = self._layer.gap(z), self._columns.gap(x)
+        for row, ahead in self._rows.outward(y):
+            reach = _reach(outer, above * above + ahead * ahead)
+            if reach < nearest:
+                break
+            first = row * self._columns.count
+            for column, beside in self._columns.outward(x):
+                if beside > reach:
+                    break
+                square = self._squares[first + column]
+                if square is not None:
+                    yield from square.within(goal, inner, outer)
+
+    def first_look(self, goal: Point) -> tuple[float, float]:
+        """Return how far away all are at least, and how much farther some should be found."""
+        x, y, z = goal
+        return hypot(self._columns.gap(x), self._rows.gap(y), self._layer.gap(z)), self._side
+
 
 def _reach(best: float, off: float) -> float:
     """Return how far to look sideways when it is so far already (squared); below 0: no more."""
-    left = best * best * (1.0 + _GRAIN) - off
+    left = best * best * (1.0 + GRAIN) - off
     return sqrt(left) if left >= 0.0 else -1.0
-
-
-class _Strips:
-    """Strips of equal breadth; the outermost hold also what stands beyond them."""
-
-    __slots__ = ("_breadth", "_least", "_most", "_start", "count")
-
-    def __init__(self, line: Sequence[float], breadth: float) -> None:
-        self._start = self._least = min(line)
-        self._most = max(line)
-        self._breadth = breadth
-        self.count = int((self._most - self._least) / breadth) + 1
-
-    def hold(self, at: float) -> int:
-        """Return the strip for what stands here, and remember how far the strips reach."""
-        if at < self._least:
-            self._least = at
-        elif at > self._most:
-            self._most = at
-        return self._strip(at)
-
-    def gap(self, at: float) -> float:
-        """Return how far from here all that they hold is at least."""
-        grain = self._grain(at)
-        return max(self._least - at, at - self._most, grain) - grain
-
-    def outward(self, at: float) -> Iterator[tuple[int, float]]:
-        """Give the strips from here on, the nearest first, and how far away each is at least."""
-        grain, away, breadth = self._grain(at), at - self._start, self._breadth
-        here = self._strip(at)
-        yield here, self.gap(at)
-        low, high = here - 1, here + 1
-        down = away - here * breadth if low >= 0 else inf
-        up = high * breadth - away if high < self.count else inf
-        while up < inf or down < inf:
-            if up <= down:
-                yield high, max(up, grain) - grain
-                high += 1
-                up = high * breadth - away if high < self.count else inf
-            else:
-                yield low, max(down, grain) - grain
-                down = away - low * breadth if low else inf
-                low -= 1
-
-    def _grain(self, at: float) -> float:
-        return _GRAIN * (abs(at) + abs(self._start) + self._most - self._least)
-
-    def _strip(self, at: float) -> int:
-        return min(max(int((at - self._start) / self._breadth), 0), self.count - 1)

@@ -1,0 +1,46 @@
+"""Drones that stand where a test wants them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from plutoc_runtime.model import Category, Drone, Point, Trip
+
+SCOUT = Category(name="scout")
+
+
+@dataclass(frozen=True)
+class Standing:
+    """The telemetry of a drone that waits in its dock."""
+
+    location: Point
+    battery_level: float = 1.0
+    landed: bool = True
+
+
+def drone(index: int, place: Point) -> Drone:
+    """Return a drone that stands there."""
+    return Drone(
+        id=f"cf{index}", category=SCOUT, home=place, telemetry=Standing(place), index=index
+    )
+
+
+def fleet(*places: Point) -> list[Drone]:
+    """Return a drone for each place."""
+    return [drone(index, place) for index, place in enumerate(places)]
+
+
+def trip(target: Point, source: Point | None = None) -> Trip:
+    """Return a trip to there."""
+    return Trip(name="A", action="take_photo", target=target, source=source)
+
+
+def anyone(drone: Drone) -> bool:
+    """Refuse nobody."""
+    return True
+
+
+def closest_of(drones: Iterable[Drone], goal: Point) -> list[Drone]:
+    """Return all, the closest first; of those that are equally far, the fleet's first."""
+    return sorted(drones, key=lambda drone: (drone.distance(goal), drone.index))
