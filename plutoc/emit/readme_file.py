@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from plutoc.emit.fields import fields_of
-from plutoc.emit.markup import fence, markdown
+from plutoc.emit.markup import fence, markdown, toml_text
 from plutoc.emit.python import header
 from plutoc.emit.render import render
-from plutoc.emit.test_file import MissionTable, sample
+from plutoc.emit.test_file import MissionTable, able, sample
 from plutoc.frozen import frozen
 from plutoc.graph.model import Graph, Node
 
@@ -42,10 +42,14 @@ class Readme:
     blocks: list[BlockRow]
     sample: MissionTable
     fields: list[FieldRow]
+    category: str
+    hooks: bool
 
 
 def readme(graph: Graph, source_name: str, picture: str) -> str:
     """Return the text of `README.md`."""
+    mission = sample(graph)
+    drone = able(graph, *mission.actions) or graph.categories[0]
     return render(
         "README.md",
         Readme(
@@ -56,11 +60,13 @@ def readme(graph: Graph, source_name: str, picture: str) -> str:
             picture=picture.rstrip("\n"),
             gates=any(node.block.gate is not None for node in graph.nodes),
             blocks=[_block(node) for node in graph.nodes],
-            sample=sample(graph),
+            sample=mission,
             fields=[
                 FieldRow(name=field.name, on=field.on.value, doc=markdown(field.doc))
                 for field in fields_of(graph)
             ],
+            category=toml_text(drone.name),
+            hooks=bool(graph.actions or graph.hooks),
         ),
     )
 

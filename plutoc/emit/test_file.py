@@ -5,7 +5,7 @@ from __future__ import annotations
 from plutoc.emit.markup import toml_text
 from plutoc.emit.render import render
 from plutoc.frozen import frozen
-from plutoc.graph.model import Action, Graph
+from plutoc.graph.model import Action, Category, Graph
 from plutoc_runtime.actions import BUILT_IN, PICK, RELEASE
 from plutoc_runtime.quantities import Type
 
@@ -22,6 +22,8 @@ class MissionTable:
 
     name: str
     trips: list[str]
+    actions: tuple[str, ...]
+    """What its drone must be able to do."""
 
 
 @frozen
@@ -45,20 +47,25 @@ def sample(graph: Graph) -> MissionTable:
 def _missions(graph: Graph) -> list[MissionTable]:
     """Return a mission for each action; items only where drones can do nothing else."""
     own = {action.name: action for action in graph.actions}
-    can = [name for name in (*BUILT_IN, *own) if _can(graph, name)]
+    can = [name for name in (*BUILT_IN, *own) if able(graph, name)]
     simple = [name for name in can if name not in (PICK, RELEASE)]
     if not simple:
-        return [MissionTable(name=toml_text("parcel"), trips=_parcel(graph))]
+        parcel = toml_text("parcel")
+        return [MissionTable(name=parcel, trips=_parcel(graph), actions=(PICK, RELEASE))]
     return [
         MissionTable(
-            name=toml_text(name), trips=[_trip(name, own.get(name), target) for target in _TARGETS]
+            name=toml_text(name),
+            trips=[_trip(name, own.get(name), target) for target in _TARGETS],
+            actions=(name,),
         )
         for name in simple
     ]
 
 
-def _can(graph: Graph, action: str) -> bool:
-    return any(one.actions is None or action in one.actions for one in graph.categories)
+def able(graph: Graph, *actions: str) -> Category | None:
+    """Return the first category of drones that can do all of this."""
+    can = (one for one in graph.categories if one.actions is None or {*actions} <= {*one.actions})
+    return next(can, None)
 
 
 def _trip(name: str, action: Action | None, target: str) -> str:

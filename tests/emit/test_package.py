@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import os
+import re
 import subprocess
 import sys
 import tomllib
@@ -66,6 +67,17 @@ def test_package_passes_its_own_tests(name: str, tmp_path: Path) -> None:
     """It flies as it is: all its missions end, and its stubs stand in for what is to be written."""
     folder = write(package_of(APPS[name]), tmp_path)
     assert " passed" in run(folder, "-m", "pytest", "-q", "-p", "no:cacheprovider", "tests")
+
+
+@pytest.mark.parametrize("name", sorted(APPS))
+def test_files_of_the_readme_can_be_flown(name: str, tmp_path: Path) -> None:
+    """Whoever copies the missions and the fleet from there has a plan that nothing is wrong with."""
+    folder = write(package_of(APPS[name]), tmp_path)
+    text = (folder / "README.md").read_text(encoding="utf-8")
+    missions, fleet = re.findall(r"^```toml\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
+    (folder / "missions.toml").write_text(missions, encoding="utf-8")
+    (folder / "fleet.toml").write_text(fleet, encoding="utf-8")
+    run(folder, "-m", name, "check", "missions.toml", "--fleet", "fleet.toml")
 
 
 def test_package_is_strictly_typed(tmp_path: Path) -> None:

@@ -1,4 +1,6 @@
-"""The hooks of alfalfa: your code. plutoc wrote the stubs once, and never touches this file again.
+"""The hooks of alfalfa: your code.
+
+plutoc wrote the stubs once, and never touches this file again.
 
 A mission offers `name`, `status`, `reason`, `trips` (still to do, in order), `completed_trips`,
 `current` (the trip that flies now, or flies next), `round`, `attempts`, `at`, `every`, `safe_time`,
