@@ -1,0 +1,138 @@
+"""Flies an app in a world, and keeps everything that anybody could see of it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from plutoc.plan.model import Plan
+from plutoc_runtime.errors import BadInput
+from plutoc_runtime.model import Drone, Mission
+from plutoc_runtime.session import Outcome, simulate
+from plutoc_runtime.trace import Event
+from tests.equivalence.behaviour import Behaviour
+from tests.equivalence.flows import NOTHING, Overrides, app_of
+from tests.equivalence.worlds import World
+
+ANY: tuple[type[Exception], ...] = (Exception,)
+"""Whatever ends a run is kept, and compared."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Record:
+    """What came of a run."""
+
+    events: tuple[Event, ...]
+    diary: tuple[str, ...]
+    """What the hooks saw."""
+    ends: tuple[str, ...]
+    """How missions, trips and drones stood at last; or the error that ended the run."""
+    lengths: tuple[float, ...]
+    """How long the trips took, to the last bit."""
+    coincidences: int
+    """Trips that were completed at the very instant of their mission's safe time."""
+    broken: bool
+    """An error ended the run that is no answer to bad input."""
+
+
+def record(plan: Plan, world: World, overrides: Overrides = NOTHING) -> Record:
+    """Fly a plan in a world."""
+    events: list[Event] = []
+    behaviour = Behaviour(seed=world.seed, limits=world.limits, clock=lambda: _now(events))
+    app = app_of(plan, behaviour.hooks(plan.checked.graph), overrides)
+    missions = world.made(app)
+    ends: Sequence[str]
+    try:
+        outcome = simulate(
+            app,
+            missions,
+            world.fleet,
+            seed=world.seed,
+            faults=world.faults,
+            until=world.until,
+            on_event=events.append,
+        )
+        ends = [*_ends(outcome), *map(repr, outcome.flown.items())]
+        broken = False
+    except ANY as error:
+        ends = [f"{type(error).__name__}: {error}"]
+        broken = not isinstance(error, BadInput)
+    return Record(
+        events=tuple(events),
+        diary=tuple(behaviour.diary),
+        ends=tuple(ends),
+        lengths=tuple(_lengths(missions)),
+        coincidences=sum(map(_just_in_time, missions)),
+        broken=broken,
+    )
+
+
+def _now(events: Sequence[Event]) -> float:
+    """Evaluators and policies are told no time: the last event's is near enough."""
+    return float(str(events[-1]["t"])) if events else 0.0
+
+
+def _ends(outcome: Outcome) -> list[str]:
+    return [
+        f"over after {outcome.duration!r}",
+        *(_mission(mission) for mission in outcome.missions),
+        *(_drone(drone) for drone in outcome.drones),
+    ]
+
+
+def _mission(mission: Mission[Any]) -> str:
+    trips = [
+        (
+            trip.name,
+            trip.status.value,
+            trip.attempt,
+            trip.start_time,
+            trip.end_time,
+            trip.reason,
+            trip.drone.id if trip.drone else None,
+        )
+        for trip in (*mission.trips, *mission.completed_trips)
+    ]
+    stands = (mission.status.value, mission.reason, mission.round, mission.attempts)
+    return f"{mission.name}: {stands} {len(mission.trips)} to do {trips}"
+
+
+def _drone(drone: Drone) -> str:
+    stands = (drone.status.value, drone.trips, drone.battery_level, drone.location)
+    return f"{drone.id}: {stands}"
+
+
+def _lengths(missions: Sequence[Mission[Any]]) -> list[float]:
+    return [
+        trip.end_time - trip.start_time
+        for mission in missions
+        for trip in (*mission.trips, *mission.completed_trips)
+        if trip.start_time is not None and trip.end_time is not None
+    ]
+
+
+def _just_in_time(mission: Mission[Any]) -> int:
+    safe = getattr(mission, "safe_time", None)
+    if not isinstance(safe, float) or not safe:
+        return 0
+    return sum(trip.end_time == (trip.start_time or 0.0) + safe for trip in mission.completed_trips)
+
+
+def difference(one: Record, other: Record) -> str | None:
+    """Return the first difference of two runs in words, or None."""
+    for what, left, right in (
+        ("event", _lines(one.events), _lines(other.events)),
+        ("call of a hook", one.diary, other.diary),
+        ("end", one.ends, other.ends),
+    ):
+        for number in range(max(len(left), len(right))):
+            a = left[number] if number < len(left) else "nothing"
+            b = right[number] if number < len(right) else "nothing"
+            if a != b:
+                return f"{what} {number + 1}:\n  plain:     {a}\n  optimised: {b}"
+    return None
+
+
+def _lines(events: Sequence[Event]) -> list[str]:
+    return [repr(event) for event in events]

@@ -1,0 +1,162 @@
+"""Random apps: drawn so that most are sound, and so that all that a graph can hold turns up often."""
+
+from __future__ import annotations
+
+from random import Random
+
+from tests.equivalence.asides import aside, judged, retried, tangle
+from tests.equivalence.drawing import END, START, Drawing, Ends, F, R, S, Statuses, U
+from tests.equivalence.flights import flight
+from tests.soundness.randoms import random_app
+
+BOTH = (U, S)
+POLICIES = ("", "", "nearest", "first", "least_used", "batch_optimal", "own", "own")
+CATEGORIES = (
+    (),
+    (),
+    ("scout", "carrier(payload: 5 g)"),
+    ("fast(speed: 1 m/s, flight_time: 2 min, charge_time: 1 min)",),
+    ("weak(flight_time: 90 s, charge_time: 2 min, reserve: 10 %)", "slow"),
+)
+BUILT_IN = ("measure", "take_photo", "pick_item", "release_item")
+ACTIONS = (
+    "action spray(dose: mass = 50 mg) once",
+    "action scan safe",
+    "action open(how: text) ask",
+)
+
+
+def random_source(rng: Random) -> str:
+    """Return an app, sound or not."""
+    if rng.random() < 0.1:
+        return random_app(rng).text
+    return _Graph(rng).text()
+
+
+class _Graph:
+    """An app: a way to a drone, a flight, and what becomes of the mission then."""
+
+    def __init__(self, rng: Random) -> None:
+        self.drawing = Drawing(rng=rng, most=rng.choice((6, 9, 12, 16, 20)))
+        self.policies: list[str] = []
+        self.heads: list[str] = []
+        """Where a mission can go on with its next trip."""
+        self.launched = ""
+
+    def text(self) -> str:
+        drawing = self.drawing
+        self._words()
+        create = drawing.block("create", "MissionCreator", (U,))
+        drawing.arrows.append((START, create, (U,)))
+        ends: Ends = {create: (U,)}
+        if drawing.chance(0.1):
+            ends = aside(drawing, ends)
+        astray = self._to_a_drone(ends)
+        ends = flight(drawing, self._launch({self.heads[-1]: BOTH}))
+        for block, statuses in astray.items():
+            ends[block] = (*ends.get(block, ()), *statuses)
+        self._home(ends)
+        return drawing.text()
+
+    def _words(self) -> None:
+        """Declare what drones there are, and what they do."""
+        drawing = self.drawing
+        own = [action for action in ACTIONS if drawing.chance(0.35)]
+        names = [*BUILT_IN, *(action.split("(")[0].split()[1] for action in own)]
+        for category in drawing.rng.choice(CATEGORIES):
+            can = [name for name in names if drawing.chance(0.9)] or names
+            drawing.words.append(f"category {category} can {', '.join(can)}")
+        drawing.words += own
+
+    def _to_a_drone(self, ends: Ends) -> Ends:
+        """Draw what leads to the first allocator; return what goes astray on the way."""
+        drawing = self.drawing
+        known, astray = len(drawing.blocks), dict[str, Statuses]()
+        while drawing.chance(0.5) and len(self.heads) < 3:
+            before, drawn = len(drawing.blocks), drawing.rng.random()
+            if drawn < 0.5:
+                ends = drawing.into(ends, drawing.block("wait", "Clock", ()))
+            elif drawn < 0.75:
+                ends = drawing.into(ends, drawing.modifier("prepare"))
+            elif drawn < 0.85:
+                ends = aside(drawing, ends)
+            else:
+                out = tangle(drawing, ends)
+                astray |= _some(out, (F,))
+                ends = _some(out, BOTH)
+            self.heads.append(list(drawing.blocks)[before])
+        drawing.into(ends, self._allocator())
+        self._come_back_to(list(drawing.blocks)[known:])
+        return astray
+
+    def _come_back_to(self, blocks: list[str]) -> None:
+        """Let through those that come back with a trip behind them, too."""
+        drawing = self.drawing
+        plain = [block for block in blocks if drawing.emits[block] in ((U,), ())]
+        drawing.emits |= dict.fromkeys(plain, BOTH)
+        drawing.arrows = [
+            (source, target, BOTH if source in plain else statuses)
+            for source, target, statuses in drawing.arrows
+        ]
+
+    def _allocator(self) -> str:
+        drawing = self.drawing
+        policy = drawing.rng.choice(POLICIES)
+        if policy == "own":
+            if not self.policies or drawing.chance(0.4):
+                self.policies.append(drawing.hook("policy", "choose"))
+            policy = drawing.rng.choice(self.policies)
+        written = [f"policy: {policy}"] if policy else []
+        if drawing.chance(0.25):
+            written.append(f"allocate_within: {drawing.seconds()}")
+        self.heads.append(drawing.block("allocate", "DroneAllocator", (), ", ".join(written)))
+        return self.heads[-1]
+
+    def _launch(self, ends: Ends) -> Ends:
+        if self.drawing.chance(0.12):
+            ends = aside(self.drawing, ends)
+        self.launched = self.drawing.block("launch", "TripLauncher", (R,))
+        return self.drawing.into(ends, self.launched)
+
+    def _home(self, ends: Ends) -> None:
+        """Lead what comes of a flight to the next one, or to the end."""
+        drawing = self.drawing
+        for share, draw in (
+            (0.12, tangle),
+            (0.15, aside),
+            (0.4, judged),
+            (0.5, retried),
+            (0.15, aside),
+        ):
+            if drawing.chance(share) and ends and (draw is retried or not drawing.full):
+                ends = draw(drawing, ends)
+        other = self._other_way() if drawing.chance(0.35) else ""
+        for block, statuses in ends.items():
+            for status in statuses:
+                if other and status in (S, F) and drawing.chance(0.5):
+                    drawing.lead({block: (status,)}, other)
+                elif status in BOTH:
+                    drawing.lead({block: (status,)}, drawing.rng.choice(self.heads))
+                elif status is F and drawing.chance(0.15):
+                    drawing.lead({block: (status,)}, self.heads[-1])
+                elif not drawing.chance(0.04):
+                    drawing.lead({block: (status,)}, END)
+
+    def _other_way(self) -> str:
+        """Draw a second allocator, and now and then a launch and a flight of its own behind it."""
+        drawing = self.drawing
+        other = self._allocator()
+        drawing.emits[other] = BOTH
+        if drawing.full or drawing.chance(0.6):
+            drawing.lead({other: BOTH}, self.launched)
+        else:
+            for block, statuses in flight(drawing, self._launch({other: BOTH}), 1).items():
+                for status in statuses:
+                    target = drawing.rng.choice(self.heads) if status is S else END
+                    drawing.lead({block: (status,)}, target)
+        return other
+
+
+def _some(ends: Ends, statuses: Statuses) -> Ends:
+    found = {block: tuple(s for s in each if s in statuses) for block, each in ends.items()}
+    return {block: each for block, each in found.items() if each}
