@@ -76,7 +76,6 @@ def commands(folder: Path) -> dict[str, list[str]]:
         "check": ["check", str(folder / "sound" / "app.pluto")],
         "check, with a hooks.py": ["check", str(folder / "hooked" / "app.pluto")],
         "check, with networkx": ["check", str(folder / "warned" / "app.pluto")],
-        "compile": ["compile", str(folder / "sound" / "app.pluto"), "-o", str(folder / "package")],
     }
 
 

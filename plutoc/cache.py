@@ -23,20 +23,18 @@ def cache_folder(shelf: str = "") -> Path | None:
         root = os.environ.get("XDG_CACHE_HOME", "")
         base = Path(root) if os.path.isabs(root) else Path.home() / ".cache"
         folder = base / "pluto"
-        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
-        if shelf:
-            if not _is_ours(folder):
-                return None
-            folder = folder / shelf
-            folder.mkdir(mode=0o700, exist_ok=True)
-        return folder if _is_ours(folder) else None
+        return folder / shelf if _is_ours(folder) and _is_ours(folder / shelf) else None
     except (OSError, RuntimeError):  # RuntimeError: there is no home folder
         return None
 
 
 def _is_ours(folder: Path) -> bool:
-    """Say whether it is a folder in which the user can write, and nobody else."""
-    facts = folder.lstat()
+    """Say whether it is a folder in which the user can write, and nobody else; make one first."""
+    try:
+        facts = folder.lstat()
+    except FileNotFoundError:
+        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+        facts = folder.lstat()
     return stat.S_ISDIR(facts.st_mode) and os.access(folder, os.W_OK) and not _is_others(facts)
 
 

@@ -46,6 +46,14 @@ def test_checking_a_sound_app_loads_nothing_heavy(example: str, tmp_path: Path) 
     assert not loaded("check", str(tmp_path / "app.pluto")).intersection(HEAVY)
 
 
+def test_a_compile_that_has_nothing_to_do_loads_nothing(tmp_path: Path) -> None:
+    """Not even the parser of the command line."""
+    shutil.copy(ROOT / "tests" / "cases" / "alfalfa" / "app.pluto", tmp_path)
+    command = ("compile", str(tmp_path / "app.pluto"))
+    assert "black" in loaded(*command)
+    assert not loaded(*command).intersection(HEAVY + FOR_APPS)
+
+
 def test_the_cold_start_is_measured() -> None:
     """Every command gets a line, and the sample apps are what they are meant to be."""
     said = python(str(ROOT / "benchmarks" / "cold_start.py"), "--rounds", "1").stdout
@@ -53,7 +61,6 @@ def test_the_cold_start_is_measured() -> None:
     assert "networkx" in lines["check, with networkx"]
     assert "networkx" not in lines["check"]
     assert "networkx" not in lines["check, with a hooks.py"]
-    assert "black" in lines["compile"]
 
 
 def test_large_apps_are_measured() -> None:

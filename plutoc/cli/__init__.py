@@ -96,6 +96,11 @@ def _command(argv: Sequence[str] | None) -> int:
 
         tell_version()
         return CLEAN
+    if arguments[:1] == ["compile"]:
+        from plutoc.cli.unchanged import said_again
+
+        if said_again(arguments):
+            return CLEAN
     from plutoc.cli.options import parse
     from plutoc.cli.say import say
     from plutoc.cli.termination import tidy_when_told_to_end
@@ -105,6 +110,7 @@ def _command(argv: Sequence[str] | None) -> int:
         options = parse(arguments)
     except SystemExit as end:  # the help or the version is printed, or what is wrong
         return end.code if isinstance(end.code, int) else USAGE
+    options.arguments = tuple(arguments)
     try:
         with tidy_when_told_to_end():
             return _run(options)

@@ -13,13 +13,14 @@ from plutoc.check.model import Checked
 from plutoc.cli.endings import CLEAN, ERRORS, REFUSED, Unusable
 from plutoc.cli.files import default_folder, find_hooks, hooks_path, read_app, shown
 from plutoc.cli.options import Options
-from plutoc.cli.say import say
+from plutoc.cli.record import record
+from plutoc.cli.say import say, worded
+from plutoc.cli.unchanged import speak
 from plutoc.compile import Compiled, analyse, compile_source, planned
 from plutoc.diagnostic import Diagnostic, Rejected
 from plutoc.emit.errors import never_written, outdated, place_of
 from plutoc.emit.write import CannotWrite, Changes, Refused, compare, write
 from plutoc.source import Source
-from plutoc_runtime.cli import output
 from plutoc_runtime.words import counted, printable
 
 if TYPE_CHECKING:
@@ -32,6 +33,8 @@ class _Said:
 
     found: list[Diagnostic] = field(default_factory=list)
     lines: list[str] = field(default_factory=list)
+    done: tuple[Compiled, Changes] | None = None
+    """What was compiled, where the package is as it shall be now."""
 
 
 def compile_(options: Options) -> int:
@@ -45,11 +48,14 @@ def compile_(options: Options) -> int:
     except Unusable as error:
         say(said.found, options.format, [str(error)])
         raise
-    say(said.found, options.format)
-    # Other formats have standard output for themselves.
-    tell = output.line if options.format == "text" else output.tell
-    for line in said.lines:
-        tell(line)
+    text = options.format == "text"
+    found = list(worded(said.found, options.format))
+    speak(found)
+    speak((text, line) for line in said.lines)  # other formats have standard output for themselves
+    if said.done is not None:
+        compiled, changes = said.done
+        again = _again(changes) if text and not options.diff else []
+        record(options, compiled, changes, [*found, *((text, line) for line in again)])
     return code
 
 
@@ -79,6 +85,8 @@ def _compile(options: Options, said: _Said) -> None:
         raise Unusable(f"{printable(str(error))}; nothing was changed") from None
     if options.format == "text" and not options.diff:
         said.lines += _outcome(compiled, changes)
+    if not (changes.files and options.diff):
+        said.done = compiled, changes
 
 
 def _show(source: Source, options: Options, what: str, said: _Said) -> None:
@@ -164,4 +172,9 @@ def _outcome(compiled: Compiled, changes: Changes) -> Iterator[str]:
             mark = "+" if change.before is None else "-" if change.after is None else "~"
             yield f"  {mark} {shown(Path(change.path))}"
     else:
-        yield f"{folder}: up to date"
+        yield from _again(changes)
+
+
+def _again(changes: Changes) -> Iterator[str]:
+    """Yield what is said where nothing changes."""
+    yield f"{shown(changes.folder)}: up to date"

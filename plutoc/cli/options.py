@@ -24,6 +24,8 @@ PICTURES = ("mermaid", "dot", "svg", "json")
 class Options:
     """What was asked for."""
 
+    arguments: tuple[str, ...] = ()
+    """As they were given."""
     command: str = ""
     name: str = ""
     file: Path = field(default_factory=Path)

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import os
 import sys
-from collections.abc import Sequence
-from typing import TextIO
+from collections.abc import Iterator, Sequence
 
+from plutoc.cli.colour import in_colour as in_colour
+from plutoc.cli.unchanged import speak
 from plutoc.diagnostic import Diagnostic, arranged
-from plutoc_runtime.cli import output
 
 
 def say(
@@ -19,42 +18,40 @@ def say(
     `troubles` are what kept files from being read. A person is told of them on standard error, by
     whoever met them; here they are told to programs.
     """
+    speak(worded(diagnostics, format, troubles))
+
+
+def worded(
+    diagnostics: Sequence[Diagnostic], format: str, troubles: Sequence[str] = ()
+) -> Iterator[tuple[bool, str]]:
+    """Yield what there is to print, and whether it goes to standard output."""
     found = arranged(diagnostics)
     match format:
         case "json":
             from plutoc.report import json
 
             for diagnostic in found:
-                output.line(json.render_line(diagnostic))
+                yield True, json.render_line(diagnostic)
         case "github":
             from plutoc.report import github
 
             for sentence in troubles:
-                output.line(github.render_trouble(sentence))
+                yield True, github.render_trouble(sentence)
             for diagnostic in found:
-                output.line(github.render_line(diagnostic))
+                yield True, github.render_line(diagnostic)
         case "sarif":
             from plutoc import __version__
             from plutoc.report import sarif
 
-            output.line(sarif.render(found, troubles, version=__version__, title=_title))
+            yield True, sarif.render(found, troubles, version=__version__, title=_title)
         case _ if found:
             from plutoc.report.text import render
 
-            output.tell(render(found, colour=in_colour(sys.stderr)).rstrip("\n"))
-            output.tell(f"`plutoc explain {found[0].code}` tells more")
+            yield False, render(found, colour=in_colour(sys.stderr)).rstrip("\n")
+            yield False, f"`plutoc explain {found[0].code}` tells more"
 
 
 def _title(code: str) -> str | None:
     from plutoc.explain.pages import codes, page
 
     return page(code).title if code in codes() else None
-
-
-def in_colour(stream: TextIO | None) -> bool:
-    """Follow no-color.org and force-color.org; else colour is for terminals."""
-    if os.environ.get("NO_COLOR"):
-        return False
-    if os.environ.get("FORCE_COLOR"):
-        return True
-    return os.environ.get("TERM") != "dumb" and stream is not None and stream.isatty()

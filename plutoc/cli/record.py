@@ -1,0 +1,56 @@
+"""What a compile has left, kept for the next time: see `unchanged.py`."""
+
+from __future__ import annotations
+
+import os
+import re
+import sys
+from pathlib import Path
+
+from plutoc.cli import unchanged
+from plutoc.cli.compiler import OURS, files_of
+from plutoc.cli.files import hooks_path, shown
+from plutoc.cli.options import Options
+from plutoc.compile import Compiled
+from plutoc.emit.write import Changes
+
+_USE = re.compile(r"^\s*use\b", re.MULTILINE)
+
+
+def record(options: Options, compiled: Compiled, changes: Changes, words: unchanged.Words) -> None:
+    """Remember a compile after which the folder is as it shall be; `words` are those of the next.
+
+    What was found in a hooks.py beside the app would be told of its copy next time: this is not
+    remembered, but compiled once more.
+    """
+    package, path = compiled.package, hooks_path(compiled.checked)
+    own = os.fspath(changes.folder / path)
+    hooks = compiled.hooks
+    if hooks is not None and compiled.warnings and hooks.path != shown(Path(own)):
+        return
+    source = compiled.checked.graph.source
+    unchanged.remember(
+        options.arguments,
+        app=(os.fspath(options.file), source.text),
+        hooks=(own, package.once[path] if hooks is None else hooks.text),
+        folder=os.fspath(changes.folder),
+        written=package.owned,
+        there=package.once,
+        others=_others(compiled) if _USE.search(source.text) else (),
+        words=words,
+    )
+
+
+def _others(compiled: Compiled) -> list[str]:
+    """Return the files on which other people's blocks hang, and the folders to install others in.
+
+    That is whatever was loaded, and the whole package that a block comes from.
+    """
+    steps = [node.block.step.__module__.partition(".")[0] for node in compiled.checked.graph.nodes]
+    packages = [name for name in dict.fromkeys(steps) if name not in OURS]
+    loaded = [getattr(module, "__file__", None) for module in list(sys.modules.values())]
+    return [
+        *dict.fromkeys(path or os.curdir for path in sys.path),
+        *(path for path in loaded if isinstance(path, str)),
+        *(path for name in packages for path in files_of(name)),
+    ]
