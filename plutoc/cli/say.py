@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterator, Sequence
 
-from plutoc.cli.colour import in_colour as in_colour
+from plutoc.cli.colour import in_colour
 from plutoc.cli.unchanged import speak
 from plutoc.diagnostic import Diagnostic, arranged
 
