@@ -58,8 +58,9 @@ def body_lines(body: Body, scope: Scope) -> Iterator[str]:
                 functions = tuple(branch.name for branch in branches)
                 yield from _go_through(_call(gate, functions, scope), following)
             case Watch():
-                yield from _watched(step)
-                yield from _go_through(_wait(step, scope), following)
+                yield f"# {_watched(step)}"
+                first, *rest = _wait(step, scope)
+                yield from (*_go_through(first, following), *rest)
             case Switch():
                 yield from _switch(step, scope)
             case Loop(head=head, body=inner):
@@ -98,25 +99,28 @@ def _call(node: Node, branches: tuple[str, ...], scope: Scope) -> str:
     return f"await {called}" if iscoroutinefunction(node.block.step) else called
 
 
-def _wait(watch: Watch, scope: Scope) -> str:
-    limits = [
-        call(
-            scope.names[Carried(package=node.package, function=node.block.limit)],
-            ("run", *_keywords(node, scope)),
-        )
-        for node in watch.watchers
-        if node.block.limit is not None
-    ]
-    return f"await {call(scope.names[WATCH], ('run', *limits))}"
+def _wait(watch: Watch, scope: Scope) -> Iterator[str]:
+    """Yield a wait: a limit a line; where it stands for several blocks, its declaration above it."""
+    limits: list[str] = []
+    for node in watch.watchers:
+        if node.block.limit is not None:
+            function = scope.names[Carried(package=node.package, function=node.block.limit)]
+            if isinstance(watch.instead, Join):
+                limits.append(f"    # {node.declaration}")
+            limits.append(f"    {call(function, ('run', *_keywords(node, scope)))},")
+    name = scope.names[WATCH]
+    if limits:
+        yield from (f"await {name}(", "    run,", *limits, ")")
+    else:
+        yield f"await {name}(run)"
 
 
-def _watched(watch: Watch) -> Iterator[str]:
+def _watched(watch: Watch) -> str:
     match watch.instead:
         case Call(node=node):
-            yield f"# {node.declaration}"
+            return node.declaration
         case Join() as join:
-            yield f"# {_picture(join)}"
-            yield from (f"# {node.declaration}" for node in watch.watchers if node.block.limit)
+            return _picture(join)
 
 
 def _keywords(node: Node, scope: Scope) -> Iterator[str]:

@@ -25,8 +25,8 @@ def launch(run: Any, status: Status, *, block: str) -> Status:
     return _go(run, block, Status.RUNNING)
 
 
-async def watch(run: Any, status: Status, *, block: str) -> Status:
-    """End as COMPLETED."""
+async def watch(run: Any, status: Status, *, block: str = "watch") -> Status:
+    """End as COMPLETED; a block that only watches does not get its name."""
     return _go(run, block, Status.COMPLETED)
 
 

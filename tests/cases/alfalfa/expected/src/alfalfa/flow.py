@@ -40,8 +40,11 @@ async def flow(run: Run[Mission]) -> Status:
         # launch = TripLauncher
         status = launch_trip(run, status)
         # launch -> [watch, timer] -> first = GateFIFO
-        # timer = TimerMonitor(default: 5 min)
-        status = await watch(run, timer_limit(run, default=300.0, safe_time=mission.safe_time))
+        status = await watch(
+            run,
+            # timer = TimerMonitor(default: 5 min)
+            timer_limit(run, default=300.0, safe_time=mission.safe_time),
+        )
         if status is Status.STANDBY:
             continue  # -> allocate
         if status is Status.FAILED:
