@@ -7,7 +7,7 @@ from pathlib import Path
 
 from plutoc.cli.colour import in_colour
 from plutoc.cli.endings import CLEAN, ERRORS, Unusable
-from plutoc.cli.files import STANDARD_INPUT, read_app, read_standard_input
+from plutoc.cli.files import STANDARD_INPUT, read_app, read_standard_input, shown
 from plutoc.cli.options import Options
 from plutoc.compile import analyse
 from plutoc.diagnostic import Diagnostic, Rejected
@@ -18,7 +18,6 @@ from plutoc.source import Source
 from plutoc_runtime.cli import output
 
 _APP = "app.pluto"
-"""The app of a folder."""
 
 
 def diff(options: Options) -> int:
@@ -34,7 +33,18 @@ def diff(options: Options) -> int:
 def _read(path: Path) -> Source:
     if path == STANDARD_INPUT:
         return read_standard_input()
-    return read_app(path / _APP if path.is_dir() else path)
+    return read_app(_app_in(path) if path.is_dir() else path)
+
+
+def _app_in(folder: Path) -> Path:
+    """Return the app of a folder: `app.pluto`, or the only one there is."""
+    if (folder / _APP).is_file():
+        return folder / _APP
+    apps = sorted(folder.glob("*.pluto"))
+    if len(apps) != 1:
+        found = f"several apps, none of them {_APP}: name one" if apps else "no app"
+        raise Unusable(f"the folder {shown(folder)} holds {found}")
+    return apps[0]
 
 
 def _versions(*sources: Source) -> list[Version]:

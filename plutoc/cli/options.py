@@ -238,7 +238,7 @@ def _diff(parser: ArgumentParser) -> None:
         "old",
         metavar="OLD",
         type=Path,
-        help="the app as it was: a .pluto file, a folder with an app.pluto, or - for standard input",
+        help="the app as it was: a .pluto file, the folder of one, or - for standard input",
     )
     parser.add_argument("new", metavar="NEW", type=Path, help="the app as it is now: the same")
     parser.add_argument(

@@ -30,7 +30,7 @@ def code(text: str) -> str:
 def _quantity(value: float, kind: Type) -> str:
     """Write a quantity with as few digits as will do; of two ways, in the larger unit."""
     written = []
-    for unit in reversed(units_of(kind)):
+    for unit in sorted(units_of(kind), key=lambda unit: -UNITS[unit][1]):
         _, factor, offset = UNITS[unit]
         number = f"{(value - offset) / factor:.12g}"
         if "e" not in number and to_si(float(number), unit) == value:

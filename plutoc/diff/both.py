@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
@@ -10,6 +11,7 @@ from plutoc.check.model import Checked
 from plutoc.diff.match import Pairs, pairs
 from plutoc.diff.match_hooks import category_pairs, hook_pairs
 from plutoc.diff.model import Version
+from plutoc.diff.roles import Role, role
 from plutoc.diff.routes import Routes, destinations, routes
 from plutoc.graph.model import Graph, Node
 
@@ -44,9 +46,22 @@ class Side:
         """The same, past the gates."""
         return destinations(self.checked, self.routes)
 
+    @cached_property
+    def roles(self) -> Counter[Role]:
+        """How many blocks do the same."""
+        return Counter(map(role, self.graph.nodes))
+
+    def is_only(self, node: Node) -> bool:
+        """Say whether no other block does the same: then it need not be named."""
+        return self.roles[role(node)] == 1
+
     def called(self, names: Iterable[str]) -> tuple[str, ...]:
         """Return blocks of this app as the new one calls them."""
         return tuple(self.names.get(name, name) for name in names)
+
+    def known(self, names: Iterable[str]) -> tuple[str, ...]:
+        """The same, in an order that is no matter of meaning: to compare."""
+        return tuple(sorted(self.called(names)))
 
 
 @dataclass(frozen=True, kw_only=True)

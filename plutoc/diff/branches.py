@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections import Counter
+from collections.abc import Iterator, Sequence
 
 from plutoc.check.model import Fork
 from plutoc.diff.both import Both, Side
-from plutoc.diff.journeys import Reroute, places, reroutes
-from plutoc.diff.model import Change, Spans
+from plutoc.diff.journeys import Reroute, places
+from plutoc.diff.model import Change
 from plutoc.diff.roles import Role, limited, role
 from plutoc.diff.words import forks as words
 from plutoc.graph.model import Node
@@ -27,23 +28,24 @@ def limits(both: Both) -> Iterator[Change]:
             yield words.limit_added(what, nodes)
 
 
-def branches(both: Both) -> Iterator[Change]:
+def branches(both: Both, moved: Sequence[Reroute]) -> Iterator[Change]:
     """Tell what goes on beside something else now, and what no more."""
     before, after = _limits(both.old), _limits(both.new)
-    for one in reroutes(both):
-        stays = [name for name in one.after if name in both.old.called(one.before)]
+    for one in moved:
+        was, now = Counter(both.old.called(one.before)), Counter(one.after)
+        stays = [name for name in dict.fromkeys(one.after) if name in was]
         if not (one.forks and stays):
             continue
-        for name in one.before:
-            node = both.old.graph.node.get(name)
-            if both.old.names.get(name, name) in one.after or _is_told(node, after):
-                continue
-            yield words.branch_removed(both.old.graph, one, name, stays, _spans(both, one))
-        for name in one.after:
-            node = both.new.graph.node.get(name)
-            if name in stays or _is_told(node, before):
-                continue
-            yield words.branch_added(both.new.graph, one, name, stays, _spans(both, one))
+        spans = places(both.old, one.old, one.statuses), places(both.new, one.new, one.statuses)
+        for name in dict.fromkeys(one.before):
+            known, node = both.old.called([name])[0], both.old.graph.node.get(name)
+            if known not in now and not _is_told(node, after):
+                yield words.branch_removed(both.old.graph, one, name, stays, spans)
+        for name in now:
+            if name in was and was[name] != now[name]:
+                yield words.branch_repeated(one, name, was[name], now[name], spans)
+            elif name not in was and not _is_told(both.new.graph.node.get(name), before):
+                yield words.branch_added(both.new.graph, one, name, stays, spans)
 
 
 def gates(both: Both) -> Iterator[Change]:
@@ -89,10 +91,6 @@ def _limits(side: Side) -> dict[str, tuple[Node, ...]]:
 def _is_told(node: Node | None, elsewhere: dict[str, tuple[Node, ...]]) -> bool:
     """Say whether it is a limit that the other app knows nothing of: that is told as such."""
     return node is not None and node.block.limits and limited(node.block) not in elsewhere
-
-
-def _spans(both: Both, one: Reroute) -> Spans:
-    return places(both.old, one.old, one.statuses), places(both.new, one.new, one.statuses)
 
 
 def _by_origin(side: Side) -> _Forks:

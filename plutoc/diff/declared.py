@@ -12,6 +12,7 @@ from plutoc.diff.settings import same
 from plutoc.diff.words import declared as words
 from plutoc.graph.categories import PARAMS
 from plutoc.graph.model import Action, Category, Hook
+from plutoc_runtime.actions import BUILT_IN
 
 
 def app(both: Both) -> Iterator[Change]:
@@ -53,7 +54,8 @@ def _abilities(both: Both, before: Category, after: Category) -> Iterator[Change
         return
     known = [both.hooks.get(name, name) for name in was]
     gained = [name for name in now if name not in known]
-    lost = [name for name in known if name not in now]
+    there = {*BUILT_IN, *(one.name for one in declared(both.new.graph))}
+    lost = [name for name in known if name not in now and name in there]
     if gained or lost:
         yield words.abilities_changed(before, after, gained, lost)
 

@@ -16,12 +16,13 @@ _Fields = dict[tuple[Entity, str], tuple[Field, Node]]
 def fields(both: Both) -> Iterator[Change]:
     """Tell which fields missions files may have now, and which no more."""
     before, after = _fields(both.old.graph), _fields(both.new.graph)
-    for key, (field, node) in after.items():
-        if key not in before:
-            yield words.field_added(field, node)
-    for key, (field, node) in before.items():
-        if key not in after:
-            yield words.field_removed(field, node)
+    for on in Entity:
+        more = [one for key, one in after.items() if key not in before and key[0] is on]
+        if more:
+            yield words.fields_added(on, more)
+        less = [one for key, one in before.items() if key not in after and key[0] is on]
+        if less:
+            yield words.fields_removed(on, less)
 
 
 def _fields(graph: Graph) -> _Fields:

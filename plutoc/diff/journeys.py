@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from plutoc.diff.both import Both, Side
 from plutoc.diff.model import Change
@@ -37,9 +37,13 @@ def reroutes(both: Both) -> tuple[Reroute, ...]:
     """Return all of them, each once: a gate passes on what was decided before it."""
     every = list(_each(both))
     told = {_way(both, one) for one in every if role(one.new) is not Role.GATE}
+    ended = {_way(both, one) for one in every if role(one.new) in _WATCH}
     found: dict[object, Reroute] = {}
     for one in every:
-        if role(one.new) is Role.GATE and _way(both, one) in told:
+        passes_on = role(one.new) is Role.GATE and _way(both, one) in told
+        # a hook that decides how a trip has ended, as those do that watch it
+        beside = role(one.new) is Role.CALLS and decides(one.new) and _way(both, one) in ended
+        if passes_on or beside:
             continue
         if role(one.new) in _WATCH:  # they all say how the trip ended
             key: object = _way(both, one)
@@ -54,10 +58,10 @@ def reroutes(both: Both) -> tuple[Reroute, ...]:
     return tuple(found.values())
 
 
-def journeys(both: Both) -> Iterator[Change]:
+def journeys(both: Both, moved: Sequence[Reroute]) -> Iterator[Change]:
     """Tell what comes next for missions that went elsewhere before."""
-    for one in reroutes(both):
-        if not one.forks or not {*both.old.called(one.before)} & {*one.after}:
+    for one in moved:
+        if not (one.forks and {*both.old.called(one.before)} & {*one.after}):
             yield _told(both, one)
 
 
@@ -71,8 +75,8 @@ def gained(both: Both) -> Iterator[Change]:
             has = (new.name, status) in both.new.destinations
             if has and not had:
                 leads = both.new.destinations[new.name, status]
-                yield words.outcome_added(both.new.graph, new, status, leads)
-            elif had and not has:
+                yield words.outcome_added(both.new, new, status, leads)
+            elif had and not has and role(new) is not Role.RETRIES:  # its bound is told
                 led = both.old.destinations[old.name, status]
                 yield words.outcome_removed(old, new, status, led)
 
@@ -89,12 +93,12 @@ def _each(both: Both) -> Iterator[Reroute]:
         for status in IN_GRAPH:
             before = both.old.destinations.get((old.name, status))
             after = both.new.destinations.get((new.name, status))
-            if before and after and {*both.old.called(before)} != {*after}:
+            if before and after and both.old.known(before) != both.new.known(after):
                 yield Reroute(old=old, new=new, statuses=(status,), before=before, after=after)
 
 
-def _way(both: Both, one: Reroute) -> tuple[Status, frozenset[str], frozenset[str]]:
-    return one.statuses[0], frozenset(both.old.called(one.before)), frozenset(one.after)
+def _way(both: Both, one: Reroute) -> tuple[Status, tuple[str, ...], tuple[str, ...]]:
+    return one.statuses[0], both.old.known(one.before), both.new.known(one.after)
 
 
 def _with(one: Reroute, statuses: tuple[Status, ...]) -> Reroute:
@@ -105,25 +109,24 @@ def _with(one: Reroute, statuses: tuple[Status, ...]) -> Reroute:
 def _told(both: Both, one: Reroute) -> Change:
     status = one.statuses[0]
     spans = places(both.old, one.old, one.statuses), places(both.new, one.new, one.statuses)
-    goal = frozenset(both.old.called(one.before))
-    steps = _steps(both.new, one.after, status, goal)
+    steps = _steps(both.new, one.after, status, both.old.known(one.before))
     if steps:
         return words.step_added(both, one, steps, spans)
-    steps = _steps(both.old, one.before, status, frozenset(one.after))
+    steps = _steps(both.old, one.before, status, both.new.known(one.after))
     if steps:
         return words.step_removed(both, one, steps, spans)
     return words.rerouted(both, one, spans)
 
 
 def _steps(
-    side: Side, names: tuple[str, ...], status: Status, goal: frozenset[str]
+    side: Side, names: tuple[str, ...], status: Status, goal: tuple[str, ...]
 ) -> tuple[str, ...]:
     """Return the blocks that a mission passes before it comes where it came, or comes, straight.
 
     It passes a block that it can leave with the status that it came with.
     """
     steps: list[str] = []
-    while frozenset(side.called(names)) != goal:
+    while side.known(names) != goal:
         if len(names) != 1 or names[0] == END or names[0] in steps:
             return ()
         steps.append(names[0])

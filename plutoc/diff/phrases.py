@@ -6,29 +6,37 @@ from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 from plutoc.check.facts import bound_of
-from plutoc.diff.roles import Role, awaited, is_only, role
-from plutoc.graph.model import END, Graph, Node
+from plutoc.diff.both import Side
+from plutoc.diff.roles import Role, awaited, role
+from plutoc.graph.model import END, Node
 from plutoc_runtime.status import Status
 
 
 class Phrase(NamedTuple):
     """Something that happens to a mission; `~` is where `now` or `no longer` stands."""
 
-    happens: str
-    happened: str
+    does: str
+    did: str
+    detail: str = ""
+    """What is of no interest where it happens no longer."""
 
     def __str__(self) -> str:
-        return self.happens.replace("~", "")
+        return self.does.replace("~", "") + self.detail
 
     @property
     def now(self) -> str:
         """What happens now and did not before."""
-        return self.happens.replace("~", "now ")
+        return self.does.replace("~", "now ") + self.detail
 
     @property
     def no_longer(self) -> str:
+        """What happened before and does not now, in as few words as will do."""
+        return self.does.replace("~", "no longer ")
+
+    @property
+    def before(self) -> str:
         """What happened before and does not now."""
-        return self.happens.replace("~", "no longer ")
+        return self.did + self.detail
 
 
 def named(names: Iterable[str], last: str = "and") -> str:
@@ -43,19 +51,14 @@ def listed(words: Sequence[str], last: str = "and") -> str:
     return f"{', '.join(words[:-1])} {last} {words[-1]}"
 
 
-def retried(bound: int) -> str:
+def so_often(bound: int) -> str:
     """Say how often a trip is flown; 0 is no bound."""
     if not bound:
-        return "retried without a bound"
-    return f"retried up to {times(bound)} (flights of a trip, the first included)"
+        return " without a bound"
+    return f" up to {bound} times (flights of a trip, the first included)"
 
 
-def times(number: int) -> str:
-    """`once`, `3 times`."""
-    return "once" if number == 1 else f"{number} times"
-
-
-def whoever(graph: Graph, node: Node, statuses: Sequence[Status]) -> str:
+def whoever(side: Side, node: Node, statuses: Sequence[Status]) -> str:
     """Say which mission leaves a block with these statuses: `a FAILED mission`."""
     match role(node), tuple(statuses):
         case Role.CREATES, _:
@@ -79,18 +82,26 @@ def whoever(graph: Graph, node: Node, statuses: Sequence[Status]) -> str:
         case Role.RETRIES, (Status.FAILED,):
             who = "a mission whose trip has failed too often"
         case Role.ALLOCATES, _:
-            who = "a mission that has got a drone"
+            who = f"{_some(side, node, statuses)} that has got a drone"
         case Role.HOLDS, _:
-            who = f"a mission that has waited for its {awaited(node)}"
+            who = f"{_some(side, node, statuses)} that has waited for its {awaited(node)}"
         case Role.LAUNCHES, _:
             who = "a mission in flight"
         case _:
             said = listed([status.value for status in statuses], "or")
             return f"a mission that leaves `{node.name}` {said}"
-    return who if is_only(graph, node) else f"{who} at `{node.name}`"
+    return who if side.is_only(node) else f"{who} at `{node.name}`"
 
 
-def ahead(graph: Graph, names: Sequence[str], status: Status) -> Phrase:
+def _some(side: Side, node: Node, statuses: Sequence[Status]) -> str:
+    """`a mission`, or `a STANDBY mission` where others leave the block as well."""
+    if side.checked.leaves[node.name] <= set(statuses):
+        return "a mission"
+    first = listed([status.value for status in statuses], "or")
+    return f"{'an' if first[0] in 'AEIOU' else 'a'} {first} mission"
+
+
+def ahead(side: Side, names: Sequence[str], status: Status) -> Phrase:
     """Say what becomes of a mission that goes there with this status."""
     if len(names) != 1:
         where = named(names)
@@ -98,14 +109,12 @@ def ahead(graph: Graph, names: Sequence[str], status: Status) -> Phrase:
     (name,) = names
     if name == END:
         return Phrase("~ends", "ended")
-    node = graph.node[name]
-    found = _retried(node) if _puts_back(node, status) else _visited(node, status)
-    where = "" if is_only(graph, node) or f"`{name}`" in found.happens else f" at `{name}`"
-    return Phrase(found.happens + where, found.happened + where)
-
-
-def _puts_back(node: Node, status: Status) -> bool:
-    return node.block.retries and status is Status.FAILED
+    node = side.graph.node[name]
+    found = _visited(node, status)
+    if side.is_only(node) or f"`{name}`" in found.does:
+        return found
+    where = f" at `{name}`"
+    return Phrase(found.does + where, found.did + where, found.detail)
 
 
 def _retried(node: Node) -> Phrase:
@@ -113,15 +122,16 @@ def _retried(node: Node) -> Phrase:
     if bound == 1:
         through = f"through `{node.name}`, which allows a trip one flight only"
         return Phrase(f"~goes {through}", f"went {through}")
-    return Phrase(f"is ~{retried(bound)}", f"was {retried(bound)}")
+    return Phrase("is ~retried", "was retried", so_often(bound))
 
 
 def _visited(node: Node, status: Status) -> Phrase:
     name = node.name
     match role(node):
+        case Role.RETRIES if status is Status.FAILED:
+            return _retried(node)
         case Role.ALLOCATES if status is Status.FAILED:
-            again = "for a drone again, however often its trip has failed"
-            return Phrase(f"~waits {again}", f"waited {again}")
+            return Phrase("is ~retried", "was retried", f" without a bound by `{name}`")
         case Role.ALLOCATES:
             return Phrase("~waits for a drone", "waited for a drone")
         case Role.HOLDS:
@@ -142,8 +152,8 @@ def _visited(node: Node, status: Status) -> Phrase:
         case Role.GATE:
             return Phrase(f"~comes to the gate `{name}`", f"came to the gate `{name}`")
         case Role.CALLS if node.hook:
-            to = f"to `{name}`, which calls `{node.hook.name}`"
-            return Phrase(f"~goes {to}", f"went {to}")
+            to = f"handed to `{node.hook.name}` at `{name}`"
+            return Phrase(f"is ~{to}", f"was {to}")
         case _:
             to = f"to `{name}` (`{node.block.name}`)"
             return Phrase(f"~goes {to}", f"went {to}")

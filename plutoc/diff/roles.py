@@ -5,7 +5,7 @@ from __future__ import annotations
 from enum import Enum
 
 from plutoc.block import Block
-from plutoc.graph.model import Graph, Node
+from plutoc.graph.model import Node
 from plutoc_runtime.fields import Entity, FieldType
 
 
@@ -43,11 +43,6 @@ def role(node: Node) -> Role:
         (node.hook is not None, Role.CALLS),
     )
     return next((one for is_one, one in found if is_one), Role.OTHER)
-
-
-def is_only(graph: Graph, node: Node) -> bool:
-    """Say whether no other block of an app does the same: then it need not be named."""
-    return sum(role(other) is role(node) for other in graph.nodes) == 1
 
 
 def decides(node: Node) -> bool:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from plutoc.check.model import Checked, Fork
+from plutoc.check.model import Checked
 from plutoc.graph.model import END
 from plutoc_runtime.status import IN_GRAPH, Status
 
@@ -28,26 +28,31 @@ def routes(checked: Checked) -> Routes:
 def destinations(checked: Checked, along: Routes) -> Routes:
     """Return where missions come to next, past the gates: those only bring forks together.
 
-    The gate of a fork stays where a branch of it leads there straight.
+    The gate of a fork stays where a branch of it leads there straight. Two branches may come to the
+    same block: then it is there twice.
     """
-    forks = {(fork.node, fork.status): fork for fork in checked.forks}
-    return {leaving: _past_gates(checked, along, leaving, forks) for leaving in along}
+    gates = {(fork.node, fork.status): fork.gate for fork in checked.forks}
+    return {
+        leaving: tuple(
+            name
+            for target in along[leaving]
+            for name in _past_gates(checked, along, target, leaving[1], gates.get(leaving))
+        )
+        for leaving in along
+    }
 
 
 def _past_gates(
-    checked: Checked, along: Routes, leaving: Leaving, forks: Mapping[Leaving, Fork]
+    checked: Checked, along: Routes, target: str, status: Status, own: str | None
 ) -> tuple[str, ...]:
-    fork, status = forks.get(leaving), leaving[1]
-    found: dict[str, None] = {}
     passed: dict[str, None] = {}
-    ahead = list(reversed(along[leaving]))
+    ahead, found = [target], []
     while ahead:
         name = ahead.pop()
         node = checked.graph.node.get(name)
         is_gate = node is not None and node.block.gate is not None
-        own = fork is not None and fork.gate == name
-        if not is_gate or own or (name, status) not in along:
-            found[name] = None
+        if not is_gate or name == own or (name, status) not in along:
+            found.append(name)
         elif name not in passed:
             passed[name] = None
             ahead.extend(reversed(along[name, status]))

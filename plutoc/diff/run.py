@@ -9,10 +9,11 @@ from plutoc.diff.both import Both, side_by_side
 from plutoc.diff.branches import branches, gates, limits, order
 from plutoc.diff.declared import app, categories, hooks
 from plutoc.diff.fields import fields
-from plutoc.diff.journeys import gained, journeys
+from plutoc.diff.journeys import gained, journeys, reroutes
 from plutoc.diff.model import Change, Difference, Importance, Version
 from plutoc.diff.settings import settings
 from plutoc.diff.stops import stops
+from plutoc.diff.swaps import without_swaps
 from plutoc.diff.warned import warned
 from plutoc.diff.words.blocks import arranged_otherwise
 
@@ -20,12 +21,13 @@ from plutoc.diff.words.blocks import arranged_otherwise
 def compare(old: Version, new: Version) -> Difference:
     """Return what changed in meaning, most important first."""
     both = side_by_side(old, new)
+    moved, swapped = without_swaps(both, reroutes(both))
     told = [
-        *warned(both),
         *limits(both),
         *gates(both),
-        *journeys(both),
-        *branches(both),
+        *swapped,
+        *journeys(both, moved),
+        *branches(both, moved),
         *gained(both),
         *settings(both),
         *stops(both),
@@ -35,6 +37,7 @@ def compare(old: Version, new: Version) -> Difference:
         *fields(both),
         *order(both),
     ]
+    told += warned(both, told)
     told += blocks(both, told)
     if not told and _arrows_differ(both):
         told.append(arranged_otherwise())
@@ -50,8 +53,8 @@ def _in_order(told: Iterable[Change]) -> tuple[Change, ...]:
 def _arrows_differ(both: Both) -> bool:
     """Say whether missions take other arrows, gates included."""
     before = {
-        (both.old.called([name])[0], status): frozenset(both.old.called(targets))
+        (both.old.called([name])[0], status): both.old.known(targets)
         for (name, status), targets in both.old.routes.items()
     }
-    after = {leaving: frozenset(targets) for leaving, targets in both.new.routes.items()}
+    after = {leaving: both.new.known(targets) for leaving, targets in both.new.routes.items()}
     return before != after

@@ -31,7 +31,7 @@ def _values(both: Both, old: Node, new: Node) -> Iterator[Change]:
         if not isinstance(param, Param) or same(was, now):
             continue
         if role(new) is Role.RETRIES and name == new.block.bound:
-            yield words.retries_changed(both, (old, new), bound_of(old), bound_of(new))
+            yield words.retries_changed(both.new, (old, new), bound_of(old), bound_of(new))
         elif new.block.limits and new.block.needs and name == _default(new):
             yield words.limit_changed((old, new), param, was, now)
         else:
@@ -49,7 +49,7 @@ def _choices(both: Both, old: Node, new: Node) -> Iterator[Change]:
     for name, now in new.choices:
         param, was = new.block.param(name), before[name]
         if isinstance(param, Choice) and _chosen(both, was) != (now.name, now.hook is not None):
-            yield words.choice_changed((old, new), param, was.name, now.name)
+            yield words.choice_changed(both.new, (old, new), param, was.name, now.name)
 
 
 def _chosen(both: Both, was: Choose) -> tuple[str, bool]:
@@ -61,7 +61,7 @@ def _hook(both: Both, old: Node, new: Node) -> Iterator[Change]:
     was, now = old.hook, new.hook
     if (both.hooks.get(was.name, was.name) if was else None) != (now.name if now else None):
         if was and now and now.kind is HookKind.EVALUATOR:
-            yield words.evaluator_changed((old, new), was.name, now.name)
+            yield words.evaluator_changed(both.new, (old, new), was.name, now.name)
         else:
             names = (was.name if was else None, now.name if now else None)
             yield words.hook_changed((old, new), *names)

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from plutoc.diff.both import Both
 from plutoc.diff.model import Change
+from plutoc.diff.roles import Role, role
 from plutoc.diff.words import routes as words
 from plutoc.graph.model import Node
 
@@ -14,6 +15,8 @@ def stops(both: Both) -> Iterator[Change]:
     """Tell where it goes on now, for the blocks that both apps have: once for all of a kind."""
     found: dict[tuple[tuple[str, ...], tuple[str, ...]], list[tuple[Node, Node]]] = {}
     for old, new in both.common():
+        if role(new) is Role.GATE:  # a gate keeps nobody: what stands before it is told
+            continue
         before = both.old.checked.resumes[old.name]
         after = both.new.checked.resumes[new.name]
         if {*both.old.called(before)} != {*after}:

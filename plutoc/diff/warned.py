@@ -11,19 +11,32 @@ from plutoc.diff.model import Change, Importance
 from plutoc.diff.roles import awaited
 from plutoc.diff.words import blocks as words
 from plutoc.graph.model import Node
+from plutoc_runtime.status import Status
 
 _HELD, _UNMENDED, _UNBOUNDED = "P2054", "P2055", "P2056"
 _NAME = re.compile(r"`(\w+)`")
 
 
-def warned(both: Both) -> Iterator[Change]:
-    """Compare what the checks warn of: of each code, as many as there are more or fewer now."""
+def warned(both: Both, told: Sequence[Change]) -> Iterator[Change]:
+    """Compare what the checks warn of: of each code, as many as there are more or fewer now.
+
+    That nothing puts a failed trip back needs no saying where the way of failures was `told`.
+    """
+    failures = any(Status.FAILED in change.statuses for change in told)
     before = _by_code(both.old.version.warnings)
     after = _by_code(both.new.version.warnings)
     for code in sorted({*before, *after}):
+        if code == _UNMENDED and failures:
+            continue
         was, now = before.get(code, []), after.get(code, [])
         known = {_called(one, both.old.names) for one in was}
         still = {one.message for one in now}
+        if code == _HELD:  # each block has its own: they are told one by one
+            was = [one for one in was if _called(one, both.old.names) not in still]
+            now = [one for one in now if one.message not in known]
+            yield from (_added(both.new, one) for one in now)
+            yield from (_removed(both.old, one) for one in was)
+            continue
         come = [one for one in now if one.message not in known] or now
         gone = [one for one in was if _called(one, both.old.names) not in still] or was
         yield from (_added(both.new, one) for one in come[: max(len(now) - len(was), 0)])

@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from plutoc.block import Block, Choice, Param
 from plutoc.diagnostic import Diagnostic
 from plutoc.diff.amounts import amount
+from plutoc.diff.both import Side
 from plutoc.diff.model import Change, Fact, Importance
-from plutoc.diff.phrases import retried
-from plutoc.diff.roles import is_only, limited
+from plutoc.diff.phrases import so_often
+from plutoc.diff.roles import Role, limited, role
 from plutoc.graph.model import Node, Parameter, Plain
 from plutoc_runtime.fields import Entity
-
-if TYPE_CHECKING:
-    from plutoc.diff.both import Both
 
 
 def _set(
@@ -34,12 +30,16 @@ def _set(
     )
 
 
-def retries_changed(both: Both, nodes: tuple[Node, Node], was: int, now: int) -> Change:
+def retries_changed(side: Side, nodes: tuple[Node, Node], was: int, now: int) -> Change:
     """A failed trip is flown more often, or less."""
     new = nodes[1]
-    where = "" if is_only(both.new.graph, new) else f" at `{new.name}`"
-    before = f"up to {was}" if was else "without a bound"
-    sentence = f"a FAILED mission is now {retried(now)}{where}; before, {before}"
+    where = "" if side.is_only(new) else f" at `{new.name}`"
+    before = f"up to {was} times" if was > 1 else "without a bound" if was == 0 else "never"
+    if now == 1:
+        fate = f"no longer retried{where}: a trip is flown once"
+    else:
+        fate = f"now retried{where}{so_often(now)}"
+    sentence = f"a FAILED mission is {fate}; before, {before}"
     return _set("retries_changed", Importance.SAFETY, sentence, nodes, was, now)
 
 
@@ -71,12 +71,17 @@ def parameter_changed(
     return _set("parameter_changed", Importance.MISSIONS, sentence, nodes, was, now)
 
 
-def choice_changed(nodes: tuple[Node, Node], choice: Choice, was: str, now: str) -> Change:
+def choice_changed(
+    side: Side, nodes: tuple[Node, Node], choice: Choice, was: str, now: str
+) -> Change:
     """One of several ways to do it is chosen instead of another."""
     new = nodes[1]
-    what = "drones are now chosen by" if new.block.allocates else f"`{choice.name}` is now"
-    by = "by " if new.block.allocates else ""
-    sentence = f"{what} `{now}` at `{new.name}`; before, {by}`{was}`{_about(choice.doc)}"
+    if new.block.allocates:
+        where = "" if side.is_only(new) else f" at `{new.name}`"
+        sentence = f"a mission's drone is now chosen{where} by `{now}`; before, by `{was}`"
+    else:
+        about = _about(choice.doc)
+        sentence = f"`{choice.name}` of `{new.name}` is now `{now}`; before, `{was}`{about}"
     return _set("choice_changed", Importance.MISSIONS, sentence, nodes, was, now)
 
 
@@ -86,11 +91,11 @@ def _about(doc: str) -> str:
     return f" ({first[:1].lower()}{first[1:]})" if first else ""
 
 
-def evaluator_changed(nodes: tuple[Node, Node], was: str, now: str) -> Change:
+def evaluator_changed(side: Side, nodes: tuple[Node, Node], was: str, now: str) -> Change:
     """Another hook judges missions."""
+    where = "" if side.is_only(nodes[1]) else f" at `{nodes[1].name}`"
     sentence = (
-        f"a mission that names no evaluator is now judged by `{now}` at `{nodes[1].name}`;"
-        f" before, by `{was}`"
+        f"a mission that names no evaluator is now judged{where} by `{now}`; before, by `{was}`"
     )
     return _set("evaluator_changed", Importance.MISSIONS, sentence, nodes, was, now)
 
@@ -119,7 +124,9 @@ def passed_changed(
 def kind_changed(nodes: tuple[Node, Node], was: str, now: str) -> Change:
     """A block of the same name is of another kind."""
     sentence = f"`{nodes[1].name}` is now a `{now}`; before, a `{was}`"
-    return _set("kind_changed", Importance.MISSIONS, sentence, nodes, was, now)
+    told = role(nodes[0]) is role(nodes[1]) and role(nodes[1]) in (Role.GATE, Role.LIMITS)
+    importance = Importance.FORM if told else Importance.MISSIONS
+    return _set("kind_changed", importance, sentence, nodes, was, now)
 
 
 def block_renamed(old: Node, new: Node, alone: bool) -> Change:

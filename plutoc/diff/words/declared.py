@@ -40,8 +40,8 @@ def app_renamed(old: Graph, new: Graph) -> Change:
     """The app has another name."""
     return _said(
         "app_renamed",
-        f"the app is now called `{new.name}`; before, `{old.name}`:"
-        " so are its package, its folder and its program",
+        f"the app is now called `{new.name}`, and so are its package and its program; before,"
+        f" `{old.name}`",
         (old.name, new.name),
         old.name_span,
         new.name_span,
@@ -63,35 +63,51 @@ def title_changed(old: Graph, new: Graph) -> Change:
 # What people enter
 
 
-def field_added(field: Field, node: Node) -> Change:
+def fields_added(on: Entity, fields: Sequence[tuple[Field, Node]]) -> Change:
     """There is something more to enter."""
-    about = field.doc.rstrip(".")
-    return Change(
-        kind="field_added",
-        importance=Importance.PEOPLE,
-        sentence=f"{_of(field)} can now have `{field.name}` in missions files and on screens:"
-        f" {about[:1].lower()}{about[1:]}",
-        blocks=(node.name,),
-        after=field.name,
-        now=(node.name_span,),
+    about = [f"`{field.name}` ({_small(field.doc)})" for field, _ in fields]
+    return _fields(
+        "fields_added",
+        f"{_OWNERS[on]} can now have {listed(about)}, in missions files",
+        fields,
+        is_new=True,
     )
 
 
-def field_removed(field: Field, node: Node) -> Change:
+def fields_removed(on: Entity, fields: Sequence[tuple[Field, Node]]) -> Change:
     """There is something less to enter."""
-    return Change(
-        kind="field_removed",
-        importance=Importance.PEOPLE,
-        sentence=f"{_of(field)} can no longer have `{field.name}`: missions files with it are"
-        " refused",
-        blocks=(node.name,),
-        before=field.name,
-        was=(node.name_span,),
+    names = named([field.name for field, _ in fields], "or")
+    them = "it" if len(fields) == 1 else "them"
+    return _fields(
+        "fields_removed",
+        f"{_OWNERS[on]} can no longer have {names}: missions files with {them} are refused",
+        fields,
+        is_new=False,
     )
 
 
-def _of(field: Field) -> str:
-    return "a trip" if field.on is Entity.TRIP else "a mission"
+_OWNERS = {Entity.MISSION: "a mission", Entity.TRIP: "a trip"}
+
+
+def _fields(
+    kind: str, sentence: str, fields: Sequence[tuple[Field, Node]], *, is_new: bool
+) -> Change:
+    names = tuple(field.name for field, _ in fields)
+    spans = tuple(dict.fromkeys(node.name_span for _, node in fields))
+    return Change(
+        kind=kind,
+        importance=Importance.PEOPLE,
+        sentence=sentence,
+        blocks=tuple(dict.fromkeys(node.name for _, node in fields)),
+        before=None if is_new else names,
+        after=names if is_new else None,
+        was=() if is_new else spans,
+        now=spans if is_new else (),
+    )
+
+
+def _small(doc: str) -> str:
+    return doc[:1].lower() + doc[1:].rstrip(".")
 
 
 # Categories
@@ -154,7 +170,7 @@ def abilities_changed(
         said.append(f"can no longer {no_more}")
     return _said(
         "abilities_changed",
-        f"drones of the category `{new.name}` {listed(said)}",
+        f"drones of the category `{new.name}` {', and '.join(said)}",
         (old.actions, new.actions),
         old.span,
         new.span,
@@ -207,7 +223,8 @@ def hook_renamed(old: Declared, new: Declared) -> Change:
     files = "hooks.py and missions files" if kind in _IN_PLANS else "hooks.py"
     return _said(
         "hook_renamed",
-        f"the {_WORDS[kind]} `{old.name}` is now called `{new.name}`, in {files}, too",
+        f"the {_WORDS[kind]} `{old.name}` is now `{new.name}`, declared alike: {files} must say"
+        " so, too",
         (old.name, new.name),
         old.span,
         new.span,
@@ -293,7 +310,7 @@ def emits_changed(old: Hook, new: Hook) -> Change:
     elif not now:
         said = "no longer decides with which status a mission goes on"
     else:
-        said = listed(
+        said = ", and ".join(
             [f"can now say {listed(more, 'or')}"] * bool(more)
             + [f"can no longer say {listed(less, 'or')}"] * bool(less)
         )

@@ -19,11 +19,11 @@ if TYPE_CHECKING:
 def limit_added(what: str, nodes: Sequence[Node]) -> Change:
     """A time in flight is watched that nothing watched before."""
     fallback = _fallback(nodes[0])
-    without = f"; where none is given, it is {fallback}" if fallback else ""
+    without = f"it is {fallback}" if fallback else "there is no limit"
     return Change(
         kind="limit_added",
         importance=Importance.SAFETY,
-        sentence=f"a trip's {what} is now watched: a trip that takes longer fails{without}",
+        sentence=f"a trip's {what} is now watched: past it, the trip fails; where none is given, {without}",
         blocks=tuple(node.name for node in nodes),
         after=what,
         now=tuple(node.name_span for node in nodes),
@@ -63,6 +63,25 @@ def branch_removed(
 ) -> Change:
     """Something goes on beside something else no more."""
     return _branch("branch_removed", "no longer", graph, one, name, beside, spans)
+
+
+def branch_repeated(one: Reroute, name: str, was: int, now: int, spans: Spans) -> Change:
+    """Several branches begin with one block, more or fewer than before."""
+    return Change(
+        kind="branch_repeated",
+        importance=Importance.MISSIONS,
+        sentence=f"`{name}` now runs {_often(now)}; before, {_often(was)}",
+        blocks=tuple(dict.fromkeys((one.new.name, name))),
+        statuses=one.statuses,
+        before=was,
+        after=now,
+        was=spans[0],
+        now=spans[1],
+    )
+
+
+def _often(number: int) -> str:
+    return "once" if number == 1 else f"{'twice' if number == 2 else f'{number} times'} at once"
 
 
 def _branch(

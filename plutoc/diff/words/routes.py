@@ -5,45 +5,64 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from plutoc.diff.both import Both, Side
 from plutoc.diff.model import Change, Importance, Spans
 from plutoc.diff.phrases import ahead, listed, named, whoever
-from plutoc.graph.model import Graph, Node
+from plutoc.graph.model import Node
 from plutoc.source import Span
 from plutoc_runtime.status import Status
 
 if TYPE_CHECKING:
-    from plutoc.diff.both import Both
     from plutoc.diff.journeys import Reroute
 
 
 def step_added(both: Both, one: Reroute, steps: Sequence[str], spans: Spans) -> Change:
     """Missions pass some blocks before they come where they came straight before."""
-    who = whoever(both.new.graph, one.new, one.statuses)
+    who = whoever(both.new, one.new, one.statuses)
     status = one.statuses[0]
-    first, *others = (ahead(both.new.graph, [step], status) for step in steps)
-    then = ahead(both.old.graph, one.before, status)
+    first, *others = (ahead(both.new, [step], status) for step in steps)
+    then = ahead(both.old, one.before, status)
     what = listed([first.now, *map(str, others)])
     return _route("step_added", both, one, f"{who} {what} before it {then}", steps, spans)
 
 
 def step_removed(both: Both, one: Reroute, steps: Sequence[str], spans: Spans) -> Change:
     """Missions come straight where they passed some blocks before."""
-    who = whoever(both.new.graph, one.new, one.statuses)
+    who = whoever(both.new, one.new, one.statuses)
     status = one.statuses[0]
-    first, *others = (ahead(both.old.graph, [step], status) for step in steps)
-    then = ahead(both.new.graph, one.after, status)
-    what = listed([first.no_longer, *map(str, others)], "or")
+    then = ahead(both.new, one.after, status)
+    what = listed([ahead(both.old, [step], status).no_longer for step in steps])
     return _route("step_removed", both, one, f"{who} {what}: it {then}", steps, spans)
 
 
 def rerouted(both: Both, one: Reroute, spans: Spans) -> Change:
     """Missions go elsewhere."""
-    who = whoever(both.new.graph, one.new, one.statuses)
+    who = whoever(both.new, one.new, one.statuses)
     status = one.statuses[0]
-    after = ahead(both.new.graph, one.after, status)
-    before = ahead(both.old.graph, one.before, status)
-    sentence = f"{who} {after.now}; before, it {before.happened}"
+    after = ahead(both.new, one.after, status)
+    before = ahead(both.old, one.before, status)
+    again = " once more" if one.after == (one.new.name,) else ""
+    sentence = f"{who} {after.now}{again}; before, it {before.before}"
     return _route("rerouted", both, one, sentence, (), spans)
+
+
+def swapped(both: Both, one: Reroute, second: str, statuses: tuple[Status, ...]) -> Change:
+    """Two steps have changed places: the one that `one` leads out of came first before."""
+    status, first, side = statuses[0], one.new.name, both.new
+    begun = status in (Status.UNEXECUTED, Status.STANDBY)
+    who = "a mission" if begun else f"a {status.value} mission"
+    now, then = ahead(side, [second], status).now, ahead(side, [first], status)
+    return Change(
+        kind="swapped",
+        importance=_of_status(status),
+        sentence=f"{who} {now} before it {then}; before, it was the other way round",
+        blocks=(second, first),
+        statuses=statuses,
+        before=(first, second),
+        after=(second, first),
+        was=(one.old.name_span,),
+        now=(side.graph.node[second].name_span,),
+    )
 
 
 def _route(
@@ -65,9 +84,9 @@ def _route(
     )
 
 
-def outcome_added(graph: Graph, node: Node, status: Status, leads: Sequence[str]) -> Change:
+def outcome_added(side: Side, node: Node, status: Status, leads: Sequence[str]) -> Change:
     """A block can say of a mission what it never said before."""
-    then = ahead(graph, leads, status)
+    then = ahead(side, leads, status)
     return Change(
         kind="outcome_added",
         importance=_of_status(status),
