@@ -1,0 +1,160 @@
+"""Ours: the package that plutoc makes of `flow/app.pluto`, as it is, with the runtime it carries.
+
+It does all that it does for its users: results and reasons are recorded, batteries and capabilities
+looked at, `async def` hooks called. Only the drones are made up, by the navigations of `flights.py`.
+"""
+
+from __future__ import annotations
+
+import argparse
+import asyncio
+import json
+import sys
+from collections.abc import Callable, Sequence
+from functools import partial
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+from .flights import HOME, AllTogether, FromTheLoop, Still, ThroughTheKernel
+from .process import Notes, parser, report
+from .work import Done, Work
+
+if TYPE_CHECKING:
+    from plutoc_runtime.kernel import Kernel, Task
+    from plutoc_runtime.model import Mission
+    from plutoc_runtime.trace import Event
+
+TARGET = (1.0, 1.0, 1.2)
+"""Where all trips go: straight up from home."""
+
+
+def runtime(name: str) -> Any:
+    """Return a module of the runtime that the package carries."""
+    return import_module(f"measured._runtime.{name}")
+
+
+def load() -> None:
+    """Import all that flies, as every contender has when its clock starts."""
+    import_module("measured.flow")
+    for name in ("airspace", "errors", "files.fleet", "kernel", "realtime", "session", "virtual"):
+        runtime(name)
+
+
+class Journal:
+    """Each transition as a line of JSON; kept, but not written to a disk."""
+
+    def __init__(self) -> None:
+        self.lines: list[str] = []
+        self._encode = json.JSONEncoder(separators=(",", ":"), check_circular=False).encode
+
+    def note(self, event: Event) -> None:
+        """Format an event."""
+        self.lines.append(self._encode(event))
+
+
+class Listener:
+    """Somebody who wants to know what happens."""
+
+    def __init__(self) -> None:
+        self.heard = 0
+
+    def hear(self, event: Event) -> None:
+        """Count it."""
+        self.heard += 1
+
+
+def missions(work: Work) -> list[Mission[Any]]:
+    """Return the plan."""
+    model = import_module("measured.model")
+    names = [str(number) for number in range(work.trips)]
+    return [
+        model.Mission(
+            name=str(number),
+            index=number,
+            trips=[
+                model.Trip(name=name, action="take_photo", target=TARGET, index=index)
+                for index, name in enumerate(names)
+            ],
+        )
+        for number in range(work.missions)
+    ]
+
+
+def started(
+    work: Work, kernel: Kernel, navigation: Still, listeners: Sequence[Callable[[Event], object]]
+) -> tuple[list[Mission[Any]], Task[float]]:
+    """Set the missions on their way; the task is done when the last of them is over."""
+    app, files = import_module("measured.flow").APP, runtime("files.fleet")
+    category = app.categories[0].name
+    fleet = files.FleetFile(
+        airspace=runtime("airspace").Airspace(),
+        drones=tuple(
+            files.DroneEntry(id=str(number), category=category, home=HOME)
+            for number in range(work.drones)
+        ),
+    )
+    session = runtime("session").Session(app, fleet, kernel, navigation, listeners)
+    plan = missions(work)
+    return plan, session.start(plan)
+
+
+def told(plan: Sequence[Mission[Any]]) -> Done:
+    """Return what came of the missions."""
+    completed = sum(len(mission.completed_trips) for mission in plan)
+    return Done(
+        missions=sum(mission.status.value == "COMPLETED" for mission in plan),
+        completed=completed,
+        failed=sum(mission.attempts for mission in plan) - completed,
+    )
+
+
+def fault() -> Callable[[str], Exception]:
+    """Return what makes a flight's failure."""
+    errors = runtime("errors")
+    return partial(errors.FlightFailed, errors.Failure.CRASH)
+
+
+def listeners(given: argparse.Namespace) -> list[Callable[[Event], object]]:
+    """Return who hears of every transition."""
+    return [Journal().note, Listener().hear] if given.journal else []
+
+
+async def in_real_time(given: argparse.Namespace, work: Work, notes: Notes) -> Done:
+    """Fly on asyncio."""
+    kernel = runtime("realtime").RealTime()
+    flights = AllTogether if given.together else FromTheLoop
+    plan, over = started(work, kernel, flights(fault(), work, notes), listeners(given))
+    await kernel.run(over)
+    return told(plan)
+
+
+def in_virtual_time(given: argparse.Namespace, work: Work) -> Done:
+    """Fly in a simulation."""
+    kernel = runtime("virtual").VirtualTime()
+    navigation = ThroughTheKernel(fault(), kernel, runtime("kernel").Kind.FLIGHT)
+    plan, over = started(work, kernel, navigation, listeners(given))
+    kernel.run(over)
+    return told(plan)
+
+
+def main() -> None:
+    """Measure what was asked for."""
+    arguments = parser()
+    arguments.add_argument("--package", required=True, help="where `measured` is imported from")
+    arguments.add_argument("--virtual", action="store_true")
+    arguments.add_argument("--journal", action="store_true", help="format each transition")
+    arguments.add_argument("--together", action="store_true", help="all are in flight at once")
+    given = arguments.parse_args()
+    sys.path.insert(0, given.package)
+    load()
+
+    def fly(work: Work, notes: Notes) -> Done:
+        if given.virtual:
+            return in_virtual_time(given, work)
+        return asyncio.run(in_real_time(given, work, notes))
+
+    report(fly, given)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,125 @@
+"""A contender as a process of its own: it does the work, is checked, and prints one line of JSON."""
+
+from __future__ import annotations
+
+import argparse
+import gc
+import json
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TypedDict
+
+from .work import Done, Work, expected
+
+STATUS = Path("/proc/self/status")
+
+
+@dataclass(slots=True, kw_only=True)
+class Notes:
+    """What a contender notes while it flies, besides what came of it."""
+
+    threads: int = 1
+    """The most that there were at once."""
+    launches: dict[int | str, list[float]] = field(default_factory=dict)
+    """When each drone was launched; kept only of flights that take time."""
+
+    def launched(self, drone: int | str, now: float) -> None:
+        """A drone leaves."""
+        self.launches.setdefault(drone, []).append(now)
+
+    def on_the_ground(self, flight: float) -> float | None:
+        """Return how long a drone stayed down between two flights, on average; None: unknown."""
+        gaps = sum(len(times) - 1 for times in self.launches.values())
+        if not gaps:
+            return None
+        between = sum(times[-1] - times[0] for times in self.launches.values())
+        return between / gaps - flight
+
+
+Fly = Callable[[Work, Notes], Done]
+
+
+class Said(TypedDict):
+    """The line that a contender prints."""
+
+    flights: int
+    """Of one run."""
+    cpu: list[float]
+    """Seconds, of each run."""
+    wall: list[float]
+    on_the_ground: list[float]
+    """Seconds between a drone's landing and its next launch, the mean of each run.
+
+    Of one drone: all the time that it did not fly, the start and the end of the run included.
+    """
+    threads: int
+    """The most that there were at once."""
+    peak_mib: float
+    """The most memory that the process held."""
+
+
+def kernel_says(key: str) -> int:
+    """Return what the kernel knows of this process; 0 where it does not tell (Linux does)."""
+    if STATUS.exists():
+        for line in STATUS.read_text().splitlines():
+            name, _, value = line.partition(":")
+            if name == key:
+                return int(value.split()[0])
+    return 0
+
+
+def measure(fly: Fly, work: Work, repeat: int, checked: bool) -> Said:
+    """Do the work a number of times; every time is checked, and every time is told."""
+    cpu, wall = [], []
+    ground: list[float | None] = []
+    wanted, threads, flights = expected(work) if checked else None, 1, 0
+    for _ in range(repeat):
+        gc.collect()
+        notes = Notes()
+        wall_before, cpu_before = time.perf_counter(), time.process_time()
+        done = fly(work, notes)
+        cpu.append(time.process_time() - cpu_before)
+        wall.append(time.perf_counter() - wall_before)
+        flights = done.flights
+        if wanted is not None and done != wanted:
+            raise SystemExit(f"what came of it is {done}, and must be {wanted}")
+        threads = max(threads, notes.threads, kernel_says("Threads"))
+        if work.drones == 1 and work.flight:
+            ground.append(wall[-1] / flights - work.flight)
+        else:
+            ground.append(notes.on_the_ground(work.flight))
+    return {
+        "flights": flights,
+        "cpu": cpu,
+        "wall": wall,
+        "on_the_ground": [gap for gap in ground if gap is not None],
+        "threads": threads,
+        "peak_mib": kernel_says("VmHWM") / 1024,
+    }
+
+
+def parser() -> argparse.ArgumentParser:
+    """Return the arguments that all contenders take."""
+    made, usual = argparse.ArgumentParser(), Work()
+    made.add_argument("--missions", type=int, default=usual.missions)
+    made.add_argument("--trips", type=int, default=usual.trips)
+    made.add_argument("--drones", type=int, default=usual.drones)
+    made.add_argument("--flight", type=float, default=usual.flight)
+    made.add_argument("--repeat", type=int, default=1)
+    made.add_argument("--unchecked", action="store_true", help="to count instructions")
+    return made
+
+
+def report(fly: Fly, given: argparse.Namespace) -> None:
+    """Measure, and print the line."""
+    work = Work(
+        missions=given.missions, trips=given.trips, drones=given.drones, flight=given.flight
+    )
+    print(json.dumps(measure(fly, work, given.repeat, not given.unchecked)))
+
+
+def main(fly: Fly) -> None:
+    """Be the program of a contender that takes no arguments of its own."""
+    report(fly, parser().parse_args())
