@@ -115,8 +115,8 @@ def _app(graph: Graph) -> list[str]:
         f"actions={{**BUILT_IN, {own},}}" if own else "actions=BUILT_IN",
     ]
     if evaluators:
-        functions = (f"{literal(name)}: hooks.{name}" for name in evaluators)
-        arguments.append(f"evaluators={items(functions, '{}')}")
+        functions = "".join(f"{literal(name)}: hooks.{name}," for name in evaluators)
+        arguments.append(f"evaluators={{{functions}}}")  # a line each
     return arguments
 
 

@@ -1,22 +1,22 @@
-"""`README.md`: the app's graph, its blocks, its missions file, and which file is whose."""
+"""`README.md`: the app's graph, its kinds of blocks, its missions file, and which file is whose."""
 
 from __future__ import annotations
 
+from plutoc.block import Block
 from plutoc.emit.fields import fields_of
 from plutoc.emit.markup import fence, markdown, toml_text
 from plutoc.emit.python import header
 from plutoc.emit.render import render
 from plutoc.emit.test_file import MissionTable, able, sample
 from plutoc.frozen import frozen
-from plutoc.graph.model import Graph, Node
+from plutoc.graph.model import Graph
 
 
 @frozen
-class BlockRow:
-    """A block, in the README's table."""
+class KindRow:
+    """A kind of block, in the README's table."""
 
     name: str
-    kind: str
     doc: str
 
 
@@ -39,7 +39,7 @@ class Readme:
     fence: str
     picture: str
     gates: bool
-    blocks: list[BlockRow]
+    kinds: list[KindRow]
     sample: MissionTable
     fields: list[FieldRow]
     category: str
@@ -59,7 +59,7 @@ def readme(graph: Graph, source_name: str, picture: str) -> str:
             fence=fence(picture),
             picture=picture.rstrip("\n"),
             gates=any(node.block.gate is not None for node in graph.nodes),
-            blocks=[_block(node) for node in graph.nodes],
+            kinds=[_kind(block) for block in dict.fromkeys(node.block for node in graph.nodes)],
             sample=mission,
             fields=[
                 FieldRow(name=field.name, on=field.on.value, doc=markdown(field.doc))
@@ -71,7 +71,7 @@ def readme(graph: Graph, source_name: str, picture: str) -> str:
     )
 
 
-def _block(node: Node) -> BlockRow:
-    """Return what a block does, in the one sentence that its documentation begins with."""
-    doc, _, _ = node.block.doc.partition("\n")
-    return BlockRow(name=node.name, kind=markdown(node.block.name), doc=markdown(doc))
+def _kind(block: Block) -> KindRow:
+    """Return what blocks of a kind do, in the one sentence that its documentation begins with."""
+    doc, _, _ = block.doc.partition("\n")
+    return KindRow(name=markdown(block.name), doc=markdown(doc))

@@ -84,5 +84,7 @@ APP = App(
             hook=hooks.pollinate,
         ),
     },
-    evaluators={"find_blooms": hooks.find_blooms},
+    evaluators={
+        "find_blooms": hooks.find_blooms,
+    },
 )
