@@ -15,20 +15,20 @@ from heapq import heappop, heappush
 from math import inf
 from typing import TYPE_CHECKING
 
-from .capability import chain_of
 from .eligibility import Demand, Reach
 from .energy import docked
 from .errors import HookFault, MissionFailed
 from .kernel import FLEET, Kernel, Kind, Timer
-from .policy import BatchPool, Choice, Policy, Pool
+from .policy import BatchPool, Choice, Policy, Pool, Why
 from .signals import Signal
 from .status import DroneStatus
 
 if TYPE_CHECKING:
     from .model import Drone, Trip
 
+_FREE, _BUSY = DroneStatus.FREE, DroneStatus.BUSY
 _GONE = (DroneStatus.LOST, DroneStatus.OFFLINE)
-_IN_THE_AIR = (DroneStatus.BUSY, DroneStatus.RETURNING, DroneStatus.RECOVERING)
+_IN_THE_AIR = (_BUSY, DroneStatus.RETURNING, DroneStatus.RECOVERING)
 
 Entry = tuple[int, int, "Request"]
 """Priority, higher first; arrival; who waits."""
@@ -37,28 +37,49 @@ Entry = tuple[int, int, "Request"]
 class Request(Signal["Drone"]):
     """A mission that waits for a drone; it is set to the one that it gets."""
 
-    __slots__ = ("demand", "left", "policy", "pool", "refused_of", "why")
+    __slots__ = ("_demand", "_levels", "_reach", "_trips", "left", "policy", "pool", "trip", "why")
 
-    def __init__(self, demand: Demand, policy: Policy, pool: Pool) -> None:
-        self.is_set = False
-        self._value = self.error = self._watchers = None
-        self.demand, self.policy, self.pool = demand, policy, pool
-        self.why = ""
-        """Why it got its drone."""
-        self.left = False
-        """It does not wait any longer."""
-        self.refused_of = -1
-        """How many drones were lost when it was last asked whether any drone is able."""
-
-    @property
-    def trip(self) -> Trip:
-        """What the drone is wanted for."""
-        return self.demand.chain[0]
+    def __init__(self, reach: Reach, trips: Sequence[Trip], policy: Policy, pool: Pool) -> None:
+        self.is_set = self.left = False
+        self.error = self.waiter = self._value = self._watchers = None
+        self.policy, self.pool, self.trip = policy, pool, trips[0]
+        self.why: Why = str
+        """Says why it got its drone."""
+        self._reach, self._trips, self._levels = reach, trips, reach.levels(trips[0])
+        self._demand: Demand | None = None
 
     @property
     def waits(self) -> bool:
         """Whether it still wants a drone."""
         return not (self.is_set or self.left)
+
+    @property
+    def demand(self) -> Demand:
+        """What it asks of a drone, exactly."""
+        if self._demand is None:
+            self._demand = Demand(self._reach, self._trips)
+        return self._demand
+
+    def able(self, drone: Drone) -> bool:
+        """Say whether a drone can fly the trip now."""
+        level = drone.telemetry.battery_level
+        if level >= self._levels[drone.category]:
+            return True
+        return self.never(drone) is None and level >= self.demand.battery(drone)
+
+    def never(self, drone: Drone) -> str | None:
+        """Return why a drone cannot fly the trip even with a full battery; None: it can."""
+        return None if self._levels[drone.category] <= 1.0 else self.demand.never(drone)
+
+    def charged(self, drone: Drone) -> float:
+        """Return the seconds until a drone in its dock has charged enough; never: infinite."""
+        if self.never(drone) is not None:
+            return inf
+        missing = self.demand.battery(drone) - drone.battery_level
+        if missing <= 0:
+            return 0.0
+        charges = docked(drone.location, drone.home)
+        return missing * drone.category.charge_time + 0.001 if charges else inf
 
 
 class Queue:
@@ -76,13 +97,14 @@ class Queue:
         self._pools: dict[Policy, Pool] = {}
         self._batches: dict[Policy, BatchPool] = {}
         """Those of the pools that look at all trips at once."""
-        self._high = {drone: None for drone in drones if drone.status is DroneStatus.FREE}
+        self._high = {drone: None for drone in drones if drone.status is _FREE}
         """The free drones that are in the pools."""
         self._low: dict[Drone, float] = {}
         """Free drones that are too low for all that has waited so far, and until when they are."""
-        self._gone = sum(drone.status in _GONE for drone in drones)
+        self._gone = self._asked_of = sum(drone.status in _GONE for drone in drones)
         self._airborne = sum(drone.status in _IN_THE_AIR for drone in drones)
         self._recheck: Timer | None = None
+        self._recheck_at = inf
         self.served: Callable[[], None] = lambda: None
         """Called after each serving, while some still wait."""
 
@@ -91,12 +113,12 @@ class Queue:
         pool = self._pools.get(policy)
         if pool is None:
             pool = self._new_pool(policy)
-        request = Request(Demand(self._reach, chain_of(trips)), policy, pool)
+        request = Request(self._reach, trips, policy, pool)
         self._arrivals += 1
         self._waiting += 1
         heappush(self._entries, (-priority, self._arrivals, request))
         self._fresh.append(request)
-        self._kernel.at_last(self._serve)
+        self._kernel.last = self._serve
         return request
 
     def leave(self, request: Request) -> None:
@@ -107,18 +129,25 @@ class Queue:
 
     def moved(self, drone: Drone, before: DroneStatus, after: DroneStatus) -> None:
         """A drone has changed its status: serve the queue at the end of this instant."""
-        self._airborne += (after in _IN_THE_AIR) - (before in _IN_THE_AIR)
-        self._gone += (after in _GONE) - (before in _GONE)
-        if after is DroneStatus.FREE:
-            self._raise(drone)
-        elif before is DroneStatus.FREE:
+        if before in _IN_THE_AIR:
+            self._airborne -= 1
+        elif before in _GONE:
+            self._gone -= 1
+        elif before is _FREE and after is not _FREE:
             self._take(drone)
-        self.changed()
+        if after is _FREE:
+            self._raise(drone)
+        elif after in _IN_THE_AIR:
+            self._airborne += 1
+        elif after in _GONE:
+            self._gone += 1
+        if self._waiting:
+            self._kernel.last = self._serve
 
     def changed(self) -> None:
         """Something changed: serve the queue at the end of this instant."""
         if self._waiting:
-            self._kernel.at_last(self._serve)
+            self._kernel.last = self._serve
 
     @property
     def waiting(self) -> bool:
@@ -138,7 +167,7 @@ class Queue:
     def too_low(self) -> Iterator[Drone]:
         """Give the free drones that waiting missions could use if they were charged."""
         for drone in sorted(self._low, key=lambda drone: drone.index):
-            if any(request.demand.never(drone) is None for request in self._waiters()):
+            if any(request.never(drone) is None for request in self._waiters()):
                 yield drone
 
     def _waiters(self) -> Iterator[Request]:
@@ -157,9 +186,10 @@ class Queue:
     def _raise(self, drone: Drone) -> None:
         """A drone may be handed out."""
         self._low.pop(drone, None)
-        self._high[drone] = None
-        for pool in self._pools.values():
-            pool.add(drone)
+        if drone not in self._high:
+            self._high[drone] = None
+            for pool in self._pools.values():
+                pool.add(drone)
 
     def _take(self, drone: Drone) -> None:
         """A drone may not be handed out."""
@@ -172,41 +202,42 @@ class Queue:
     # Serving
 
     def _serve(self) -> None:
-        self._refuse_what_cannot_be()
         if self._low:
             self._raise_who_is_high_enough()
         if self._high and self._waiting and self.room:
             self._share_out()
         if self._waiting:
-            self._lower_who_is_of_no_use()
-            self.served()
+            self._refuse_what_cannot_be()
+            if self._high and self.room:
+                self._lower_who_is_of_no_use()
+            if self._low:
+                self._look_again_when_charged()
+                self.served()
         self._fresh.clear()
 
     def _share_out(self) -> None:
-        entries, passed = self._entries, list[Entry]()
-        while entries and self._high and self.room:
+        entries, high, batches = self._entries, self._high, self._batches
+        passed: list[Entry] = []
+        while entries and high and self.room:
             entry = heappop(entries)
             request = entry[2]
-            if not request.waits:
+            if request.is_set or request.left:
                 continue
-            batch = self._batches.get(request.policy)
-            if batch is not None:
+            if batches and request.policy in batches:
+                batch = batches[request.policy]
                 passed += self._share_among(batch, [entry, *self._alike(entry)])
-            elif not self._chosen(request):
+                continue
+            try:
+                choice = request.pool.choose(request.trip, request.able)
+            except HookFault as fault:
+                self._refuse(request, fault)
+                continue
+            if choice is None:
                 passed.append(entry)
+            else:
+                self._give(request, choice)
         for entry in passed:
             heappush(entries, entry)
-
-    def _chosen(self, request: Request) -> bool:
-        """Let the policy choose a drone for a request; say whether the request is over."""
-        try:
-            choice = request.pool.choose(request.demand.chain[0], request.demand.met_by)
-        except HookFault as fault:
-            self._refuse(request, fault)
-            return True
-        if choice is not None:
-            self._give(request, choice)
-        return choice is not None
 
     def _alike(self, entry: Entry) -> Iterator[Entry]:
         """Take the entries that come next and have the same priority and policy."""
@@ -220,7 +251,7 @@ class Queue:
 
     def _share_among(self, pool: BatchPool, entries: Sequence[Entry]) -> Iterator[Entry]:
         """Let the policy choose for all of them at once; give those that got nothing."""
-        offers = [(entry[2].trip, entry[2].demand.met_by) for entry in entries]
+        offers = [(entry[2].trip, entry[2].able) for entry in entries]
         for entry, choice in zip(entries, pool.share(offers), strict=True):
             if choice is None or not self.room:
                 yield entry
@@ -231,8 +262,10 @@ class Queue:
         drone, request.why = choice
         self._waiting -= 1
         self._airborne += 1
-        self._take(drone)
-        drone.status = DroneStatus.BUSY  # at once: nobody else may have it
+        del self._high[drone]
+        for pool in self._pools.values():
+            pool.remove(drone)
+        drone.status = _BUSY  # at once: nobody else may have it
         request.set(drone)
 
     def _refuse(self, request: Request, error: MissionFailed) -> None:
@@ -241,18 +274,22 @@ class Queue:
 
     def _refuse_what_cannot_be(self) -> None:
         """Refuse those who have come, and after a loss all who wait, if no drone is able."""
-        for request in self._fresh if not self._gone else list(self._waiters()):
-            if request.refused_of != self._gone and request.waits:
-                request.refused_of = self._gone
-                if all(request.demand.never(drone) is not None for drone in self._left()):
-                    self._refuse(request, self._unable(request))
+        asked = self._fresh if self._asked_of == self._gone else list(self._waiters())
+        self._asked_of = self._gone
+        for request in asked:
+            if not request.is_set and not request.left and not self._any_able(request):
+                self._refuse(request, self._unable(request))
 
-    def _left(self) -> Iterator[Drone]:
-        return (drone for drone in self._drones if drone.status not in _GONE)
+    def _any_able(self, request: Request) -> bool:
+        for drone in self._drones:
+            if drone.status not in _GONE and request.never(drone) is None:
+                return True
+        return False
 
     def _unable(self, request: Request) -> MissionFailed:
         lost = [f"{self._gone} of {len(self._drones)} drones are lost"] if self._gone else []
-        reasons = (request.demand.never(drone) for drone in self._left())
+        left = (drone for drone in self._drones if drone.status not in _GONE)
+        reasons = (request.never(drone) for drone in left)
         because = "; ".join([*lost, *dict.fromkeys(reason for reason in reasons if reason)])
         return MissionFailed(f"no drone of the fleet can fly trip {request.trip.name}: {because}")
 
@@ -263,7 +300,7 @@ class Queue:
         now = self._kernel.now
         for drone, until in list(self._low.items()):
             if until <= now or any(
-                request.waits and request.demand.met_by(drone) for request in self._fresh
+                request.waits and request.able(drone) for request in self._fresh
             ):
                 self._raise(drone)
             else:
@@ -274,35 +311,31 @@ class Queue:
 
         One that is high enough and was not given (no more may fly, a policy wants it not) stays so.
         """
-        if self.room:
-            for drone in list(self._high):
-                until = self._charged_for(drone, self._waiters())
-                if until > self._kernel.now:
-                    self._take(drone)
-                    self._low[drone] = until
-        if self._recheck is not None:
-            self._recheck.cancel()
-        soonest = min(self._low.values(), default=inf)
-        if soonest < inf:
-            self._recheck = self._kernel.at(soonest, Kind.CLOCK, FLEET, self.changed)
+        for drone in list(self._high):
+            until = self._charged_for(drone, self._waiters())
+            if until > self._kernel.now:
+                self._take(drone)
+                self._low[drone] = until
+
+    def _look_again_when_charged(self) -> None:
+        soonest = min(self._low.values())
+        if soonest != self._recheck_at or self._recheck is None:
+            if self._recheck is not None:
+                self._recheck.cancel()
+            self._recheck_at, self._recheck = soonest, None
+            if soonest < inf:
+                self._recheck = self._kernel.at(soonest, Kind.CLOCK, FLEET, self._checked_again)
+
+    def _checked_again(self) -> None:
+        self._recheck = None
+        self.changed()
 
     def _charged_for(self, drone: Drone, requests: Iterable[Request]) -> float:
         """Return when a drone can fly for one of them; now, if it can already."""
         now, soonest = self._kernel.now, inf
         for request in requests:
             if request.waits:
-                soonest = min(soonest, now + _charging(drone, request.demand))
+                soonest = min(soonest, now + request.charged(drone))
                 if soonest <= now:
                     return now
         return soonest
-
-
-def _charging(drone: Drone, demand: Demand) -> float:
-    """Return the seconds until a drone in its dock has charged enough; never: infinite."""
-    if demand.never(drone) is not None:
-        return inf
-    missing = demand.battery(drone) - drone.battery_level
-    if missing <= 0:
-        return 0.0
-    charges = docked(drone.location, drone.home)
-    return missing * drone.category.charge_time + 0.001 if charges else inf

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from math import hypot
 from typing import TYPE_CHECKING
 
-from .capability import stops_of, why_not
+from .capability import chain_of, stops_of, why_not
 from .energy import CLIMB_SPEED, needed, share
 
 if TYPE_CHECKING:
@@ -19,22 +19,36 @@ NO_WAY = 2.0
 
 
 class Reach:
-    """The battery levels with which a drone gets everywhere on the map and home again.
+    """What gets a drone anywhere on the map and home again: most that stand ready have more.
 
-    Most drones that stand ready have more than that, and need no exact answer.
+    So most questions need no exact answer, which takes a route.
     """
 
     def __init__(self, app: App, airspace: Airspace) -> None:
         self.app, self.airspace = app, airspace
-        self._levels: dict[tuple[Category, str], float] = {}
+        self._size = (*airspace.size, airspace.ceiling)
+        self._levels = {
+            action: {category: self._level(category, action) for category in app.categories}
+            for action in app.actions
+        }
+        self._unknown = dict.fromkeys(app.categories, NO_WAY)
 
-    def everywhere(self, category: Category, trip: Trip) -> float:
-        """Return a level that is enough for this trip from anywhere on the map."""
-        level = self._levels.get((category, trip.action))
-        if level is None:
-            level = self._level(category, trip.action)
-            self._levels[category, trip.action] = level
-        return level
+    def levels(self, trip: Trip) -> Mapping[Category, float]:
+        """Return a battery level for each category with which the trip can surely be flown.
+
+        `NO_WAY` where that takes a closer look.
+        """
+        x, y, z = trip.target
+        width, depth, ceiling = self._size
+        if (
+            trip.item is None
+            and 0.0 <= x <= width
+            and 0.0 <= y <= depth
+            and 0.0 <= z <= ceiling
+            and (trip.source is None or self.airspace.problem(trip.source) is None)
+        ):
+            return self._levels[trip.action]
+        return self._unknown
 
     def _level(self, category: Category, action: str) -> float:
         space = self.airspace
@@ -46,38 +60,22 @@ class Reach:
         seconds = 3 * across / category.speed + up_and_down + self.app.actions[action].seconds
         return share(category, seconds) + category.reserve
 
-    def on_map(self, trip: Trip) -> bool:
-        """Say whether a trip leads nowhere but on the map; a hook may have changed it."""
-        return all(
-            self.airspace.problem(point) is None
-            for point in (trip.source, trip.target)
-            if point is not None
-        )
-
 
 class Demand:
-    """What a chain of trips asks of a drone: the head trip, and with a pick all to its release."""
+    """What the next trip asks of a drone: that one alone, or from a pick all to its release."""
 
-    __slots__ = ("_from", "_never", "_plain", "_reach", "_stops", "chain")
-
-    def __init__(self, reach: Reach, chain: Sequence[Trip]) -> None:
-        self.chain = chain
-        self._reach = reach
-        self._plain = len(chain) == 1 and chain[0].item is None and reach.on_map(chain[0])
-        self._stops: Sequence[tuple[Point, float]] | None = None
-        self._never: dict[tuple[Category, Point], str | None] | None = None
-        self._from: dict[tuple[Category, Point, Point], float] | None = None
+    def __init__(self, reach: Reach, trips: Sequence[Trip]) -> None:
+        self._reach, self._chain = reach, chain_of(trips)
+        self._stops = stops_of(reach.app, reach.airspace, self._chain)
+        self._never: dict[tuple[Category, Point], str | None] = {}
+        self._from: dict[tuple[Category, Point, Point], float] = {}
 
     def never(self, drone: Drone) -> str | None:
         """Return why a drone cannot fly the chain even with a full battery; None: it can."""
-        if self._plain and self._reach.everywhere(drone.category, self.chain[0]) <= 1:
-            return None
-        if self._never is None:
-            self._never = {}
         key = (drone.category, drone.home)
         if key not in self._never:
             reach = self._reach
-            self._never[key] = why_not(reach.app, reach.airspace, *key, self.chain)
+            self._never[key] = why_not(reach.app, reach.airspace, *key, self._chain)
         return self._never[key]
 
     def battery(self, drone: Drone) -> float:
@@ -85,22 +83,10 @@ class Demand:
 
         More than 1 where no permitted way leads there.
         """
-        if self._from is None:
-            self._from = {}
         key = (drone.category, drone.home, drone.location)
         level = self._from.get(key)
         if level is None:
-            reach = self._reach
-            if self._stops is None:
-                self._stops = stops_of(reach.app, reach.airspace, self.chain)
-            part = needed(drone.category, reach.airspace, drone.location, self._stops, drone.home)
-            level = NO_WAY if part is None else part + drone.category.reserve
-            self._from[key] = level
+            category, home, here = key
+            part = needed(category, self._reach.airspace, here, self._stops, home)
+            level = self._from[key] = NO_WAY if part is None else part + category.reserve
         return level
-
-    def met_by(self, drone: Drone) -> bool:
-        """Say whether a drone can fly the chain now."""
-        level = drone.battery_level
-        if self._plain and level >= self._reach.everywhere(drone.category, self.chain[0]):
-            return True
-        return self.never(drone) is None and level >= self.battery(drone)

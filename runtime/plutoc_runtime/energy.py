@@ -22,6 +22,8 @@ DOCK_REACH = 0.2
 
 def docked(landed_at: Point, home: Point) -> bool:
     """Say whether a drone that landed there stands in its dock."""
+    if landed_at == home:
+        return True
     return hypot(landed_at[0] - home[0], landed_at[1] - home[1]) <= DOCK_REACH
 
 

@@ -11,7 +11,7 @@ from .kernel import Cancelled, Kind, Task
 from .run import Run
 from .signals import Signal
 from .state import State
-from .status import Status
+from .status import FAILED, Status
 
 if TYPE_CHECKING:
     from .core import Core
@@ -32,10 +32,10 @@ class Engine:
         """Set the missions on their way, all at once."""
         ended, doomed = self._ended, self._doomed
         for mission in missions:
-            state = State(mission=mission, ending=doomed)
-            key = (mission.index,)
-            flow = self._core.app.flow(Run(mission, self._core, state, key))
-            state.task = task = self._core.kernel.spawn(flow, key, mission.name)
+            state, key = State(self._core, mission, doomed), (mission.index,)
+            run = Run(mission, state, key)
+            task = self._core.kernel.spawn(self._core.app.flow(run), key, mission.name)
+            run.task = state.task = task
             self._living[task] = state
             task.watch(ended)
 
@@ -60,14 +60,14 @@ class Engine:
             return
         state = self._living.pop(task)
         match task.error:
-            case None if (status := task.result()) is Status.FAILED:
+            case None if (status := task.result()) is FAILED:
                 reason = state.mission.reason or "the graph ended it as FAILED"
             case None:
                 reason = ""
             case MissionFailed() as error:
-                status, reason = Status.FAILED, str(error)
+                status, reason = FAILED, str(error)
             case Cancelled():
-                status, reason = Status.FAILED, state.doom or "it was called off"
+                status, reason = FAILED, state.doom or "it was called off"
             case error:
                 self._core.kernel.crash(error)
                 return
@@ -75,7 +75,7 @@ class Engine:
 
     def _end(self, state: State, status: Status, reason: str) -> None:
         mission, fleet = state.mission, self._core.fleet
-        abort(self._core, state, f"its mission ended: {reason or status.value}")
+        abort(state, f"its mission ended: {reason or status.value}")
         if state.allocated is not None:
             fleet.never_flew(state.allocated)
         if state.carrier is not None:

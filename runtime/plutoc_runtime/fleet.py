@@ -56,9 +56,10 @@ class Fleet:
 
     def engage(self, drone: Drone) -> None:
         """A drone is about to fly for a mission: whatever it was doing for itself is over."""
-        errand = self._errands.pop(drone, None)
-        if errand is not None:
-            errand.cancel()
+        if self._errands:
+            errand = self._errands.pop(drone, None)
+            if errand is not None:
+                errand.cancel()
 
     def keep(self, drone: Drone, lose: Callable[[str], None]) -> None:
         """A drone with an item aboard lands where it is and waits for its mission.
@@ -77,9 +78,14 @@ class Fleet:
 
     def dismiss(self, drone: Drone) -> None:
         """A drone has done what it was allocated for."""
-        if self._rests_here(drone):
-            self.engage(drone)
-            self._become(drone, DroneStatus.FREE)
+        telemetry = drone.telemetry
+        if (
+            telemetry.landed
+            and telemetry.battery_level > drone.category.reserve
+            and (self._after_trip is AfterTrip.STAY or docked(telemetry.location, drone.home))
+        ):
+            # navigation has it down already where it shall be, with enough in its battery
+            self._become(drone, _FREE)
         elif self._after_trip is AfterTrip.HOME or self._is_low(drone):
             self.send_home(drone)
         else:
@@ -200,7 +206,7 @@ class Fleet:
         """It stands on the ground, well: is there enough in its battery to be handed out?"""
         missing = drone.category.reserve - drone.battery_level
         if missing < 0:
-            self._become(drone, DroneStatus.FREE)
+            self._become(drone, _FREE)
         elif self._is_docked(drone):
             self._become(drone, DroneStatus.CHARGING)
             charged = self._kernel.now + missing * drone.category.charge_time + 0.001
@@ -211,7 +217,7 @@ class Fleet:
 
     def _charged(self, drone: Drone) -> None:
         if drone.status is DroneStatus.CHARGING:
-            self._become(drone, DroneStatus.FREE)
+            self._become(drone, _FREE)
 
     def _fetch_what_is_low(self) -> None:
         """Missions wait for drones that stand away from home with too little in their batteries."""
@@ -219,23 +225,18 @@ class Fleet:
             if not self._is_docked(drone) and self.queue.room:
                 self.send_home(drone)
 
-    def _rests_here(self, drone: Drone) -> bool:
-        """Whether navigation has it down already where it shall be, with enough in its battery."""
-        return (
-            drone.telemetry.landed
-            and drone.battery_level > drone.category.reserve
-            and (self._after_trip is AfterTrip.STAY or docked(drone.location, drone.home))
-        )
-
     def _is_low(self, drone: Drone) -> bool:
         """Whether there is little more in it than the way home takes."""
         return drone.battery_level < drone.category.reserve + 0.2
 
     def _is_stray(self, drone: Drone) -> bool:
-        return drone.status is DroneStatus.FREE and not self._is_docked(drone)
+        return drone.status is _FREE and not self._is_docked(drone)
 
     def _is_docked(self, drone: Drone) -> bool:
         return drone.telemetry.landed and docked(drone.location, drone.home)
 
     def _key(self, drone: Drone) -> Key:
         return (FLEET[0] + 1 + drone.index,)
+
+
+_FREE = DroneStatus.FREE

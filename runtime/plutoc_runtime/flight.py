@@ -6,16 +6,15 @@ from collections.abc import Mapping
 from functools import partial
 from typing import TYPE_CHECKING
 
-from .actions import PICK, RELEASE, Action
+from .actions import PICK, RELEASE
 from .context import Context
 from .errors import ActionFailed, Failure, FlightFailed, HookFault
-from .hooks import call_hook
+from .hooks import Hook, call_action
 from .signals import Signal
-from .status import Status, TripStatus
+from .status import FAILED, Status, TripStatus
 
 if TYPE_CHECKING:
     from .actions import Plain
-    from .core import Core
     from .kernel import Task
     from .model import Drone, Item, Point, Trip
     from .state import State
@@ -27,18 +26,17 @@ class Flight(Signal[Status]):
     It is set when the trip is over, to how the mission stands then.
     """
 
-    __slots__ = ("_work", "core", "flier", "launched_at", "retry", "state", "succeeded", "trip")
+    __slots__ = ("_hook", "_work", "flier", "launched_at", "retry", "state", "trip")
 
-    def __init__(
-        self, core: Core, state: State, trip: Trip, flier: Drone, now: float, retry: bool
-    ) -> None:
+    def __init__(self, state: State, trip: Trip, flier: Drone, *, retry: bool) -> None:
         self.is_set = False
-        self._value = self.error = self._watchers = None
-        self.core, self.state, self.trip, self.flier = core, state, trip, flier
-        self.launched_at = now
+        self.error = self.waiter = self._value = self._watchers = None
+        self.state, self.trip, self.flier = state, trip, flier
+        self.launched_at = state.core.kernel.now
         self.retry = retry
         """The mission's flight before this one was of the same trip, and failed."""
-        self.succeeded = False
+        self._hook = state.core.app.actions[trip.action].hook
+        """The app's own action, if it is one."""
         self._work: Task[None] | None = None
 
     # What navigation may ask
@@ -63,12 +61,12 @@ class Flight(Signal[Status]):
     @property
     def action(self) -> str | None:
         """What to do at the last stop; None: hover, for an action of the app's own."""
-        return self.trip.action if self._action.hook is None else None
+        return self.trip.action if self._hook is None else None
 
     @property
     def seconds(self) -> float:
         """How long the action is expected to take."""
-        return self._action.seconds
+        return self.state.core.app.actions[self.trip.action].seconds
 
     @property
     def parameters(self) -> Mapping[str, Plain]:
@@ -81,49 +79,46 @@ class Flight(Signal[Status]):
         return self.trip.item
 
     @property
-    def _action(self) -> Action:
-        return self.core.app.actions[self.trip.action]
+    def failed(self) -> bool:
+        """Whether it is over and went wrong."""
+        return self._value is FAILED
 
     # What navigation tells
 
     def report(self, result: object) -> None:
         """Hear that the job is done and what it gave, or the `FlightFailed` that ended it."""
-        self.core.kernel.post(self._reported, result)
-
-    def _reported(self, result: object) -> None:
         state = self.state
-        if state.flight is not self or self.trip.status is not TripStatus.EXECUTING:
+        if state.flight is not self or self.trip.status is not _EXECUTING:
             return  # it was called off meanwhile
         if isinstance(result, FlightFailed):
-            fail(self.core, state, self, str(result))
-        elif self._action.hook is None:
-            complete(self.core, state, self, result)
+            fail(state, self, str(result))
+        elif self._hook is None:
+            complete(state, self, result)
         else:
-            self._work = self.core.kernel.spawn(
-                self._act(),
+            self._work = state.core.kernel.spawn(
+                self._act(self._hook),
                 (state.mission.index,),
                 f"{state.mission.name}: {self.trip.action}",
             )
 
-    async def _act(self) -> None:
+    async def _act(self, hook: Hook) -> None:
         """Let the drone do an action of the app's own while it hovers."""
-        core, state = self.core, self.state
+        state = self.state
         try:
-            value = await self._done_while_hovering()
+            value = await self._done_while_hovering(hook)
         except FlightFailed as error:
-            fail(core, state, self, str(error))
+            fail(state, self, str(error))
         except HookFault as fault:
-            core.log(fault.detail, state.mission.name)
-            fail(core, state, self, str(fault), mends=False)
+            state.core.log(fault.detail, state.mission.name)
+            fail(state, self, str(fault), mends=False)
         else:
-            complete(core, state, self, value)
+            complete(state, self, value)
 
-    async def _done_while_hovering(self) -> object:
-        core, state, trip, drone = self.core, self.state, self.trip, self.flier
-        kernel, key, hook = core.kernel, (state.mission.index,), self._action.hook
-        if hook is None:
-            raise RuntimeError(f"action {trip.action} is navigation's, not the app's")
-        call = call_hook(kernel, hook, drone, trip, Context(core, state), **trip.parameters)
+    async def _done_while_hovering(self, hook: Hook) -> object:
+        state, trip, drone = self.state, self.trip, self.flier
+        core = state.core
+        kernel, key = core.kernel, (state.mission.index,)
+        call = call_action(kernel, hook, drone, trip, Context(core, state), **trip.parameters)
         work = kernel.spawn(call, key, f"{state.mission.name}: {trip.action}")
         hover = kernel.spawn(core.navigation.hold(drone.id), key, f"{drone.id} hovers")
         over: Signal[None] = Signal()
@@ -144,31 +139,32 @@ class Flight(Signal[Status]):
         """Stop where it is; nothing of it is reported any more."""
         if self._work is not None:
             self._work.cancel()
-        self.core.navigation.break_off(self.flier.id)
+        self.state.core.navigation.break_off(self.flier.id)
 
 
-def launch(core: Core, state: State, drone: Drone) -> None:
+def launch(state: State, drone: Drone) -> None:
     """Send a drone on the mission's next trip."""
-    trip, last = state.mission.current, state.flight
+    core, mission, last = state.core, state.mission, state.flight
+    trip = mission.current
     core.fleet.engage(drone)
-    retry = last is not None and last.trip is trip and not last.succeeded
-    flight = Flight(core, state, trip, drone, core.kernel.now, retry)
-    state.flight, state.allocated = flight, None
-    core.transitions.launch(state.mission, trip, drone)
+    retry = last is not None and last.trip is trip and last.failed
+    state.flight = flight = Flight(state, trip, drone, retry=retry)
+    state.allocated = None
+    core.transitions.launch(mission, trip, drone)
     core.navigation.fly(flight, flight.report)
 
 
-def complete(core: Core, state: State, flight: Flight, value: object) -> None:
+def complete(state: State, flight: Flight, value: object) -> None:
     """A trip is over, and went well; its drone is free to go, unless it carries an item."""
-    mission, trip = state.mission, flight.trip
+    core, mission, trip = state.core, state.mission, flight.trip
     if trip not in mission.trips:
-        fail(core, state, flight, "a hook took it from the mission's trips", mends=False)
+        fail(state, flight, "a hook took it from the mission's trips", mends=False)
         return
     if trip.action == PICK:
         state.carries, state.carrier = trip.item, flight.flier
     elif trip.action == RELEASE:
         state.carries = state.carrier = None
-    flight.succeeded, state.last_action_end = True, core.kernel.now
+    state.last_action_end = core.kernel.now
     core.transitions.complete(mission, trip, value)
     if state.carrier is None:
         core.fleet.dismiss(flight.flier)
@@ -185,23 +181,26 @@ def _lose(state: State, reason: str) -> None:
     state.end(reason)
 
 
-def fail(core: Core, state: State, flight: Flight, reason: str, *, mends: bool = True) -> None:
+def fail(state: State, flight: Flight, reason: str, *, mends: bool = True) -> None:
     """A trip is over, and went wrong. With an item aboard, no retry can mend it."""
     if state.carries is not None:
         reason = f"{reason}, with {state.carries.name} aboard"
         mends = False
     state.carries = state.carrier = None
-    core.transitions.fail(state.mission, flight.trip, reason)
-    core.fleet.recover(flight.flier)
+    state.core.transitions.fail(state.mission, flight.trip, reason)
+    state.core.fleet.recover(flight.flier)
     if mends:
         flight.set(state.mission.status)
     else:
         state.end(reason)
 
 
-def abort(core: Core, state: State, reason: str) -> None:
+def abort(state: State, reason: str) -> None:
     """Fail the trip that flies now; its drone breaks off and comes home."""
     flight = state.in_flight
     if flight is not None:
         flight.break_off()
-        fail(core, state, flight, reason)
+        fail(state, flight, reason)
+
+
+_EXECUTING = TripStatus.EXECUTING

@@ -6,22 +6,31 @@ from collections.abc import Callable
 from contextlib import suppress
 
 from .errors import ActionFailed, HookFault
-from .kernel import Cancelled, Kernel
+from .kernel import WHATEVER, Cancelled, Kernel
 
 Hook = Callable[..., object]
 
 
-async def call_hook(kernel: Kernel, hook: Hook, /, *args: object, **named: object) -> object:
-    """Call a hook; whatever it raises, `ActionFailed` aside, is a fault of the hook.
-
-    Even `SystemExit` is: it would end the flights of all others. An interrupt is the user's.
-    """
+async def call_action(kernel: Kernel, hook: Hook, /, *args: object, **named: object) -> object:
+    """Call an action; whatever it raises, `ActionFailed` aside, is a fault of the hook."""
     try:
         return await kernel.call_hook(hook, *args, **named)
     except (ActionFailed, Cancelled, GeneratorExit, KeyboardInterrupt):
         raise
-    except BaseException as error:
-        raise HookFault(f"hook {hook_name(hook)} raised {said(error)}", trace_of(error)) from error
+    except WHATEVER as error:
+        raise fault_of(hook, error) from error
+
+
+def fault_of(hook: Hook, error: BaseException) -> HookFault:
+    """Return what becomes of an error that a hook raised.
+
+    Even `SystemExit` is a fault: it would end the flights of all others. An interrupt is the user's.
+    """
+    if isinstance(error, ActionFailed):
+        reason = f"hook {hook_name(hook)} raised ActionFailed, which only an action may: {error}"
+    else:
+        reason = f"hook {hook_name(hook)} raised {said(error)}"
+    return HookFault(reason, trace_of(error))
 
 
 def said(error: BaseException) -> str:

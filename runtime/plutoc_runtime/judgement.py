@@ -10,7 +10,7 @@ from .capability import why_not
 from .errors import HookFault
 from .hooks import hook_name
 from .soundness import unsound
-from .status import Status, TripStatus
+from .status import COMPLETED, FAILED, STANDBY, Status, TripStatus
 from .verdict import Verdict
 
 if TYPE_CHECKING:
@@ -21,18 +21,24 @@ if TYPE_CHECKING:
 
 def apply(run: Run[Any], hook: Callable[..., object], verdict: object) -> Status:
     """Do as the verdict says; one that cannot be followed is a fault of the evaluator."""
-    mission, core, name = run.mission, run.core, hook_name(hook)
+    mission, core = run.mission, run.core
     if not isinstance(verdict, Verdict):
-        raise HookFault(f"evaluator {name} must return a Verdict, not {type(verdict).__name__}")
+        what = type(verdict).__name__
+        raise HookFault(f"evaluator {hook_name(hook)} must return a Verdict, not {what}")
     if mission.trips:
-        raise HookFault(f"evaluator {name} changed the mission's trips: that is what `add` is for")
+        raise HookFault(
+            f"evaluator {hook_name(hook)} changed the mission's trips: that is what `add` is for"
+        )
+    if verdict.ok and verdict.fail is None and verdict.asks_nothing:
+        return COMPLETED
+    name = hook_name(hook)
     redo, add = _listed(name, "redo", verdict.redo), _listed(name, "add", verdict.add)
     for line in _listed(name, "log", verdict.log):
         core.log(str(line), mission.name)
     if verdict.fail is not None or not (verdict.ok or redo or add):
         reason = "" if verdict.fail is None else str(verdict.fail).strip()
         core.transitions.judge_failed(mission, reason or f"{name} did not accept it")
-        return Status.FAILED
+        return FAILED
     for trip in redo:
         if trip not in mission.completed_trips:
             raise HookFault(
@@ -42,9 +48,9 @@ def apply(run: Run[Any], hook: Callable[..., object], verdict: object) -> Status
     added = tuple(_accepted(core, mission, name, trip) for trip in _once_each(add))
     _name(mission, added)
     if not (redo or added):
-        return Status.COMPLETED
+        return COMPLETED
     core.transitions.redo(mission, tuple(_once_each(redo)), added)
-    return Status.STANDBY
+    return STANDBY
 
 
 def _listed(evaluator: str, field: str, value: object) -> Sequence[Any]:

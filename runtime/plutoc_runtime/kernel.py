@@ -48,51 +48,63 @@ class ForeignAwait(RuntimeError):
     """A coroutine awaited what this kernel does not know."""
 
 
+Call = Callable[[], object]
+
+
 class Timer:
-    """A call at a time to come."""
+    """A call at a time to come that can still be cancelled."""
 
-    __slots__ = ("call",)
+    __slots__ = ("_call",)
 
-    def __init__(self, call: Callable[[], object]) -> None:
-        self.call: Callable[[], object] | None = call
+    def __init__(self, call: Call) -> None:
+        self._call: Call | None = call
+
+    def __call__(self) -> None:
+        if self._call is not None:
+            self._call()
+
+    @property
+    def cancelled(self) -> bool:
+        """Whether nobody wants it any more."""
+        return self._call is None
 
     def cancel(self) -> None:
         """Do not call after all."""
-        self.call = None
+        self._call = None
 
 
 class Task(Signal[T]):
     """A coroutine on its way; it is set when the coroutine ends."""
 
-    __slots__ = ("_coroutine", "_kernel", "_turn", "_waits_for", "key", "name")
+    __slots__ = ("_coroutine", "_kernel", "_waits_for", "key", "name", "turn")
 
     def __init__(
         self, kernel: Kernel, coroutine: Coroutine[Any, Any, T], key: Key, name: str
     ) -> None:
-        super().__init__()
+        self.is_set = False
+        self.error = self.waiter = self._value = self._watchers = None
         self._kernel, self._coroutine = kernel, coroutine
         self._waits_for: Signal[Any] | None = None
-        self._turn = 0
+        self.turn = 0
         """The number of its next turn; another one is not its any longer."""
         self.key, self.name = key, name
         kernel.tasks[self] = None
 
     def wake(self, _: object = None) -> None:
         """Go on, when its turn comes."""
-        self._turn = self._kernel.ready(self)
+        kernel = self._kernel
+        kernel.count = self.turn = turn = kernel.count + 1
+        heappush(kernel.ready, (self.key, turn, self))
 
-    def resume(self, turn: int) -> None:
-        """Go on, if this is its turn."""
-        if turn == self._turn and not self.is_set:
-            self._waits_for = None
-            self._step(self._coroutine.send, None)
-
-    def _step(self, advance: Callable[[Any], object], value: object) -> None:
+    def step(self, thrown: BaseException | None = None) -> None:
         """Let the coroutine run up to its next wait."""
         failed: BaseException | None = None
         returned: Any = None
         try:
-            waits_for = advance(value)
+            if thrown is None:
+                waits_for = self._coroutine.send(None)
+            else:
+                waits_for = self._coroutine.throw(thrown)
             while not isinstance(waits_for, Signal):
                 error = ForeignAwait(f"it awaited {type(waits_for).__name__}")
                 waits_for = self._coroutine.throw(error)
@@ -104,8 +116,15 @@ class Task(Signal[T]):
             failed = error
         else:
             self._waits_for = waits_for
-            waits_for.watch(self.wake)
+            if waits_for.waiter is None:
+                waits_for.waiter = self
+            else:
+                waits_for.watch(self.wake)
             return
+        self._end(returned, failed)
+
+    def _end(self, returned: T, failed: BaseException | None) -> None:
+        self.turn, self._waits_for = 0, None
         del self._kernel.tasks[self]
         if failed is None:
             self.set(returned)
@@ -118,11 +137,13 @@ class Task(Signal[T]):
         """Stop it where it waits, now."""
         if self.is_set:
             return
-        if self._waits_for is not None:
-            self._waits_for.unwatch(self.wake)
-            self._waits_for = None
-        self._turn = 0  # it may wait once more, to clean up: not for this any longer
-        self._step(self._coroutine.throw, Cancelled())
+        waits_for, self._waits_for = self._waits_for, None
+        if waits_for is not None:
+            waits_for.unwatch(self.wake)
+            if waits_for.waiter is self:
+                waits_for.waiter = None
+        self.turn = 0  # it may wait once more, to clean up: not for this any longer
+        self.step(Cancelled())
 
     async def ended(self) -> None:
         """Wait until it is over, even if it is cancelled."""
@@ -147,10 +168,13 @@ class Kernel:
         self.crashed: BaseException | None = None
         self.over = False
         """What is run for is done, or something crashed: no further event is taken."""
-        self._heap: list[tuple[float, int, Key, int, Timer]] = []
-        self._ready: list[tuple[Key, int, Task[Any]]] = []
-        self._last: Callable[[], None] | None = None
-        self._count = 0
+        self.count = 0
+        """How many events there were: what is asked for first comes first, all else being equal."""
+        self.ready: list[tuple[Key, int, Task[Any]]] = []
+        """The coroutines that go on at this instant, with the number of their turn."""
+        self.last: Callable[[], object] | None = None
+        """What is called when all else of this instant is done: the fleet's queue is served."""
+        self._heap: list[tuple[float, int, Key, int, Call]] = []
 
     def time(self) -> float:
         """Return the seconds since the start; asked between events it is later than `now`."""
@@ -161,23 +185,17 @@ class Kernel:
         """Seconds since midnight, local time."""
         raise NotImplementedError
 
-    def at(self, when: float, kind: Kind, key: Key, call: Callable[[], object]) -> Timer:
-        """Call this at a time; a time that has passed, or is none, means now."""
+    def at(self, when: float, kind: Kind, key: Key, call: Call) -> Timer:
+        """Call this at a time, unless it is cancelled; a time that has passed means now."""
         timer = Timer(call)
-        self._count += 1
-        now = self.now
-        heappush(self._heap, (max(now, when), kind, key, self._count, timer))
+        self.schedule(when, kind, key, timer)
         return timer
 
-    def ready(self, task: Task[Any]) -> int:
-        """Let a coroutine go on at this instant; return the number of its turn."""
-        self._count = turn = self._count + 1
-        heappush(self._ready, (task.key, turn, task))
-        return turn
-
-    def at_last(self, call: Callable[[], None]) -> None:
-        """Call this, the fleet's queue, when all else of this instant is done."""
-        self._last = call
+    def schedule(self, when: float, kind: Kind, key: Key, call: Call) -> None:
+        """Call this at a time, in any case; a time that has passed, or is none, means now."""
+        self.count = count = self.count + 1
+        now = self.now
+        heappush(self._heap, (when if when > now else now, kind, key, count, call))
 
     def spawn(self, coroutine: Coroutine[Any, Any, T], key: Key, name: str) -> Task[T]:
         """Set a coroutine on its way; it begins when its turn comes."""
@@ -237,26 +255,25 @@ class Kernel:
 
     def next_time(self) -> float | None:
         """Return the time of the next event to come; None: nothing will ever happen."""
-        if self._ready or self._last is not None:
+        if self.ready or self.last is not None:
             return self.now
-        while self._heap and self._heap[0][4].call is None:
-            heappop(self._heap)
-        return self._heap[0][0] if self._heap else None
+        heap = self._heap
+        while heap and isinstance(heap[0][4], Timer) and heap[0][4].cancelled:
+            heappop(heap)
+        return heap[0][0] if heap else None
 
     def drain(self) -> None:
         """Take all events of this instant, in order, and those that come of them."""
-        heap, ready = self._heap, self._ready
+        heap, ready, now = self._heap, self.ready, self.now
         while not self.over:
             if ready:
                 _, turn, task = heappop(ready)
-                task.resume(turn)
-            elif heap and heap[0][0] <= self.now and (heap[0][1] < _LAST or self._last is None):
-                timer = heappop(heap)[4]
-                call, timer.call = timer.call, None
-                if call is not None:
-                    call()
-            elif self._last is not None:
-                last, self._last = self._last, None
+                if turn == task.turn:
+                    task.step()
+            elif heap and heap[0][0] <= now and (heap[0][1] < _LAST or self.last is None):
+                heappop(heap)[4]()
+            elif self.last is not None:
+                last, self.last = self.last, None
                 last()
             else:
                 return

@@ -191,6 +191,8 @@ class Mission(Generic[AnyTrip]):
     @property
     def current(self) -> AnyTrip:
         """The trip that flies now, or flies next; when none is left, the one flown last."""
-        if not (self.trips or self.completed_trips):
+        if self.trips:
+            return self.trips[0]
+        if not self.completed_trips:
             raise MissionFailed("no trip is left to fly")
-        return self.trips[0] if self.trips else self.completed_trips[-1]
+        return self.completed_trips[-1]

@@ -39,7 +39,7 @@ def settle(
     if lie is not None:
         raise HookFault(f"modifier {name} returned {returned.value}, but {lie}")
     if returned is Status.FAILED:
-        abort(run.core, run.state, f"modifier {name} failed the trip")
+        abort(run.state, f"modifier {name} failed the trip")
     if returned is not run.mission.status:
         reason = f"modifier {name} failed the mission" if returned is Status.FAILED else ""
         run.core.transitions.modify(run.mission, returned, reason)

@@ -15,7 +15,10 @@ if TYPE_CHECKING:
 Able = Callable[["Drone"], bool]
 """Says whether a drone may fly the trip now."""
 
-Choice = tuple["Drone", str]
+Why = Callable[[], str]
+"""Says why a drone was chosen; most often nobody asks."""
+
+Choice = tuple["Drone", Why]
 """The drone that gets a trip, and why it was chosen."""
 
 
@@ -97,4 +100,4 @@ class Asked:
             raise HookFault(
                 f"policy {self._name} must return one of the candidates or None, not {drone!r}"
             )
-        return drone, f"chosen by {self._name}"
+        return drone, lambda: f"chosen by {self._name}"

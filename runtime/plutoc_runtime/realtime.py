@@ -14,7 +14,7 @@ from threading import Thread
 from types import CodeType
 from typing import Any, NoReturn, TypeVar, cast
 
-from .kernel import WHATEVER, Kernel, Key, Kind, Timer
+from .kernel import WHATEVER, Call, Kernel, Key, Kind
 from .signals import Signal
 
 T = TypeVar("T")
@@ -42,14 +42,14 @@ class RealTime(Kernel):
         local = time.localtime()
         return local.tm_hour * 3600.0 + local.tm_min * 60.0 + local.tm_sec
 
-    def at(self, when: float, kind: Kind, key: Key, call: Callable[[], object]) -> Timer:
+    def schedule(self, when: float, kind: Kind, key: Key, call: Call) -> None:
         """Call this at a time; a hook may ask for it between the kernel's own events."""
         if self._draining:
-            return super().at(when, kind, key, call)
-        self.now = self.time()
-        timer = super().at(when, kind, key, call)
-        self._arm()
-        return timer
+            super().schedule(when, kind, key, call)
+        else:
+            self.now = self.time()
+            super().schedule(when, kind, key, call)
+            self._arm()
 
     def post(self, call: Callable[..., object], *args: object) -> None:
         """Tell the kernel something from outside: that is an instant of its own."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from itertools import islice
 from typing import Any, Generic, NamedTuple, TypeVar, overload
 
@@ -50,8 +49,7 @@ class SoFar(Sequence[R]):
         return islice(self._list, self._count)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Results(Generic[M, T]):
+class Results(NamedTuple, Generic[M, T]):
     """What an evaluator gets to judge."""
 
     new: tuple[Result[M, T], ...]

@@ -6,13 +6,13 @@ from collections.abc import Callable, Coroutine, Sequence
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from .context import Context
-from .errors import ActionFailed, HookFault, MissionFailed
-from .hooks import call_hook, hook_name, trace_of
+from .errors import MissionFailed
+from .hooks import fault_of, hook_name
+from .kernel import WHATEVER, Cancelled
 from .model import Mission
 from .status import Status
 
 if TYPE_CHECKING:
-    from .core import Core
     from .kernel import Key, Task
     from .state import State
 
@@ -24,31 +24,29 @@ Way = Coroutine[Any, Any, Status]
 class Run(Generic[M]):
     """One mission, or one branch of it, and everything that a step may use."""
 
-    __slots__ = ("core", "key", "mission", "state")
+    __slots__ = ("core", "key", "mission", "state", "task")
 
-    def __init__(self, mission: M, core: Core, state: State, key: Key) -> None:
-        self.mission, self.core, self.state, self.key = mission, core, state, key
+    def __init__(self, mission: M, state: State, key: Key) -> None:
+        self.mission, self.state, self.key = mission, state, key
+        self.core = state.core
+        self.task: Task[Status] | None = None
+        """The coroutine of this branch."""
 
     async def hook(self, hook: Callable[..., object], *args: object) -> object:
         """Call a hook of the app's with these arguments; its faults end the mission."""
-        if self.state.goes_round(self.core.kernel.now):
+        kernel = self.core.kernel
+        if self.state.goes_round(kernel.now):
             raise MissionFailed(
                 f"it goes round in its graph for ever without time passing, by hook {hook_name(hook)}"
             )
         try:
-            return await self._called(hook, args)
-        except HookFault as fault:
-            self.core.log(fault.detail, self.mission.name)
+            return await kernel.call_hook(hook, *args)
+        except (Cancelled, GeneratorExit, KeyboardInterrupt):
             raise
-
-    async def _called(self, hook: Callable[..., object], args: Sequence[object]) -> object:
-        try:
-            return await call_hook(self.core.kernel, hook, *args)
-        except ActionFailed as error:
-            reason = (
-                f"hook {hook_name(hook)} raised ActionFailed, which only an action may: {error}"
-            )
-            raise HookFault(reason, trace_of(error)) from error
+        except WHATEVER as error:
+            fault = fault_of(hook, error)
+            self.core.log(fault.detail, self.mission.name)
+            raise fault from error
 
     @property
     def context(self) -> Context:
@@ -59,14 +57,16 @@ class Run(Generic[M]):
         self, status: Status, branches: Sequence[Callable[[Run[M], Status], Way]]
     ) -> list[Task[Status]]:
         """Send a clone of the mission into each branch; the gate that calls this closes them."""
-        return [
-            self.core.kernel.spawn(
-                branch(Run(self.mission, self.core, self.state, (*self.key, number)), status),
-                (*self.key, number),
-                f"{self.mission.name}: branch {number + 1}",
-            )
-            for number, branch in enumerate(branches)
-        ]
+        return [self._branch(status, branch, number) for number, branch in enumerate(branches)]
+
+    def _branch(
+        self, status: Status, branch: Callable[[Run[M], Status], Way], number: int
+    ) -> Task[Status]:
+        key = (*self.key, number)
+        run = Run(self.mission, self.state, key)
+        name = f"{self.mission.name}: branch {number + 1}"
+        run.task = self.core.kernel.spawn(branch(run, status), key, name)
+        return run.task
 
 
 Branch = Callable[[Run[M], Status], Way]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Generator
-from typing import Any, Generic, TypeVar, cast
+from typing import Any, Generic, Protocol, TypeVar, cast
 
 T = TypeVar("T")
 
@@ -11,35 +11,49 @@ Watcher = Callable[[Any], object]
 """What is called, with the signal, when it has happened."""
 
 
+class Waiter(Protocol):
+    """Who awaits a signal: a task."""
+
+    def wake(self, _: object = None) -> None:
+        """It has happened: go on."""
+        ...
+
+
 class Signal(Generic[T]):
     """Something that happens once. Await it for its value; any number of coroutines may."""
 
-    __slots__ = ("_value", "_watchers", "error", "is_set")
+    __slots__ = ("_value", "_watchers", "error", "is_set", "waiter")
 
     def __init__(self) -> None:
         self.is_set = False
-        self._value: T | None = None
         self.error: BaseException | None = None
+        self.waiter: Waiter | None = None
+        """Who awaits it; most signals are awaited by one task, and the others watch."""
+        self._value: T | None = None
         self._watchers: list[Watcher] | None = None
 
     def set(self, value: T) -> None:
         """It happened. Only the first time counts."""
         if not self.is_set:
-            self._value = value
-            self._happened()
+            self.is_set, self._value = True, value
+            if self.waiter is not None:
+                self.waiter.wake()
+            if self._watchers is not None:
+                self._tell()
 
     def fail(self, error: BaseException) -> None:
         """It will never happen: whoever awaits it gets the error."""
         if not self.is_set:
-            self.error = error
-            self._happened()
+            self.is_set, self.error = True, error
+            if self.waiter is not None:
+                self.waiter.wake()
+            if self._watchers is not None:
+                self._tell()
 
-    def _happened(self) -> None:
-        self.is_set = True
+    def _tell(self) -> None:
         watchers, self._watchers = self._watchers, None
-        if watchers is not None:
-            for watcher in watchers:
-                watcher(self)
+        for watcher in watchers or ():
+            watcher(self)
 
     def watch(self, watcher: Watcher) -> None:
         """Call this with the signal when it happens; at once if it has."""
@@ -58,7 +72,7 @@ class Signal(Generic[T]):
     @property
     def watched(self) -> bool:
         """Whether anybody waits for it."""
-        return bool(self._watchers)
+        return self.waiter is not None or bool(self._watchers)
 
     def result(self) -> T:
         """Return the value, or raise the error; only once it is set."""
@@ -69,4 +83,6 @@ class Signal(Generic[T]):
     def __await__(self) -> Generator[Signal[Any], None, T]:
         if not self.is_set:
             yield self
-        return self.result()
+        if self.error is not None:
+            raise self.error
+        return cast("T", self._value)

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from .status import Status, TripStatus
 
 if TYPE_CHECKING:
+    from .core import Core
     from .flight import Flight
     from .kernel import Task
     from .model import Drone, Item, Mission
@@ -17,33 +17,49 @@ HOOKS_AT_ONCE = 100_000
 """No graph has so many blocks in a row: a mission that calls so many hooks is in a loop."""
 
 
-@dataclass(slots=True, kw_only=True, eq=False)
 class State:
     """One living mission."""
 
-    mission: Mission[Any]
-    ending: Callable[[State], None]
-    """Told once when the mission is doomed."""
-    task: Task[Status] | None = None
-    """The coroutine that takes it through its graph."""
-    allocated: Drone | None = None
-    """The drone that waits to be launched."""
-    flight: Flight | None = None
-    """The flight that was launched last."""
-    carries: Item | None = None
-    """The item aboard `carrier`, from `pick_item` to `release_item`."""
-    carrier: Drone | None = None
-    """The drone that the mission keeps while it carries an item."""
-    first_start: float | None = None
-    """When its first trip was let go."""
-    last_action_end: float | None = None
-    """When its previous action in this round was done."""
-    waited: set[tuple[str, str, int, int]] | None = None
-    """(block, trip, round, attempt) of every delay that is over."""
-    doom: str | None = None
-    """Why it must end whatever its graph says: a failure that no retry can mend."""
-    hooks_at: tuple[float, int] = (0.0, 0)
-    """When its last hook was called, and how many were at that instant."""
+    __slots__ = (
+        "allocated",
+        "carrier",
+        "carries",
+        "core",
+        "doom",
+        "ending",
+        "first_start",
+        "flight",
+        "hooks_at",
+        "last_action_end",
+        "mission",
+        "task",
+        "waited",
+    )
+
+    def __init__(self, core: Core, mission: Mission[Any], ending: Callable[[State], None]) -> None:
+        self.core, self.mission = core, mission
+        self.ending = ending
+        """Told once when the mission is doomed."""
+        self.task: Task[Status] | None = None
+        """The coroutine that takes it through its graph."""
+        self.allocated: Drone | None = None
+        """The drone that waits to be launched."""
+        self.flight: Flight | None = None
+        """The flight that was launched last."""
+        self.carries: Item | None = None
+        """The item aboard `carrier`, from `pick_item` to `release_item`."""
+        self.carrier: Drone | None = None
+        """The drone that the mission keeps while it carries an item."""
+        self.first_start: float | None = None
+        """When its first trip was let go."""
+        self.last_action_end: float | None = None
+        """When its previous action in this round was done."""
+        self.waited: set[tuple[str, str, int, int]] | None = None
+        """(block, trip, round, attempt) of every delay that is over."""
+        self.doom: str | None = None
+        """Why it must end whatever its graph says: a failure that no retry can mend."""
+        self.hooks_at = (0.0, 0)
+        """When its last hook was called, and how many were at that instant."""
 
     def end(self, reason: str) -> None:
         """Take it out of its graph, FAILED; only the first reason counts."""

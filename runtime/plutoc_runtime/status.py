@@ -43,20 +43,12 @@ class DroneStatus(Enum):
     OFFLINE = "OFFLINE"
 
 
-IN_GRAPH = (
-    Status.UNEXECUTED,
-    Status.RUNNING,
-    Status.STANDBY,
-    Status.COMPLETED,
-    Status.FAILED,
-)
+UNEXECUTED, RUNNING, STANDBY = Status.UNEXECUTED, Status.RUNNING, Status.STANDBY
+COMPLETED, FAILED = Status.COMPLETED, Status.FAILED
+"""The five by names of their own: to look one up on its class takes many times as long."""
+
+IN_GRAPH = (UNEXECUTED, RUNNING, STANDBY, COMPLETED, FAILED)
 """The statuses that edges carry, in declared order."""
 
-WORST_FIRST = (
-    Status.FAILED,
-    Status.STANDBY,
-    Status.COMPLETED,
-    Status.RUNNING,
-    Status.UNEXECUTED,
-)
+WORST_FIRST = (FAILED, STANDBY, COMPLETED, RUNNING, UNEXECUTED)
 """What a gate that waits for all passes on: the worst of what arrived."""

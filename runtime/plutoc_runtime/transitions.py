@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from .status import Status, TripStatus
+from .status import COMPLETED, FAILED, RUNNING, STANDBY, UNEXECUTED, Status, TripStatus
 from .words import shown
 
 if TYPE_CHECKING:
     from .kernel import Kernel
     from .model import Drone, Mission, Trip
+    from .policy import Why
     from .results import ResultStore
     from .trace import Trace
 
@@ -23,7 +24,7 @@ class Transitions:
 
     def create(self, mission: Mission[Any]) -> None:
         """A mission of the user's trips exists."""
-        mission.status = Status.UNEXECUTED
+        mission.status = UNEXECUTED
         time = self._time
         for trip in mission.trips:
             trip.now = time
@@ -31,19 +32,19 @@ class Transitions:
             names = [trip.name for trip in mission.trips]
             self._trace.note("mission.created", mission=mission.name, trips=names)
 
-    def allocate(self, mission: Mission[Any], trip: Trip, drone: Drone, why: str) -> None:
+    def allocate(self, mission: Mission[Any], trip: Trip, drone: Drone, why: Why) -> None:
         """A trip has its drone."""
         trip.drone = drone
         if self._trace.live:
             self._trace.note(
-                "trip.allocated", mission=mission.name, trip=trip.name, drone=drone.id, why=why
+                "trip.allocated", mission=mission.name, trip=trip.name, drone=drone.id, why=why()
             )
 
     def launch(self, mission: Mission[Any], trip: Trip, drone: Drone) -> None:
         """A trip's drone leaves for it."""
-        trip.status, trip.now = TripStatus.EXECUTING, self._time
+        trip.status, trip.now = _EXECUTING, self._time
         trip.start_time, trip.end_time, trip.reason = self._kernel.now, None, ""
-        mission.status, mission.reason = Status.RUNNING, ""
+        mission.status, mission.reason = RUNNING, ""
         mission.attempts += 1
         drone.trips += 1
         if self._trace.live:
@@ -58,18 +59,18 @@ class Transitions:
 
     def complete(self, mission: Mission[Any], trip: Trip, value: object) -> None:
         """A trip has ended well."""
-        trip.status, trip.end_time = TripStatus.COMPLETED, self._kernel.now
+        trip.status, trip.end_time = _COMPLETED, self._kernel.now
         mission.trips.remove(trip)
         mission.completed_trips.append(trip)
-        mission.status = Status.STANDBY if mission.trips else Status.COMPLETED
+        mission.status = STANDBY if mission.trips else COMPLETED
         self._results.add(mission, trip, value)
         if self._trace.live:
             self._ended(mission, trip, "trip.completed", {"value": shown(value)})
 
     def fail(self, mission: Mission[Any], trip: Trip, reason: str) -> None:
         """A trip has failed: it stays first in the list."""
-        trip.status, trip.end_time, trip.reason = TripStatus.FAILED, self._kernel.now, reason
-        mission.status, mission.reason = Status.FAILED, reason
+        trip.status, trip.end_time, trip.reason = _FAILED, self._kernel.now, reason
+        mission.status, mission.reason = FAILED, reason
         if self._trace.live:
             self._ended(mission, trip, "trip.failed", {"reason": reason})
 
@@ -89,7 +90,7 @@ class Transitions:
     def put_back(self, mission: Mission[Any]) -> None:
         """The trip that failed will be tried again."""
         trip = mission.current
-        if trip.status is TripStatus.WAITING:  # it failed before it could be launched
+        if trip.status is _WAITING:  # it failed before it could be launched
             trip.attempt += 1
         trip.reset()
         self._standby(mission)
@@ -139,7 +140,7 @@ class Transitions:
 
     def judge_failed(self, mission: Mission[Any], reason: str) -> None:
         """A finished mission was judged and found wanting."""
-        mission.status, mission.reason = Status.FAILED, reason
+        mission.status, mission.reason = FAILED, reason
         if self._trace.live:
             self._trace.note("mission.judged", mission=mission.name, reason=reason)
 
@@ -149,4 +150,8 @@ class Transitions:
             self._trace.note(event, mission=mission.name, status=status.value, reason=reason)
 
     def _standby(self, mission: Mission[Any]) -> None:
-        mission.status, mission.reason = Status.STANDBY, ""
+        mission.status, mission.reason = STANDBY, ""
+
+
+_WAITING, _EXECUTING = TripStatus.WAITING, TripStatus.EXECUTING
+_COMPLETED, _FAILED = TripStatus.COMPLETED, TripStatus.FAILED

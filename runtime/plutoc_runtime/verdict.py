@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
     from .model import Trip
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Verdict:
+class Verdict(NamedTuple):
     """An evaluator's judgement. It never sets a status: the runtime does, from this."""
 
     ok: bool = True
@@ -23,3 +21,11 @@ class Verdict:
     """Lines for the console."""
     fail: str | None = None
     """The mission has FAILED, and this is why."""
+
+    @property
+    def asks_nothing(self) -> bool:
+        """Whether there is nothing to fly and nothing to write: by far the most frequent."""
+        return self.redo is _NOTHING and self.add is _NOTHING and self.log is _NOTHING
+
+
+_NOTHING = ()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from .flight import abort
@@ -11,56 +12,32 @@ from .kernel import Kernel, Key, Kind
 
 if TYPE_CHECKING:
     from .flight import Flight
+    from .kernel import Task
     from .model import Trip
     from .run import Run
-    from .status import Status
 
 
-class Limit:
-    """How long a trip may take, from when on, and how to say that it took longer."""
+Limit = tuple[float, float, Callable[["Trip", float], str]]
+"""From when on, how long a trip may take, and what is said, of trip and time, if it takes longer."""
 
-    __slots__ = ("flight", "key", "overdue", "since", "span")
-
-    def __init__(self, since: float, span: float, overdue: Callable[[Trip, float], str]) -> None:
-        self.since, self.span, self.overdue = since, span, overdue
-        self.flight: Flight | None = None
-        """What is watched; None: nothing any longer."""
-        self.key: Key = ()
-
-    @property
-    def idle(self) -> bool:
-        """Whether nothing is left to watch."""
-        return self.flight is None or self.flight.is_set
-
-    def expire(self) -> None:
-        """Fail the trip, if it is still watched."""
-        flight = self.flight
-        if flight is not None and not flight.is_set:
-            abort(flight.core, flight.state, self.overdue(flight.trip, self.span))
+Guard = tuple["Flight", "Task[Any] | None", Key, Limit]
+"""What is watched, for whom, its place among simultaneous events, and the limit."""
 
 
-async def watch(run: Run[Any], *limits: Limit | None) -> Status:
-    """Wait for the end of the flight, and say how the mission stands then.
+def watch(run: Run[Any], *limits: Limit | None) -> Flight:
+    """Return the flight, to be awaited: its end is how the mission stands then.
 
-    A limit fails the trip; a trip that ends at that very instant has ended first.
+    A limit fails the trip; a trip that ends at that very instant has ended first. Nothing is watched
+    any longer once the branch that asked for it is over.
     """
     flight = run.state.flight
     if flight is None:
         raise RuntimeError(f"mission {run.mission.name} has no flight to watch")
-    if flight.is_set:
-        return flight.result()
     for number, limit in enumerate(limits):
         if limit is not None:
-            limit.flight = flight
-            limit.key = (*run.key, number) if number else run.key
-            run.core.deadlines.watch(limit)
-    try:
-        return await flight
-    except BaseException:  # called off: whoever goes on decides what is watched now
-        for limit in limits:
-            if limit is not None:
-                limit.flight = None
-        raise
+            key = (*run.key, number) if number else run.key
+            run.core.deadlines.watch((flight, run.task, key, limit))
+    return flight
 
 
 class Deadlines:
@@ -73,37 +50,46 @@ class Deadlines:
 
     def __init__(self, kernel: Kernel) -> None:
         self._kernel = kernel
-        self._queues: dict[float, deque[Limit]] = {}
+        self._queues: dict[float, deque[Guard]] = {}
         self._armed: set[float] = set()
 
-    def watch(self, limit: Limit) -> None:
-        """Expire a limit at its time, unless it is idle by then."""
-        kernel, span = self._kernel, limit.span
-        if limit.since != kernel.now:  # it began before: it may expire before those that wait
-            kernel.at(limit.since + span, Kind.TIMER, limit.key, limit.expire)
+    def watch(self, guard: Guard) -> None:
+        """Fail the flight at its limit, unless it is over by then, or whoever asked for it."""
+        since, span, _ = guard[3]
+        if since != self._kernel.now:  # it began before: it may expire before those that wait
+            self._schedule(guard)
             return
         queue = self._queues.get(span)
         if queue is None:
             queue = self._queues[span] = deque()
-        while queue and queue[0].idle:
+        while queue and queue[0][0].is_set:
             queue.popleft()
-        queue.append(limit)
+        queue.append(guard)
         if span not in self._armed:
             self._arm(span)
 
+    def _schedule(self, guard: Guard) -> None:
+        _, _, key, (since, span, _) = guard
+        self._kernel.schedule(since + span, Kind.TIMER, key, partial(_expire, guard))
+
     def _arm(self, span: float) -> None:
         self._armed.add(span)
-        until = self._queues[span][0].since + span
-        self._kernel.at(until, Kind.TIMER, (), lambda: self._due(span))
+        until = self._queues[span][0][3][0] + span
+        self._kernel.schedule(until, Kind.TIMER, (), partial(self._due, span))
 
     def _due(self, span: float) -> None:
-        """Expire what is due, each in its own place among the events of this instant."""
-        kernel, queue = self._kernel, self._queues[span]
+        """Let expire what is due, each in its own place among the events of this instant."""
+        now, queue = self._kernel.now, self._queues[span]
         self._armed.remove(span)
-        while queue and (queue[0].idle or queue[0].since + span <= kernel.now):
-            limit = queue.popleft()
-            kernel.at(limit.since + span, Kind.TIMER, limit.key, limit.expire)
+        while queue and (queue[0][0].is_set or queue[0][3][0] + span <= now):
+            self._schedule(queue.popleft())
         if queue:
             self._arm(span)
         else:
             del self._queues[span]
+
+
+def _expire(guard: Guard) -> None:
+    flight, task, _, (_, span, overdue) = guard
+    if not (flight.is_set or (task is not None and task.is_set)):
+        abort(flight.state, overdue(flight.trip, span))

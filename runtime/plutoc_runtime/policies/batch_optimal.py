@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING
 
 from .assignment import assign
@@ -60,10 +61,8 @@ class Batch:
             pairs = assign([self._drones_for(offer) for offer in waiting])
         else:
             pairs = self._from_the_drones(waiting)
-        why = (
-            f"least total way for {len(waiting)} waiting trips and {len(self._places)} free drones"
-        )
-        return [pair and (pair[1], f"{why}: {pair[0]:.1f} m away") for pair in pairs]
+        among = len(waiting), len(self._places)
+        return [pair and (pair[1], partial(_why, *among, pair[0])) for pair in pairs]
 
     def _drones_for(self, offer: _Offer) -> Iterator[tuple[float, Drone]]:
         """Give the drones that are able to fly a trip, the closest first."""
@@ -82,6 +81,10 @@ class Batch:
                 away, offer = pair
                 shared[offer.index] = away, drone
         return shared
+
+
+def _why(waiting: int, free: int, away: float) -> str:
+    return f"least total way for {waiting} waiting trips and {free} free drones: {away:.1f} m away"
 
 
 def _trips_for(drone: Drone, goals: Places[_Offer]) -> Iterator[tuple[float, _Offer]]:

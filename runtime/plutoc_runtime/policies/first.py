@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from .ordered import Ordered
+from .ordered import Ordered, Rank
 
 if TYPE_CHECKING:
     from ..model import Drone
@@ -16,5 +16,5 @@ def first() -> Pool:
     return Ordered(lambda drone: (drone.index, 0), _why)
 
 
-def _why(drone: Drone, free: int) -> str:
+def _why(free: int, _: Rank) -> str:
     return f"first of {free} free in the fleet's order"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from .ordered import Ordered
+from .ordered import Ordered, Rank
 
 if TYPE_CHECKING:
     from ..model import Drone
@@ -16,5 +16,5 @@ def least_used() -> Pool:
     return Ordered(lambda drone: (drone.trips, drone.index), _why)
 
 
-def _why(drone: Drone, free: int) -> str:
-    return f"least used of {free} free: {drone.trips} trips so far"
+def _why(free: int, rank: Rank) -> str:
+    return f"least used of {free} free: {rank[0]} trips so far"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 from .grid import Places
@@ -35,4 +36,8 @@ class Nearest:
         away, drone = self._places.closest(trip.source or trip.target, able)
         if drone is None:
             return None
-        return drone, f"nearest of {len(self._places)} free: {away:.1f} m away"
+        return drone, partial(_why, len(self._places), away)
+
+
+def _why(free: int, away: float) -> str:
+    return f"nearest of {free} free: {away:.1f} m away"

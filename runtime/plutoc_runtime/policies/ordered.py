@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from heapq import heapify, heappop, heappush
 from typing import TYPE_CHECKING
 
@@ -14,44 +15,48 @@ if TYPE_CHECKING:
 Rank = tuple[int, int]
 """Drones of a lower rank come first; no two have the same."""
 
-_SLACK = 64
-"""Entries of drones that are gone are dropped when they are so many more than those that stay."""
-
-
 class Ordered:
     """A pool that gives each trip the first able drone by rank."""
 
-    def __init__(self, rank: Callable[[Drone], Rank], why: Callable[[Drone, int], str]) -> None:
+    def __init__(self, rank: Callable[[Drone], Rank], why: Callable[[int, Rank], str]) -> None:
         self._rank, self._why = rank, why
         self._heap: list[tuple[Rank, Drone]] = []
         self._free: dict[Drone, Rank] = {}
+        self._most = 64
 
     def add(self, drone: Drone) -> None:
         """A drone is free."""
-        rank = self._free[drone] = self._rank(drone)
+        self._free[drone] = rank = self._rank(drone)
         heappush(self._heap, (rank, drone))
+        if len(self._heap) > self._most:
+            self._tidy()
 
     def remove(self, drone: Drone) -> None:
         """A drone is not free any more; its entry is dropped when it comes up."""
         self._free.pop(drone, None)
-        if len(self._heap) > 2 * len(self._free) + _SLACK:
-            self._heap = [(rank, drone) for drone, rank in self._free.items()]
-            heapify(self._heap)
 
     def choose(self, trip: Trip, able: Able) -> Choice | None:
         """Return the first drone that is able; those before it stay."""
         heap, free = self._heap, self._free
-        passed: list[tuple[Rank, Drone]] = []
+        passed: list[tuple[Rank, Drone]] | None = None
         found: Choice | None = None
-        while heap and found is None:
-            entry = heap[0]
-            rank, drone = entry
+        while heap:
+            rank, drone = heap[0]
             if free.get(drone) is not rank:
                 heappop(heap)  # it has been given away since
             elif able(drone):
-                found = drone, self._why(drone, len(free))
+                found = drone, partial(self._why, len(free), rank)
+                break
+            elif passed is None:
+                passed = [heappop(heap)]
             else:
                 passed.append(heappop(heap))
-        for entry in passed:
+        for entry in passed or ():
             heappush(heap, entry)
         return found
+
+    def _tidy(self) -> None:
+        """Drop the entries of drones that are gone."""
+        self._heap = [(rank, drone) for drone, rank in self._free.items()]
+        heapify(self._heap)
+        self._most = 64 + 2 * len(self._heap)

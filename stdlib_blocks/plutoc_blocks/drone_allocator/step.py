@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.errors import MissionFailed
 from plutoc_runtime.kernel import FLEET, Kind
-from plutoc_runtime.status import Status
+from plutoc_runtime.status import FAILED, STANDBY, Status
 from plutoc_runtime.words import duration
 
 if TYPE_CHECKING:
@@ -27,26 +27,25 @@ async def allocate_drone(
     core, mission, state = run.core, run.mission, run.state
     if not mission.trips:
         raise MissionFailed(mission.reason or "no trip is left to fly")
-    if status is Status.FAILED:
+    if status is FAILED:
         core.transitions.put_back(mission)
-        status = Status.STANDBY
+        status = STANDBY
     trip = mission.trips[0]
     if state.allocated is not None:
-        core.transitions.allocate(mission, trip, state.allocated, "allocated before")
-        return status
-    if state.carrier is not None:
-        core.transitions.allocate(mission, trip, state.carrier, "carries the mission's item")
+        core.transitions.allocate(mission, trip, state.allocated, _before)
+    elif state.carrier is not None:
         state.allocated = state.carrier
-        return status
-    request = core.queue.enter(mission.trips, policy, priority)
-    try:
-        if allocate_within is not None:
-            await _no_longer_than(run, request, allocate_within)
-        state.allocated = drone = await request
-    finally:
-        if not request.is_set:
-            core.queue.leave(request)
-    core.transitions.allocate(mission, trip, drone, request.why)
+        core.transitions.allocate(mission, trip, state.carrier, _carries)
+    else:
+        request = core.queue.enter(mission.trips, policy, priority)
+        try:
+            if allocate_within is not None:
+                await _no_longer_than(run, request, allocate_within)
+            state.allocated = await request
+        finally:
+            if not request.is_set:
+                core.queue.leave(request)
+        core.transitions.allocate(mission, trip, state.allocated, request.why)
     return status
 
 
@@ -58,3 +57,11 @@ async def _no_longer_than(run: Run[Any], request: Request, seconds: float) -> No
             f"trip {request.trip.name} had no drone within {duration(seconds)}: "
             f"waits for a drone ({queue.standing()})"
         )
+
+
+def _before() -> str:
+    return "allocated before"
+
+
+def _carries() -> str:
+    return "carries the mission's item"

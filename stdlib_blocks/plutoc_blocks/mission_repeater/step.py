@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.status import Status
+from plutoc_runtime.status import STANDBY, Status
 
 if TYPE_CHECKING:
     from plutoc_runtime.run import Run
@@ -16,4 +16,4 @@ def repeat_mission(run: Run[Any], status: Status, *, repeat: int | bool) -> Stat
         return status
     run.state.last_action_end = None
     run.core.transitions.begin_again(run.mission)
-    return Status.STANDBY
+    return STANDBY

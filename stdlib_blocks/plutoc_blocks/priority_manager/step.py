@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.errors import MissionFailed
-from plutoc_runtime.status import Status
+from plutoc_runtime.status import STANDBY, Status
 
 if TYPE_CHECKING:
     from plutoc_runtime.run import Run
@@ -23,4 +23,4 @@ def raise_priority(run: Run[Any], status: Status, *, max_attempts: int, priority
         return status
     trip.priority = priority + 1
     run.core.transitions.put_back(mission)
-    return Status.STANDBY
+    return STANDBY

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.watching import Limit, watch
+from plutoc_runtime.watching import watch
 from plutoc_runtime.words import duration
 
 if TYPE_CHECKING:
     from plutoc_runtime.model import Trip
     from plutoc_runtime.run import Run
     from plutoc_runtime.status import Status
+    from plutoc_runtime.watching import Limit
 
 
 async def watch_timer(
@@ -25,7 +26,7 @@ def timer_limit(run: Run[Any], *, default: float | None, safe_time: float | None
     flight, safe = run.state.flight, default if safe_time is None else safe_time
     if flight is None or not safe:
         return None
-    return Limit(flight.launched_at, safe, _too_long)
+    return flight.launched_at, safe, _too_long
 
 
 def _too_long(trip: Trip, safe: float) -> str:

@@ -151,9 +151,9 @@ def test_a_leg_is_one_event() -> None:
 
     async def flight() -> int:
         await navigation.takeoff("cf1", 1.2, order())
-        before = kernel._count
+        before = kernel.count
         await navigation.go_to("cf1", (20, 20, 1.2))
-        return kernel._count - before
+        return kernel.count - before
 
     assert fly(kernel, flight()) == 2  # it arrives; its coroutine goes on
     assert kernel.now > 20_000
