@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import os
 import sys
 from collections.abc import Iterator
 from functools import cache
@@ -14,6 +15,7 @@ from plutoc.emit.scan import Written, written_imports
 from plutoc.frozen import frozen
 
 RUNTIME = plutoc_runtime.__name__
+_HOME = os.path.dirname(plutoc_runtime.__file__)
 
 
 class EmbedError(Exception):
@@ -55,6 +57,8 @@ class ImportFrom:
 @cache
 def load(name: str) -> Module | None:
     """Return an installed module's text; None where there is no such module."""
+    if is_within(name, RUNTIME) and os.path.isdir(_HOME):
+        return _of_runtime(name)
     try:
         spec = find_spec(name)
     except ModuleNotFoundError:  # what should be a package on the way there is none
@@ -71,6 +75,19 @@ def load(name: str) -> Module | None:
         text=data.decode("utf-8"),
         is_package=spec.submodule_search_locations is not None,
     )
+
+
+def _of_runtime(name: str) -> Module | None:
+    """Return a module of the runtime: where that is known, Python need not search."""
+    path = os.path.join(_HOME, *name.split(".")[1:])
+    is_package = os.path.isdir(path)
+    file = os.path.join(path, "__init__.py") if is_package else f"{path}.py"
+    try:
+        with open(file, "rb") as opened:
+            text = opened.read().decode("utf-8")
+    except FileNotFoundError:
+        return None
+    return Module(name=name, file=file, text=text, is_package=is_package)
 
 
 def is_within(name: str, package: str) -> bool:
@@ -90,7 +107,7 @@ def imports_from(module: Module) -> tuple[ImportFrom, ...]:
     Imports inside functions count too. A plain `import` of such a module is refused: it would bind
     a name that a carried module does not have.
     """
-    written = written_imports(module.text) if is_within(module.name, RUNTIME) else None
+    written = written_imports(module.text, strange=not is_within(module.name, RUNTIME))
     return tuple(_imports(module) if written is None else _scanned(module, written))
 
 

@@ -2,15 +2,23 @@
 
 from __future__ import annotations
 
-import tomllib
+import re
 from collections.abc import Mapping
 from pathlib import PurePosixPath
 
 from plutoc.frozen import frozen
-from plutoc_runtime.files.dotted import line_of_long_key
 
 _LARGEST = 1 << 24
 """In bytes."""
+
+
+_PRINTED = r"[ !#-\[\]-~]*"
+_AS_WRITTEN = re.compile(
+    rf'(?:\#{_PRINTED}\n)?app = "(?P<app>\w+)"\n\n'
+    rf'\[versions\]\nplutoc = "{_PRINTED}"\n(?P<others>(?:\w+ = "{_PRINTED}"\n)*)\n'
+    rf'\[files\]\n(?P<files>(?:"[\w./-]+" = "[0-9a-f]{{64}}"\n)*)',
+    re.ASCII,
+)
 
 
 class DamagedLock(Exception):
@@ -33,6 +41,25 @@ def read_lock(data: bytes) -> Lock:
     """
     if len(data) > _LARGEST:
         raise DamagedLock("it is larger than any that we write")
+    return _as_written(data) or _read(data)
+
+
+def _as_written(data: bytes) -> Lock | None:
+    """Read what is just as we write it; to import a reader of TOML takes longer than that."""
+    match = _AS_WRITTEN.fullmatch(data.decode("utf-8", "replace").replace("\r\n", "\n"))
+    if match is None or match["others"]:
+        return None
+    lines = [line.strip('"').split('" = "') for line in match["files"].splitlines()]
+    files = dict(lines)
+    odd = any(part in ("", ".", "..") for path in files for part in path.split("/"))
+    return None if odd or len(files) < len(lines) else Lock(app=match["app"], files=files)
+
+
+def _read(data: bytes) -> Lock:
+    import tomllib
+
+    from plutoc_runtime.files.dotted import line_of_long_key
+
     try:
         text = data.decode()
         if line_of_long_key(text) is not None:

@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import errno
 import os
+import stat
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from hashlib import sha256
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 from types import MappingProxyType
 
 from plutoc.diagnostic import Diagnostic, Rejected
@@ -139,27 +140,47 @@ def _texts(
     wanted |= asked
     wanted |= {path: None for path in recorded if path not in {*package.owned, *package.once}}
     texts: dict[str, tuple[bytes | None, str | None]] = {}
+    passed: set[str] = set()
     for path, text in wanted.items():
-        obstacle = _obstacle(folder, path)
+        obstacle = _obstacle(folder, path, passed)
         if obstacle is None:
-            target = folder / path
-            texts[path] = (target.read_bytes() if target.exists() else None, text)
+            texts[path] = (_bytes(folder / path), text)
         else:
             what = "a file" if obstacle == folder / path else "a folder"
             found.append(errors.in_the_way(place, str(obstacle), _kind(obstacle), what))
     return texts
 
 
-def _obstacle(folder: Path, path: str) -> Path | None:
-    """Return what a file cannot be written through: a link, or what is not a folder."""
-    target = folder
-    *parents, name = PurePosixPath(path).parts
-    for parent in parents:
-        target /= parent
-        if target.is_symlink() or (target.exists() and not target.is_dir()):
-            return target
-    target /= name
-    return target if target.is_symlink() or (target.exists() and not target.is_file()) else None
+def _bytes(path: Path) -> bytes | None:
+    try:
+        with open(path, "rb") as file:
+            return file.read()
+    except FileNotFoundError:
+        return None
+
+
+def _obstacle(folder: Path, path: str, passed: set[str]) -> Path | None:
+    """Return what a file cannot be written through: a link, or what is not a folder.
+
+    The folders that were found to be none are added to `passed`, and not looked at again.
+    """
+    *parents, _ = path.split("/")
+    for number in range(len(parents)):
+        parent = "/".join(parents[: number + 1])
+        if parent not in passed:
+            if not _is_free_for(folder / parent, stat.S_ISDIR):
+                return folder / parent
+            passed.add(parent)
+    target = folder / path
+    return None if _is_free_for(target, stat.S_ISREG) else target
+
+
+def _is_free_for(path: Path, is_right: Callable[[int], bool]) -> bool:
+    """Say whether there is nothing at a place, or what is right there."""
+    try:
+        return is_right(os.lstat(path).st_mode)
+    except (FileNotFoundError, NotADirectoryError):
+        return True
 
 
 def _kind(path: Path) -> str:
@@ -170,6 +191,8 @@ def _kind(path: Path) -> str:
 
 def write(changes: Changes, *, save: Save = Path.write_bytes) -> None:
     """Make the changes, all or none; raise `CannotWrite` where the disk refuses."""
+    if not changes.files:
+        return
     folder = changes.folder
     made: list[Path] = []
     try:
@@ -273,7 +296,7 @@ def _replace(changes: Changes, aside: Path) -> None:
 
 def _refuse_what_came_since(folder: Path, path: str) -> None:
     """What was no link when we compared may be one now, and lead anywhere."""
-    obstacle = folder if folder.is_symlink() else _obstacle(folder, path)
+    obstacle = folder if folder.is_symlink() else _obstacle(folder, path, set())
     if obstacle is not None:
         reason = f"{_kind(obstacle)} was put there meanwhile"
         raise FileExistsError(errno.EEXIST, reason, str(obstacle))
