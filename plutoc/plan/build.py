@@ -8,6 +8,7 @@ from plutoc.check.model import Checked
 from plutoc.graph.model import START, Edge
 from plutoc.plan.chart import Chart, Charts, Kind, Spot
 from plutoc.plan.dispatch import dispatch
+from plutoc.plan.entries import untangled
 from plutoc.plan.model import Body, Branch, Call, End, Join, Plan
 from plutoc.plan.shape import Shape, shape
 from plutoc.plan.structure import Around, Hopeless, Unstructured, Writer
@@ -25,19 +26,22 @@ def build(checked: Checked) -> Plan:
 def _body(charts: Charts, chart: Chart, names: dict[str, int]) -> Body:
     found = shape(chart)
     steps = {spot: _steps(charts, chart, spot, names) for spot in found.order}
-    return _structured(found, steps)
+    return _structured(found, steps) or dispatch(found, steps)
 
 
-def _structured(found: Shape, steps: Mapping[Spot, Body]) -> Body:
-    """Write the body by loops and switches if that is possible, else as a dispatch."""
-    if found.reducible:
-        for copies in (False, True):
-            writer = Writer(shape=found, steps=steps, copies=copies)
-            try:
-                return writer.body(found.chart.entry, Around())
-            except (Unstructured, Hopeless):
-                continue
-    return dispatch(found, steps)
+def _structured(found: Shape, steps: Mapping[Spot, Body]) -> Body | None:
+    """Write the body by loops and switches, if that is possible."""
+    one_entry = untangled(found)
+    if one_entry is None:
+        return None
+    steps = {spot: steps[spot.original] for spot in one_entry.order}
+    for copies in (False, True):
+        writer = Writer(shape=one_entry, steps=steps, copies=copies)
+        try:
+            return writer.body(one_entry.chart.entry, Around())
+        except (Unstructured, Hopeless):
+            continue
+    return None
 
 
 def _steps(charts: Charts, chart: Chart, spot: Spot, names: dict[str, int]) -> Body:

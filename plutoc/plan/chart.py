@@ -7,7 +7,7 @@ anew in every body: a block may stand in two of them, and get other statuses in 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import Enum
 
 from plutoc.block import Gate
@@ -36,6 +36,13 @@ class Spot:
     """The block's, or the gate's; for a fork that of the block before it."""
     branches: tuple[Edge, ...] = ()
     gate: str = ""
+    copy: int = 0
+    """Counts the places that the source has once and that are written more than once."""
+
+    @property
+    def original(self) -> Spot:
+        """The spot that it is a copy of, or itself."""
+        return replace(self, copy=0) if self.copy else self
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

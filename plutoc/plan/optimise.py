@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 from plutoc.plan.model import Plan
+from plutoc.plan.passes.cases import cases
 from plutoc.plan.passes.decided import decided
 from plutoc.plan.passes.impossible import impossible
 from plutoc.plan.passes.watch import watch
 
-PASSES: tuple[Callable[[Plan], Plan], ...] = (impossible, decided, watch)
+PASSES: tuple[Callable[[Plan], Plan], ...] = (impossible, decided, cases, watch)
 """Each has its reasons in its file. A pass may rely on those before it."""
 
 BUILT = "built"

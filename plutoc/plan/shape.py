@@ -35,8 +35,8 @@ class Shape:
     """The same, with the arrows back."""
     loops: Mapping[Spot, tuple[Spot, ...]]
     """For each spot at which a loop begins, the spots with an arrow back to it."""
-    reducible: bool
-    """Is every loop entered at one place only?"""
+    entering: tuple[tuple[Spot, Spot], ...]
+    """Arrows back to a loop that is entered elsewhere as well; none, if every loop has one entry."""
 
     def is_below(self, spot: Spot, other: Spot) -> bool:
         """Is a spot reached only through the other, or the other itself?"""
@@ -103,7 +103,7 @@ def shape(chart: Chart) -> Shape:
         ),
         loops={order[head]: tuple(order[i] for i in lasts) for head, lasts in loops.items()},
         # in this order an arrow that leads back, and not to where all ways pass, enters a loop
-        reducible=all(one < two for one, two in forward),
+        entering=tuple((order[one], order[two]) for one, two in forward if one >= two),
     )
 
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
-from plutoc.plan.bodies import breaks, falls, switch, without_last_continue
+from plutoc.plan.bodies import breaks, continues, falls, switch, without_last_continue
 from plutoc.plan.chart import Kind, Spot, Way
 from plutoc.plan.model import Arm, Body, Break, Continue, End, Goto, Loop, Step, Switch
 from plutoc.plan.shape import Shape, ahead, round_of
@@ -22,6 +22,8 @@ ARMS = 40
 """Arms in arms; Python itself indents no more than a hundred times."""
 MERGES = 40
 """Places at which the ways of one switch meet; each is written in a call of its own."""
+COPIES = 3
+"""Blocks that may be written once more where a jump cannot be written."""
 PATIENCE = 50
 """How often each spot may be tried in one place or another before we give up."""
 
@@ -61,7 +63,7 @@ class Writer:
     steps: Mapping[Spot, Body]
     """What happens at each spot."""
     copies: bool = False
-    """May a block be written twice, if nothing but the end follows it?"""
+    """May a few blocks be written twice, if a jump follows them?"""
     tried: int = 0
     rounds: dict[Spot, frozenset[Spot]] = field(default_factory=dict)
     reached: dict[Spot, frozenset[Spot]] = field(default_factory=dict)
@@ -105,8 +107,8 @@ class Writer:
         if early:
             arms = [self.arm(way, spot, around) for way in early]
             written = switch([*arms, Arm(statuses=_asked(last), body=(), to=last.to)])
-        elif last.asked:
-            written = (Switch(arms=(Arm(statuses=last.asked, body=(), to=last.to),)),)
+        else:
+            written = _only(last, ())
         if self.inlined(last, spot, around):
             return written, last.target
         return written + self.jump(last.target, around), None
@@ -131,8 +133,24 @@ class Writer:
             within = replace(around, follow=last)
             written = self.switching(ways, merges[:-1], spot, within)
         except Unstructured:
-            return self.apart(ways, merges, spot, around), None
+            return self.otherwise(ways, merges, spot, around)
         return written, last if falls(written) else None
+
+    def otherwise(
+        self, ways: Sequence[Way], merges: Sequence[Spot], spot: Spot, around: Around
+    ) -> tuple[Body, Spot | None]:
+        """Write ways that cannot all go on at the last merge: apart, or one merge for each of them."""
+        try:
+            return self.apart(ways, merges, spot, around), None
+        except Unstructured:
+            if not self.copies:
+                raise
+        for one in merges if len(merges) > 1 else ():
+            try:
+                return self.merging(ways, [m for m in merges if m != one], spot, around)
+            except Unstructured:
+                continue
+        raise Unstructured
 
     def apart(
         self, ways: Sequence[Way], merges: Sequence[Spot], spot: Spot, around: Around
@@ -203,8 +221,8 @@ class Writer:
     def reaches(self, way: Way, spot: Spot) -> bool:
         return way.target is not None and spot in self.ahead(way.target)
 
-    def jump(self, target: Spot | None, around: Around) -> Body:
-        """Write how a spot is reached that is written elsewhere."""
+    def jump(self, target: Spot | None, around: Around, copies: int = COPIES) -> Body:
+        """Write how a spot is reached that is written elsewhere; `copies` may be written again."""
         if target is None:
             return (End(),)
         if target in around.labels:
@@ -215,10 +233,18 @@ class Writer:
             return (Continue(),)
         if target == around.out:
             return (Break(),)
+        if not self.copies or copies == 0 or target.kind is Kind.FORK:
+            raise Unstructured
         ways = self.shape.chart.ways[target]
-        if self.copies and target.kind is Kind.BLOCK and all(way.target is None for way in ways):
-            return (*self.steps[target], End())
-        raise Unstructured
+        rest = (copies - 1) // len(ways)
+        arms = [
+            Arm(statuses=_asked(way), body=self.jump(way.target, around, rest), to=way.to)
+            for way in ways
+        ]
+        return (
+            *self.steps[target],
+            *(switch(arms) if len(arms) > 1 else _only(ways[0], arms[0].body)),
+        )
 
     def loop(self, head: Spot, around: Around) -> tuple[Body, Spot | None]:
         """Write a loop; return the spot to go on with behind it."""
@@ -238,6 +264,10 @@ class Writer:
                 written = without_last_continue(self.plain(head, within))
             except Unstructured:
                 continue
+            if not falls(written) and not continues(written):  # all arrows back led to copies
+                if breaks(written):
+                    continue
+                return written, None
             looped: Body = (Loop(head=head.name, body=written),)
             if not breaks(written):
                 return looped, None
@@ -290,6 +320,13 @@ class Writer:
         if spot not in self.reached:
             self.reached[spot] = ahead(self.shape, spot)
         return self.reached[spot]
+
+
+def _only(way: Way, behind: Body) -> Body:
+    """Write the only way from a spot, with the guard that the source has there."""
+    if not way.asked:
+        return behind
+    return (Switch(arms=(Arm(statuses=way.asked, body=(), to=way.to),)), *behind)
 
 
 def _asked(way: Way) -> tuple[Status, ...]:

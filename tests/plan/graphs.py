@@ -46,6 +46,19 @@ TWO_ENTRIES = routes(
     b="STANDBY > c, COMPLETED > end",
     c="STANDBY > b, FAILED > end",
 )
+MAZE = routes(
+    a="STANDBY > b, COMPLETED > c, FAILED > d",
+    b="STANDBY > c, COMPLETED > d, FAILED > e",
+    c="STANDBY > d, COMPLETED > b, FAILED > e",
+    d="STANDBY > e, COMPLETED > c, FAILED > b",
+    e="STANDBY > b, COMPLETED > d, FAILED > end",
+)
+STEPS = routes(
+    a="STANDBY > b, FAILED > end",
+    b="STANDBY > c, COMPLETED > a",
+    c="STANDBY > d, COMPLETED > b, FAILED > a",
+    d="STANDBY > c, COMPLETED > b, FAILED > a",
+)
 MEETING = routes(
     a="STANDBY > b, COMPLETED > c, FAILED > end",
     b="STANDBY > d",
@@ -129,6 +142,8 @@ GRAPHS = {
     **SOUND,
     "nested loops": NESTED_LOOPS,
     "a loop with two entries": TWO_ENTRIES,
+    "a maze": MAZE,
+    "loops left to each loop around them": STEPS,
     "ways that meet again": MEETING,
     "two meetings, one in an arm": MEETING_APART,
     "ways that cross": CROSSING,

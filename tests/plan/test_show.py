@@ -251,60 +251,137 @@ plan app
 
 
 def test_a_loop_with_two_entries() -> None:
-    """What has no structure is a dispatch.
-
-    What one arrow leads to stays where it is led to.
-    """
+    """Who enters it at the second one finds a copy of what stands between the two."""
     assert shown("a loop with two entries") == """
 plan app
-  dispatch from create
-    case create
-      call create
-      call a
-      switch
-        COMPLETED -> b: goto b
-        FAILED -> c: go on
-      goto c
-    case c
+  call create
+  call a
+  switch
+    FAILED -> c:
       call c
       switch
-        STANDBY -> b: goto b
-        FAILED -> end: go on
-      end
-    case b
+        FAILED -> end: end
+        STANDBY -> b: go on
+    COMPLETED -> b: go on
+  loop b
+    call b
+    switch
+      COMPLETED -> end: end
+      STANDBY -> c: go on
+    call c
+    switch
+      FAILED -> end: end
+      STANDBY -> b: go on
+"""
+
+
+def test_loops_left_to_each_loop_around_them() -> None:
+    """Python's `break` leaves one loop only: the head of another one is written before it."""
+    assert shown("loops left to each loop around them") == """
+plan app
+  call create
+  loop a
+    call a
+    switch
+      FAILED -> end: end
+      STANDBY -> b: go on
+    loop b
       call b
       switch
-        STANDBY -> c: goto c
-        COMPLETED -> end: go on
-      end
+        COMPLETED -> a: break
+        STANDBY -> c: go on
+      loop c
+        call c
+        switch
+          COMPLETED -> b: break
+          FAILED -> a:
+            call a
+            switch
+              STANDBY -> b: break
+              FAILED -> end: go on
+            end
+          STANDBY -> d: go on
+        call d
+        switch
+          COMPLETED -> b: break
+          FAILED -> a:
+            call a
+            switch
+              STANDBY -> b: break
+              FAILED -> end: go on
+            end
+          STANDBY -> c: go on
 """
 
 
 def test_a_loop_left_to_two_places_that_others_come_to_as_well() -> None:
-    """Python has no `break` to two places."""
+    """Python has no `break` to two places: one of them is written inside the loop once more."""
     assert shown("a loop left to two places that others come to as well") == """
+plan app
+  call create
+  loop a
+    call a
+    switch
+      STANDBY -> b:
+        loop b
+          call b
+          switch
+            COMPLETED -> a: break
+            STANDBY -> d:
+              call d
+              switch
+                STANDBY -> a: break
+                FAILED -> end: go on
+              end
+            FAILED -> b: go on
+        continue
+      FAILED -> d: go on
+    call d
+    switch
+      FAILED -> end: end
+      STANDBY -> a: go on
+"""
+
+
+def test_a_maze() -> None:
+    """What would take many copies is a dispatch."""
+    assert shown("a maze") == """
 plan app
   dispatch from create
     case create
       call create
-      goto a
-    case a
       call a
       switch
         STANDBY -> b: goto b
+        COMPLETED -> c: goto c
         FAILED -> d: go on
-      goto d
-    case b
-      call b
-      switch
-        FAILED -> b: goto b
-        COMPLETED -> a: goto a
-        STANDBY -> d: go on
       goto d
     case d
       call d
       switch
-        STANDBY -> a: goto a
+        STANDBY -> e: goto e
+        COMPLETED -> c: goto c
+        FAILED -> b: go on
+      goto b
+    case b
+      call b
+      switch
+        STANDBY -> c: goto c
+        COMPLETED -> d: goto d
+        FAILED -> e: go on
+      goto e
+    case c
+      call c
+      switch
+        STANDBY -> d: goto d
+        COMPLETED -> b: goto b
+        FAILED -> e: go on
+      goto e
+    case e
+      call e
+      switch
+        STANDBY -> b: goto b
+        COMPLETED -> d: goto d
         FAILED -> end: go on
       end
 """

@@ -26,12 +26,12 @@ from plutoc.plan.model import (
 from plutoc.plan.verify import verify
 from plutoc_runtime.status import Status
 from tests.check.graphs import checked
-from tests.plan.graphs import GRAPHS, TWO_ENTRIES, routes
+from tests.plan.graphs import GRAPHS, MAZE, routes
 from tests.plan.plans import structured
 
 GRAPH = checked(routes(a="STANDBY > b, COMPLETED > end, FAILED > end", b="STANDBY > a"))
 FORKED = structured(GRAPHS["a fork before the first launch"])
-FREE = structured(TWO_ENTRIES)
+FREE = structured(MAZE)
 
 
 def call(name: str) -> Call:
