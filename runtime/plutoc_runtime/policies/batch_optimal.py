@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
+from heapq import heapify, heappop
+from itertools import repeat
+from math import dist
 from typing import TYPE_CHECKING
 
 from .assignment import assign
-from .grid import FEW, Places
+from .grid import Places
 
 if TYPE_CHECKING:
     from ..model import Drone, Point, Trip
@@ -24,13 +27,11 @@ def batch_optimal() -> BatchPool:
     return Batch()
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class _Offer:
-    """A trip that waits."""
+@dataclass(slots=True, eq=False)
+class _Goal:
+    """Where a trip begins that waits."""
 
     index: int
-    goal: Point
-    able: Able
 
 
 class Batch:
@@ -53,40 +54,52 @@ class Batch:
 
     def share(self, offers: Sequence[tuple[Trip, Able]]) -> Sequence[Choice | None]:
         """Return a drone, or None, for each trip: for as many as can be, and the way is shortest."""
-        waiting = [
-            _Offer(index=index, goal=trip.source or trip.target, able=able)
-            for index, (trip, able) in enumerate(offers)
-        ]
-        if len(waiting) <= len(self._places):
-            pairs = assign([self._drones_for(offer) for offer in waiting])
+        goals = [trip.source or trip.target for trip, _ in offers]
+        if len(offers) <= len(self._places):
+            waiting = zip(goals, offers, strict=True)
+            pairs = assign([self._drones_for(goal, able) for goal, (_, able) in waiting])
         else:
-            pairs = self._from_the_drones(waiting)
-        among = len(waiting), len(self._places)
+            pairs = self._from_the_drones(goals, offers)
+        among = len(offers), len(self._places)
         return [pair and (pair[1], partial(_why, *among, pair[0])) for pair in pairs]
 
-    def _drones_for(self, offer: _Offer) -> Iterator[tuple[float, Drone]]:
+    def _drones_for(self, goal: Point, able: Able) -> Iterator[tuple[float, Drone]]:
         """Give the drones that are able to fly a trip, the closest first."""
-        return (pair for pair in self._places.outward(offer.goal) if offer.able(pair[1]))
+        return (pair for pair in self._places.outward(goal) if able(pair[1]))
 
-    def _from_the_drones(self, waiting: Sequence[_Offer]) -> list[tuple[float, Drone] | None]:
+    def _from_the_drones(
+        self, goals: Sequence[Point], offers: Sequence[tuple[Trip, Able]]
+    ) -> list[tuple[float, Drone] | None]:
         """Give each drone a trip: there are more trips than drones."""
         drones = sorted(self._places, key=lambda drone: drone.index)
-        goals: Places[_Offer] = Places(FEW if len(drones) > _SOME else len(waiting))
-        for offer in waiting:
-            goals.add(offer, offer.goal)
-        pairs = assign([_trips_for(drone, goals) for drone in drones])
-        shared: list[tuple[float, Drone] | None] = [None] * len(waiting)
-        for drone, pair in zip(drones, pairs, strict=True):
+        closest = _by_squares(goals) if len(drones) > _SOME else partial(_in_order, goals)
+
+        def trips_for(drone: Drone) -> Iterator[tuple[float, int]]:
+            return (pair for pair in closest(drone.location) if offers[pair[1]][1](drone))
+
+        shared: list[tuple[float, Drone] | None] = [None] * len(offers)
+        for drone, pair in zip(drones, assign([trips_for(drone) for drone in drones]), strict=True):
             if pair is not None:
-                away, offer = pair
-                shared[offer.index] = away, drone
+                away, index = pair
+                shared[index] = away, drone
         return shared
+
+
+def _in_order(goals: Sequence[Point], place: Point) -> Iterator[tuple[float, int]]:
+    """Give the distances and the numbers of all goals, the closest first."""
+    found = list(zip(map(dist, goals, repeat(place)), range(len(goals)), strict=False))
+    heapify(found)  # not sorted: often only the first few are wanted
+    while found:
+        yield heappop(found)
+
+
+def _by_squares(goals: Sequence[Point]) -> Callable[[Point], Iterator[tuple[float, int]]]:
+    """Return what does the same faster, once it has been made."""
+    kept: Places[_Goal] = Places()
+    for index, goal in enumerate(goals):
+        kept.add(_Goal(index), goal)
+    return lambda place: ((away, goal.index) for away, goal in kept.outward(place))
 
 
 def _why(waiting: int, free: int, away: float) -> str:
     return f"least total way for {waiting} waiting trips and {free} free drones: {away:.1f} m away"
-
-
-def _trips_for(drone: Drone, goals: Places[_Offer]) -> Iterator[tuple[float, _Offer]]:
-    """Give the trips that a drone is able to fly, the closest first."""
-    return (pair for pair in goals.outward(drone.location) if pair[1].able(drone))

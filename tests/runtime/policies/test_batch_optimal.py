@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from plutoc_runtime.model import Drone, Point
 from plutoc_runtime.policies.batch_optimal import batch_optimal
 from plutoc_runtime.policy import Able, BatchPool
-from tests.runtime.policies.fleets import anyone, fleet, trip
+from tests.runtime.policies.fleets import anyone, fleet, told, trip
 
 PLACE = st.tuples(st.integers(0, 9).map(float), st.integers(0, 9).map(float), st.just(0.0))
 
@@ -97,7 +97,7 @@ def test_it_is_as_short_as_scipy_makes_it() -> None:
 def test_of_two_drones_that_are_equally_far_it_is_the_first_of_the_fleet() -> None:
     drones = fleet((0.0, 0.0, 0.0), (2.0, 0.0, 0.0))
     why = "least total way for 1 waiting trips and 2 free drones: 1.0 m away"
-    assert pool_of(drones[::-1]).choose(trip((1.0, 0.0, 0.0)), anyone) == (drones[0], why)
+    assert told(pool_of(drones[::-1]).choose(trip((1.0, 0.0, 0.0)), anyone)) == (drones[0], why)
 
 
 def test_of_two_trips_that_are_equally_far_it_is_the_one_that_came_first() -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from plutoc_runtime.policies.nearest import nearest
-from tests.runtime.policies.fleets import anyone, drone, fleet, trip
+from tests.runtime.policies.fleets import anyone, drone, fleet, told, trip
 
 
 def test_the_closest_gets_the_trip_and_it_is_said_why() -> None:
@@ -11,7 +11,7 @@ def test_the_closest_gets_the_trip_and_it_is_said_why() -> None:
     drones = fleet((0.0, 0.0, 0.0), (9.0, 0.0, 0.0), (4.0, 0.0, 0.0))
     for one in drones:
         pool.add(one)
-    assert pool.choose(trip((7.0, 0.0, 0.0)), anyone) == (
+    assert told(pool.choose(trip((7.0, 0.0, 0.0)), anyone)) == (
         drones[1],
         "nearest of 3 free: 2.0 m away",
     )
@@ -22,7 +22,7 @@ def test_the_distance_is_to_where_the_trip_begins() -> None:
     drones = fleet((0.0, 0.0, 0.0), (9.0, 0.0, 0.0))
     for one in drones:
         pool.add(one)
-    choice = pool.choose(trip((9.0, 0.0, 0.0), source=(1.0, 0.0, 0.0)), anyone)
+    choice = told(pool.choose(trip((9.0, 0.0, 0.0), source=(1.0, 0.0, 0.0)), anyone))
     assert choice == (drones[0], "nearest of 2 free: 1.0 m away")
 
 
@@ -31,9 +31,9 @@ def test_who_is_not_able_is_passed_over_and_counts_as_free() -> None:
     drones = fleet((0.0, 0.0, 0.0), (9.0, 0.0, 0.0))
     for one in drones:
         pool.add(one)
-    choice = pool.choose(trip((9.0, 0.0, 0.0)), lambda drone: drone is drones[0])
+    choice = told(pool.choose(trip((9.0, 0.0, 0.0)), lambda drone: drone is drones[0]))
     assert choice == (drones[0], "nearest of 2 free: 9.0 m away")
-    assert pool.choose(trip((9.0, 0.0, 0.0)), lambda drone: False) is None
+    assert told(pool.choose(trip((9.0, 0.0, 0.0)), lambda drone: False)) is None
 
 
 def test_of_two_that_are_equally_far_it_is_the_first_of_the_fleet() -> None:
@@ -42,7 +42,10 @@ def test_of_two_that_are_equally_far_it_is_the_first_of_the_fleet() -> None:
     late, early = drone(5, (2.0, 0.0, 0.0)), drone(1, (0.0, 0.0, 0.0))
     pool.add(late)
     pool.add(early)
-    assert pool.choose(trip((1.0, 0.0, 0.0)), anyone) == (early, "nearest of 2 free: 1.0 m away")
+    assert told(pool.choose(trip((1.0, 0.0, 0.0)), anyone)) == (
+        early,
+        "nearest of 2 free: 1.0 m away",
+    )
 
 
 def test_a_drone_that_is_given_away_is_not_given_again() -> None:
@@ -51,9 +54,9 @@ def test_a_drone_that_is_given_away_is_not_given_again() -> None:
     for one in drones:
         pool.add(one)
     pool.remove(drones[0])
-    assert pool.choose(trip((0.0, 0.0, 0.0)), anyone) == (
+    assert told(pool.choose(trip((0.0, 0.0, 0.0)), anyone)) == (
         drones[1],
         "nearest of 1 free: 9.0 m away",
     )
     pool.remove(drones[1])
-    assert pool.choose(trip((0.0, 0.0, 0.0)), anyone) is None
+    assert told(pool.choose(trip((0.0, 0.0, 0.0)), anyone)) is None
