@@ -33,7 +33,7 @@ def branches(both: Both, moved: Sequence[Reroute]) -> Iterator[Change]:
     before, after = _limits(both.old), _limits(both.new)
     for one in moved:
         was, now = Counter(both.old.called(one.before)), Counter(one.after)
-        stays = [name for name in dict.fromkeys(one.after) if name in was]
+        stays = [name for name in now if name in was]
         if not (one.forks and stays):
             continue
         spans = places(both.old, one.old, one.statuses), places(both.new, one.new, one.statuses)

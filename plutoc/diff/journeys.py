@@ -59,10 +59,24 @@ def reroutes(both: Both) -> tuple[Reroute, ...]:
 
 
 def journeys(both: Both, moved: Sequence[Reroute]) -> Iterator[Change]:
-    """Tell what comes next for missions that went elsewhere before."""
-    for one in moved:
-        if not (one.forks and {*both.old.called(one.before)} & {*one.after}):
-            yield _told(both, one)
+    """Tell what comes next for missions that went elsewhere before.
+
+    Where a block has left one place for another, what comes behind it now needs no saying.
+    """
+    straight = [one for one in moved if not (one.forks and _stays(both, one))]
+    steps = [_steps_between(both, one) for one in straight]
+    came = {added[0] for added, _ in steps if len(added) == 1}
+    went = {both.old.called(removed)[0] for _, removed in steps if len(removed) == 1}
+    for one, (added, removed) in zip(straight, steps, strict=True):
+        spans = places(both.old, one.old, one.statuses), places(both.new, one.new, one.statuses)
+        if one.new.name in came & went:
+            continue
+        if added:
+            yield words.step_added(both, one, added, spans)
+        elif removed:
+            yield words.step_removed(both, one, removed, spans)
+        else:
+            yield words.rerouted(both, one, spans)
 
 
 def gained(both: Both) -> Iterator[Change]:
@@ -106,16 +120,28 @@ def _with(one: Reroute, statuses: tuple[Status, ...]) -> Reroute:
     return Reroute(old=one.old, new=one.new, statuses=known, before=one.before, after=one.after)
 
 
-def _told(both: Both, one: Reroute) -> Change:
+def _stays(both: Both, one: Reroute) -> bool:
+    """Say whether a mission is still somewhere where it was before: then branches are told."""
+    return not {*both.old.called(one.before)}.isdisjoint(one.after)
+
+
+def _steps_between(both: Both, one: Reroute) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Return the blocks that missions pass in between now, or those that they passed before."""
     status = one.statuses[0]
-    spans = places(both.old, one.old, one.statuses), places(both.new, one.new, one.statuses)
-    steps = _steps(both.new, one.after, status, both.old.known(one.before))
-    if steps:
-        return words.step_added(both, one, steps, spans)
-    steps = _steps(both.old, one.before, status, both.new.known(one.after))
-    if steps:
-        return words.step_removed(both, one, steps, spans)
-    return words.rerouted(both, one, spans)
+    added = _steps(both.new, one.after, status, both.old.known(one.before))
+    removed = _steps(both.old, one.before, status, both.new.known(one.after))
+    if not (added or removed) and _retries(both.old, one.before):
+        # whatever comes instead, that is what matters
+        removed = () if _retries(both.new, one.after) else one.before
+    if added and removed:  # one block or two have moved, and all between them has not
+        return (added, ()) if len(added) <= len(removed) else ((), removed)
+    return added, removed
+
+
+def _retries(side: Side, names: tuple[str, ...]) -> bool:
+    """Say whether missions come to a block that puts their failed trips back, and nowhere else."""
+    node = side.graph.node.get(names[0]) if len(names) == 1 else None
+    return node is not None and node.block.retries
 
 
 def _steps(

@@ -1,131 +1,172 @@
 """Which block of the new app is which block of the old one.
 
-A name and a kind that both have are the same block. What is left over may have been renamed: it is
-the same if it is declared alike and stands alike among its neighbours, which may have been renamed,
-too. So colours are handed on along the arrows until no more blocks can be told apart.
+A name and a kind that both have are the same block. What is left over may have been renamed. So we
+go along the arrows from what is matched already: a neighbour that is declared alike, and comes by an
+arrow that carries the same, is the same block, and its neighbours are next.
 """
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping
+from collections import Counter
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
 
 from plutoc.check.flow import ordered
 from plutoc.check.model import Checked
+from plutoc.frozen import frozen
 from plutoc.graph.model import END, START, Graph, Node
-
-_MOST_ROUNDS = 64
-"""So many arrows from a block that both have, a renamed one can be recognised."""
 
 Pairs = Mapping[str, str]
 """Of each block that both have: its old name, and its new one."""
-_Colours = dict[str, int]
-_Numbers = dict[Hashable, int]
+_Groups = dict[Hashable, list[str]]
+_Neighbours = Mapping[str, tuple[str, ...]]
+_MOST_SWEEPS, _MOST_NEIGHBOURS = 8, 200
+"""Of large apps with little in common we do not try everything."""
 
 
 def pairs(old: Checked, new: Checked) -> Pairs:
     """Return the blocks that both have, in the order of the old source."""
-    found: dict[str, str] = {}
+    matching = _Matching(old=old, new=new, found={}, taken={})
     for node in old.graph.nodes:
         other = new.graph.node.get(node.name)
         if other and _kind(other) == _kind(node):
-            found[node.name] = node.name
-    _match_alike(old, new, found)
-    _match_nearby(old.graph, new.graph, found)
-    taken = set(found.values())
+            matching.match(node.name, node.name)
+    for alike in (_declared, _declared_but_hooks):
+        if not matching.complete:
+            _along_arrows(matching, alike)
+    if not matching.complete:
+        _nearby(matching)
     for name in old.graph.node:  # it has become another kind
-        if name not in found and name in new.graph.node and name not in taken:
-            found[name] = name
-    return {name: found[name] for name in old.graph.node if name in found}
+        if name not in matching.found and name in new.graph.node and name not in matching.taken:
+            matching.match(name, name)
+    return {name: matching.found[name] for name in old.graph.node if name in matching.found}
 
 
-def _match_alike(old: Checked, new: Checked, found: dict[str, str]) -> None:
-    """Match what is declared alike and stands alike."""
-    if len(found) in (len(old.graph.nodes), len(new.graph.nodes)):
-        return
-    known: _Numbers = {}
-    mine = _first_colours(old.graph, found, known)
-    theirs = _first_colours(new.graph, {name: name for name in found.values()}, known)
-    told_apart = 0
-    for _ in range(_MOST_ROUNDS):
-        mine, theirs = _handed_on(old, mine, known), _handed_on(new, theirs, known)
-        colours = len({*mine.values(), *theirs.values()})
-        if colours == told_apart:
-            break
-        told_apart = colours
-    candidates: dict[int, list[str]] = {}
-    taken = set(found.values())
-    for name in new.graph.node:
-        if name not in taken:
-            candidates.setdefault(theirs[name], []).append(name)
-    for name in old.graph.node:
-        if name not in found and candidates.get(mine[name]):
-            found[name] = candidates[mine[name]].pop(0)
+@frozen
+class _Matching:
+    """What is matched so far."""
+
+    old: Checked
+    new: Checked
+    found: dict[str, str]
+    taken: dict[str, str]
+
+    @property
+    def complete(self) -> bool:
+        """Whether one of the apps has no block left."""
+        return len(self.found) in (len(self.old.graph.nodes), len(self.new.graph.nodes))
+
+    def match(self, old: str, new: str) -> None:
+        """Take two blocks for the same."""
+        self.found[old] = new
+        self.taken[new] = old
 
 
-def _first_colours(graph: Graph, known_names: Pairs, known: _Numbers) -> _Colours:
-    """Give each block a colour: what is matched already has one of its own in both apps."""
+def _along_arrows(matching: _Matching, alike: Callable[[Node], Hashable]) -> None:
+    """Match neighbours of what is matched: first those of which there is one only."""
+    known = [(START, START), (END, END), *matching.found.items()]
+    ahead = list(reversed(known))
 
-    def first(node: Node) -> Hashable:
-        return known_names.get(node.name) or (_kind(node), _values(node))
+    def extend(doubtful: bool) -> None:
+        while ahead:
+            before = ahead.pop()
+            for pair in _alike_at(matching, before, alike, doubtful):
+                matching.match(*pair)
+                known.append(pair)
+                ahead.append(pair)
+            doubtful = False
 
-    return {node.name: _number(first(node), known) for node in graph.nodes}
-
-
-def _handed_on(checked: Checked, colours: _Colours, known: _Numbers) -> _Colours:
-    """Mix each block's colour with those around it, and with what the arrows carry."""
-    around: dict[str, list[int]] = {name: [] for name in colours}
-    for edge in checked.graph.edges:
-        carried = ordered(checked.carries[edge])
-        source, target = colours.get(edge.source, START), colours.get(edge.target, END)
-        if edge.target in around:
-            around[edge.target].append(_number(("from", source, carried), known))
-        if edge.source in around:
-            around[edge.source].append(_number(("to", target, carried), known))
-    return {
-        name: _number((colour, tuple(sorted(around[name]))), known)
-        for name, colour in colours.items()
-    }
+    extend(doubtful=False)
+    for pair in known:  # it grows meanwhile
+        ahead.append(pair)
+        extend(doubtful=True)
 
 
-def _match_nearby(old: Graph, new: Graph, found: dict[str, str]) -> None:
+def _alike_at(
+    matching: _Matching, pair: tuple[str, str], alike: Callable[[Node], Hashable], doubtful: bool
+) -> Iterator[tuple[str, str]]:
+    """Yield what is alike around two blocks that are the same: where in doubt, in source order."""
+    mine = _around(matching.old, pair[0], matching.found, alike)
+    theirs = _around(matching.new, pair[1], matching.taken, alike)
+    for key, names in mine.items():
+        others = theirs.get(key, [])
+        if len(names) == len(others) and (doubtful or len(names) == 1):
+            for one, other in zip(names, others, strict=True):
+                if one not in matching.found and other not in matching.taken:
+                    yield one, other
+
+
+def _around(
+    checked: Checked, name: str, known: Mapping[str, str], alike: Callable[[Node], Hashable]
+) -> _Groups:
+    """Return the neighbours of a block that are not known yet, by what they are and how they come."""
+    graph = checked.graph
+    found: dict[str, list[Hashable]] = {}
+    for edge in graph.outgoing.get(name, ()):
+        if edge.target != END and edge.target not in known:
+            found.setdefault(edge.target, []).append(("to", ordered(checked.carries[edge])))
+    for edge in graph.incoming.get(name, ()):
+        if edge.source != START and edge.source not in known:
+            found.setdefault(edge.source, []).append(("from", ordered(checked.carries[edge])))
+    groups: _Groups = {}
+    for neighbour, ways in found.items():
+        groups.setdefault((alike(graph.node[neighbour]), tuple(ways)), []).append(neighbour)
+    return groups
+
+
+def _nearby(matching: _Matching) -> None:
     """Match what is of one kind and has at least half of its neighbours in common."""
-    matched = True
-    while matched:
-        matched = False
-        taken = set(found.values())
-        left: dict[Hashable, list[Node]] = {}
-        for node in new.nodes:
-            if node.name not in taken:
-                left.setdefault(_kind(node), []).append(node)
-        for node in old.nodes:
-            if node.name in found:
-                continue
-            mine = {found.get(name, name) for name in _neighbours(old, node)}
-            best, most = None, 0
-            for other in left.get(_kind(node), ()):
-                common = len(mine & _neighbours(new, other))
-                if common > most and 2 * common >= len(mine) and other.name not in taken:
-                    best, most = other, common
-            if best:
-                found[node.name] = best.name
-                taken.add(best.name)
-                matched = True
+    mine, theirs = _neighbours(matching.old.graph), _neighbours(matching.new.graph)
+    for _ in range(_MOST_SWEEPS):
+        before = len(matching.found)
+        for node in matching.old.graph.nodes:
+            if node.name not in matching.found:
+                around = [matching.found.get(name, name) for name in mine[node.name]]
+                common = _common(matching, node, around, theirs)
+                best = max(common, key=common.__getitem__, default=None)
+                if best is not None and 2 * common[best] >= len(around):
+                    matching.match(node.name, best)
+        if len(matching.found) == before:
+            break
 
 
-def _neighbours(graph: Graph, node: Node) -> set[str]:
-    before = {edge.source for edge in graph.incoming[node.name]}
-    return before | {edge.target for edge in graph.outgoing[node.name]}
+def _common(
+    matching: _Matching, node: Node, around: Iterable[str], theirs: _Neighbours
+) -> Counter[str]:
+    """Count for each block that this one could be, how many of these neighbours it has."""
+    common: Counter[str] = Counter()
+    for name in around:
+        neighbours = theirs.get(name, ())
+        if len(neighbours) <= _MOST_NEIGHBOURS:  # of others, each is a neighbour
+            common.update(
+                other
+                for other in neighbours
+                if other in matching.new.graph.node
+                and other not in matching.taken
+                and _kind(matching.new.graph.node[other]) == _kind(node)
+            )
+    return common
+
+
+def _neighbours(graph: Graph) -> _Neighbours:
+    found: dict[str, dict[str, None]] = {name: {} for name in (START, *graph.node, END)}
+    for edge in graph.edges:
+        found[edge.source][edge.target] = None
+        found[edge.target][edge.source] = None
+    return {name: tuple(around) for name, around in found.items()}
 
 
 def _kind(node: Node) -> tuple[str, str]:
     return node.package, node.block.name
 
 
-def _values(node: Node) -> Hashable:
-    """What is written beside the kind, without the names of hooks, which may change as well."""
+def _declared(node: Node) -> Hashable:
+    """All that is written behind a block's name."""
+    choices = tuple((name, one.name) for name, one in node.choices)
+    hook = node.hook.name if node.hook else None
+    return _kind(node), node.values, choices, hook, node.passed
+
+
+def _declared_but_hooks(node: Node) -> Hashable:
+    """The same without the names of hooks, which may be others as well."""
     choices = tuple((name, None if one.hook else one.name) for name, one in node.choices)
-    return node.values, choices, node.passed
-
-
-def _number(what: Hashable, known: _Numbers) -> int:
-    return known.setdefault(what, len(known))
+    return _kind(node), node.values, choices, node.passed

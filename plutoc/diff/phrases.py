@@ -11,6 +11,8 @@ from plutoc.diff.roles import Role, awaited, role
 from plutoc.graph.model import END, Node
 from plutoc_runtime.status import Status
 
+_MOST_WORDS = 12
+
 
 class Phrase(NamedTuple):
     """Something that happens to a mission; `~` is where `now` or `no longer` stands."""
@@ -45,7 +47,9 @@ def named(names: Iterable[str], last: str = "and") -> str:
 
 
 def listed(words: Sequence[str], last: str = "and") -> str:
-    """Write words one after the other."""
+    """Write words one after the other; of many, the first and how many more there are."""
+    if len(words) > _MOST_WORDS:
+        words = [*words[: _MOST_WORDS - 1], f"{len(words) - _MOST_WORDS + 1:,} more"]
     if len(words) < 2:
         return "".join(words)
     return f"{', '.join(words[:-1])} {last} {words[-1]}"
@@ -84,13 +88,16 @@ def whoever(side: Side, node: Node, statuses: Sequence[Status]) -> str:
         case Role.ALLOCATES, _:
             who = f"{_some(side, node, statuses)} that has got a drone"
         case Role.HOLDS, _:
-            who = f"{_some(side, node, statuses)} that has waited for its {awaited(node)}"
+            what = awaited(node)
+            waited = f"for its {what}" if what else f"at `{node.name}`"
+            who = f"{_some(side, node, statuses)} that has waited {waited}"
         case Role.LAUNCHES, _:
             who = "a mission in flight"
         case _:
             said = listed([status.value for status in statuses], "or")
             return f"a mission that leaves `{node.name}` {said}"
-    return who if side.is_only(node) else f"{who} at `{node.name}`"
+    named_already = side.is_only(node) or f"`{node.name}`" in who
+    return who if named_already else f"{who} at `{node.name}`"
 
 
 def _some(side: Side, node: Node, statuses: Sequence[Status]) -> str:
@@ -135,8 +142,9 @@ def _visited(node: Node, status: Status) -> Phrase:
         case Role.ALLOCATES:
             return Phrase("~waits for a drone", "waited for a drone")
         case Role.HOLDS:
-            what = f"for the {awaited(node)}"
-            return Phrase(f"~waits {what}", f"waited {what}")
+            what = awaited(node)
+            wait = f"for the {what}" if what else f"at `{name}`"
+            return Phrase(f"~waits {wait}", f"waited {wait}")
         case Role.LAUNCHES:
             return Phrase("is ~launched", "was launched")
         case Role.WATCHES | Role.LIMITS:

@@ -52,14 +52,14 @@ def decides(node: Node) -> bool:
     return any(out != {status} for status, out in node.block.transitions.items())
 
 
-def awaited(node: Node) -> str:
-    """Return what a block that holds missions waits for: `delay`."""
+def awaited(node: Node) -> str | None:
+    """Return what a block that holds missions waits for, if a field says it: `delay`."""
     times = [f for f in node.block.needs if f.type is FieldType.TIME]
     own = [f for f in times if f.on is Entity.TRIP] or times
-    return own[0].label.lower() if own else "time"
+    return own[0].label.lower() if own else None
 
 
 def limited(block: Block) -> str:
     """Return what a block bounds that limits flights: `safe time`."""
     times = [field for field in block.needs if field.type is FieldType.TIME]
-    return times[0].label.lower() if times else "time"
+    return times[0].label.lower() if times else f"time (`{block.name}`)"

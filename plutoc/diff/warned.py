@@ -46,15 +46,19 @@ def warned(both: Both, told: Sequence[Change]) -> Iterator[Change]:
 def _added(side: Side, warning: Diagnostic) -> Change:
     node = _node_of(side, warning)
     if warning.code == _HELD and node:
-        return words.held_added(awaited(node), node)
+        return words.held_added(_wait(node), node)
     return words.warning_added(warning, _importance(warning), node)
 
 
 def _removed(side: Side, warning: Diagnostic) -> Change:
     node = _node_of(side, warning)
     if warning.code == _HELD and node:
-        return words.held_removed(awaited(node), node)
+        return words.held_removed(_wait(node), node)
     return words.warning_removed(warning, _importance(warning), node)
+
+
+def _wait(node: Node) -> str:
+    return awaited(node) or f"wait at `{node.name}`"
 
 
 def _node_of(side: Side, warning: Diagnostic) -> Node | None:

@@ -55,6 +55,12 @@ def test_every_kind_of_change_has_a_case_and_a_line_in_the_page(changes: list[Ch
     assert {kind: ", ".join(sorted(which)) for kind, which in found.items()} == told
 
 
+def test_the_page_shows_what_is_really_said() -> None:
+    """Its first example is a case."""
+    page = _read(ROOT / "docs/diff.md")
+    assert f"$ plutoc diff old.pluto new.pluto\n{_read(CASES / 'retried' / 'report.txt')}```" in page
+
+
 def test_every_kind_of_change_that_can_be_told_has_a_case(changes: list[Change]) -> None:
     """No sentence goes unread."""
     words = "".join(_read(path) for path in (ROOT / "plutoc/diff/words").glob("*.py"))

@@ -15,10 +15,13 @@ def text(found: Difference, *, colour: bool) -> str:
     for importance, changes in sections(found):
         hue = RED if importance is Importance.SAFETY else BLUE
         lines += ["", paint(HEADINGS[importance], hue, colour)]
+        before: tuple[Shown, ...] = ()
         for change in changes:
             lines.append(f"  * {printable(change.sentence)}")
-            shown = lines_of(found, change)
-            lines += [f"      {_line(one)}" for one in _told(shown)]
+            shown = _told(lines_of(found, change))
+            if shown != before:  # several changes may stand on the same lines
+                lines += [f"      {_line(one)}" for one in shown]
+            before = shown
     return "\n".join(lines) + "\n"
 
 
