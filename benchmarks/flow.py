@@ -14,12 +14,13 @@ import os
 import platform
 import sys
 import tempfile
+from functools import partial
 from pathlib import Path
 
 from measuring.cases import FULL, SMALL, cases
 from measuring.package import compiled
 from measuring.page import picture
-from measuring.rounds import installed, run
+from measuring.rounds import asked, installed, run
 from measuring.table import lines, results
 
 
@@ -39,12 +40,15 @@ def main() -> None:
     given = parser.parse_args()
     size = SMALL if given.small else FULL
     with tempfile.TemporaryDirectory() as folder:
-        known, missing = installed(cases(size, str(compiled(Path(folder)))))
+        ours = compiled(Path(folder) / "ours")
+        plain = compiled(Path(folder) / "plain", "-O0")
+        known, missing = installed(cases(size, str(ours), str(plain)))
         if missing:
             tell(f"not installed, and left out: {', '.join(missing)}")
         if given.only is not None:
             known = [case for case in known if case.name in given.only]
-        measured = run(known, given.rounds, tell)
+        ask = partial(asked, patience=size.patience)
+        measured = run(known, given.rounds, tell, ask)
     about = {
         "python": platform.python_version(),
         "machine": platform.machine(),

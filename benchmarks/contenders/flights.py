@@ -37,8 +37,8 @@ class Standing:
 class Still:
     """What all of them have in common: drones that stand where they shall be."""
 
-    def __init__(self, fault: Fault) -> None:
-        self.fault, self.standing = fault, Standing()
+    def __init__(self, fault: Fault, kernel: Kernel) -> None:
+        self.fault, self.kernel, self.standing = fault, kernel, Standing()
 
     def telemetry(self, drone: str) -> Standing:
         """Return the same of every drone."""
@@ -65,24 +65,24 @@ class Still:
 class FromTheLoop(Still):
     """Reports from asyncio's loop, at once or after a while."""
 
-    def __init__(self, fault: Fault, work: Work, notes: Notes) -> None:
-        super().__init__(fault)
+    def __init__(self, fault: Fault, kernel: Kernel, work: Work, notes: Notes) -> None:
+        super().__init__(fault, kernel)
         self.loop, self.flight, self.notes = asyncio.get_running_loop(), work.flight, notes
 
     def fly(self, job: Flight, report: Report) -> None:
         """Fly, then report."""
         if self.flight:
             self.notes.launched(job.drone, self.loop.time())
-            self.loop.call_later(self.flight, report, self.result(job))
+            self.loop.call_later(self.flight, self.kernel.post, report, self.result(job))
         else:
-            self.loop.call_soon(report, self.result(job))
+            self.loop.call_soon(self.kernel.post, report, self.result(job))
 
 
 class AllTogether(Still):
     """Reports once every mission that is not over is in the air, then of all of them."""
 
-    def __init__(self, fault: Fault, work: Work, notes: Notes) -> None:
-        super().__init__(fault)
+    def __init__(self, fault: Fault, kernel: Kernel, work: Work, notes: Notes) -> None:
+        super().__init__(fault, kernel)
         self.loop = asyncio.get_running_loop()
         self.left, self.ending, self.last = work.missions, 0, work.trips - 1
         self.up: list[tuple[Report, Exception | None]] = []
@@ -99,15 +99,15 @@ class AllTogether(Still):
     def land_all(self, landing: list[tuple[Report, Exception | None]]) -> None:
         """All come down."""
         for report, result in landing:
-            report(result)
+            self.kernel.post(report, result)
 
 
 class ThroughTheKernel(Still):
     """Reports in virtual time: at this instant, when its turn comes."""
 
     def __init__(self, fault: Fault, kernel: Kernel, kind: Kind) -> None:
-        super().__init__(fault)
-        self.kernel, self.kind = kernel, kind
+        super().__init__(fault, kernel)
+        self.kind = kind
 
     def fly(self, job: Flight, report: Report) -> None:
         """Fly, then report."""

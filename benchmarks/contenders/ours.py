@@ -123,7 +123,7 @@ async def in_real_time(given: argparse.Namespace, work: Work, notes: Notes) -> D
     """Fly on asyncio."""
     kernel = runtime("realtime").RealTime()
     flights = AllTogether if given.together else FromTheLoop
-    plan, over = started(work, kernel, flights(fault(), work, notes), listeners(given))
+    plan, over = started(work, kernel, flights(fault(), kernel, work, notes), listeners(given))
     await kernel.run(over)
     return told(plan)
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from contenders.work import Work
 
-from .rounds import Case
+from .rounds import PATIENCE, Case
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -26,6 +26,8 @@ class Size:
     """Trips of the one mission that flies them."""
     crowd: Work
     """Missions, most of which wait, where flights take time."""
+    patience: float
+    """Seconds after which a case is given up."""
 
 
 FULL = Size(
@@ -35,6 +37,7 @@ FULL = Size(
     flight=0.05,
     turns=60,
     crowd=Work(missions=75, trips=4, drones=15),
+    patience=PATIENCE,
 )
 SMALL = Size(
     work=Work(missions=20, trips=2, drones=2),
@@ -43,6 +46,7 @@ SMALL = Size(
     flight=0.001,
     turns=3,
     crowd=Work(missions=6, trips=2, drones=2),
+    patience=60.0,
 )
 """Enough to see that everything works; its figures mean nothing."""
 
@@ -57,10 +61,9 @@ FRAMEWORKS = {
 """The heavy ones: the module, and what must be installed for it. They fly once a round."""
 
 
-def cases(size: Size, package: str) -> Iterator[Case]:
-    """Give all cases; the package is our own, compiled."""
-    contended, free = size.work, Work(missions=size.work.missions, trips=size.work.trips)
-    free = Work(missions=free.missions, trips=free.trips, drones=free.missions)
+def cases(size: Size, package: str, plain: str) -> Iterator[Case]:
+    """Give all cases; the packages are our own, compiled as usual and with -O0."""
+    contended, free = size.work, replace(size.work, drones=size.work.missions)
     ours = ("--package", package)
     for name, work in (("contended", contended), ("free", free)):
         light = (*arguments(work), "--repeat", str(size.repeat))
@@ -70,8 +73,9 @@ def cases(size: Size, package: str) -> Iterator[Case]:
         yield Case(name=f"generators_{name}", module="generators", arguments=light)
         virtual = (*ours, "--virtual", *light)
         yield Case(name=f"ours_virtual_{name}", module="ours", arguments=virtual)
-    journal = (*ours, "--journal", *arguments(contended), "--repeat", str(size.repeat))
-    yield Case(name="ours_journal", module="ours", arguments=journal)
+    light = (*arguments(contended), "--repeat", str(size.repeat))
+    yield Case(name="ours_journal", module="ours", arguments=(*ours, "--journal", *light))
+    yield Case(name="ours_plain", module="ours", arguments=("--package", plain, *light))
     for name, (module, needs) in FRAMEWORKS.items():
         yield Case(name=name, module=module, needs=needs, arguments=arguments(contended))
     for name, many in (("ours_many", size.many), ("ours_a_tenth", size.many // 10)):

@@ -98,6 +98,12 @@ FIGURES = (
         most=1.5,
     ),
     ratio(
+        "times_plain",
+        "ours_plain",
+        "ours_contended",
+        "the plain plan, `plutoc compile -O0` / ours",
+    ),
+    ratio(
         "ratio_direct",
         "direct_contended",
         "ideal_contended",

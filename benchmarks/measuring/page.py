@@ -17,6 +17,7 @@ GROUPS = {
         "ours_contended": "Pluto",
         "ideal_contended": "hand-written asyncio",
         "ours_journal": "Pluto, each transition as JSON",
+        "ours_plain": "Pluto, plain plan (-O0)",
         "py_trees": "py_trees",
         "transitions": "transitions",
         "python_statemachine": "python-statemachine",
@@ -63,7 +64,7 @@ def tables(results: Results) -> Iterator[str]:
     yield "| figure | minimum | median | wanted | key |"
     yield "| --- | ---: | ---: | ---: | --- |"
     for figure in FIGURES:
-        if figure.key in results:
+        if results[figure.key] is not None:
             least, middle = (results[name][figure.key] for name in ("minima", "medians"))
             row = (figure.says, shown(least), shown(middle), figure.wanted, f"`{figure.key}`")
             yield f"| {' | '.join(row)} |"

@@ -102,7 +102,7 @@ def installed(cases: Iterable[Case]) -> tuple[list[Case], list[str]]:
     return [case for case in known if case.needs not in missing], list(missing)
 
 
-def asked(case: Case) -> Said:
+def asked(case: Case, patience: float = PATIENCE) -> Said:
     """Run a case once, and return what it says."""
     try:
         done = subprocess.run(
@@ -111,10 +111,10 @@ def asked(case: Case) -> Said:
             capture_output=True,
             text=True,
             check=False,
-            timeout=PATIENCE,
+            timeout=patience,
         )
     except subprocess.TimeoutExpired:
-        raise SystemExit(f"{case.name} was not done within {PATIENCE:.0f} s") from None
+        raise SystemExit(f"{case.name} was not done within {patience:.0f} s") from None
     if done.returncode:
         raise SystemExit(f"{case.name} failed:\n{done.stderr}")
     said: Said = json.loads(done.stdout.splitlines()[-1])

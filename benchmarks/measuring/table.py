@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from .figures import Cases, figures
+from .figures import FIGURES, Cases, figures
 from .rounds import Measured
 
 
@@ -27,6 +27,7 @@ def results(cases: Cases, missing: Sequence[str], about: Mapping[str, object]) -
     """Return all that was measured: the figures by their keys, and what they come from."""
     known = list(figures(cases))
     return {
+        **{figure.key: None for figure in FIGURES},  # something is not installed, or not asked for
         **{figure.key: round(figure.counts(spread), 4) for figure, spread in known},
         "minima": {figure.key: round(spread.minimum, 4) for figure, spread in known},
         "medians": {figure.key: round(spread.median, 4) for figure, spread in known},
