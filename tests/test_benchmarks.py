@@ -80,3 +80,14 @@ def test_compiling_is_measured() -> None:
         assert found[name] > 0
     assert set(found["raw"]) >= {"python -c pass", "cold_black", "cold", "unchanged", "wide 24"}
     assert all(least["least_s"] <= least["median_s"] for least in found["raw"].values())
+
+
+def test_the_choice_of_drones_is_measured() -> None:
+    """Here in small: every policy chooses, shares out and empties a queue."""
+    few = ["--rounds", "1", "--fleets", "5", "120", "--shares", "3x2", "--plans", "2", "60"]
+    told = json.loads(python(str(ROOT / "benchmarks" / "allocation.py"), *few, "--json").stdout)
+    policies = ("first", "least_used", "nearest", "batch_optimal", "nearest, charging")
+    assert list(told["queue_s"]) == [f"{name} {size}" for name in policies for size in (2, 60)]
+    assert sorted(told["choice_us"]) == sorted(told["every_us"])
+    assert len(told["choice_us"]) == 6
+    assert list(told["share_ms"]) == ["3 x 2"]

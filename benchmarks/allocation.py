@@ -1,0 +1,285 @@
+"""What does it cost to choose drones, and how does that grow with the fleet and with the queue?
+
+`python benchmarks/allocation.py` prints three tables. *A choice*: microseconds for a drone that is
+given away and comes back, by policy and by the size of the fleet, beside a look at every free drone.
+*All at once*: milliseconds in which `batch_optimal` shares drones out. *The queue*: whole plans, of
+which most missions wait; seconds of CPU, and how much more a mission costs than in the first plan.
+Drones that must charge between flights are measured apart: somebody waits whom they can serve soon.
+
+The parts of a row run in turns, round after round; the least time of each counts. With `--json` the
+numbers come as JSON.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from importlib import import_module
+from math import sqrt
+from pathlib import Path
+from random import Random
+from typing import TYPE_CHECKING, Any
+
+from plutoc_runtime.model import Category, Drone, Point, Trip
+from plutoc_runtime.policies.batch_optimal import batch_optimal
+from plutoc_runtime.policies.first import first
+from plutoc_runtime.policies.least_used import least_used
+from plutoc_runtime.policies.nearest import nearest
+
+if TYPE_CHECKING:
+    from plutoc_runtime.policy import Able, Choice, Policy, Pool
+
+FLEETS = (10, 100, 1_000, 10_000)
+SHARES = ((10, 10), (30, 30), (100, 100), (300, 300), (1_000, 1_000), (1_000, 1_100), (1_000, 1))
+"""How many trips wait, and how many drones are free."""
+PLANS = (100, 400, 1_000)
+TRIPS, DRONES = 6, 50
+QUEUES = (
+    *((policy, policy, "100 h") for policy in ("first", "least_used", "nearest", "batch_optimal")),
+    ("nearest, charging", "nearest", "420 s"),
+)
+"""What it is called, the policy, and how long a battery lasts."""
+CHOICES = 200
+
+SOURCE = """\
+pluto 1
+app {name} "Missions that wait for a drone" {{
+  category quick(speed: 5 m/s, flight_time: {flight_time}) can take_photo
+  create = MissionCreator
+  allocate = DroneAllocator(policy: {policy})
+  launch = TripLauncher
+  watch = TripMonitor
+  start -> create -> allocate -> launch -> watch
+  retry = PriorityManager(max_attempts: 3)
+  watch -> allocate when STANDBY
+  watch -> retry when FAILED
+  retry -> allocate when STANDBY
+  retry -> end otherwise
+  watch -> end otherwise
+}}
+"""
+
+SCOUT = Category(name="scout")
+Numbers = dict[str, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Standing:
+    """The telemetry of a drone in its dock."""
+
+    location: Point
+    battery_level: float = 1.0
+    landed: bool = True
+
+
+class EveryDrone:
+    """The closest drone, by a look at every one that is free: what squares are measured against."""
+
+    def __init__(self, key: Callable[[Trip, Drone], tuple[float, int]]) -> None:
+        self._free: dict[Drone, None] = {}
+        self._key = key
+
+    def add(self, drone: Drone) -> None:
+        """A drone is free."""
+        self._free[drone] = None
+
+    def remove(self, drone: Drone) -> None:
+        """A drone is not free any more."""
+        del self._free[drone]
+
+    def choose(self, trip: Trip, able: Able) -> Choice | None:
+        """Return the best by the key."""
+        drone = min(filter(able, self._free), key=partial(self._key, trip))
+        return drone, lambda: f"of {len(self._free)} free"
+
+
+POLICIES: Mapping[str, tuple[Policy, Callable[[Trip, Drone], tuple[float, int]]]] = {
+    "nearest": (nearest, lambda trip, drone: (drone.distance(trip.target), drone.index)),
+    "first": (first, lambda trip, drone: (drone.index, 0)),
+    "least_used": (least_used, lambda trip, drone: (drone.trips, drone.index)),
+}
+
+
+def field(count: int, seed: int = 0, height: float = 0.0) -> Iterator[Point]:
+    """Give places in a field of 10 m² each."""
+    random, side = Random(seed), sqrt(10.0 * count)
+    return ((random.uniform(0, side), random.uniform(0, side), height) for _ in range(count))
+
+
+def fleet(count: int) -> list[Drone]:
+    """Return drones that stand about."""
+    return [
+        Drone(id=str(n), category=SCOUT, home=place, telemetry=Standing(place), index=n)
+        for n, place in enumerate(field(count))
+    ]
+
+
+def trips(count: int, over: int) -> list[Trip]:
+    """Return trips to places in the field of so many drones."""
+    goals = list(field(over, seed=1, height=1.5))
+    return [Trip(name="A", action="take_photo", target=goals[n % over]) for n in range(count)]
+
+
+def anyone(drone: Drone) -> bool:
+    """Refuse nobody."""
+    return True
+
+
+def least(rounds: int, *works: Callable[[], object]) -> list[float]:
+    """Run them in turns, and return the least seconds of CPU of each."""
+    took = [[0.0] * rounds for _ in works]
+    for number in range(rounds):
+        for times, work in zip(took, works, strict=True):
+            begun = time.process_time()
+            work()
+            times[number] = time.process_time() - begun
+    return [min(times) for times in took]
+
+
+def choices(rounds: int, fleets: Sequence[int]) -> Iterator[tuple[str, int, float, float]]:
+    """Give policy, drones, microseconds a choice, and by a look at every drone."""
+
+    def filled(pool: Pool, drones: Sequence[Drone]) -> Pool:
+        for drone in drones:
+            pool.add(drone)
+        return pool
+
+    def given(pool: Pool, asked: Sequence[Trip]) -> None:
+        for trip in asked:
+            choice = pool.choose(trip, anyone)
+            if choice is not None:
+                pool.remove(choice[0])
+                pool.add(choice[0])
+
+    for name, (policy, key) in POLICIES.items():
+        for count in fleets:
+            drones, asked = fleet(count), trips(CHOICES, count)
+            few = asked[: max(10, min(CHOICES, 100_000 // count))]
+            times = least(
+                rounds,
+                partial(given, filled(policy(), drones), asked),
+                partial(given, filled(EveryDrone(key), drones), few),
+            )
+            yield name, count, times[0] / len(asked) * 1e6, times[1] / len(few) * 1e6
+
+
+def shares(rounds: int, sizes: Sequence[tuple[int, int]]) -> Iterator[tuple[int, int, float]]:
+    """Give trips, drones, and the milliseconds in which drones are shared out."""
+    for waiting, free in sizes:
+        pool = batch_optimal()
+        for drone in fleet(free):
+            pool.add(drone)
+        offers = [(trip, anyone) for trip in trips(waiting, max(waiting, free))]
+        (seconds,) = least(rounds if waiting * free < 1e6 else 1, partial(pool.share, offers))
+        yield waiting, free, seconds * 1e3
+
+
+def queues(rounds: int, plans: Sequence[int]) -> Iterator[tuple[str, int, float]]:
+    """Give policy, missions, and the seconds in which a plan is simulated."""
+    with tempfile.TemporaryDirectory() as folder:
+        for name, policy, flight_time in QUEUES:
+            app = compiled(Path(folder), name.replace(", ", "_"), policy, flight_time)
+            flown(app, 1)  # imports what flies
+            for missions in plans:
+                (seconds,) = least(rounds, partial(flown, app, missions))
+                yield name, missions, seconds
+
+
+def compiled(folder: Path, name: str, policy: str, flight_time: str) -> str:
+    """Compile the app, and return its package."""
+    source = folder / f"queue_{name}.pluto"
+    text = SOURCE.format(name=source.stem, policy=policy, flight_time=flight_time)
+    source.write_text(text)
+    command = [sys.executable, "-m", "plutoc", "compile", str(source)]
+    subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+    sys.path.insert(0, str(folder / source.stem / "src"))
+    return source.stem
+
+
+def flown(package: str, missions: int) -> None:
+    """Simulate a plan of so many missions."""
+
+    def part(name: str) -> Any:
+        return import_module(f"{package}.{name}")
+
+    goals = field(missions * TRIPS, seed=2, height=1.5)
+    places = [(0.05 * x, 0.05 * y, z) for x, y, z in goals]
+    model, files = part("model"), part("_runtime.files.fleet")
+    plan = [
+        model.Mission(
+            name=str(number),
+            index=number,
+            trips=[
+                model.Trip(name=str(n), index=n, action="take_photo", target=(x % 20, y % 20, z))
+                for n, (x, y, z) in enumerate(places[number * TRIPS : (number + 1) * TRIPS])
+            ],
+        )
+        for number in range(missions)
+    ]
+    homes = [(2.0 * (n % 10) + 1.0, 2.0 * (n // 10) + 1.0, 0.0) for n in range(DRONES)]
+    entries = (
+        files.DroneEntry(id=str(n), category="quick", home=home) for n, home in enumerate(homes)
+    )
+    ground = files.FleetFile(airspace=part("_runtime.airspace").Airspace(), drones=tuple(entries))
+    outcome = part("_runtime.session").simulate(
+        part("flow").APP,
+        plan,
+        ground,
+        seed=0,
+        faults=part("_runtime.simulation.faults").Faults(),
+        until=None,
+        on_event=None,
+    )
+    if not outcome.completed:
+        raise SystemExit(f"{package}: not every mission was completed")
+
+
+def measure(given: argparse.Namespace, say: Callable[[str], None]) -> dict[str, Numbers]:
+    """Measure everything, line by line."""
+    told: dict[str, Numbers] = {"choice_us": {}, "every_us": {}, "share_ms": {}, "queue_s": {}}
+    say(f"{'a choice':16}{'drones':>8}{'µs':>10}{'a look at every one':>22}{'ratio':>9}")
+    for name, count, ours, every in choices(given.rounds, given.fleets):
+        told["choice_us"][f"{name} {count}"], told["every_us"][f"{name} {count}"] = ours, every
+        say(f"{name:16}{count:8,}{ours:10.1f}{every:19.1f} µs{every / ours:9.1f}")
+    say(f"\n{'all at once':16}{'trips':>8}{'drones':>8}{'ms':>12}")
+    for waiting, free, took in shares(given.rounds, given.shares):
+        told["share_ms"][f"{waiting} x {free}"] = took
+        say(f"{'batch_optimal':16}{waiting:8,}{free:8,}{took:12.2f}")
+    say(f"\n{'the queue':20}{'missions':>8}{'s':>10}{'a mission, to the first':>26}")
+    base: Numbers = {}
+    for policy, missions, took in queues(max(1, given.rounds // 2), given.plans):
+        told["queue_s"][f"{policy} {missions}"] = took
+        ratio = took / missions / base.setdefault(policy, took / missions)
+        say(f"{policy:20}{missions:8,}{took:10.2f}{ratio:26.2f}")
+    return told
+
+
+def size(text: str) -> tuple[int, int]:
+    """Read `TRIPSxDRONES`."""
+    waiting, _, free = text.partition("x")
+    return int(waiting), int(free)
+
+
+def main() -> None:
+    """Print tables, or JSON."""
+    parser = argparse.ArgumentParser(description="What it costs to choose drones.")
+    parser.add_argument("--rounds", type=int, default=7)
+    parser.add_argument("--fleets", type=int, nargs="*", default=FLEETS, metavar="DRONES")
+    parser.add_argument("--shares", type=size, nargs="*", default=SHARES, metavar="TRIPSxDRONES")
+    parser.add_argument("--plans", type=int, nargs="*", default=PLANS, metavar="MISSIONS")
+    parser.add_argument("--json", action="store_true")
+    given = parser.parse_args()
+    told = measure(given, (lambda line: None) if given.json else partial(print, flush=True))
+    if given.json:
+        print(json.dumps(told, indent=2))
+
+
+if __name__ == "__main__":
+    main()
