@@ -65,7 +65,7 @@ def order(both: Both) -> Iterator[Change]:
     """Tell of branches in another order: what falls on one instant happens in that order.
 
     How a trip ended, and that its time is over, is the same to all branches, in any order. So it
-    counts only where a hook is called.
+    counts only where something else is done.
     """
     before = _by_origin(both.old)
     for origin, fork in _by_origin(both.new).items():
@@ -74,7 +74,7 @@ def order(both: Both) -> Iterator[Change]:
             continue
         was = both.old.called(edge.target for edge in known.branches)
         now = tuple(edge.target for edge in fork.branches)
-        if was != now and sorted(was) == sorted(now) and _calls(both.new, fork):
+        if was != now and sorted(was) == sorted(now) and _acts(both.new, fork):
             yield words.order_changed(known, fork, was, now)
 
 
@@ -98,8 +98,8 @@ def _by_origin(side: Side) -> _Forks:
     return {(side.called([f.node])[0], f.status): f for f in side.checked.forks}
 
 
-def _calls(side: Side, fork: Fork) -> bool:
-    """Say whether a block calls a hook in a branch of a fork."""
+def _acts(side: Side, fork: Fork) -> bool:
+    """Say whether a branch of a fork does more than to watch."""
     ahead = [(edge.target, fork.status) for edge in fork.branches]
     known: dict[tuple[str, Status], None] = {}
     while ahead:
@@ -108,7 +108,7 @@ def _calls(side: Side, fork: Fork) -> bool:
         if node is None or name == fork.gate or (name, status) in known:
             continue
         known[name, status] = None
-        if role(node) is Role.CALLS or node.hook:
+        if role(node) not in (Role.WATCHES, Role.LIMITS, Role.GATE):
             return True
         for left in side.checked.leaves[name]:
             ahead.extend((target, left) for target in side.routes[name, left])

@@ -58,7 +58,9 @@ def test_every_kind_of_change_has_a_case_and_a_line_in_the_page(changes: list[Ch
 def test_the_page_shows_what_is_really_said() -> None:
     """Its first example is a case."""
     page = _read(ROOT / "docs/diff.md")
-    assert f"$ plutoc diff old.pluto new.pluto\n{_read(CASES / 'retried' / 'report.txt')}```" in page
+    assert (
+        f"$ plutoc diff old.pluto new.pluto\n{_read(CASES / 'retried' / 'report.txt')}```" in page
+    )
 
 
 def test_every_kind_of_change_that_can_be_told_has_a_case(changes: list[Change]) -> None:

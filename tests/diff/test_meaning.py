@@ -90,6 +90,18 @@ def test_other_names_are_recognised_and_nothing_else_is_said(name: str, seed: in
     assert all("nothing else about it changes" in change.sentence for change in found)
 
 
+def test_everything_may_have_another_name_at_once() -> None:
+    """Blocks, hooks, actions and categories."""
+    text = EXAMPLES["alfalfa"]
+    names = re.findall(
+        r"^  (?:(?:category|action|evaluator) )?(\w+)(?= = [A-Z]|\(| can|\n)", text, re.MULTILINE
+    )
+    assert len(names) == 14
+    other = re.sub(r"\b(" + "|".join(names) + r")\b(?! crop)", r"\1_too", text)
+    kinds = [change.kind for change in difference(text, other).changes]
+    assert kinds == ["hook_renamed"] * 2 + ["category_renamed"] * 2 + ["block_renamed"] * 10
+
+
 def renamed(app: App, names: dict[str, str]) -> App:
     """Call some blocks otherwise."""
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json as library
 import re
 
 import pytest
@@ -39,6 +40,24 @@ def test_a_report_for_a_terminal_may_have_colours() -> None:
     coloured = text(found, colour=True)
     assert "\033[" in coloured
     assert re.sub(r"\033\[[\d;]*m", "", coloured) == text(found, colour=False)
+
+
+def test_a_comment_has_room_for_what_changed_in_a_large_app() -> None:
+    """GitHub takes 65,536 characters; a terminal, and a program, get everything."""
+    names = [f"a_block_of_a_rather_long_name_{number}" for number in range(400)]
+    chain = "".join(f"  {name} = MissionModifier(hook: look)\n" for name in names)
+    way = f"create -> {' -> '.join(names)} -> allocate"
+    large = edited(
+        PLAIN,
+        ("  create =", f"  modifier look\n  modifier note\n{chain}  create ="),
+        ("create -> allocate", way),
+    )
+    other = edited(large, ("hook: look", "hook: note"), ("name_", "number_"))
+    found = difference(large, other)
+    assert len(found.changes) == 800
+    assert len(markdown(found)) < 65_536
+    assert text(found, colour=False).count("\n  * ") == len(found.changes)
+    assert len(library.loads(json(found))["changes"]) == len(found.changes)
 
 
 @pytest.mark.parametrize(

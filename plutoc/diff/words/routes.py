@@ -90,7 +90,7 @@ def outcome_added(side: Side, node: Node, status: Status, leads: Sequence[str]) 
     return Change(
         kind="outcome_added",
         importance=_of_status(status),
-        sentence=f"a mission can now leave `{node.name}` {status.value}; it then {then}",
+        sentence=f"a mission can now leave `{node.name}` {status.value}; then it {then}",
         blocks=(node.name,),
         statuses=(status,),
         after=tuple(leads),

@@ -7,12 +7,15 @@ mention.
 from __future__ import annotations
 
 import re
+from collections.abc import Collection, Mapping
 
 from plutoc.diff.model import Change, Difference
 from plutoc.report.changes.arranged import HEADINGS, headline, lines_of, sections
 from plutoc_runtime.words import printable
 
 _TICKS = re.compile(r"`+")
+_MOST_CHANGES, _MOST_LINES, _WIDEST = 40, 60, 160
+"""Of a section, of each source, and of a line: a comment on GitHub has room for 65,536 characters."""
 
 
 def markdown(found: Difference) -> str:
@@ -20,7 +23,9 @@ def markdown(found: Difference) -> str:
     lines = [f"### {_code(found.new.path)}: {headline(found)}"]
     for importance, changes in sections(found):
         lines += ["", f"**{HEADINGS[importance]}**", ""]
-        lines += [f"- {_sentence(change)}" for change in changes]
+        lines += [f"- {_sentence(change)}" for change in changes[:_MOST_CHANGES]]
+        if len(changes) > _MOST_CHANGES:
+            lines.append(f"- … and {len(changes) - _MOST_CHANGES:,} more")
     shown = _shown(found)
     if shown:
         longest = max((len(ticks) for ticks in _TICKS.findall("\n".join(shown))), default=0)
@@ -57,7 +62,14 @@ def _shown(found: Difference) -> list[str]:
         for one in lines_of(found, change):
             (new if one.is_new else old)[one.number] = one.text
     both = set(old.values()) & set(new.values())
-    return [
-        *(f"- {printable(old[number])}" for number in sorted(old) if old[number] not in both),
-        *(f"+ {printable(new[number])}" for number in sorted(new) if new[number] not in both),
-    ]
+    return [*_marked("-", old, both), *_marked("+", new, both)]
+
+
+def _marked(mark: str, lines: Mapping[int, str], both: Collection[str]) -> list[str]:
+    told = [lines[number] for number in sorted(lines) if lines[number] not in both]
+    more = [f"{mark} … and {len(told) - _MOST_LINES:,} more"] if len(told) > _MOST_LINES else []
+    return [*(f"{mark} {_short(printable(line))}" for line in told[:_MOST_LINES]), *more]
+
+
+def _short(line: str) -> str:
+    return line if len(line) <= _WIDEST else f"{line[: _WIDEST - 1]}…"
