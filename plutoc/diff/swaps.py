@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from plutoc.diff.both import Both
-from plutoc.diff.journeys import Reroute
+from plutoc.diff.journeys import Reroute, places
 from plutoc.diff.model import Change
 from plutoc.diff.words import routes as words
 from plutoc_runtime.status import Status
@@ -28,10 +28,15 @@ def without_swaps(
         for second, status in _swapped(both, one):
             swaps.setdefault((one.new.name, second), {})[status] = one
     told = tuple(
-        words.swapped(both, next(iter(ways.values())), second, tuple(ways))
+        _told(both, next(iter(ways.values())), second, tuple(ways))
         for (_, second), ways in swaps.items()
     )
     return tuple(_left(both, moved, swaps)), told
+
+
+def _told(both: Both, one: Reroute, second: str, statuses: tuple[Status, ...]) -> Change:
+    now = places(both.new, both.new.graph.node[second], statuses)
+    return words.swapped(both, one, second, statuses, (places(both.old, one.old, statuses), now))
 
 
 def _swapped(both: Both, one: Reroute) -> Iterator[tuple[str, Status]]:

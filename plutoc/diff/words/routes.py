@@ -46,7 +46,9 @@ def rerouted(both: Both, one: Reroute, spans: Spans) -> Change:
     return _route("rerouted", both, one, sentence, (), spans)
 
 
-def swapped(both: Both, one: Reroute, second: str, statuses: tuple[Status, ...]) -> Change:
+def swapped(
+    both: Both, one: Reroute, second: str, statuses: tuple[Status, ...], spans: Spans
+) -> Change:
     """Two steps have changed places: the one that `one` leads out of came first before."""
     status, first, side = statuses[0], one.new.name, both.new
     begun = status in (Status.UNEXECUTED, Status.STANDBY)
@@ -60,8 +62,8 @@ def swapped(both: Both, one: Reroute, second: str, statuses: tuple[Status, ...])
         statuses=statuses,
         before=(first, second),
         after=(second, first),
-        was=(one.old.name_span,),
-        now=(side.graph.node[second].name_span,),
+        was=spans[0],
+        now=spans[1],
     )
 
 
