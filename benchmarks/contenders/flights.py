@@ -21,41 +21,32 @@ if TYPE_CHECKING:
 
 HOME: Point = (1.0, 1.0, 0.0)
 """Where all drones stand."""
-CRASHED = "the hash says so"
 
 Report = Callable[[object], None]
-Fault = Callable[[str], Exception]
-"""Makes what is reported of a flight that failed."""
+Result = Exception | None
+"""What is reported: the flight went well, or why not."""
 
 
 class Standing:
-    """What is known of a drone that never moves."""
+    """What is known of a drone that stands at home."""
 
-    location, battery_level, landed = HOME, 1.0, True
+    __slots__ = ("location",)
+
+    battery_level, landed = 1.0, True
+
+    def __init__(self, location: Point) -> None:
+        self.location = location
 
 
 class Still:
     """What all of them have in common: drones that stand where they shall be."""
 
-    def __init__(self, fault: Fault, kernel: Kernel) -> None:
-        self.fault, self.kernel, self.standing = fault, kernel, Standing()
+    def __init__(self, crash: Exception, kernel: Kernel) -> None:
+        self.crash, self.kernel = crash, kernel
 
     def telemetry(self, drone: str) -> Standing:
-        """Return the same of every drone."""
-        return self.standing
-
-    def result(self, flight: Flight) -> Exception | None:
-        """Return what is reported of a flight."""
-        trip = flight.trip
-        if fails(flight.state.mission.index, trip.index, trip.attempt - 1):
-            return self.fault(CRASHED)
-        return None
-
-    def break_off(self, drone: str) -> None:
-        """Nothing has to be stopped: no flight is given up here."""
-
-    async def land(self, drone: str) -> None:
-        """It stands already."""
+        """Return what stays true of a drone."""
+        return Standing(HOME)
 
     async def recover(self, drone: str) -> bool:
         """It stands at home already."""
@@ -65,38 +56,47 @@ class Still:
 class FromTheLoop(Still):
     """Reports from asyncio's loop, at once or after a while."""
 
-    def __init__(self, fault: Fault, kernel: Kernel, work: Work, notes: Notes) -> None:
-        super().__init__(fault, kernel)
+    def __init__(self, crash: Exception, kernel: Kernel, work: Work, notes: Notes) -> None:
+        super().__init__(crash, kernel)
         self.loop, self.flight, self.notes = asyncio.get_running_loop(), work.flight, notes
 
     def fly(self, job: Flight, report: Report) -> None:
         """Fly, then report."""
+        trip = job.trip
+        failed = fails(job.state.mission.index, trip.index, trip.attempt - 1)
+        result = self.crash if failed else None
         if self.flight:
             self.notes.launched(job.drone, self.loop.time())
-            self.loop.call_later(self.flight, self.kernel.post, report, self.result(job))
+            self.loop.call_later(self.flight, self.land, job.drone, report, result)
         else:
-            self.loop.call_soon(self.kernel.post, report, self.result(job))
+            self.loop.call_soon(self.kernel.post, report, result)
+
+    def land(self, drone: str, report: Report, result: Result) -> None:
+        """A flight that took time is over."""
+        self.notes.landed(drone, self.loop.time())
+        self.kernel.post(report, result)
 
 
 class AllTogether(Still):
     """Reports once every mission that is not over is in the air, then of all of them."""
 
-    def __init__(self, fault: Fault, kernel: Kernel, work: Work, notes: Notes) -> None:
-        super().__init__(fault, kernel)
+    def __init__(self, crash: Exception, kernel: Kernel, work: Work, notes: Notes) -> None:
+        super().__init__(crash, kernel)
         self.loop = asyncio.get_running_loop()
         self.left, self.ending, self.last = work.missions, 0, work.trips - 1
-        self.up: list[tuple[Report, Exception | None]] = []
+        self.up: list[tuple[Report, Result]] = []
 
     def fly(self, job: Flight, report: Report) -> None:
         """Wait for the others."""
-        result = self.result(job)
-        self.up.append((report, result))
-        self.ending += result is None and job.trip.index == self.last
+        trip = job.trip
+        failed = fails(job.state.mission.index, trip.index, trip.attempt - 1)
+        self.up.append((report, self.crash if failed else None))
+        self.ending += trip.index == self.last and not failed
         if len(self.up) == self.left:
-            self.loop.call_soon(self.land_all, self.up)
+            self.loop.call_soon(self.land, self.up)
             self.up, self.left, self.ending = [], self.left - self.ending, 0
 
-    def land_all(self, landing: list[tuple[Report, Exception | None]]) -> None:
+    def land(self, landing: list[tuple[Report, Result]]) -> None:
         """All come down."""
         for report, result in landing:
             self.kernel.post(report, result)
@@ -105,12 +105,12 @@ class AllTogether(Still):
 class ThroughTheKernel(Still):
     """Reports in virtual time: at this instant, when its turn comes."""
 
-    def __init__(self, fault: Fault, kernel: Kernel, kind: Kind) -> None:
-        super().__init__(fault, kernel)
+    def __init__(self, crash: Exception, kernel: Kernel, kind: Kind) -> None:
+        super().__init__(crash, kernel)
         self.kind = kind
 
     def fly(self, job: Flight, report: Report) -> None:
         """Fly, then report."""
-        kernel = self.kernel
-        key = (job.state.mission.index,)
-        kernel.at(kernel.now, self.kind, key, partial(report, self.result(job)))
+        trip, kernel, mission = job.trip, self.kernel, job.state.mission.index
+        result = self.crash if fails(mission, trip.index, trip.attempt - 1) else None
+        kernel.schedule(kernel.now, self.kind, (mission,), partial(report, result))

@@ -61,9 +61,16 @@ class Navigation:
         ok = not fails(m.id, m.trip, m.attempt)
         if self.flight:
             self.notes.launched(drone, self.loop.time())
-            self.loop.call_later(self.flight, done, *arguments, ok)
+            self.loop.call_later(self.flight, self.land, drone, done, *arguments, ok)
         else:
             self.loop.call_soon(done, *arguments, ok)
+
+    def land(
+        self, drone: int, done: Callable[[*Ts, bool], None], *arguments: *tuple[*Ts, bool]
+    ) -> None:
+        """A flight that took time is over."""
+        self.notes.landed(drone, self.loop.time())
+        done(*arguments)
 
 
 class Fleet:

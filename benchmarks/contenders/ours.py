@@ -11,7 +11,6 @@ import asyncio
 import json
 import sys
 from collections.abc import Callable, Sequence
-from functools import partial
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
@@ -108,10 +107,11 @@ def told(plan: Sequence[Mission[Any]]) -> Done:
     )
 
 
-def fault() -> Callable[[str], Exception]:
-    """Return what makes a flight's failure."""
+def crash() -> Exception:
+    """Return what is reported of a flight that failed."""
     errors = runtime("errors")
-    return partial(errors.FlightFailed, errors.Failure.CRASH)
+    failed: Exception = errors.FlightFailed(errors.Failure.CRASH, "the hash says so")
+    return failed
 
 
 def listeners(given: argparse.Namespace) -> list[Callable[[Event], object]]:
@@ -123,7 +123,7 @@ async def in_real_time(given: argparse.Namespace, work: Work, notes: Notes) -> D
     """Fly on asyncio."""
     kernel = runtime("realtime").RealTime()
     flights = AllTogether if given.together else FromTheLoop
-    plan, over = started(work, kernel, flights(fault(), kernel, work, notes), listeners(given))
+    plan, over = started(work, kernel, flights(crash(), kernel, work, notes), listeners(given))
     await kernel.run(over)
     return told(plan)
 
@@ -131,7 +131,7 @@ async def in_real_time(given: argparse.Namespace, work: Work, notes: Notes) -> D
 def in_virtual_time(given: argparse.Namespace, work: Work) -> Done:
     """Fly in a simulation."""
     kernel = runtime("virtual").VirtualTime()
-    navigation = ThroughTheKernel(fault(), kernel, runtime("kernel").Kind.FLIGHT)
+    navigation = ThroughTheKernel(crash(), kernel, runtime("kernel").Kind.FLIGHT)
     plan, over = started(work, kernel, navigation, listeners(given))
     kernel.run(over)
     return told(plan)

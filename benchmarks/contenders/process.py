@@ -9,6 +9,7 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
+from statistics import median
 from typing import TypedDict
 
 from .work import Done, Work, expected
@@ -22,20 +23,19 @@ class Notes:
 
     threads: int = 1
     """The most that there were at once."""
-    launches: dict[int | str, list[float]] = field(default_factory=dict)
-    """When each drone was launched; kept only of flights that take time."""
+    down: dict[int | str, float] = field(default_factory=dict)
+    """Since when each drone is down that has flown; noted only of flights that take time."""
+    gaps: list[float] = field(default_factory=list)
+    """Seconds from each landing to the drone's next launch."""
 
     def launched(self, drone: int | str, now: float) -> None:
         """A drone leaves."""
-        self.launches.setdefault(drone, []).append(now)
+        if drone in self.down:
+            self.gaps.append(now - self.down.pop(drone))
 
-    def on_the_ground(self, flight: float) -> float | None:
-        """Return how long a drone stayed down between two flights, on average; None: unknown."""
-        gaps = sum(len(times) - 1 for times in self.launches.values())
-        if not gaps:
-            return None
-        between = sum(times[-1] - times[0] for times in self.launches.values())
-        return between / gaps - flight
+    def landed(self, drone: int | str, now: float) -> None:
+        """A drone has landed: nobody knows it yet."""
+        self.down[drone] = now
 
 
 Fly = Callable[[Work, Notes], Done]
@@ -50,9 +50,10 @@ class Said(TypedDict):
     """Seconds, of each run."""
     wall: list[float]
     on_the_ground: list[float]
-    """Seconds between a drone's landing and its next launch, the mean of each run.
+    """Seconds from a landing to the drone's next launch, the median of each run.
 
-    Of one drone: all the time that it did not fly, the start and the end of the run included.
+    Of one drone: all the time that it did not fly, the start and the end of the run included, by
+    flights.
     """
     threads: int
     """The most that there were at once."""
@@ -73,7 +74,7 @@ def kernel_says(key: str) -> int:
 def measure(fly: Fly, work: Work, repeat: int, checked: bool) -> Said:
     """Do the work a number of times; every time is checked, and every time is told."""
     cpu, wall = [], []
-    ground: list[float | None] = []
+    ground: list[float] = []
     wanted, threads, flights = expected(work) if checked else None, 1, 0
     for _ in range(repeat):
         gc.collect()
@@ -88,13 +89,13 @@ def measure(fly: Fly, work: Work, repeat: int, checked: bool) -> Said:
         threads = max(threads, notes.threads, kernel_says("Threads"))
         if work.drones == 1 and work.flight:
             ground.append(wall[-1] / flights - work.flight)
-        else:
-            ground.append(notes.on_the_ground(work.flight))
+        elif notes.gaps:
+            ground.append(median(notes.gaps))
     return {
         "flights": flights,
         "cpu": cpu,
         "wall": wall,
-        "on_the_ground": [gap for gap in ground if gap is not None],
+        "on_the_ground": ground,
         "threads": threads,
         "peak_mib": kernel_says("VmHWM") / 1024,
     }
