@@ -15,7 +15,7 @@ from collections.abc import Iterator
 from multiprocessing import get_context
 from time import perf_counter
 
-from tests.equivalence.campaign import Tally, differs, one_graph
+from tests.equivalence.campaign import Tally, blamed, differs, one_graph
 from tests.equivalence.coverage import missed
 from tests.equivalence.shrink import shrunk
 
@@ -56,7 +56,9 @@ def lines(tally: Tally) -> Iterator[str]:
     yield f"{tally.events} events; {len(tally.findings)} runs leave two traces"
     for finding in sorted(tally.findings, key=lambda finding: len(finding.text))[:SHOWN]:
         yield ""
-        yield str(shrunk(finding, differs))
+        small = shrunk(finding, differs)
+        yield str(small)
+        yield f"after the pass: {blamed(small)}"
 
 
 if __name__ == "__main__":

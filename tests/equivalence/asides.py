@@ -11,6 +11,8 @@ RETRIES = ("", "max_attempts: 0", "max_attempts: 1", "max_attempts: 2", "max_att
 
 def aside(drawing: Drawing, ends: Ends) -> Ends:
     """Draw a hook, or a fork of several, that leaves the statuses as they are."""
+    if drawing.strange and drawing.chance(0.5):
+        return drawing.into(ends, _strange(drawing))
     if drawing.full or drawing.chance(0.6):
         return drawing.into(ends, drawing.modifier("mark"))
     if len(ends) > 1:
@@ -31,6 +33,14 @@ def aside(drawing: Drawing, ends: Ends) -> Ends:
     for branch in branches:
         drawing.lead(branch, name)
     return {name: statuses}
+
+
+def _strange(drawing: Drawing) -> str:
+    if drawing.chance(0.5):
+        return drawing.block("tell", "others.Tell", ())
+    given = [f"seconds: {drawing.seconds()}", "deep: yes", "deep: no"]
+    written = ", ".join(dict.fromkeys(drawing.rng.choices(given[:2], k=2)))
+    return drawing.block("nap", "others.Nap", (), written if drawing.chance(0.7) else given[2])
 
 
 def retried(drawing: Drawing, ends: Ends) -> Ends:

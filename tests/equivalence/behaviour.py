@@ -142,7 +142,7 @@ class Behaviour:
         ) -> object:
             chance = self._chance(name, trip.name)
             self.diary.append(f"{context.now:.6f} {name} {trip.name} {drone.id} {dose:g}{how}")
-            if chance.random() < 0.4:  # at the very instant of a limit, perhaps
+            if chance.random() < 0.6:  # at the very instant of a limit, perhaps
                 over = await context.trip_ended(trip, within=chance.choice(self.limits))
                 self.diary.append(f"{context.now:.6f} {name} {trip.name} is over: {over}")
             else:

@@ -9,12 +9,19 @@ from functools import partial
 from random import Random
 
 from plutoc.check.model import Checked
-from plutoc.compile import analyse, planned
-from plutoc.diagnostic import Rejected
+from plutoc.check.run import check
+from plutoc.compile import planned
+from plutoc.diagnostic import Rejected, accept_or_raise
+from plutoc.graph.resolve import resolved
+from plutoc.plan.errors import BadPlan
 from plutoc.plan.model import Plan
+from plutoc.plan.optimise import stages
+from plutoc.plan.verify import verify
+from plutoc.registry import STD, Blocks, blocks_of
 from plutoc.source import Source
-from tests.equivalence import coverage
-from tests.equivalence.flows import NOTHING, Overrides
+from plutoc.syntax.parse import read
+from tests.equivalence import coverage, strangers
+from tests.equivalence.flows import NOTHING, Overrides, Package, packaged
 from tests.equivalence.fly import Record, difference, record
 from tests.equivalence.graphs import random_source
 from tests.equivalence.worlds import TIMES, World, random_world
@@ -22,6 +29,10 @@ from tests.equivalence.worlds import TIMES, World, random_world
 WORLDS = 3
 """For each graph. What is learnt in one about how long trips take is used in the next."""
 
+INSTALLED = Blocks(
+    packages=(STD, strangers.PACKAGE),
+    of=lambda name: strangers.BLOCKS if name == strangers.PACKAGE else blocks_of(name),
+)
 Planner = Callable[[Checked], Plan]
 plainly: Planner = partial(planned, optimise=False)
 
@@ -45,7 +56,8 @@ class Finding:
     name: str
     """`SEED/NUMBER`: with `--only` it is drawn once more."""
     text: str
-    world: World
+    world: World | None
+    """None: it is not even a plan."""
     said: str
     """The first difference."""
 
@@ -90,10 +102,27 @@ def drawn(name: str) -> tuple[str, Checked, Random, int]:
 
 def sound(text: str) -> Checked | None:
     """Return the checked graph of a source; None where it is refused."""
+    file, found = read(Source(path="app.pluto", text=text))
+    graph, more = resolved(file, INSTALLED)
     try:
-        return analyse(Source(path="app.pluto", text=text))[0]
+        accept_or_raise((*found, *more))
+        return check(graph)[0]
     except Rejected:
         return None
+
+
+def blamed(finding: Finding) -> str:
+    """Name the first pass after which there is a difference."""
+    checked = sound(finding.text)
+    assert checked is not None
+    if finding.world is None:
+        return "the one that is named"
+    stage = list(stages(plainly(checked)))
+    wanted = record(packaged(stage[0][1]), finding.world)
+    for name, plan in stage[1:]:
+        if difference(wanted, record(packaged(plan), finding.world)) is not None:
+            return name
+    return "none"
 
 
 def one_graph(name: str, contender: Contender = OURS) -> Tally:
@@ -102,8 +131,11 @@ def one_graph(name: str, contender: Contender = OURS) -> Tally:
     plain, other = plainly(checked), contender.planner(checked)
     tally = Tally(graphs=1, refused=refused)
     tally.seen.update(coverage.of_graph(plain, other))
-    for world, plainly_flown in _worlds(plain, rng):
-        said = difference(plainly_flown, record(other, world, contender.overrides))
+    if contender is OURS:
+        tally.findings += _malformed(name, text, plain)
+    package = packaged(other, contender.overrides)
+    for world, plainly_flown in _worlds(packaged(plain), rng):
+        said = difference(plainly_flown, record(package, world))
         if plainly_flown.broken:
             said = f"the plain package broke: {plainly_flown.ends[0]}"
         tally.flights += 1
@@ -114,10 +146,19 @@ def one_graph(name: str, contender: Contender = OURS) -> Tally:
     return tally
 
 
-def _worlds(plain: Plan, rng: Random) -> Iterator[tuple[World, Record]]:
+def _malformed(name: str, text: str, plain: Plan) -> Iterator[Finding]:
+    """Yield each pass after which a plan is none any more."""
+    for after, plan in stages(plain):
+        try:
+            verify(plan)
+        except BadPlan as bad:
+            yield Finding(name=name, text=text, world=None, said=f"after the pass {after}: {bad}")
+
+
+def _worlds(plain: Package, rng: Random) -> Iterator[tuple[World, Record]]:
     times: Sequence[float] = TIMES
     for _ in range(WORLDS):
-        world = random_world(rng, plain.checked.graph, times)
+        world = random_world(rng, plain.graph, times)
         flown = record(plain, world)
         times = (*flown.lengths, *flown.lengths, *TIMES) if flown.lengths else TIMES
         yield world, flown
@@ -128,8 +169,9 @@ def differs(text: str, world: World, contender: Contender = OURS) -> str | None:
     checked = sound(text)
     if checked is None:
         return None
-    plain = record(plainly(checked), world)
-    return difference(plain, record(contender.planner(checked), world, contender.overrides))
+    plain = record(packaged(plainly(checked)), world)
+    other = packaged(contender.planner(checked), contender.overrides)
+    return difference(plain, record(other, world))
 
 
 def first_finding(contender: Contender, graphs: int, seed: int = 0) -> Finding | None:

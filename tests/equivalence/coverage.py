@@ -13,6 +13,7 @@ from plutoc.block import Gate
 from plutoc.graph.model import Node
 from plutoc.plan.model import Body, Dispatch, Join, Loop, Plan, Step, Switch
 from plutoc_runtime.trace import Event
+from tests.equivalence import strangers
 from tests.equivalence.fly import Record
 from tests.equivalence.worlds import World
 
@@ -95,6 +96,7 @@ EVENTS: Mapping[str, str] = {
     "drone.lost": "a drone lost",
 }
 REASONS: Mapping[str, str] = {
+    "missed its deadline": "somebody else's limit ran out",
     "longer than its safe time": "a safe time ran out",
     "of the previous one": "a gap ran out",
     "had no drone within": "allocate_within ran out",
@@ -151,6 +153,7 @@ WANTED = (
     *(f"block: {kind}" for kind in ("TripMonitor", "TimerMonitor", "GapMonitor", "GateFIFO")),
     *(f"block: {kind}" for kind in ("GateFunnel", "MissionRepeater", "MissionEvaluator")),
     *(f"block: {kind}" for kind in ("MissionModifier", "PriorityManager")),
+    *(f"block: {kind}" for kind in strangers.BLOCKS),
     *RETRIES.values(),
     *("modifier with emits", "modifier without emits", "allocate_within"),
     *(f"policy: {name}" for name in ("nearest", "first", "least_used", "batch_optimal", "own")),

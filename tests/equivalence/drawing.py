@@ -9,10 +9,14 @@ from random import Random
 from plutoc.block import Block
 from plutoc_blocks import BLOCKS
 from plutoc_runtime.status import IN_GRAPH, Status
+from tests.equivalence import strangers
 
 U, R, S, C, F = IN_GRAPH
 START, END = "start", "end"
-KINDS: Mapping[str, Block] = {block.name: block for block in BLOCKS}
+KINDS: Mapping[str, Block] = {
+    **{block.name: block for block in BLOCKS},
+    **{f"{strangers.PACKAGE}.{name}": block for name, block in strangers.BLOCKS.items()},
+}
 
 Statuses = tuple[Status, ...]
 Ends = dict[str, Statuses]
@@ -32,6 +36,8 @@ class Drawing:
     rng: Random
     most: int
     """How many blocks it should have, about."""
+    strange: bool = False
+    """It uses somebody else's blocks, too."""
     words: list[str] = field(default_factory=list)
     """Categories, actions and hooks."""
     blocks: dict[str, str] = field(default_factory=dict)
@@ -98,7 +104,9 @@ class Drawing:
     def text(self, title: str = "drawn") -> str:
         """Return the source."""
         lines = [*self.words, *self.blocks.values(), *self._flow()]
-        return "\n".join(["pluto 1", f"app {title} {{", *(f"  {line}" for line in lines), "}", ""])
+        uses = [f"use {strangers.PACKAGE}"] if self.strange else []
+        inner = [f"  {line}" for line in lines]
+        return "\n".join(["pluto 1", *uses, f"app {title} {{", *inner, "}", ""])
 
     def _flow(self) -> Iterable[str]:
         sources = dict.fromkeys(source for source, _, _ in self.arrows)

@@ -13,6 +13,7 @@ OUTCOMES = (S, C, F)
 SAID: tuple[Statuses, ...] = (OUTCOMES, OUTCOMES, (F,), (R, F), (), ())
 """What a hook beside a monitor declares."""
 DEEPEST = 3
+USUAL = (("watch", "timer"), ("watch", "gap"), ("watch", "gap", "timer"), ("timer", "watch", "gap"))
 
 
 def flight(drawing: Drawing, ends: Ends, depth: int = 0) -> Ends:
@@ -40,12 +41,18 @@ def _watched(drawing: Drawing, ends: Ends, depth: int) -> Ends:
 
 def monitor(drawing: Drawing, ends: Ends) -> Ends:
     """Draw a block that ends with the trip's outcome."""
-    return drawing.into(ends, drawing.block("watch", "TripMonitor", OUTCOMES))
+    kind = "TripMonitor"
+    if drawing.strange and drawing.chance(0.4):
+        kind = drawing.rng.choice(("others.Eye", "others.Witness"))
+    return drawing.into(ends, drawing.block("watch", kind, OUTCOMES))
 
 
 def limit(drawing: Drawing, ends: Ends, kind: str) -> Ends:
     """Draw a block that fails the trip at its limit."""
-    default = f"default: {drawing.seconds()}" if drawing.chance(0.5) else ""
+    if drawing.strange and drawing.chance(0.5):
+        kind = drawing.rng.choice(("others.Deadline", "others.Patience"))
+    given = "within" if kind.startswith("others.") else "default"
+    default = f"{given}: {drawing.seconds()}" if drawing.chance(0.5) else ""
     name = "timer" if kind == "TimerMonitor" else "gap"
     return drawing.into(ends, drawing.block(name, kind, OUTCOMES, default))
 
@@ -67,9 +74,7 @@ def fork(drawing: Drawing, ends: Ends, depth: int) -> Ends:
         kinds = ["straight", *(kind for kind in kinds if kind != "straight")]
     rng.shuffle(kinds)
     if drawing.chance(0.25):  # as it stands in the thesis, and as most people write it
-        kinds = drawing.rng.choice(
-            (["watch", "timer"], ["watch", "gap"], ["watch", "timer", "gap"])
-        )
+        kinds = list(drawing.rng.choice(USUAL))
     branches = [_behind(drawing, _branch(drawing, ends, kind, depth)) for kind in kinds]
     return closed(drawing, branches)
 

@@ -5,15 +5,18 @@ from __future__ import annotations
 import builtins
 import sys
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from functools import lru_cache
 from importlib import import_module
 from importlib.abc import InspectLoader
-from types import ModuleType, SimpleNamespace
+from types import CodeType, ModuleType, SimpleNamespace
 
 from plutoc.emit.flow_file import flow_file
 from plutoc.emit.model_file import model_file
+from plutoc.graph.model import Graph
 from plutoc.plan.model import Plan
 from plutoc_runtime.app import App
+from tests.equivalence import strangers
 
 PACKAGE = "equivalent"
 BLOCKS = "_runtime.blocks."
@@ -24,13 +27,32 @@ NOTHING: Overrides = {}
 Siblings = Mapping[str, SimpleNamespace | ModuleType]
 
 
-def app_of(plan: Plan, hooks: SimpleNamespace, overrides: Overrides = NOTHING) -> App:
-    """Return the app that a plan becomes, with these hooks."""
-    model = _model(model_file(plan.checked.graph))
-    names: Siblings = {"hooks": hooks, "model": model}
-    app = _module("flow", flow_file(plan), names, overrides).APP
-    assert isinstance(app, App)
-    return app
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Package:
+    """A package in memory: what a plan becomes, but for the hooks."""
+
+    graph: Graph
+    model: ModuleType
+    flow: CodeType
+    overrides: Overrides
+
+    def app(self, hooks: SimpleNamespace) -> App:
+        """Return the app with these hooks."""
+        siblings: Siblings = {"hooks": hooks, "model": self.model}
+        app = _module("flow", self.flow, siblings, self.overrides).APP
+        assert isinstance(app, App)
+        return app
+
+
+def packaged(plan: Plan, overrides: Overrides = NOTHING) -> Package:
+    """Return the package of a plan."""
+    graph = plan.checked.graph
+    return Package(
+        graph=graph,
+        model=_model(model_file(graph)),
+        flow=compile(flow_file(plan), "flow.py", "exec"),
+        overrides=overrides,
+    )
 
 
 @lru_cache(maxsize=500)
@@ -38,10 +60,10 @@ def _model(text: str) -> ModuleType:
     """Return the classes of an app: few apps differ in them."""
     name = f"{PACKAGE}.model"
     sys.modules[name] = ModuleType(name)  # dataclasses look their module up
-    return _module("model", text, {}, NOTHING)
+    return _module("model", compile(text, "model.py", "exec"), {}, NOTHING)
 
 
-def _module(name: str, text: str, siblings: Siblings, overrides: Overrides) -> ModuleType:
+def _module(name: str, code: CodeType, siblings: Siblings, overrides: Overrides) -> ModuleType:
     def importing(
         target: str,
         globals_: Mapping[str, object] | None = None,
@@ -60,23 +82,28 @@ def _module(name: str, text: str, siblings: Siblings, overrides: Overrides) -> M
     module = ModuleType(f"{PACKAGE}.{name}")
     module.__package__ = PACKAGE
     vars(module)["__builtins__"] = {**vars(builtins), "__import__": importing}
-    _InMemory(text).exec_module(module)
+    _InMemory(code).exec_module(module)
     return module
 
 
 class _InMemory(InspectLoader):
-    """Runs a module's text."""
+    """Runs a module that was compiled already."""
 
-    def __init__(self, text: str) -> None:
-        self.text = text
+    def __init__(self, code: CodeType) -> None:
+        self.code = code
 
-    def get_source(self, fullname: str) -> str:
-        return self.text
+    def get_source(self, fullname: str) -> None:
+        return None
+
+    def get_code(self, fullname: str) -> CodeType:
+        return self.code
 
 
 def _of_the_runtime(target: str, wanted: Sequence[str], overrides: Overrides) -> object:
     """Return what a generated module imports from `_runtime`, from where it is at home."""
-    if target.startswith(BLOCKS):
+    if target.startswith(f"{BLOCKS}{strangers.PACKAGE}."):
+        home = strangers.__name__
+    elif target.startswith(BLOCKS):
         home = f"plutoc_blocks.{target.removeprefix(BLOCKS)}.step"
     else:
         home = f"plutoc_runtime{target.removeprefix('_runtime')}"

@@ -6,13 +6,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from plutoc.plan.model import Plan
 from plutoc_runtime.errors import BadInput
 from plutoc_runtime.model import Drone, Mission
 from plutoc_runtime.session import Outcome, simulate
 from plutoc_runtime.trace import Event
 from tests.equivalence.behaviour import Behaviour
-from tests.equivalence.flows import NOTHING, Overrides, app_of
+from tests.equivalence.flows import Package
 from tests.equivalence.worlds import World
 
 ANY: tuple[type[Exception], ...] = (Exception,)
@@ -36,11 +35,11 @@ class Record:
     """An error ended the run that is no answer to bad input."""
 
 
-def record(plan: Plan, world: World, overrides: Overrides = NOTHING) -> Record:
-    """Fly a plan in a world."""
+def record(package: Package, world: World) -> Record:
+    """Fly a package in a world."""
     events: list[Event] = []
     behaviour = Behaviour(seed=world.seed, limits=world.limits, clock=lambda: _now(events))
-    app = app_of(plan, behaviour.hooks(plan.checked.graph), overrides)
+    app = package.app(behaviour.hooks(package.graph))
     missions = world.made(app)
     ends: Sequence[str]
     try:

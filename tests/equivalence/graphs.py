@@ -37,7 +37,8 @@ class _Graph:
     """An app: a way to a drone, a flight, and what becomes of the mission then."""
 
     def __init__(self, rng: Random) -> None:
-        self.drawing = Drawing(rng=rng, most=rng.choice((6, 9, 12, 16, 20)))
+        most = rng.choice((6, 9, 12, 16, 20))
+        self.drawing = Drawing(rng=rng, most=most, strange=rng.random() < 0.15)
         self.policies: list[str] = []
         self.heads: list[str] = []
         """Where a mission can go on with its next trip."""

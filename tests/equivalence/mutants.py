@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from copy import copy
 from dataclasses import replace
 from functools import reduce
 from typing import TYPE_CHECKING, Any
@@ -20,6 +21,7 @@ from plutoc_runtime.watching import watch
 from tests.equivalence.campaign import Contender, Planner
 
 if TYPE_CHECKING:
+    from plutoc_runtime.flight import Flight
     from plutoc_runtime.run import Branch, Run
     from plutoc_runtime.status import Status
     from plutoc_runtime.watching import Limit
@@ -141,15 +143,11 @@ async def _wait_for_any(run: Run[Any], status: Status, *branches: Branch[Any]) -
     return await pass_first(run, status, *branches)
 
 
-async def _watch_and_never_let_go(run: Run[Any], *limits: Limit | None) -> Status:
+def _watch_and_never_let_go(run: Run[Any], *limits: Limit | None) -> Flight:
     """A wait whose limits go on when it is called off."""
-    try:
-        return await watch(run, *limits)
-    except BaseException:
-        for limit in limits:
-            if limit is not None:
-                limit.flight = run.state.flight
-        raise
+    nobody = copy(run)
+    nobody.task = None
+    return watch(nobody, *limits)
 
 
 def _limit_by_default(

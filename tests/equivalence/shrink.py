@@ -23,8 +23,7 @@ Differs = Callable[[str, World], str | None]
 
 def shrunk(finding: Finding, differs: Differs) -> Finding:
     """Return a smaller source and world that leave two traces all the same."""
-    tries = TRIES
-    again = True
+    tries, again = TRIES, finding.world is not None
     while again:
         again = False
         for text, world in _smaller(finding.text, finding.world):
@@ -46,7 +45,9 @@ def _said(text: str, world: World, differs: Differs) -> str | None:
         return None
 
 
-def _smaller(text: str, world: World) -> Iterator[tuple[str, World]]:
+def _smaller(text: str, world: World | None) -> Iterator[tuple[str, World]]:
+    if world is None:
+        return
     yield from ((text, each) for each in _worlds(world))
     yield from ((each, world) for each in _texts(text))
 

@@ -54,6 +54,7 @@ def test_what_is_found_is_made_smaller() -> None:
     assert finding is not None
     small = shrunk(finding, lambda text, world: differs(text, world, mutant))
     assert len(small.text) < len(finding.text)
+    assert small.world is not None and finding.world is not None
     assert len(small.world.missions) <= len(finding.world.missions)
     assert differs(small.text, small.world, mutant) == small.said
     assert differs(small.text, small.world) is None

@@ -24,6 +24,7 @@ from plutoc_runtime.simulation.faults import Faults
 
 Plain = bool | int | float | str | None
 TIMES = (0.0, 0.5, 2.0, 5.0, 7.0, 9.0, 11.0, 13.0, 15.0, 17.0, 21.0, 25.0, 30.0, 60.0)
+LIMITS = ("safe_time", "gap", "deadline")
 BUILT_IN = ("take_photo", "take_photo", "measure")
 ITEM = Item(name="pills", mass=0.004)
 
@@ -135,15 +136,21 @@ def random_world(rng: Random, graph: Graph, times: Sequence[float] = TIMES) -> W
 class _World:
     def __init__(self, rng: Random, graph: Graph, times: Sequence[float]) -> None:
         self.rng, self.graph, self.times = rng, graph, times
+        self.on_a_line = rng.random() < 0.5
+        """Every flight takes whole or half seconds: no sum of times is rounded."""
         self.spots = [self.spot() for _ in range(rng.choice((1, 2, 4)))]
-        self.usual: tuple[float, ...] = ()
+        self.limit: float | None = None
+        """All limits of the mission, if they are to fall on one instant."""
         self.fields = fields_of(graph)
-        wanted = (*BUILT_IN, *(action.name for action in graph.actions))
+        own = tuple(action.name for action in graph.actions)
+        wanted = (*BUILT_IN, *own, *own)
         known = [each.actions for each in graph.categories]
         able = [name for name in wanted if any(can is None or name in can for can in known)]
         self.actions = (able or wanted) if rng.random() < 0.95 else wanted
 
     def spot(self) -> Point:
+        if self.on_a_line:
+            return self.rng.randrange(1, 16) / 2, 0.5, 1.2
         y = 0.5 if self.rng.random() < 0.7 else self.rng.choice((1.5, 2.5, 4.0))
         return self.rng.randrange(1, 16) / 2, y, self.rng.choice((1.2, 1.2, 1.2, 0.6))
 
@@ -160,11 +167,11 @@ class _World:
 
     def mission(self, number: int) -> MissionPlan:
         name = f"m{number}"
-        everywhere = self.rng.choice(self.times)
-        if self.rng.random() < 0.3:  # one time for all: its limits fall on one instant
-            self.usual = (*self.times, *(everywhere for _ in range(2 * len(self.times))))
-        else:
-            self.usual = tuple(self.times)
+        several = sum(each.name in LIMITS for each in self.fields) > 1
+        together = self.rng.random() < (0.7 if several else 0.3)
+        self.limit = (
+            self.rng.choice([time for time in TIMES if 0 < time < 12]) if together else None
+        )
         trips: list[TripPlan] = []
         for place in range(1, self.rng.choice((1, 2, 2, 3, 4)) + 1):
             trips += self.trips(f"{name}.{place}")
@@ -198,13 +205,20 @@ class _World:
         return {
             each.name: self.value(each)
             for each in self.fields
-            if each.on is entity and self.rng.random() < 0.6
+            if each.on is entity and self.given(each)
         }
+
+    def given(self, wanted: Field) -> bool:
+        if self.limit is not None and wanted.name in LIMITS:
+            return True
+        return self.rng.random() < (0.6 if self.limit is None else 0.2)
 
     def value(self, wanted: Field) -> Plain:
         match wanted.type:
             case FieldType.TIME | FieldType.TIME_OF_DAY:
-                return self.rng.choice(self.usual)
+                if self.limit is not None and wanted.name in LIMITS:
+                    return self.limit
+                return self.rng.choice(self.times)
             case FieldType.INT:
                 return self.rng.choice((0, 0, 1, 2))
             case FieldType.ROUNDS:
