@@ -12,6 +12,7 @@ from plutoc.emit.imports import Import
 from plutoc.emit.walk import branches, steps
 from plutoc.graph.model import Node
 from plutoc.plan.model import Call, Join, Plan, Watch
+from plutoc_runtime.status import IN_GRAPH
 from plutoc_runtime.watching import watch
 
 RESERVED = frozenset(
@@ -19,6 +20,7 @@ RESERVED = frozenset(
         *("APP", "Action", "App", "BUILT_IN", "CATEGORIES", "FIELDS", "Mission", "Parameter"),
         *("Run", "Status", "Trip", "Type", "at", "flow", "hooks", "mission", "partial"),
         *("run", "status"),
+        *(status.name for status in IN_GRAPH),
     }
 )
 """The names that `flow.py` gives to other things."""

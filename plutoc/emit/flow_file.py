@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 from plutoc.block import HookKind
@@ -15,6 +16,7 @@ from plutoc.emit.walk import branches, nodes
 from plutoc.frozen import frozen
 from plutoc.graph.model import Action, Graph, Parameter
 from plutoc.plan.model import Body, Plan
+from plutoc_runtime.status import IN_GRAPH
 
 
 @frozen
@@ -44,6 +46,7 @@ def flow_file(plan: Plan) -> str:
     scope = Scope(
         names=names_of(carried_functions(plan)),
         fields={field.name: field for field in fields_of(graph)},
+        left_out=frozenset(plan.left_out),
         mission="mission",
     )
     in_branch = replace(scope, mission="run.mission")
@@ -53,13 +56,15 @@ def flow_file(plan: Plan) -> str:
         for one in branches(plan.body)
     ]
     app_arguments = _app(graph)
-    written = "\n".join([*lines, *app_arguments, *(line for f in functions for line in f.lines)])
+    start = _start(plan.body, scope)
+    of_functions = (line for function in functions for line in function.lines)
+    written = "\n".join([start, *lines, *app_arguments, *of_functions])
     return render(
         "flow.py",
         FlowFile(
             app=graph.name,
             imports=import_lines([*_imports(graph, written), *imports_of(scope.names)]),
-            start=_start(plan.body, scope),
+            start=start,
             lines=lines,
             branches=functions,
             app_arguments=app_arguments,
@@ -70,8 +75,8 @@ def flow_file(plan: Plan) -> str:
 def _start(body: Body, scope: Scope) -> str:
     asked = any(node.block.needs or _used(node.block.uses, scope) for node in nodes(body))
     if asked:
-        return "mission, status = run.mission, Status.UNEXECUTED"
-    return "status = Status.UNEXECUTED"
+        return "mission, status = run.mission, UNEXECUTED"
+    return "status = UNEXECUTED"
 
 
 def _used(uses: tuple[str, ...], scope: Scope) -> bool:
@@ -83,7 +88,7 @@ def _imports(graph: Graph, written: str) -> list[Import]:
         *names("._runtime.actions", "BUILT_IN"),
         *names("._runtime.app", "App"),
         *names("._runtime.run", "Run"),
-        *names("._runtime.status", "Status"),
+        *names("._runtime.status", "Status", *_statuses(written)),
         *names(".model", "CATEGORIES", "FIELDS", "Mission", "Trip"),
     ]
     if "hooks." in written:
@@ -98,6 +103,16 @@ def _imports(graph: Graph, written: str) -> list[Import]:
             *names("._runtime.quantities", "Type"),
         ]
     return imports
+
+
+def _statuses(written: str) -> list[str]:
+    """Return the statuses that are named in some lines of Python, outside of texts and comments."""
+    words = frozenset(_WORD.findall(_TEXT.sub("", written)))
+    return [status.name for status in IN_GRAPH if status.name in words]
+
+
+_TEXT = re.compile(r"""'(?:\\.|[^'\\\n])*'|"(?:\\.|[^"\\\n])*"|#.*""")
+_WORD = re.compile(r"\b[A-Z]+\b")
 
 
 def _app(graph: Graph) -> list[str]:

@@ -9,7 +9,7 @@ from inspect import iscoroutinefunction
 from plutoc.block import Choice, HookParam, Param
 from plutoc.emit.callables import WATCH, Names, chosen
 from plutoc.emit.embed import Carried
-from plutoc.emit.python import call, literal, status_tuple
+from plutoc.emit.python import call, items, literal
 from plutoc.frozen import frozen
 from plutoc.graph.model import Node
 from plutoc.plan.model import (
@@ -38,6 +38,8 @@ class Scope:
     names: Names
     fields: Mapping[str, Field]
     """The fields that exist in this app."""
+    left_out: frozenset[tuple[str, str]]
+    """Blocks and their parameters that are not handed over."""
     mission: str
     """How the mission is reached here."""
     head: str = ""
@@ -55,7 +57,7 @@ def body_lines(body: Body, scope: Scope) -> Iterator[str]:
                 yield from _go_through(_call(node, (), scope), following)
             case Join(gate=gate, branches=branches):
                 yield f"# {_picture(step)}"
-                functions = tuple(branch.name for branch in branches)
+                functions = tuple(branch.name for branch in branches if not branch.idle)
                 yield from _go_through(_call(gate, functions, scope), following)
             case Watch():
                 yield f"# {_watched(step)}"
@@ -129,14 +131,16 @@ def _keywords(node: Node, scope: Scope) -> Iterator[str]:
         yield f"block={literal(node.name)}"
     for param in block.params:
         match param:
-            case Param(name=name):
+            case Param(name=name) if (node.name, name) not in scope.left_out:
                 yield f"{name}={literal(dict(node.values).get(name))}"
             case HookParam():
                 yield f"hook={_hook(node)}"
             case Choice(name=name):
                 yield f"{name}={_choice(node, param, scope)}"
+            case _:
+                pass
     if block.emits_by_hook and node.hook and node.hook.emits:
-        yield f"emits={status_tuple(node.hook.emits)}"
+        yield f"emits={_any_of(node.hook.emits)}"
     for field in (
         *block.needs,
         *(scope.fields[name] for name in block.uses if name in scope.fields),
@@ -208,14 +212,18 @@ def _arm(arm: Arm, scope: Scope) -> list[str]:
 
 def _is_not(statuses: tuple[Status, ...]) -> str:
     if len(statuses) == 1:
-        return f"status is not Status.{statuses[0].name}"
-    return f"status not in {status_tuple(statuses)}"
+        return f"status is not {statuses[0].name}"
+    return f"status not in {_any_of(statuses)}"
 
 
 def _condition(arm: Arm) -> str:
     if len(arm.statuses) == 1:
-        return f"status is Status.{arm.statuses[0].name}"
-    return f"status in {status_tuple(arm.statuses)}"
+        return f"status is {arm.statuses[0].name}"
+    return f"status in {_any_of(arm.statuses)}"
+
+
+def _any_of(statuses: tuple[Status, ...]) -> str:
+    return items(status.name for status in statuses)
 
 
 def leaves(body: Body) -> bool:

@@ -38,9 +38,9 @@ def nodes(body: Body) -> Iterator[Node]:
 
 
 def branches(body: Body) -> Iterator[Branch]:
-    """Yield the branches of every fork, each followed by those of the forks in it."""
+    """Yield the branches of every fork that are functions, each before those of the forks in it."""
     for step in steps(body):
         if isinstance(step, Join):
-            for branch in step.branches:
+            for branch in (branch for branch in step.branches if not branch.idle):
                 yield branch
                 yield from branches(branch.body)

@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 from plutoc.check.model import Checked
+from plutoc.frozen import frozen
 from plutoc.graph.model import Node
 from plutoc.plan.chart import let_through
 from plutoc.plan.model import (
@@ -32,6 +33,8 @@ from plutoc.plan.model import (
 from plutoc_runtime.status import Status
 
 Statuses = frozenset[Status]
+Brought = Mapping[tuple[int, Status], Statuses]
+"""What a branch, by its identity, brings to its gate when a mission forks with a status."""
 NONE = frozenset[Status]()
 
 
@@ -128,8 +131,17 @@ class _Walk:
                 self.body(bodies[label], walked[label], frame)
 
 
-def arriving(plan: Plan) -> Mapping[int, set[Status]]:
-    """Return what can arrive at each switch, by its identity."""
+@frozen
+class Arriving:
+    """What was found."""
+
+    switches: Mapping[int, set[Status]]
+    """What can arrive at each, by its identity."""
+    brought: Brought
+
+
+def arriving(plan: Plan) -> Arriving:
+    """Walk a plan with all statuses that can occur."""
     walk = _Walk(checked=plan.checked)
     walk.body(plan.body, frozenset((Status.UNEXECUTED,)), _Frame())
-    return walk.found
+    return Arriving(switches=walk.found, brought=walk.brought)

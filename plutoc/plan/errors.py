@@ -51,8 +51,8 @@ def loop_in_case(where: str) -> BadPlan:
     return BadPlan(f"{where}: a loop inside a case would catch its jumps")
 
 
-def no_round(where: str) -> BadPlan:
-    return BadPlan(f"{where}: the loop never begins again")
+def no_clone(where: str, name: str) -> BadPlan:
+    return BadPlan(f"{where}: no clone goes into branch {name}, which does something")
 
 
 def few_arms(where: str) -> BadPlan:

@@ -28,6 +28,8 @@ class Branch:
     path: str
     """`launch -> watch -> first`, for a person."""
     body: Body
+    idle: bool = False
+    """Without it everything is the same: no clone is sent."""
 
 
 @frozen
@@ -123,3 +125,5 @@ class Plan:
 
     checked: Checked
     body: Body
+    left_out: tuple[tuple[str, str], ...] = ()
+    """Blocks and those of their parameters that are as a step takes them if nothing is said."""

@@ -6,11 +6,13 @@ from collections.abc import Callable, Iterator
 
 from plutoc.plan.model import Plan
 from plutoc.plan.passes.cases import cases
+from plutoc.plan.passes.clones import clones
+from plutoc.plan.passes.constants import constants
 from plutoc.plan.passes.decided import decided
 from plutoc.plan.passes.impossible import impossible
 from plutoc.plan.passes.watch import watch
 
-PASSES: tuple[Callable[[Plan], Plan], ...] = (impossible, decided, cases, watch)
+PASSES: tuple[Callable[[Plan], Plan], ...] = (impossible, decided, cases, watch, clones, constants)
 """Each has its reasons in its file. A pass may rely on those before it."""
 
 BUILT = "built"

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
+from plutoc.plan.bodies import falls
 from plutoc.plan.model import Body, Dispatch, Join, Loop, Plan, Step, Switch
 
 Replace = Callable[[Step, Step], Body]
@@ -18,8 +19,14 @@ def rewritten(plan: Plan, change: Replace) -> Plan:
 
 
 def rewritten_body(body: Body, change: Replace) -> Body:
-    """Return a body with each step replaced, inner ones first."""
-    return tuple(new for step in body for new in change(_inside(step, change), step))
+    """Return a body with each step replaced, inner ones first; what is never reached then goes."""
+    written: list[Step] = []
+    for step in body:
+        for new in change(_inside(step, change), step):
+            written.append(new)
+            if not falls((new,)):
+                return tuple(written)
+    return tuple(written)
 
 
 def _inside(step: Step, change: Replace) -> Step:

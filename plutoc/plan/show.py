@@ -24,6 +24,10 @@ from plutoc.plan.model import (
 def show(plan: Plan) -> str:
     """Return a plan as text."""
     lines = [f"plan {plan.checked.graph.name}", *_inside(plan.body)]
+    if plan.left_out:
+        lines.append(
+            f"left out: {', '.join(f'{param} of {block}' for block, param in plan.left_out)}"
+        )
     return "\n".join(lines) + "\n"
 
 
@@ -70,6 +74,8 @@ def _watched(watch: Watch) -> str:
 
 
 def _branch(branch: Branch) -> list[str]:
+    if branch.idle:
+        return [f"  no branch for {branch.path}"]
     inside = (f"  {line}" for line in _inside(branch.body))
     return [f"  branch {branch.name}: {branch.path}", *inside]
 

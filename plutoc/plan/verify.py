@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from keyword import iskeyword, issoftkeyword
 
+from plutoc.block import Gate
 from plutoc.graph.model import Node
 from plutoc.plan import errors
-from plutoc.plan.bodies import continues, falls
+from plutoc.plan.bodies import falls
 from plutoc.plan.model import (
     Arm,
     Body,
@@ -15,6 +16,7 @@ from plutoc.plan.model import (
     Call,
     Continue,
     Dispatch,
+    End,
     Goto,
     Join,
     Loop,
@@ -86,8 +88,6 @@ def _body(
             case Loop():
                 inside = f"{where}, loop {step.head}"
                 _body(step.body, inside, names, in_loop=True, labels=labels)
-                if not falls(step.body) and not continues(step.body):
-                    raise errors.no_round(inside)
             case _:
                 pass
 
@@ -108,10 +108,22 @@ def _step(step: Step, where: str, *, in_loop: bool, labels: tuple[str, ...] | No
         case Watch():
             if step.watchers != _watchers(step.instead):
                 raise errors.other_watchers(where)
+        case Join():
+            _spared(step, where)
         case Switch():
             _arms(step.arms, where, least=2 if step.decided else 1)
         case _:
             pass
+
+
+def _spared(join: Join, where: str) -> None:
+    """Check that a branch without a clone is an arrow, or one that is called off at once."""
+    arrow = False
+    for branch in join.branches:
+        free = branch.body == (End(),) if join.gate.block.gate is Gate.ALL else arrow
+        if branch.idle and not free:
+            raise errors.no_clone(where, branch.name)
+        arrow = arrow or branch.body == (End(),)
 
 
 def _watchers(step: Step) -> tuple[Node, ...]:

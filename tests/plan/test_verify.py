@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import pytest
 
+from plutoc.emit.walk import steps
 from plutoc.plan.errors import BadPlan
 from plutoc.plan.model import (
     Arm,
@@ -22,12 +23,14 @@ from plutoc.plan.model import (
     Loop,
     Plan,
     Switch,
+    Watch,
 )
+from plutoc.plan.rewrite import rewritten_body
 from plutoc.plan.verify import verify
 from plutoc_runtime.status import Status
 from tests.check.graphs import checked
 from tests.plan.graphs import GRAPHS, MAZE, routes
-from tests.plan.plans import structured
+from tests.plan.plans import after, structured
 
 GRAPH = checked(routes(a="STANDBY > b, COMPLETED > end, FAILED > end", b="STANDBY > a"))
 FORKED = structured(GRAPHS["a fork before the first launch"])
@@ -58,10 +61,6 @@ WRONG: dict[str, tuple[Body, str]] = {
     "continue outside of a loop": ((call("create"), Continue()), "continue outside of a loop"),
     "break outside of a loop": ((call("create"), Break()), "break outside of a loop"),
     "goto outside of a dispatch": ((call("create"), Goto(label="a")), "outside of a dispatch"),
-    "a loop that ends": (
-        (call("create"), Loop(head="a", body=(call("a"), End()))),
-        "never begins again",
-    ),
     "a dispatch behind a step": (
         (call("create"), Dispatch(start="a", cases=())),
         "not the whole of its body",
@@ -143,6 +142,26 @@ def test_a_join_where_the_graph_has_no_fork_is_refused() -> None:
     join = next(step for step in FORKED.body if isinstance(step, Join))
     with pytest.raises(BadPlan, match="no such fork at a"):
         verify(Plan(checked=GRAPH, body=(call("create"), call("a"), join, End())))
+
+
+def test_a_branch_that_does_something_needs_a_clone() -> None:
+    """Else its blocks would not be called."""
+    first, join, *rest = FORKED.body
+    assert isinstance(join, Join)
+    left, right = join.branches
+    spoilt = replace(join, branches=(replace(left, idle=True), right))
+    with pytest.raises(BadPlan, match="no clone goes into branch _left"):
+        verify(replace(FORKED, body=(first, spoilt, *rest)))
+
+
+def test_a_wait_that_forgets_a_limit_is_refused() -> None:
+    """It stands for every block that watches, and for no other."""
+    plan = after("watch", GRAPHS["alfalfa"])
+    wait = next(step for step in steps(plan.body) if isinstance(step, Watch))
+    spoilt = replace(wait, watchers=wait.watchers[:1])
+    body = rewritten_body(plan.body, lambda step, _: (spoilt if step is wait else step,))
+    with pytest.raises(BadPlan, match="does not stand for all"):
+        verify(replace(plan, body=body))
 
 
 def spoilt_cases(*cases: Case, start: str = "create") -> Plan:

@@ -7,7 +7,9 @@ Before:                                     After:
       STANDBY -> allocate: go on                  STANDBY -> allocate: go on
 
 A guard says what its edge takes; the checks have seen what really comes. Which it is depends on the
-way as well: behind one fork a block may leave with statuses that it never has behind another.
+way as well: behind one fork a block may leave with statuses that it never has behind another, and
+where a block is written twice, not all that comes to it comes to each. What is never reached then
+goes, and a loop that is never begun again is none.
 """
 
 from __future__ import annotations
@@ -15,15 +17,20 @@ from __future__ import annotations
 from dataclasses import replace
 
 from plutoc.plan.arriving import arriving
-from plutoc.plan.model import Arm, Body, Plan, Step, Switch
+from plutoc.plan.bodies import breaks, continues, falls
+from plutoc.plan.model import Arm, Body, Loop, Plan, Step, Switch
 from plutoc.plan.rewrite import rewritten
 
 
 def impossible(plan: Plan) -> Plan:
     """Ask for no status that cannot arrive."""
-    found = arriving(plan)
+    found = arriving(plan).switches
 
     def narrowed(step: Step, before: Step) -> Body:
+        if isinstance(step, Loop) and not any(
+            leave(step.body) for leave in (falls, continues, breaks)
+        ):
+            return step.body
         if not isinstance(step, Switch):
             return (step,)
         came = found.get(id(before), ())

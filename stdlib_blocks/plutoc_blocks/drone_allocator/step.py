@@ -20,7 +20,7 @@ async def allocate_drone(
     status: Status,
     *,
     policy: Policy,
-    allocate_within: float | None,
+    allocate_within: float | None = None,
     priority: int = 0,
 ) -> Status:
     """Wait for a drone for the next trip; the mission keeps one that carries its item."""

@@ -15,13 +15,13 @@ if TYPE_CHECKING:
 
 
 async def watch_gap(
-    run: Run[Any], status: Status, *, default: float | None, gap: float | None
+    run: Run[Any], status: Status, *, default: float | None = None, gap: float | None
 ) -> Status:
     """Wait for the trip's end, and fail the trip when its action is overdue."""
     return await watch(run, gap_limit(run, default=default, gap=gap))
 
 
-def gap_limit(run: Run[Any], *, default: float | None, gap: float | None) -> Limit | None:
+def gap_limit(run: Run[Any], *, default: float | None = None, gap: float | None) -> Limit | None:
     """Return the limit of the trip in flight, from the action before it on; None: it has none."""
     state, longest = run.state, default if gap is None else gap
     flight = state.flight

@@ -18,14 +18,14 @@ from ._runtime.blocks.trip_launcher import launch_trip
 from ._runtime.policies.nearest import nearest
 from ._runtime.quantities import Type
 from ._runtime.run import Run
-from ._runtime.status import Status
+from ._runtime.status import COMPLETED, FAILED, STANDBY, UNEXECUTED, Status
 from ._runtime.watching import watch
 from .model import CATEGORIES, FIELDS, Mission, Trip
 
 
 async def flow(run: Run[Mission]) -> Status:
     """Take one mission through the graph, from start to end."""
-    mission, status = run.mission, Status.UNEXECUTED
+    mission, status = run.mission, UNEXECUTED
     # create = MissionCreator
     status = create_mission(run, status)
     # wait = Clock
@@ -35,7 +35,7 @@ async def flow(run: Run[Mission]) -> Status:
     while True:
         # allocate = DroneAllocator(policy: nearest)
         status = await allocate_drone(
-            run, status, policy=nearest, allocate_within=None, priority=mission.current.priority
+            run, status, policy=nearest, priority=mission.current.priority
         )
         # launch = TripLauncher
         status = launch_trip(run, status)
@@ -45,25 +45,25 @@ async def flow(run: Run[Mission]) -> Status:
             # timer = TimerMonitor(default: 5 min)
             timer_limit(run, default=300.0, safe_time=mission.safe_time),
         )
-        if status is Status.STANDBY:
+        if status is STANDBY:
             continue  # -> allocate
-        if status is Status.FAILED:
+        if status is FAILED:
             # retry = PriorityManager(max_attempts: 3)
             status = raise_priority(run, status, max_attempts=3, priority=mission.current.priority)
-            if status is Status.FAILED:
+            if status is FAILED:
                 return status
             continue  # -> allocate
         # judge = MissionEvaluator(hook: find_blooms)
         status = await evaluate_mission(
             run, status, hook=hooks.find_blooms, evaluator=mission.evaluator
         )
-        if status is Status.STANDBY:
+        if status is STANDBY:
             continue  # -> allocate
-        if status is Status.FAILED:
+        if status is FAILED:
             return status
         # again = MissionRepeater
         status = repeat_mission(run, status, repeat=mission.repeat)
-        if status is Status.COMPLETED:
+        if status is COMPLETED:
             return status
 
 

@@ -1,0 +1,62 @@
+"""No clone goes into a branch that brings nothing of its own, or that never begins.
+
+Before:                                     After:
+    join tell -> all                            join tell -> all
+      branch _note: tell -> note -> all           branch _note: tell -> note -> all
+        call note                                   call note
+        end                                         end
+      branch _all: tell -> all                    no branch for tell -> all
+        end
+
+Of what comes to a gate that waits for all branches, the worst status passes. A branch that is only
+an arrow brings the status of the fork; where another one always brings the same or a worse one, it
+makes no difference. A gate that lets the first branch pass gets it at once from such a branch, at the
+latest: those behind it are called off before they begin.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from plutoc.block import Gate
+from plutoc.plan.arriving import Brought, arriving
+from plutoc.plan.model import Body, Branch, End, Join, Plan, Step
+from plutoc.plan.rewrite import rewritten
+from plutoc_runtime.status import IN_GRAPH, WORST_FIRST
+
+
+def clones(plan: Plan) -> Plan:
+    """Send clones only where they do something."""
+    brought = arriving(plan).brought
+
+    def spared(step: Step, before: Step) -> Body:
+        if isinstance(step, Join) and isinstance(before, Join):
+            idle = _idle(before, brought)
+            branches = (
+                replace(branch, idle=number in idle) for number, branch in enumerate(step.branches)
+            )
+            return (replace(step, branches=tuple(branches)),)
+        return (step,)
+
+    return rewritten(plan, spared)
+
+
+def _idle(join: Join, brought: Brought) -> range | list[int]:
+    """Return the numbers of the branches that need no clone."""
+    arrows = [number for number, branch in enumerate(join.branches) if branch.body == (End(),)]
+    if not arrows:
+        return []
+    if join.gate.block.gate is Gate.FIRST:
+        return range(arrows[0] + 1, len(join.branches))
+    busy = [branch for number, branch in enumerate(join.branches) if number not in arrows]
+    return arrows if any(_as_bad(branch, brought) for branch in busy) else arrows[1:]
+
+
+def _as_bad(branch: Branch, brought: Brought) -> bool:
+    """Does a branch always bring the status of its fork, or a worse one?"""
+    pairs = [
+        (status, after) for status in IN_GRAPH for after in brought.get((id(branch), status), ())
+    ]
+    return bool(pairs) and all(
+        WORST_FIRST.index(after) <= WORST_FIRST.index(status) for status, after in pairs
+    )
