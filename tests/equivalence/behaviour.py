@@ -36,6 +36,8 @@ class Behaviour:
     seed: int
     limits: Sequence[float] = (5.0,)
     """Times from a trip's start at which something else may happen too."""
+    patient: bool = True
+    """Its hooks wait now and then. Those that never do are over in the instant of their call."""
     clock: Callable[[], float] = lambda: 0.0
     diary: list[str] = field(default_factory=list)
     calls: Counter[tuple[str, str]] = field(default_factory=Counter)
@@ -93,6 +95,13 @@ class Behaviour:
                 mission.trips[1:] = mission.trips[:0:-1]
             return self._said(hook, mission, chance)
 
+        async def never_waits(
+            mission: AnyMission, context: Context, *, limit: float = 0.0
+        ) -> object:
+            return is_quick(mission, context, limit=limit)
+
+        if not self.patient:
+            return never_waits
         return waits if Random(f"{self.seed}/{hook.name}").random() < 0.6 else is_quick
 
     def _said(self, hook: Hook, mission: AnyMission, chance: Random) -> object:
@@ -123,7 +132,8 @@ class Behaviour:
         async def takes_time(mission: AnyMission, results: Results[Any, Any]) -> object:
             return judges(mission, results)
 
-        return judges if Random(f"{self.seed}/{hook.name}").random() < 0.5 else takes_time
+        plain = self.patient and Random(f"{self.seed}/{hook.name}").random() < 0.5
+        return judges if plain else takes_time
 
     def _policy(self, hook: Hook) -> Callable[..., object]:
         def chooses(trip: Trip, candidates: Sequence[Drone]) -> Drone | None:
@@ -137,24 +147,35 @@ class Behaviour:
         return chooses
 
     def _action(self, name: str) -> Callable[..., object]:
-        async def acts(
-            drone: Drone, trip: Trip, context: Context, *, dose: float = 0.0, how: str = ""
-        ) -> object:
-            chance = self._chance(name, trip.name)
-            self.diary.append(f"{context.now:.6f} {name} {trip.name} {drone.id} {dose:g}{how}")
-            if chance.random() < 0.6:  # at the very instant of a limit, perhaps
-                over = await context.trip_ended(trip, within=chance.choice(self.limits))
-                self.diary.append(f"{context.now:.6f} {name} {trip.name} is over: {over}")
-            else:
-                await context.sleep(chance.choice(PAUSES))
-            self.diary.append(f"{context.now:.6f} {name} {trip.name} is done")
+        def begins(trip: Trip, drone: Drone, context: Context, given: str) -> Random:
+            self.diary.append(f"{context.now:.6f} {name} {trip.name} {drone.id} {given}")
+            return self._chance(name, trip.name)
+
+        def gives(chance: Random) -> object:
             if chance.random() < 0.15:
                 raise ActionFailed("it slipped")
             if chance.random() < 0.02:
                 raise KeyError(name)
             return chance.randint(0, 9)
 
-        return acts
+        async def acts(
+            drone: Drone, trip: Trip, context: Context, *, dose: float = 0.0, how: str = ""
+        ) -> object:
+            chance = begins(trip, drone, context, f"{dose:g}{how}")
+            if chance.random() < 0.6:  # at the very instant of a limit, perhaps
+                over = await context.trip_ended(trip, within=chance.choice(self.limits))
+                self.diary.append(f"{context.now:.6f} {name} {trip.name} is over: {over}")
+            else:
+                await context.sleep(chance.choice(PAUSES))
+            self.diary.append(f"{context.now:.6f} {name} {trip.name} is done")
+            return gives(chance)
+
+        async def never_waits(
+            drone: Drone, trip: Trip, context: Context, *, dose: float = 0.0, how: str = ""
+        ) -> object:
+            return gives(begins(trip, drone, context, f"{dose:g}{how}"))
+
+        return acts if self.patient else never_waits
 
 
 def _flying(mission: AnyMission) -> bool:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 from plutoc_runtime.errors import BadInput
 from plutoc_runtime.model import Drone, Mission
@@ -13,6 +13,11 @@ from plutoc_runtime.trace import Event
 from tests.equivalence.behaviour import Behaviour
 from tests.equivalence.flows import Package
 from tests.equivalence.worlds import World
+
+if TYPE_CHECKING:
+    from plutoc_runtime.app import App
+    from plutoc_runtime.files.fleet import FleetFile
+    from plutoc_runtime.simulation.faults import Faults
 
 ANY: tuple[type[Exception], ...] = (Exception,)
 """Whatever ends a run is kept, and compared."""
@@ -35,15 +40,33 @@ class Record:
     """An error ended the run that is no answer to bad input."""
 
 
-def record(package: Package, world: World) -> Record:
+class Fly(Protocol):
+    """What flies missions: `simulate` of the runtime, or another driver of the same kind."""
+
+    def __call__(
+        self,
+        app: App,
+        missions: Sequence[Mission[Any]],
+        fleet: FleetFile,
+        *,
+        seed: int,
+        faults: Faults,
+        until: float | None,
+        on_event: Callable[[Event], None] | None,
+    ) -> Outcome: ...
+
+
+def record(package: Package, world: World, *, fly: Fly = simulate, patient: bool = True) -> Record:
     """Fly a package in a world."""
     events: list[Event] = []
-    behaviour = Behaviour(seed=world.seed, limits=world.limits, clock=lambda: _now(events))
+    behaviour = Behaviour(
+        seed=world.seed, limits=world.limits, patient=patient, clock=lambda: _now(events)
+    )
     app = package.app(behaviour.hooks(package.graph))
     missions = world.made(app)
     ends: Sequence[str]
     try:
-        outcome = simulate(
+        outcome = fly(
             app,
             missions,
             world.fleet,

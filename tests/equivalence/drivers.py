@@ -1,0 +1,110 @@
+"""The driver of real flights without their time: an asyncio loop that jumps to what comes next."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Sequence
+from contextvars import Context
+from heapq import heappop, heappush
+from selectors import DefaultSelector, SelectorKey
+from typing import TYPE_CHECKING, Any, TypeVarTuple
+
+from plutoc_runtime.errors import BadInput
+from plutoc_runtime.realtime import RealTime
+from plutoc_runtime.session import Outcome, Simulation
+
+if TYPE_CHECKING:
+    from plutoc_runtime.app import App
+    from plutoc_runtime.files.fleet import FleetFile
+    from plutoc_runtime.model import Mission
+    from plutoc_runtime.simulation.faults import Faults
+    from plutoc_runtime.trace import Event
+
+Arguments = TypeVarTuple("Arguments")
+
+
+class _Jumping(asyncio.SelectorEventLoop):
+    """A loop in which nobody waits: where all others would sleep, it is later already."""
+
+    def __init__(self) -> None:
+        self.now = 0.0
+        self._whens: list[float] = []
+        self.stuck: Callable[[], object] = lambda: None
+        """Called when nothing is left to wait for."""
+        super().__init__(_Selector(self))
+
+    def time(self) -> float:
+        return self.now
+
+    def call_at(
+        self,
+        when: float,
+        callback: Callable[[*Arguments], object],
+        *args: *Arguments,
+        context: Context | None = None,
+    ) -> asyncio.TimerHandle:
+        heappush(self._whens, when)
+        return super().call_at(when, callback, *args, context=context)
+
+    def jump(self) -> None:
+        """Make it as late as the next thing that was asked for, to the last bit."""
+        while self._whens and self._whens[0] <= self.now:
+            heappop(self._whens)
+        if self._whens:
+            self.now = self._whens[0]
+
+
+class _Selector(DefaultSelector):
+    def __init__(self, loop: _Jumping) -> None:
+        super().__init__()
+        self.loop = loop
+
+    def select(self, timeout: float | None = None) -> list[tuple[SelectorKey, int]]:
+        if timeout is None:
+            self.loop.stuck()
+        elif timeout > 0:
+            self.loop.jump()
+        return super().select(0)
+
+
+class _Midnight(RealTime):
+    """Its day begins when it does, as a simulation's."""
+
+    @property
+    def time_of_day(self) -> float:
+        return self.now % 86_400
+
+
+def in_real_time(
+    app: App,
+    missions: Sequence[Mission[Any]],
+    fleet: FleetFile,
+    *,
+    seed: int,
+    faults: Faults,
+    until: float | None,
+    on_event: Callable[[Event], None] | None,
+) -> Outcome:
+    """Fly missions by the kernel of real flights; raise `BadInput` where they wait for ever."""
+
+    async def flown() -> Outcome:
+        kernel = _Midnight()
+        simulation = Simulation(app, fleet, kernel, seed, faults, on_event)
+        try:
+            async with asyncio.timeout(until):
+                ended = await kernel.run(simulation.session.start(missions))
+        except TimeoutError:
+            ended = kernel.now
+        except asyncio.CancelledError:
+            raise BadInput("missions wait for ever") from None
+        finally:
+            kernel.close()
+        return simulation.outcome(missions, ended)
+
+    loop = _Jumping()
+    try:
+        task = loop.create_task(flown())
+        loop.stuck = task.cancel
+        return loop.run_until_complete(task)
+    finally:
+        loop.close()

@@ -1,0 +1,46 @@
+"""The same package leaves the same trace in virtual time and in real time, event by event."""
+
+from __future__ import annotations
+
+from random import Random
+
+from tests.equivalence.campaign import OURS, drawn
+from tests.equivalence.drivers import in_real_time
+from tests.equivalence.flows import packaged
+from tests.equivalence.fly import Record, record
+from tests.equivalence.worlds import World, random_world
+
+GRAPHS = 60
+
+
+def test_real_time_takes_simultaneous_events_in_the_order_of_virtual_time() -> None:
+    """As long as hooks do not wait: those that do are tasks of asyncio's in real time."""
+    events = 0
+    for number in range(GRAPHS):
+        text, checked, rng, _ = drawn(f"drivers/{number}")
+        package = packaged(OURS.planner(checked))
+        for _ in range(2):
+            world = random_world(Random(rng.random()), package.graph)
+            virtual = record(package, world, patient=False)
+            real = record(package, world, patient=False, fly=in_real_time)
+            whole = not virtual.ends[0].startswith(("BadInput", f"over after {world.until!r}"))
+            assert _seen(real, world, whole) == _seen(virtual, world, whole), f"{text}\n{world}"
+            events += len(virtual.events)
+    assert events > 5_000
+
+
+def _seen(record: Record, world: World, whole: bool) -> list[str]:
+    """What was seen before the end of time, and how all ended if it came before that."""
+    events = [event for event in record.events if float(str(event["t"])) < world.until]
+    seen = [repr([(name, _told(fact)) for name, fact in event.items()]) for event in events]
+    seen += [line for line in record.diary if float(line.split()[0]) < world.until]
+    if whole:
+        seen += record.ends
+    return seen
+
+
+def _told(fact: object) -> object:
+    """Leave out of a traceback which driver called the hook."""
+    if isinstance(fact, str) and fact.startswith("Traceback"):
+        return fact.splitlines()[-1]
+    return fact
