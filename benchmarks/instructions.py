@@ -1,9 +1,9 @@
 """How many instructions does a trip cost? A figure that no busy machine disturbs.
 
-`python benchmarks/instructions.py` lets valgrind count what our package executes for less work and
-for more: the difference is of trips alone. It ends with 1 if a trip costs more than `instructions.json`
-says, by more than the tolerance. `--update` counts the contenders too and writes that file. Counts are
-those of one build of Python: with another, or without valgrind, it says so and compares nothing.
+`python benchmarks/instructions.py` has valgrind count what our package executes to fly. It ends with 1
+if a trip costs more than `instructions.json` says, by more than the tolerance. `--update` counts the
+yardsticks too, and writes that file. Counts are those of one build of Python: with another, or without
+valgrind, it says so and compares nothing.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+from contenders.process import Said
 from contenders.work import Work
 from measuring.cases import arguments
 from measuring.package import compiled
@@ -27,9 +28,11 @@ from measuring.rounds import HOME, Case, asked, environment
 BASELINE = HOME / "instructions.json"
 TOLERANCE = 0.03
 """What a trip of ours may cost more than it did: what machines differ in, and no more."""
-FEW, MANY = (Work(missions=missions, drones=20) for missions in (40, 240))
-VALGRIND = ("valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null")
-
+WORK = Work(missions=200, drones=20)
+VALGRIND = ("valgrind", "--tool=callgrind", "--dump-before=getppid")
+"""It writes down its count, and begins anew, where a contender makes its mark."""
+RUNS = 2
+"""The first run warms up, as Python does; the last one counts."""
 
 BARE = (Case(name="ideal", module="ideal"), Case(name="generators", module="generators"))
 """What ours is held against."""
@@ -44,21 +47,25 @@ def ours(package: Path) -> tuple[Case, ...]:
     )
 
 
-def counted(case: Case, work: Work) -> tuple[int, int]:
-    """Return the instructions of a whole process, and its flights."""
-    command = [*VALGRIND, *case.command, "--unchecked", *arguments(work)]
-    done = subprocess.run(command, env=environment(), capture_output=True, text=True, check=False)
-    collected = re.search(r"Collected : (\d+)", done.stderr)
-    if done.returncode or collected is None:
-        raise SystemExit(f"{case.name} failed:\n{done.stderr}")
-    return int(collected[1]), int(json.loads(done.stdout.splitlines()[-1])["flights"])
-
-
 def a_trip(case: Case) -> int:
-    """Return the instructions of one more trip."""
+    """Return the instructions of one trip."""
     asked(case)  # its bytecode is kept from now on
-    few, many = counted(case, FEW), counted(case, MANY)
-    return round((many[0] - few[0]) / (many[1] - few[1]))
+    with tempfile.TemporaryDirectory() as folder:
+        out = Path(folder) / "count"
+        command = [*VALGRIND, f"--callgrind-out-file={out}", *case.command]
+        done = subprocess.run(
+            [*command, *arguments(WORK), "--repeat", str(RUNS)],
+            env=environment(),
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        if done.returncode:
+            raise SystemExit(f"{case.name} failed:\n{done.stderr}")
+        last = out.with_name(f"count.{2 * RUNS}")  # between the marks before and after the last run
+        (total,) = re.findall(r"^totals: (\d+)", last.read_text(), re.MULTILINE)
+    said: Said = json.loads(done.stdout.splitlines()[-1])
+    return round(int(total) / said["flights"])
 
 
 def counts(bare: Sequence[Case]) -> dict[str, int]:

@@ -10,11 +10,11 @@ from .rounds import Measured
 
 def lines(cases: Cases) -> Iterator[str]:
     """Give the figures, then the measurements that they come from."""
-    yield f"{'minimum':>9}{'median':>9}  {'wanted':8}"
+    yield f"{'minimum':>9}{'median':>9}  wanted"
     for figure, spread in figures(cases):
-        kept = "" if figure.kept(figure.counts(spread)) else "  NOT KEPT"
         numbers = f"{spread.minimum:9.2f}{spread.median:9.2f}"
-        yield f"{numbers}  {figure.wanted:8}{figure.says}{kept}"
+        kept = figure.kept(figure.counts(spread))
+        yield f"{numbers}  {figure.wanted:6} {' ' if kept else '✗'} {figure.says}"
     yield ""
     yield f"{'µs of CPU a trip':22}{'minimum':>9}{'median':>9}{'runs':>6}{'MiB':>7}{'threads':>9}"
     for name, measured in cases.items():
