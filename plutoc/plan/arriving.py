@@ -8,7 +8,6 @@ the checks have seen to leave it.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
 
 from plutoc.check.model import Checked
 from plutoc.frozen import frozen
@@ -38,24 +37,32 @@ Brought = Mapping[tuple[int, Status], Statuses]
 NONE = frozenset[Status]()
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
 class _Frame:
     """The function that is walked, and the jumps that were met in the innermost loop."""
 
-    ends: set[Status] = field(default_factory=set)
-    continued: set[Status] = field(default_factory=set)
-    broken: set[Status] = field(default_factory=set)
-    gone: dict[str, Statuses] = field(default_factory=dict)
-    """What came to each label."""
-    known: dict[int, tuple[set[Status], set[Status]]] = field(default_factory=dict)
-    """For each loop, by identity: what came to its head, and what leaves it by `Break`."""
+    __slots__ = ("broken", "continued", "ends", "gone", "known")
+
+    def __init__(self) -> None:
+        self.ends: set[Status] = set()
+        self.continued: set[Status] = set()
+        self.broken: set[Status] = set()
+        self.gone: dict[str, Statuses] = {}
+        """What came to each label."""
+        self.known: dict[int, tuple[set[Status], set[Status]]] = {}
+        """For each loop, by identity: what came to its head, and what leaves it by `Break`."""
+
+    def inside(self, broken: set[Status]) -> _Frame:
+        """Return the same function, seen from inside a loop."""
+        inner = _Frame()
+        inner.ends, inner.gone, inner.known, inner.broken = self.ends, self.gone, self.known, broken
+        return inner
 
 
-@dataclass(slots=True, kw_only=True)
 class _Walk:
-    checked: Checked
-    found: dict[int, set[Status]] = field(default_factory=dict)
-    brought: dict[tuple[int, Status], Statuses] = field(default_factory=dict)
+    def __init__(self, checked: Checked) -> None:
+        self.checked = checked
+        self.found: dict[int, set[Status]] = {}
+        self.brought: dict[tuple[int, Status], Statuses] = {}
 
     def body(self, body: Body, statuses: Statuses, frame: _Frame) -> Statuses:
         for step in body:
@@ -117,7 +124,7 @@ class _Walk:
         known, broken = frame.known.setdefault(id(step), (set(), set()))
         while not statuses <= known:
             known |= statuses
-            inside = replace(frame, continued=set(), broken=broken)
+            inside = frame.inside(broken)
             statuses = self.body(step.body, frozenset(known), inside) | inside.continued
         return frozenset(broken)
 
@@ -142,6 +149,6 @@ class Arriving:
 
 def arriving(plan: Plan) -> Arriving:
     """Walk a plan with all statuses that can occur."""
-    walk = _Walk(checked=plan.checked)
+    walk = _Walk(plan.checked)
     walk.body(plan.body, frozenset((Status.UNEXECUTED,)), _Frame())
     return Arriving(switches=walk.found, brought=walk.brought)

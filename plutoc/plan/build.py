@@ -18,7 +18,7 @@ from plutoc_runtime.status import Status
 def build(checked: Checked) -> Plan:
     """Return what the generated coroutine shall do, not yet optimised: every block a call."""
     edge = next(e for e in checked.graph.outgoing[START] if checked.carries[e])
-    charts = Charts(checked=checked)
+    charts = Charts(checked)
     chart = charts.chart(edge.target, checked.carries[edge])
     return Plan(checked=checked, body=_body(charts, chart, {}))
 
@@ -36,7 +36,7 @@ def _structured(found: Shape, steps: Mapping[Spot, Body]) -> Body | None:
         return None
     steps = {spot: steps[spot.original] for spot in one_entry.order}
     for copies in (False, True):
-        writer = Writer(shape=one_entry, steps=steps, copies=copies)
+        writer = Writer(one_entry, steps, copies=copies)
         try:
             return writer.body(one_entry.chart.entry, Around())
         except (Unstructured, Hopeless):

@@ -7,11 +7,12 @@ anew in every body: a block may stand in two of them, and get other statuses in 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from enum import Enum
 
 from plutoc.block import Gate
-from plutoc.check.model import Checked, Fork
+from plutoc.check.model import Checked
+from plutoc.frozen import frozen
 from plutoc.graph.model import END, Edge
 from plutoc_runtime.status import IN_GRAPH, WORST_FIRST, Status
 
@@ -26,8 +27,10 @@ class Kind(Enum):
     FORK = "it goes through all branches of a fork, up to the gate"
     BEHIND = "it is behind a gate, with the status that the gate let through"
 
+    __hash__ = object.__hash__  # members are single: hashing by name is six times slower
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+
+@frozen
 class Spot:
     """A place in a body."""
 
@@ -45,7 +48,7 @@ class Spot:
         return replace(self, copy=0) if self.copy else self
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Way:
     """What leads from a spot to the next, or out of the body."""
 
@@ -59,7 +62,7 @@ class Way:
     """What the source says that leads there, whether it can come or not; empty: all that comes."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Chart:
     """A body before it has a structure."""
 
@@ -70,18 +73,14 @@ class Chart:
     exits: frozenset[Status]
 
 
-@dataclass(kw_only=True)
 class Charts:
     """Draws the charts of one graph, and remembers what came out of each branch."""
 
-    checked: Checked
-    forks: dict[tuple[str, Status], Fork] = field(init=False)
-    numbers: dict[Edge, int] = field(init=False)
-    brought: dict[tuple[Edge, Status], frozenset[Status]] = field(default_factory=dict)
-
-    def __post_init__(self) -> None:
-        self.forks = {(fork.node, fork.status): fork for fork in self.checked.forks}
-        self.numbers = {edge: number for number, edge in enumerate(self.checked.graph.edges)}
+    def __init__(self, checked: Checked) -> None:
+        self.checked = checked
+        self.forks = {(fork.node, fork.status): fork for fork in checked.forks}
+        self.numbers = {edge: number for number, edge in enumerate(checked.graph.edges)}
+        self.brought: dict[tuple[Edge, Status], frozenset[Status]] = {}
 
     def chart(self, entry: str, statuses: frozenset[Status]) -> Chart:
         """Return the body that begins at a block with these statuses."""

@@ -19,7 +19,7 @@ def dispatch(found: Shape, steps: Mapping[Spot, Body]) -> Body:
     around = Around(elsewhere=frozenset(places), labels=frozenset(places))
     cases = tuple(
         # each with a writer of its own: here nothing is ever tried twice
-        Case(label=spot.name, body=Writer(shape=found, steps=steps).body(spot, around))
+        Case(label=spot.name, body=Writer(found, steps).body(spot, around))
         for spot in places
     )
     return (Dispatch(start=found.chart.entry.name, cases=cases),)

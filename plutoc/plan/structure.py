@@ -8,8 +8,9 @@ them. Where a jump would be needed that Python does not have, `Unstructured` is 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
+from plutoc.frozen import frozen
 from plutoc.plan.bodies import breaks, continues, falls, switch, without_last_continue
 from plutoc.plan.chart import Kind, Spot, Way
 from plutoc.plan.model import Arm, Body, Break, Continue, End, Goto, Loop, Step, Switch
@@ -36,7 +37,7 @@ class Hopeless(Exception):
     """Too many ways were tried."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Around:
     """What a piece of a body knows of what is around it."""
 
@@ -55,19 +56,19 @@ class Around:
     """How many there are around this piece."""
 
 
-@dataclass(kw_only=True)
 class Writer:
     """Writes the body of one chart."""
 
-    shape: Shape
-    steps: Mapping[Spot, Body]
-    """What happens at each spot."""
-    copies: bool = False
-    """May a few blocks be written twice, if a jump follows them?"""
-    tried: int = 0
-    rounds: dict[Spot, frozenset[Spot]] = field(default_factory=dict)
-    reached: dict[Spot, frozenset[Spot]] = field(default_factory=dict)
-    """Both are looked for only where they are asked for: all of them may be far too much."""
+    def __init__(self, shape: Shape, steps: Mapping[Spot, Body], *, copies: bool = False) -> None:
+        self.shape = shape
+        self.steps = steps
+        """What happens at each spot."""
+        self.copies = copies
+        """May a few blocks be written twice, if a jump follows them?"""
+        self.tried = 0
+        self.rounds: dict[Spot, frozenset[Spot]] = {}
+        self.reached: dict[Spot, frozenset[Spot]] = {}
+        """Both are looked for only where they are asked for: all of them may be far too much."""
 
     def body(self, spot: Spot, around: Around) -> Body:
         """Write a spot, and all that is reached through it only."""
