@@ -15,7 +15,9 @@ GAP = 30
 """Room for the heading of a group."""
 
 STYLE = """\
-text { font: 13px system-ui, sans-serif; fill: #24292f }
+.card { fill: #ffffff }
+text { font: 13px system-ui, sans-serif; fill: #24292f; stroke: #ffffff }
+text { paint-order: stroke; stroke-width: 3px }
 .title { font-size: 15px; font-weight: 600 }
 .group { font-weight: 600 }
 .tick { font-size: 11px; fill: #57606a }
@@ -23,12 +25,14 @@ text { font: 13px system-ui, sans-serif; fill: #24292f }
 .bar { fill: #8c959f }
 .ours { fill: #0969da }
 @media (prefers-color-scheme: dark) {
-text { fill: #e6edf3 }
+.card { fill: #0d1117 }
+text { fill: #e6edf3; stroke: #0d1117 }
 .tick { fill: #8d96a0 }
 .grid { stroke: #30363d }
 .bar { fill: #6e7681 }
 .ours { fill: #4493f8 }
 }"""
+"""A number stands out from the line that it crosses."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -61,6 +65,7 @@ def chart(title: str, unit: str, groups: Sequence[Group]) -> str:
         f'<title id="title">{escape(title)}</title>',
         f'<desc id="desc">{escape(unit)}: {escape(told)}</desc>',
         f"<style>{STYLE}</style>",
+        f'<rect class="card" width="{WIDTH}" height="{height}" rx="6"/>',
         f'<text class="title" x="12" y="24">{escape(title)}</text>',
         *grid(scale, height, unit),
     ]
