@@ -50,7 +50,7 @@ class Scope:
 
 def body_lines(body: Body, scope: Scope) -> Iterator[str]:
     """Yield the lines of a body, without indentation of its own."""
-    for step, following in zip(body, (*body[1:], None), strict=False):
+    for before, step, following in zip((None, *body), body, (*body[1:], None), strict=False):
         match step:
             case Call(node=node):
                 yield f"# {node.declaration}"
@@ -73,7 +73,7 @@ def body_lines(body: Body, scope: Scope) -> Iterator[str]:
             case Continue():
                 yield f"continue  # -> {scope.head}"
             case Break():
-                yield "break"
+                yield f"break{_whither(before)}"
             case End():
                 yield from () if returns_at_once(body) else ("return status",)
             case Goto(label=label):
@@ -83,6 +83,15 @@ def body_lines(body: Body, scope: Scope) -> Iterator[str]:
                 yield "continue"
             case Dispatch():
                 yield from _dispatch(step, scope)
+
+
+def _whither(before: Step | None) -> str:
+    """Return where a jump leads that is what a switch leaves over."""
+    match before:
+        case Switch(arms=(*_, Arm(body=(), to=to))):
+            return f"  # -> {to}"
+        case _:
+            return ""
 
 
 def returns_at_once(body: Body) -> bool:

@@ -10,9 +10,18 @@ from plutoc.plan.passes.clones import clones
 from plutoc.plan.passes.constants import constants
 from plutoc.plan.passes.decided import decided
 from plutoc.plan.passes.impossible import impossible
+from plutoc.plan.passes.straight import straight
 from plutoc.plan.passes.watch import watch
 
-PASSES: tuple[Callable[[Plan], Plan], ...] = (impossible, decided, cases, watch, clones, constants)
+PASSES: tuple[Callable[[Plan], Plan], ...] = (
+    impossible,
+    decided,
+    cases,
+    watch,
+    clones,
+    constants,
+    straight,
+)
 """Each has its reasons in its file. A pass may rely on those before it."""
 
 BUILT = "built"
