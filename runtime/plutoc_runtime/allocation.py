@@ -10,8 +10,9 @@ is put aside until it is charged, or until somebody comes for whom it is enough.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from heapq import heappop, heappush
+from collections.abc import Callable, Iterator, Sequence
+from heapq import heapify, heappop, heappush
+from itertools import islice
 from math import inf
 from typing import TYPE_CHECKING
 
@@ -22,6 +23,7 @@ from .kernel import FLEET, Kernel, Kind, Timer
 from .policy import BatchPool, Choice, Policy, Pool, Why
 from .signals import Signal
 from .status import DroneStatus
+from .thresholds import Thresholds
 
 if TYPE_CHECKING:
     from .model import Drone, Trip
@@ -29,6 +31,9 @@ if TYPE_CHECKING:
 _FREE, _BUSY = DroneStatus.FREE, DroneStatus.BUSY
 _GONE = (DroneStatus.LOST, DroneStatus.OFFLINE)
 _IN_THE_AIR = (_BUSY, DroneStatus.RETURNING, DroneStatus.RECOVERING)
+
+_IN_VAIN = 16
+"""After so many for whom no drone is high enough, it is worth to know for whom one is."""
 
 Entry = tuple[int, int, "Request"]
 """Priority, higher first; arrival; who waits."""
@@ -71,15 +76,9 @@ class Request(Signal["Drone"]):
         """Return why a drone cannot fly the trip even with a full battery; None: it can."""
         return None if self._levels[drone.category] <= 1.0 else self.demand.never(drone)
 
-    def charged(self, drone: Drone) -> float:
-        """Return the seconds until a drone in its dock has charged enough; never: infinite."""
-        if self.never(drone) is not None:
-            return inf
-        missing = self.demand.battery(drone) - drone.battery_level
-        if missing <= 0:
-            return 0.0
-        charges = docked(drone.location, drone.home)
-        return missing * drone.category.charge_time + 0.001 if charges else inf
+    def level(self, drone: Drone) -> float:
+        """Return what it takes in a drone's battery, where it stands; never: infinite."""
+        return inf if self.never(drone) is not None else self.demand.battery(drone)
 
 
 class Queue:
@@ -103,6 +102,7 @@ class Queue:
         """Free drones that are too low for all that has waited so far, and until when they are."""
         self._gone = self._asked_of = sum(drone.status in _GONE for drone in drones)
         self._airborne = sum(drone.status in _IN_THE_AIR for drone in drones)
+        self._thresholds: Thresholds[Request] = Thresholds()
         self._recheck: Timer | None = None
         self._recheck_at = inf
         self.served: Callable[[], None] = lambda: None
@@ -116,7 +116,9 @@ class Queue:
         request = Request(self._reach, trips, policy, pool)
         self._arrivals += 1
         self._waiting += 1
-        heappush(self._entries, (-priority, self._arrivals, request))
+        entry = (-priority, self._arrivals, request)
+        heappush(self._entries, entry)
+        self._thresholds.add(entry)
         self._fresh.append(request)
         self._kernel.last = self._serve
         return request
@@ -213,6 +215,8 @@ class Queue:
             if self._low:
                 self._look_again_when_charged()
                 self.served()
+        else:
+            self._thresholds.clear()
         self._fresh.clear()
 
     def _share_out(self) -> None:
@@ -225,38 +229,72 @@ class Queue:
                 continue
             if batches and request.policy in batches:
                 batch = batches[request.policy]
-                passed += self._share_among(batch, [entry, *self._alike(entry)])
-                continue
-            try:
-                choice = request.pool.choose(request.trip, request.able)
-            except HookFault as fault:
-                self._refuse(request, fault)
-                continue
-            if choice is None:
+                passed += self._share_among(batch, self._alike(entry))
+            elif not self._chosen(request):
                 passed.append(entry)
-            else:
-                self._give(request, choice)
-        for entry in passed:
-            heappush(entries, entry)
+                if len(passed) == _IN_VAIN and not batches:
+                    break
+        if len(passed) > _IN_VAIN:
+            entries += passed
+            heapify(entries)
+        else:
+            for entry in passed:
+                heappush(entries, entry)
+        if len(passed) == _IN_VAIN and not batches:
+            self._share_out_to_the_able(passed)
 
-    def _alike(self, entry: Entry) -> Iterator[Entry]:
+    def _share_out_to_the_able(self, asked: Sequence[Entry]) -> None:
+        """Go on, among those not asked yet, with those alone for whom a drone is high enough."""
+        able = {
+            entry[1]: entry
+            for drone in self._high
+            for entry in self._thresholds.met(drone, self._entries)
+        }
+        for entry in asked:
+            able.pop(entry[1], None)
+        for entry in sorted(able.values()):
+            if not self._high or not self.room:
+                break
+            self._chosen(entry[2])
+        if len(self._entries) > 2 * self._waiting + _IN_VAIN:
+            self._entries = [entry for entry in self._entries if entry[2].waits]
+            heapify(self._entries)
+
+    def _chosen(self, request: Request) -> bool:
+        """Let the policy choose; say whether the request is over."""
+        try:
+            choice = request.pool.choose(request.trip, request.able)
+        except HookFault as fault:
+            self._refuse(request, fault)
+            return True
+        if choice is not None:
+            self._give(request, choice)
+        return choice is not None
+
+    def _alike(self, entry: Entry) -> list[Entry]:
         """Take the entries that come next and have the same priority and policy."""
-        entries = self._entries
-        while entries and entries[0][0] == entry[0]:
-            if entries[0][2].waits and entries[0][2].policy != entry[2].policy:
-                return
-            following = heappop(entries)
-            if following[2].waits:
-                yield following
+        entries, alike, taken = self._entries, [entry], 0
+        entries.sort()  # it is a heap still
+        for following in entries:
+            request = following[2]
+            if request.waits:
+                if following[0] != entry[0] or request.policy != entry[2].policy:
+                    break
+                alike.append(following)
+            taken += 1
+        del entries[:taken]
+        return alike
 
-    def _share_among(self, pool: BatchPool, entries: Sequence[Entry]) -> Iterator[Entry]:
-        """Let the policy choose for all of them at once; give those that got nothing."""
+    def _share_among(self, pool: BatchPool, entries: Sequence[Entry]) -> list[Entry]:
+        """Let the policy choose for all of them at once; return those that got nothing."""
         offers = [(entry[2].trip, entry[2].able) for entry in entries]
+        passed: list[Entry] = []
         for entry, choice in zip(entries, pool.share(offers), strict=True):
             if choice is None or not self.room:
-                yield entry
+                passed.append(entry)
             else:
                 self._give(entry[2], choice)
+        return passed
 
     def _give(self, request: Request, choice: Choice) -> None:
         drone, request.why = choice
@@ -298,24 +336,26 @@ class Queue:
     def _raise_who_is_high_enough(self) -> None:
         """Those that have charged, and those that are high enough for somebody who has come."""
         now = self._kernel.now
+        fresh = [request for request in self._fresh if request.waits]
         for drone, until in list(self._low.items()):
-            if until <= now or any(
-                request.waits and request.able(drone) for request in self._fresh
-            ):
+            if until <= now or any(request.able(drone) for request in fresh):
                 self._raise(drone)
-            else:
-                self._low[drone] = min(until, self._charged_for(drone, self._fresh))
+            elif fresh:
+                least = min(request.level(drone) for request in fresh)
+                self._low[drone] = min(until, now + _charging(drone, least))
 
     def _lower_who_is_of_no_use(self) -> None:
         """A docked drone that is too low for what waits will be high enough at a known time.
 
         One that is high enough and was not given (no more may fly, a policy wants it not) stays so.
         """
+        now = self._kernel.now
         for drone in list(self._high):
-            until = self._charged_for(drone, self._waiters())
-            if until > self._kernel.now:
-                self._take(drone)
-                self._low[drone] = until
+            if not any(request.able(drone) for request in islice(self._waiters(), _IN_VAIN)):
+                until = now + _charging(drone, self._thresholds.least(drone, self._entries))
+                if until > now:
+                    self._take(drone)
+                    self._low[drone] = until
 
     def _look_again_when_charged(self) -> None:
         soonest = min(self._low.values())
@@ -330,12 +370,11 @@ class Queue:
         self._recheck = None
         self.changed()
 
-    def _charged_for(self, drone: Drone, requests: Iterable[Request]) -> float:
-        """Return when a drone can fly for one of them; now, if it can already."""
-        now, soonest = self._kernel.now, inf
-        for request in requests:
-            if request.waits:
-                soonest = min(soonest, now + request.charged(drone))
-                if soonest <= now:
-                    return now
-        return soonest
+
+def _charging(drone: Drone, level: float) -> float:
+    """Return the seconds until a drone in its dock has charged so far; never: infinite."""
+    missing = level - drone.battery_level
+    if missing <= 0:
+        return 0.0
+    charges = level < inf and docked(drone.location, drone.home)
+    return missing * drone.category.charge_time + 0.001 if charges else inf
