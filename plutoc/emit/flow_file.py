@@ -11,11 +11,12 @@ from plutoc.emit.fields import fields_of
 from plutoc.emit.imports import Import, import_lines, names
 from plutoc.emit.python import call, items, literal
 from plutoc.emit.render import render
-from plutoc.emit.statements import Scope, body_lines
+from plutoc.emit.statements import Scope, asked_for, body_lines
 from plutoc.emit.walk import branches, nodes
 from plutoc.frozen import frozen
 from plutoc.graph.model import Action, Graph, Parameter
 from plutoc.plan.model import Body, Plan
+from plutoc_runtime.fields import Entity
 from plutoc_runtime.status import IN_GRAPH
 
 
@@ -73,14 +74,10 @@ def flow_file(plan: Plan) -> str:
 
 
 def _start(body: Body, scope: Scope) -> str:
-    asked = any(node.block.needs or _used(node.block.uses, scope) for node in nodes(body))
-    if asked:
+    fields = (field for node in nodes(body) for field in asked_for(node, scope))
+    if any(field.on is Entity.MISSION for field in fields):
         return "mission, status = run.mission, UNEXECUTED"
     return "status = UNEXECUTED"
-
-
-def _used(uses: tuple[str, ...], scope: Scope) -> bool:
-    return any(name in scope.fields for name in uses)
 
 
 def _imports(graph: Graph, written: str) -> list[Import]:

@@ -150,14 +150,15 @@ def _keywords(node: Node, scope: Scope) -> Iterator[str]:
                 pass
     if block.emits_by_hook and node.hook and node.hook.emits:
         yield f"emits={_any_of(node.hook.emits)}"
-    for field in (
-        *block.needs,
-        *(scope.fields[name] for name in block.uses if name in scope.fields),
-    ):
-        yield f"{field.name}={scope.mission}{_PLACES[field.on]}.{field.name}"
+    for field in asked_for(node, scope):
+        place = scope.mission if field.on is Entity.MISSION else "run.trip"
+        yield f"{field.name}={place}.{field.name}"
 
 
-_PLACES = {Entity.MISSION: "", Entity.TRIP: ".current"}
+def asked_for(node: Node, scope: Scope) -> tuple[Field, ...]:
+    """Return the fields whose values a block gets."""
+    used = (scope.fields[name] for name in node.block.uses if name in scope.fields)
+    return (*node.block.needs, *used)
 
 
 def _hook(node: Node) -> str:

@@ -49,6 +49,11 @@ class Run(Generic[M]):
             raise fault from error
 
     @property
+    def trip(self) -> Any:
+        """The mission's trip that flies now, or flies next: of the app's own class."""
+        return self.mission.current
+
+    @property
     def context(self) -> Context:
         """What a hook gets of it."""
         return Context(self.core, self.state)

@@ -30,13 +30,11 @@ async def flow(run: Run[Mission]) -> Status:
     status = create_mission(run, status)
     # wait = Clock
     status = await wait_for_time(
-        run, status, block="wait", at=mission.at, every=mission.every, delay=mission.current.delay
+        run, status, block="wait", at=mission.at, every=mission.every, delay=run.trip.delay
     )
     while True:
         # allocate = DroneAllocator(policy: nearest)
-        status = await allocate_drone(
-            run, status, policy=nearest, priority=mission.current.priority
-        )
+        status = await allocate_drone(run, status, policy=nearest, priority=run.trip.priority)
         # launch = TripLauncher
         status = launch_trip(run, status)
         # launch -> [watch, timer] -> first = GateFIFO
@@ -49,7 +47,7 @@ async def flow(run: Run[Mission]) -> Status:
             continue  # -> allocate
         if status is FAILED:
             # retry = PriorityManager(max_attempts: 3)
-            status = raise_priority(run, status, max_attempts=3, priority=mission.current.priority)
+            status = raise_priority(run, status, max_attempts=3, priority=run.trip.priority)
             if status is FAILED:
                 return status
             continue  # -> allocate
