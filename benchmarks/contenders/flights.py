@@ -7,6 +7,7 @@ navigations of the other contenders do.
 from __future__ import annotations
 
 import asyncio
+from collections import deque
 from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING
@@ -83,23 +84,28 @@ class AllTogether(Still):
     def __init__(self, crash: Exception, kernel: Kernel, work: Work, notes: Notes) -> None:
         super().__init__(crash, kernel)
         self.loop = asyncio.get_running_loop()
-        self.left, self.ending, self.last = work.missions, 0, work.trips - 1
-        self.up: list[tuple[Report, Result]] = []
+        self.left, self.last = work.missions, work.trips - 1
+        self.flying = self.ending = 0
+        self.up: deque[Report] = deque()
+        self.results: deque[Result] = deque()
 
     def fly(self, job: Flight, report: Report) -> None:
         """Wait for the others."""
         trip = job.trip
         failed = fails(job.state.mission.index, trip.index, trip.attempt - 1)
-        self.up.append((report, self.crash if failed else None))
+        self.up.append(report)
+        self.results.append(self.crash if failed else None)
+        self.flying += 1
         self.ending += trip.index == self.last and not failed
-        if len(self.up) == self.left:
-            self.loop.call_soon(self.land, self.up)
-            self.up, self.left, self.ending = [], self.left - self.ending, 0
+        if self.flying == self.left:
+            self.loop.call_soon(self.land, self.flying)
+            self.left -= self.ending
+            self.flying = self.ending = 0
 
-    def land(self, landing: list[tuple[Report, Result]]) -> None:
-        """All come down."""
-        for report, result in landing:
-            self.kernel.post(report, result)
+    def land(self, count: int) -> None:
+        """All come down, while those that were first take off again."""
+        for _ in range(count):
+            self.kernel.post(self.up.popleft(), self.results.popleft())
 
 
 class ThroughTheKernel(Still):
