@@ -111,19 +111,18 @@ def _call(node: Node, branches: tuple[str, ...], scope: Scope) -> str:
 
 
 def _wait(watch: Watch, scope: Scope) -> Iterator[str]:
-    """Yield a wait: a limit a line; where it stands for several blocks, its declaration above it."""
-    limits: list[str] = []
+    """Yield a wait; where it stands for several blocks, a limit a line and its declaration above."""
+    limits: list[tuple[str, str]] = []
     for node in watch.watchers:
         if node.block.limit is not None:
             function = scope.names[Carried(package=node.package, function=node.block.limit)]
-            if isinstance(watch.instead, Join):
-                limits.append(f"    # {node.declaration}")
-            limits.append(f"    {call(function, ('run', *_keywords(node, scope)))},")
+            limits.append((node.declaration, call(function, ("run", *_keywords(node, scope)))))
     name = scope.names[WATCH]
-    if limits:
-        yield from (f"await {name}(", "    run,", *limits, ")")
+    if limits and isinstance(watch.instead, Join):
+        lines = [line for text, limit in limits for line in (f"    # {text}", f"    {limit},")]
+        yield from (f"await {name}(", "    run,", *lines, ")")
     else:
-        yield f"await {name}(run)"
+        yield f"await {call(name, ('run', *(limit for _, limit in limits)))}"
 
 
 def _watched(watch: Watch) -> str:

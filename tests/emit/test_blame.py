@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import traceback
-from collections.abc import Callable, Coroutine, Iterator
+from collections.abc import Callable, Coroutine, Iterator, Mapping
 from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
@@ -23,7 +23,7 @@ from tests.emit.plans import checked_of
 
 Flow = Callable[[frozenset[str]], Coroutine[Any, Any, Any]]
 
-STEPS = {
+STEPS: Mapping[str, Callable[..., Any]] = {
     "DroneAllocator": failing.allocate,
     "TripLauncher": failing.launch,
     "TripMonitor": failing.watch,

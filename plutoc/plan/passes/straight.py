@@ -6,8 +6,8 @@ Before:                             After:
       loop allocate                       call allocate
         call allocate                     …
         …                                 switch
-        switch                              FAILED -> end: end
-          COMPLETED -> again: break         STANDBY -> allocate: again
+        switch                              STANDBY -> allocate: continue
+          COMPLETED -> again: break         FAILED -> end: end
           FAILED -> end: end                COMPLETED -> again: go on
           STANDBY -> allocate: go on      call again
       call again                          switch
