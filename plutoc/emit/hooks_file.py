@@ -9,7 +9,8 @@ from plutoc.block import HookKind
 from plutoc.check.model import Checked
 from plutoc.emit.fields import fields_of
 from plutoc.emit.imports import Import, import_lines, names
-from plutoc.emit.python import LINE_LENGTH, builtins_alias, formatted, shadows
+from plutoc.emit.lines import LINE_LENGTH
+from plutoc.emit.python import builtins_alias, formatted, shadows
 from plutoc.emit.render import render
 from plutoc.emit.stubs import Stub, in_order, stubs
 from plutoc.frozen import frozen

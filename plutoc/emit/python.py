@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterable
+from functools import cache
+from pathlib import Path
 
+from plutoc.emit.canonical import are_well_apart, is_known, settled, text_of
+from plutoc.emit.lines import LINE_LENGTH
 from plutoc.emit.memory import edition, remembered, stamp
+from plutoc.emit.pieces import in_pieces
 from plutoc.graph.model import Plain
 from plutoc_runtime.status import Status
-
-LINE_LENGTH = 100
 
 _PLAIN_FILE = re.compile(r"[A-Za-z0-9_.-]+")
 _PLAIN_DOC = re.compile(r'[^\x00-\x1f\x7f"\\]+')
@@ -34,13 +37,28 @@ def owned(text: str, source_name: str) -> str:
 
 
 def formatted(text: str) -> str:
-    """Return a module as Black writes it, or wrote it before."""
-    made_of = (edition("black"), stamp(__file__), text)
-    return remembered(made_of, lambda: _formatted(text))
+    """Return a module as Black writes it."""
+    return remembered((edition("black"), _means(), text), lambda: _formatted(text))
+
+
+@cache
+def _means() -> str:
+    """Return what changes with the modules by which a text is formatted here."""
+    names = ("python.py", "lines.py", "layout.py", "canonical.py", "canonical.txt", "pieces.py")
+    return "\n".join(stamp(str(Path(__file__).with_name(name))) for name in names)
 
 
 def _formatted(text: str) -> str:
-    import black  # heavy, and needed only where files are made
+    """Format a module; of what is known to be as Black has it, Black is not asked."""
+    lines = settled(text)
+    if are_well_apart(lines) and all(map(is_known, lines)):
+        return text_of(lines)
+    return in_pieces(lines, black_asked) or black_asked(text)
+
+
+def black_asked(text: str) -> str:
+    """Have Black format a module."""
+    import black  # heavy, and seldom needed
     from black.mode import TargetVersion
 
     mode = black.Mode(line_length=LINE_LENGTH, target_versions={TargetVersion.PY311})
@@ -48,8 +66,11 @@ def _formatted(text: str) -> str:
 
 
 def literal(value: Plain | None) -> str:
-    """Return a value as Python writes it; a text in ASCII, whatever it holds."""
-    return ascii(value)
+    """Return a value as Python writes it; a text in ASCII, whatever it holds, quoted as by Black."""
+    written = ascii(value)
+    if written.startswith("'") and '"' not in written and "\\'" not in written:
+        return f'"{written[1:-1]}"'
+    return written
 
 
 def items(values: Iterable[str], brackets: str = "()") -> str:
