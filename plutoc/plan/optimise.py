@@ -11,11 +11,13 @@ from plutoc.plan.passes.constants import constants
 from plutoc.plan.passes.decided import decided
 from plutoc.plan.passes.impossible import impossible
 from plutoc.plan.passes.straight import straight
+from plutoc.plan.passes.switches import switches
 from plutoc.plan.passes.watch import watch
 
 PASSES: tuple[Callable[[Plan], Plan], ...] = (
     impossible,
     decided,
+    switches,
     cases,
     watch,
     clones,

@@ -16,7 +16,9 @@ latest: those behind it are called off before they begin.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import cache
 
 from plutoc.block import Gate
 from plutoc.plan.arriving import Brought, arriving
@@ -27,29 +29,28 @@ from plutoc_runtime.status import IN_GRAPH, WORST_FIRST
 
 def clones(plan: Plan) -> Plan:
     """Send clones only where they do something."""
-    brought = arriving(plan).brought
+
+    @cache
+    def brought() -> Brought:
+        return arriving(plan).brought
 
     def spared(step: Step, before: Step) -> Body:
-        if isinstance(step, Join) and isinstance(before, Join):
-            idle = _idle(before, brought)
-            branches = (
-                replace(branch, idle=number in idle) for number, branch in enumerate(step.branches)
-            )
-            return (replace(step, branches=tuple(branches)),)
-        return (step,)
+        if not isinstance(step, Join) or not isinstance(before, Join):
+            return (step,)
+        arrows = [n for n, branch in enumerate(before.branches) if branch.body == (End(),)]
+        idle = _idle(before, arrows, brought) if arrows else ()
+        branches = (replace(branch, idle=n in idle) for n, branch in enumerate(step.branches))
+        return (replace(step, branches=tuple(branches)),) if idle else (step,)
 
     return rewritten(plan, spared)
 
 
-def _idle(join: Join, brought: Brought) -> range | list[int]:
+def _idle(join: Join, arrows: list[int], brought: Callable[[], Brought]) -> Sequence[int]:
     """Return the numbers of the branches that need no clone."""
-    arrows = [number for number, branch in enumerate(join.branches) if branch.body == (End(),)]
-    if not arrows:
-        return []
     if join.gate.block.gate is Gate.FIRST:
         return range(arrows[0] + 1, len(join.branches))
     busy = [branch for number, branch in enumerate(join.branches) if number not in arrows]
-    return arrows if any(_as_bad(branch, brought) for branch in busy) else arrows[1:]
+    return arrows if any(_as_bad(branch, brought()) for branch in busy) else arrows[1:]
 
 
 def _as_bad(branch: Branch, brought: Brought) -> bool:

@@ -33,7 +33,9 @@ def impossible(plan: Plan) -> Plan:
             return step.body
         if not isinstance(step, Switch):
             return (step,)
-        came = found.get(id(before), ())
+        came = found.get(id(before), set())
+        if came.issuperset(status for arm in step.arms for status in arm.statuses):
+            return (step,)
         arms = (
             Arm(statuses=tuple(s for s in arm.statuses if s in came), body=arm.body, to=arm.to)
             for arm in step.arms
