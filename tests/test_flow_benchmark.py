@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 import os
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any, cast
 from xml.etree import ElementTree
 
 import pytest
 
 import instructions
+from contenders.flights import AllTogether
 from contenders.process import Notes, Said
 from contenders.work import Done, Work, expected
 from measuring.cases import SMALL, cases
@@ -135,6 +140,31 @@ def test_a_gap_is_from_a_landing_to_the_next_launch_of_that_drone() -> None:
     notes.launched(1, 8.0)
     notes.landed(2, 9.0)
     assert notes.gaps == [2.0]
+
+
+def test_nobody_lands_before_all_are_in_the_air() -> None:
+    """Then all come down, in the order in which they took off."""
+    told: list[object] = []
+
+    class Kernel:
+        def post(self, report: Callable[[object], None], result: object) -> None:
+            report(result)
+
+    async def fly() -> list[int]:
+        navigation: Any = AllTogether(
+            RuntimeError("crashed"), cast("Any", Kernel()), Work(missions=3, trips=1), Notes()
+        )
+        before = []
+        for mission in range(3):
+            before.append(len(told))
+            trip = SimpleNamespace(index=0, attempt=1)
+            state = SimpleNamespace(mission=SimpleNamespace(index=mission))
+            navigation.fly(SimpleNamespace(trip=trip, state=state), told.append)
+        await asyncio.sleep(0)  # one turn of the loop
+        return before
+
+    assert asyncio.run(fly()) == [0, 0, 0]
+    assert told == [None, None, None]
 
 
 def test_a_picture_has_its_numbers_as_text_and_the_shortest_bar_first() -> None:

@@ -12,7 +12,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING
 
-from .process import Notes
+from .process import Notes, kernel_says
 from .work import Work, fails
 
 if TYPE_CHECKING:
@@ -83,7 +83,7 @@ class AllTogether(Still):
 
     def __init__(self, crash: Exception, kernel: Kernel, work: Work, notes: Notes) -> None:
         super().__init__(crash, kernel)
-        self.loop = asyncio.get_running_loop()
+        self.loop, self.notes = asyncio.get_running_loop(), notes
         self.left, self.last = work.missions, work.trips - 1
         self.flying = self.ending = 0
         self.up: deque[Report] = deque()
@@ -104,6 +104,7 @@ class AllTogether(Still):
 
     def land(self, count: int) -> None:
         """All come down, while those that were first take off again."""
+        self.notes.threads = max(self.notes.threads, kernel_says("Threads"))
         for _ in range(count):
             self.kernel.post(self.up.popleft(), self.results.popleft())
 
