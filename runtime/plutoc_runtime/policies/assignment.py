@@ -8,11 +8,11 @@ where few want the same, that is next to nothing.
 
 from __future__ import annotations
 
+from array import array
 from bisect import bisect_left
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from heapq import heappop, heappush
-from itertools import islice
 from math import inf
 from typing import Generic, TypeVar
 
@@ -65,10 +65,12 @@ class _Pairs(Generic[C]):
 
     def __init__(self, more: Sequence[Iterator[tuple[float, C]]]) -> None:
         self._more = more
-        self._edges: list[list[tuple[float, Column]]] = [[] for _ in more]
-        """What each row has told so far."""
+        self._told = [array("l") for _ in more]
+        """The columns that each row has told so far."""
+        self._costs = [array("d") for _ in more]
+        """Numbers side by side: millions of them are read again and again."""
         self._taken = [0] * len(more)
-        """How many of these, the first, are of taken columns."""
+        """How many of these, the first, are taken."""
         self._row_price = [0.0] * len(more)
         self._column_of = [_NONE] * len(more)
         self._row_of: list[Row] = []
@@ -82,7 +84,7 @@ class _Pairs(Generic[C]):
         mine = self._column_of[row]
         if mine == _NONE:
             return None
-        return next(cost for cost, column in self._edges[row] if column == mine), self._names[mine]
+        return self._costs[row][self._told[row].index(mine)], self._names[mine]
 
     def add(self, start: Row) -> None:
         """Give one more row a column, or let that one go without that is then the best to leave."""
@@ -129,11 +131,11 @@ class _Pairs(Generic[C]):
                 cost, column = last(row, away)
                 if cost < found.bound:
                     found.bound, found.end = cost, (row, column)
-                base, edges = away - self._row_price[row], self._edges[row]
-                stop = bisect_left(edges, (found.bound - base + dearest,), 0, self._taken[row])
+                base, costs = away - self._row_price[row], self._costs[row]
+                stop = bisect_left(costs, found.bound - base + dearest, 0, self._taken[row])
                 nearer = [
                     (way, column)
-                    for cost, column in islice(edges, stop)
+                    for cost, column in zip(costs[:stop], self._told[row], strict=False)
                     if (way := base + cost - price[column]) < best[column]
                 ]
                 for way, column in nearer:
@@ -150,18 +152,18 @@ class _Pairs(Generic[C]):
 
     def _take_free(self, row: Row, away: float) -> tuple[float, Column]:
         """End a way with the cheapest free column."""
-        edges, row_of, taken = self._edges[row], self._row_of, self._taken[row]
+        told, row_of, taken = self._told[row], self._row_of, self._taken[row]
         while True:
-            while taken < len(edges) and row_of[edges[taken][1]] != _NONE:
+            while taken < len(told) and row_of[told[taken]] != _NONE:
                 taken += 1
             self._taken[row] = taken
-            if taken < len(edges):
-                cost, column = edges[taken]
-                return away + cost - self._row_price[row], column
-            told = next(self._more[row], None)
-            if told is None:
+            if taken < len(told):
+                return away + self._costs[row][taken] - self._row_price[row], told[taken]
+            more = next(self._more[row], None)
+            if more is None:
                 return inf, _NONE
-            edges.append((told[0], self._numbered(told[1])))
+            self._costs[row].append(more[0])
+            told.append(self._numbered(more[1]))
 
     def _go_without(self, row: Row, away: float) -> tuple[float, Column]:
         """End a way with a row that has no column."""
