@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 
 TARGET = (1.0, 1.0, 1.2)
 """Where all trips go: straight up from home."""
+AN_HOUR = 3600.0
+"""On a slow machine it may take long until all are in the air, and none may be given up before."""
 
 
 def runtime(name: str) -> Any:
@@ -62,14 +64,15 @@ class Listener:
         self.heard += 1
 
 
-def missions(work: Work) -> list[Mission[Any]]:
-    """Return the plan."""
+def missions(work: Work, safe_time: float | None) -> list[Mission[Any]]:
+    """Return the plan; flights may take 30 s, as the app has it, or what the missions say."""
     model = import_module("measured.model")
     names = [str(number) for number in range(work.trips)]
     return [
         model.Mission(
             name=str(number),
             index=number,
+            safe_time=safe_time,
             trips=[
                 model.Trip(name=name, action="take_photo", target=TARGET, index=index)
                 for index, name in enumerate(names)
@@ -80,7 +83,7 @@ def missions(work: Work) -> list[Mission[Any]]:
 
 
 def started(
-    work: Work, kernel: Kernel, navigation: Still, listeners: Sequence[Callable[[Event], object]]
+    given: argparse.Namespace, work: Work, kernel: Kernel, navigation: Still
 ) -> tuple[list[Mission[Any]], Task[float]]:
     """Set the missions on their way; the task is done when the last of them is over."""
     app, files = import_module("measured.flow").APP, runtime("files.fleet")
@@ -92,8 +95,8 @@ def started(
             for number in range(work.drones)
         ),
     )
-    session = runtime("session").Session(app, fleet, kernel, navigation, listeners)
-    plan = missions(work)
+    session = runtime("session").Session(app, fleet, kernel, navigation, listeners(given))
+    plan = missions(work, AN_HOUR if given.together else None)
     return plan, session.start(plan)
 
 
@@ -123,7 +126,7 @@ async def in_real_time(given: argparse.Namespace, work: Work, notes: Notes) -> D
     """Fly on asyncio."""
     kernel = runtime("realtime").RealTime()
     flights = AllTogether if given.together else FromTheLoop
-    plan, over = started(work, kernel, flights(crash(), kernel, work, notes), listeners(given))
+    plan, over = started(given, work, kernel, flights(crash(), kernel, work, notes))
     await kernel.run(over)
     return told(plan)
 
@@ -132,7 +135,7 @@ def in_virtual_time(given: argparse.Namespace, work: Work) -> Done:
     """Fly in a simulation."""
     kernel = runtime("virtual").VirtualTime()
     navigation = ThroughTheKernel(crash(), kernel, runtime("kernel").Kind.FLIGHT)
-    plan, over = started(work, kernel, navigation, listeners(given))
+    plan, over = started(given, work, kernel, navigation)
     kernel.run(over)
     return told(plan)
 
@@ -145,6 +148,8 @@ def main() -> None:
     arguments.add_argument("--journal", action="store_true", help="format each transition")
     arguments.add_argument("--together", action="store_true", help="all are in flight at once")
     given = arguments.parse_args()
+    if given.together and given.drones < given.missions:
+        arguments.error("--together needs a drone for each mission")
     sys.path.insert(0, given.package)
     load()
 
