@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from .errors import MissionFailed
+from .blame import blame, blamed
+from .errors import HookFault, MissionFailed
 from .flight import abort
 from .kernel import Cancelled, Kind, Task
 from .run import Run
@@ -66,12 +67,20 @@ class Engine:
                 reason = ""
             case MissionFailed() as error:
                 status, reason = FAILED, str(error)
+                if isinstance(error, HookFault) and error.detail:
+                    self._tell(error, state.mission)
             case Cancelled():
                 status, reason = FAILED, state.doom or "it was called off"
             case error:
+                blame(error, self._core.app.flow)
                 self._core.kernel.crash(error)
                 return
         self._end(state, status, reason)
+
+    def _tell(self, fault: HookFault, mission: Mission[Any]) -> None:
+        """Log where a hook failed, and by which block it was called."""
+        block = blamed(fault, self._core.app.flow)
+        self._core.log(fault.detail + (f"\nin block {block}" if block else ""), mission.name)
 
     def _end(self, state: State, status: Status, reason: str) -> None:
         mission, fleet = state.mission, self._core.fleet

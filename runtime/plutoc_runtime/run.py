@@ -44,9 +44,7 @@ class Run(Generic[M]):
         except (Cancelled, GeneratorExit, KeyboardInterrupt):
             raise
         except WHATEVER as error:
-            fault = fault_of(hook, error)
-            self.core.log(fault.detail, self.mission.name)
-            raise fault from error
+            raise fault_of(hook, error) from error
 
     @property
     def trip(self) -> Any:
