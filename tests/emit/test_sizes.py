@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import itertools
+import pkgutil
 from importlib import import_module
 from pathlib import Path
 
@@ -11,6 +12,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import plutoc_runtime
 from plutoc.compile import compile_source
 from plutoc.emit.package import Package
 from plutoc.source import Source
@@ -165,3 +167,46 @@ def test_the_basic_app_is_small() -> None:
         if path.endswith(".py") and "/_runtime/" not in path
     }
     assert sum(lines.values()) <= 250, lines
+
+
+OTHER_POLICIES = {
+    "batch_optimal": "policies.first policies.least_used policies.nearest policies.ordered",
+    "least_used": "policies.assignment policies.batch_optimal policies.first policies.grid"
+    " policies.nearest policies.strips",
+    "nearest": "policies.assignment policies.batch_optimal policies.first policies.least_used"
+    " policies.ordered",
+    "own": "policies.assignment policies.batch_optimal policies.first policies.grid"
+    " policies.least_used policies.nearest policies.ordered policies.strips",
+}
+"""The modules of the policies that were not chosen; some share one."""
+
+LEFT_OUT = {
+    "aerial_mapping": f"modification {OTHER_POLICIES['batch_optimal']}",
+    "alfalfa": f"modification {OTHER_POLICIES['nearest']}",
+    "drugs_distribution": f"judgement modification {OTHER_POLICIES['least_used']} soundness",
+    "drugs_distribution_retry": (
+        f"judgement modification {OTHER_POLICIES['batch_optimal']} soundness"
+    ),
+    "drugs_distribution_timer": f"judgement {OTHER_POLICIES['batch_optimal']}",
+    "object_finder": f"modification {OTHER_POLICIES['nearest']}",
+    "pm10": f"modification {OTHER_POLICIES['nearest']}",
+    "warehouse_item_finder": f"judgement modification {OTHER_POLICIES['own']} soundness",
+}
+"""The modules of the runtime that an example does not carry: what applies verdicts and what settles
+a modifier's status, what both ask, and other policies. Blocks' steps are looked at above."""
+
+
+@pytest.mark.parametrize("example", sorted(path.name for path in EXAMPLES.iterdir()))
+def test_modules_that_nothing_needs_stay_behind(example: str) -> None:
+    """They are named for every example, and there are no others."""
+    text = (EXAMPLES / example / "app.pluto").read_text(encoding="utf-8")
+    carried = {path.partition("/_runtime/")[2] for path in package_of(text).owned}
+    left_out = [name for name in modules() if f"{name.replace('.', '/')}.py" not in carried]
+    assert left_out == LEFT_OUT[example].split()
+
+
+def modules() -> list[str]:
+    """Return the runtime's modules, without those that only hold others."""
+    prefix = f"{plutoc_runtime.__name__}."
+    found = pkgutil.walk_packages(plutoc_runtime.__path__, prefix)
+    return sorted(one.name.removeprefix(prefix) for one in found if not one.ispkg)
