@@ -35,8 +35,8 @@ def watch(run: Run[Any], *limits: Limit | None) -> Flight:
         raise RuntimeError(f"mission {run.mission.name} has no flight to watch")
     for number, limit in enumerate(limits):
         if limit is not None:
-            key = (*run.key, number) if number else run.key
-            run.core.deadlines.watch((flight, run.task, key, limit))
+            # behind a hook of the mission's at that instant, as if it stood in a branch of its own
+            run.core.deadlines.watch((flight, run.task, (*run.key, number), limit))
     return flight
 
 
