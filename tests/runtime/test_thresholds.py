@@ -96,7 +96,7 @@ def test_nobody_is_asked_twice_of_the_same_drone_at_the_same_place() -> None:
 def test_after_nobody_has_waited_all_begins_anew() -> None:
     one, thresholds = drone(Standing()), Thresholds[Waiting]()
     assert thresholds.least(one, [(0, 1, Waiting(0.2))]) == 0.2
-    thresholds.clear()
+    thresholds.kept.clear()
     assert thresholds.least(one, []) == inf
 
 
