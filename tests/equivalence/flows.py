@@ -17,6 +17,7 @@ from plutoc.graph.model import Graph
 from plutoc.plan.model import Plan
 from plutoc_runtime.app import App
 from tests.equivalence import strangers
+from tests.equivalence.patience import Patience
 
 PACKAGE = "equivalent"
 BLOCKS = "_runtime.blocks."
@@ -39,7 +40,7 @@ class Package:
     def app(self, hooks: SimpleNamespace) -> App:
         """Return the app with these hooks."""
         siblings: Siblings = {"hooks": hooks, "model": self.model}
-        app = _module("flow", self.flow, siblings, self.overrides).APP
+        app = _module("flow", self.flow, siblings, self.overrides, Patience()).APP
         assert isinstance(app, App)
         return app
 
@@ -63,7 +64,13 @@ def _model(text: str) -> ModuleType:
     return _module("model", compile(text, "model.py", "exec"), {}, NOTHING)
 
 
-def _module(name: str, code: CodeType, siblings: Siblings, overrides: Overrides) -> ModuleType:
+def _module(
+    name: str,
+    code: CodeType,
+    siblings: Siblings,
+    overrides: Overrides,
+    patience: Patience | None = None,
+) -> ModuleType:
     def importing(
         target: str,
         globals_: Mapping[str, object] | None = None,
@@ -77,7 +84,7 @@ def _module(name: str, code: CodeType, siblings: Siblings, overrides: Overrides)
             return SimpleNamespace(**{one: siblings[one] for one in wanted})
         if target in siblings:
             return siblings[target]
-        return _of_the_runtime(target, wanted, overrides)
+        return _of_the_runtime(target, wanted, overrides, patience)
 
     module = ModuleType(f"{PACKAGE}.{name}")
     module.__package__ = PACKAGE
@@ -99,7 +106,9 @@ class _InMemory(InspectLoader):
         return self.code
 
 
-def _of_the_runtime(target: str, wanted: Sequence[str], overrides: Overrides) -> object:
+def _of_the_runtime(
+    target: str, wanted: Sequence[str], overrides: Overrides, patience: Patience | None
+) -> object:
     """Return what a generated module imports from `_runtime`, from where it is at home."""
     if target.startswith(f"{BLOCKS}{strangers.PACKAGE}."):
         home = strangers.__name__
@@ -112,5 +121,7 @@ def _of_the_runtime(target: str, wanted: Sequence[str], overrides: Overrides) ->
     for one in wanted:
         if not hasattr(module, one):
             import_module(f"{home}.{one}")
-        found[one] = overrides.get(one, getattr(module, one))
+        given = overrides.get(one, getattr(module, one))
+        steps = patience is not None and target.startswith(BLOCKS)
+        found[one] = patience.counted(given) if patience and steps else given
     return SimpleNamespace(**found)

@@ -12,6 +12,7 @@ from plutoc_runtime.session import Outcome, simulate
 from plutoc_runtime.trace import Event
 from tests.equivalence.behaviour import Behaviour
 from tests.equivalence.flows import Package
+from tests.equivalence.patience import Spins
 from tests.equivalence.worlds import World
 
 if TYPE_CHECKING:
@@ -38,6 +39,8 @@ class Record:
     """Trips that were completed at the very instant of their mission's safe time."""
     broken: bool
     """An error ended the run that is no answer to bad input."""
+    spins: bool
+    """It was broken off: it went round for ever. When that was noticed is no part of the trace."""
 
 
 class Fly(Protocol):
@@ -76,10 +79,11 @@ def record(package: Package, world: World, *, fly: Fly = simulate, patient: bool
             on_event=events.append,
         )
         ends = [*_ends(outcome), *map(repr, outcome.flown.items())]
-        broken = False
+        broken = spins = False
     except ANY as error:
         ends = [f"{type(error).__name__}: {error}"]
-        broken = not isinstance(error, BadInput)
+        spins = isinstance(error, Spins)
+        broken = not isinstance(error, BadInput | Spins)
     return Record(
         events=tuple(events),
         diary=tuple(behaviour.diary),
@@ -87,6 +91,7 @@ def record(package: Package, world: World, *, fly: Fly = simulate, patient: bool
         lengths=tuple(_lengths(missions)),
         coincidences=sum(map(_just_in_time, missions)),
         broken=broken,
+        spins=spins,
     )
 
 
@@ -143,6 +148,8 @@ def _just_in_time(mission: Mission[Any]) -> int:
 
 def difference(one: Record, other: Record) -> str | None:
     """Return the first difference of two runs in words, or None."""
+    if one.spins and other.spins:
+        return None
     for what, left, right in (
         ("event", _lines(one.events), _lines(other.events)),
         ("call of a hook", one.diary, other.diary),

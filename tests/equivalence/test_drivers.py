@@ -23,6 +23,8 @@ def test_real_time_takes_simultaneous_events_in_the_order_of_virtual_time() -> N
             world = random_world(Random(rng.random()), package.graph)
             virtual = record(package, world, patient=False)
             real = record(package, world, patient=False, fly=in_real_time)
+            if virtual.spins:
+                continue
             whole = not virtual.ends[0].startswith(("BadInput", f"over after {world.until!r}"))
             assert _seen(real, world, whole) == _seen(virtual, world, whole), f"{text}\n{world}"
             events += len(virtual.events)
