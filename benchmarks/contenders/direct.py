@@ -28,10 +28,8 @@ class Waiting(Mission):
 
     __slots__ = ("epoch", "send")
 
-    def __init__(self, number: int, trips: int, runtime: Runtime) -> None:
-        super().__init__(number, trips)
-        self.epoch = 0
-        self.send: Callable[[int | None], None] = flow(self, runtime).send
+    epoch: int
+    send: Callable[[int | None], None]
 
 
 class Runtime:
@@ -128,13 +126,12 @@ async def all_flows(work: Work, notes: Notes) -> Done:
     loop = asyncio.get_running_loop()
     nav = Navigation(loop, work.flight, notes)
     runtime = Runtime(work.drones, loop, nav, work.missions)
-    missions: list[Mission] = []
-    for number in range(work.missions):
-        m = Waiting(number, work.trips, runtime)
-        missions.append(m)
+    missions = [Waiting(number, work.trips) for number in range(work.missions)]
+    for m in missions:
+        m.send, m.epoch = flow(m, runtime).send, 0
         runtime.step(m.send, None)
     await runtime.finished
-    return told(missions)
+    return told([*missions])
 
 
 def fly(work: Work, notes: Notes) -> Done:

@@ -21,10 +21,8 @@ class Waiting(Mission):
 
     __slots__ = ("epoch", "send")
 
-    def __init__(self, number: int, trips: int, simulation: Simulation) -> None:
-        super().__init__(number, trips)
-        self.epoch = 0
-        self.send: Callable[[int | None], None] = flow(self, simulation).send
+    epoch: int
+    send: Callable[[int | None], None]
 
 
 class Simulation:
@@ -115,13 +113,12 @@ def flow(m: Waiting, simulation: Simulation) -> Generator[None, Any, None]:
 def fly(work: Work, notes: Notes) -> Done:
     """Do the work once."""
     simulation = Simulation(work.drones, work.flight)
-    missions: list[Mission] = []
-    for number in range(work.missions):
-        m = Waiting(number, work.trips, simulation)
-        missions.append(m)
+    missions = [Waiting(number, work.trips) for number in range(work.missions)]
+    for m in missions:
+        m.send, m.epoch = flow(m, simulation).send, 0
         simulation.ready.append((m, 0, None))
     simulation.run()
-    return told(missions)
+    return told([*missions])
 
 
 if __name__ == "__main__":
