@@ -166,6 +166,11 @@ class Block:
         """The statuses it takes when a guard names them."""
         return frozenset(self.transitions) | frozenset(self.guarded)
 
+    @property
+    def asks(self) -> bool:
+        """Whether its step gets anything besides the run, the status and the branches."""
+        return bool(self.params or self.needs or self.uses or self.named)
+
     def param(self, name: str) -> AnyParam | None:
         """Return the parameter of that name."""
         return next((param for param in self.params if param.name == name), None)

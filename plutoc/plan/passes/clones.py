@@ -47,6 +47,8 @@ def clones(plan: Plan) -> Plan:
 
 def _idle(join: Join, arrows: list[int], brought: Callable[[], Brought]) -> Sequence[int]:
     """Return the numbers of the branches that need no clone."""
+    if join.gate.block.asks:  # somebody else's, who may count them
+        return ()
     if join.gate.block.gate is Gate.FIRST:
         return range(arrows[0] + 1, len(join.branches))
     busy = [branch for number, branch in enumerate(join.branches) if number not in arrows]

@@ -15,7 +15,8 @@ and whichever gate closes the fork lets that status through. Two tasks, a fork a
 single wait. A block that waits alone is the same wait without limits of others.
 
 A fork stays that has anything else in a branch. Blocks of other packages are fused too, if they say
-what their limit is, or have none and ask for nothing that a wait could not give them.
+what their limit is, or have none and ask for nothing that a wait could not give them; and so are
+gates that ask for nothing.
 """
 
 from __future__ import annotations
@@ -37,7 +38,7 @@ def _fused(step: Step, _: Step) -> Body:
     match step:
         case Call(node=node) if _only_waits(node.block):
             return (Watch(instead=step, watchers=(node,)),)
-        case Join(gate=gate, branches=branches):
+        case Join(gate=gate, branches=branches) if _only_closes(gate):
             found = [_watchers(branch, gate) for branch in branches]
             watchers = tuple(chain.from_iterable(some for some in found if some))
             if watchers and all(some is not None for some in found):
@@ -61,5 +62,10 @@ def _only_waits(block: Block) -> bool:
     """Does the block do no more than to wait, under a limit that can be asked for?"""
     if not block.watches:
         return False
-    asks = block.params or block.needs or block.uses or block.named
-    return block.limit is not None or not (block.limits or asks)
+    return block.limit is not None or not (block.limits or block.asks)
+
+
+def _only_closes(gate: Node) -> bool:
+    """Does a gate do no more than to let a status through as it is?"""
+    same = all(gate.emitted(status) == {status} for status in gate.block.accepts)
+    return same and not gate.block.asks
