@@ -10,23 +10,23 @@ is put aside until it is charged, or until somebody comes for whom it is enough.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from heapq import heapify, heappop, heappush
 from itertools import islice
 from math import inf
 from typing import TYPE_CHECKING
 
-from .eligibility import Demand, Reach
 from .energy import docked
 from .errors import HookFault, MissionFailed
 from .kernel import FLEET, Kernel, Kind, Timer
-from .policy import BatchPool, Choice, Policy, Pool, Why
-from .signals import Signal
+from .policy import BatchPool, Choice, Policy, Pool
+from .request import Request
 from .status import DroneStatus
 from .thresholds import Thresholds
 
 if TYPE_CHECKING:
-    from .model import Drone, Trip
+    from .eligibility import Reach
+    from .model import Category, Drone, Trip
 
 _FREE, _BUSY = DroneStatus.FREE, DroneStatus.BUSY
 _GONE = (DroneStatus.LOST, DroneStatus.OFFLINE)
@@ -35,50 +35,8 @@ _IN_THE_AIR = (_BUSY, DroneStatus.RETURNING, DroneStatus.RECOVERING)
 _IN_VAIN = 16
 """After so many for whom no drone is high enough, it is worth to know for whom one is."""
 
-Entry = tuple[int, int, "Request"]
+Entry = tuple[int, int, Request]
 """Priority, higher first; arrival; who waits."""
-
-
-class Request(Signal["Drone"]):
-    """A mission that waits for a drone; it is set to the one that it gets."""
-
-    __slots__ = ("_demand", "_levels", "_reach", "_trips", "left", "policy", "pool", "trip", "why")
-
-    def __init__(self, reach: Reach, trips: Sequence[Trip], policy: Policy, pool: Pool) -> None:
-        self.is_set = self.left = False
-        self.error = self.waiter = self._value = self._watchers = None
-        self.policy, self.pool, self.trip = policy, pool, trips[0]
-        self.why: Why = str
-        """Says why it got its drone."""
-        self._reach, self._trips, self._levels = reach, trips, reach.levels(trips[0])
-        self._demand: Demand | None = None
-
-    @property
-    def waits(self) -> bool:
-        """Whether it still wants a drone."""
-        return not (self.is_set or self.left)
-
-    @property
-    def demand(self) -> Demand:
-        """What it asks of a drone, exactly."""
-        if self._demand is None:
-            self._demand = Demand(self._reach, self._trips)
-        return self._demand
-
-    def able(self, drone: Drone) -> bool:
-        """Say whether a drone can fly the trip now."""
-        level = drone.telemetry.battery_level
-        if level >= self._levels[drone.category]:
-            return True
-        return self.never(drone) is None and level >= self.demand.battery(drone)
-
-    def never(self, drone: Drone) -> str | None:
-        """Return why a drone cannot fly the trip even with a full battery; None: it can."""
-        return None if self._levels[drone.category] <= 1.0 else self.demand.never(drone)
-
-    def level(self, drone: Drone) -> float:
-        """Return what it takes in a drone's battery, where it stands; never: infinite."""
-        return inf if self.never(drone) is not None else self.demand.battery(drone)
 
 
 class Queue:
@@ -94,8 +52,11 @@ class Queue:
         """Those that have not been served yet."""
         self._waiting = self._arrivals = 0
         self._pools: dict[Policy, Pool] = {}
-        self._batches: dict[Policy, BatchPool] = {}
+        self._batches: list[BatchPool] = []
         """Those of the pools that look at all trips at once."""
+        self._sure: Mapping[Category, float] | None = None
+        """Levels with which some drone that is left can surely fly."""
+        self._serving = self._serve
         self._high = {drone: None for drone in drones if drone.status is _FREE}
         """The free drones that are in the pools."""
         self._low: dict[Drone, float] = {}
@@ -113,43 +74,44 @@ class Queue:
         pool = self._pools.get(policy)
         if pool is None:
             pool = self._new_pool(policy)
-        request = Request(self._reach, trips, policy, pool)
-        self._arrivals += 1
+        request = Request(self._reach, trips, pool)
         self._waiting += 1
-        entry = (-priority, self._arrivals, request)
+        self._arrivals = arrival = self._arrivals + 1
+        entry = (-priority, arrival, request)
         heappush(self._entries, entry)
-        self._thresholds.add(entry)
-        self._fresh.append(request)
-        self._kernel.last = self._serve
+        if self._thresholds.kept:
+            self._thresholds.add(entry)
+        if self._low or request.levels is not self._sure:
+            self._fresh.append(request)
+        self._kernel.last = self._serving
         return request
 
     def leave(self, request: Request) -> None:
         """Do not wait any longer."""
-        if request.waits:
-            request.left = True
+        if not request.is_set:
+            request.is_set = True
             self._waiting -= 1
 
     def moved(self, drone: Drone, before: DroneStatus, after: DroneStatus) -> None:
         """A drone has changed its status: serve the queue at the end of this instant."""
-        if before in _IN_THE_AIR:
-            self._airborne -= 1
-        elif before in _GONE:
-            self._gone -= 1
-        elif before is _FREE and after is not _FREE:
-            self._take(drone)
         if after is _FREE:
             self._raise(drone)
-        elif after in _IN_THE_AIR:
+        elif before is _FREE:
+            self._take(drone)
+        if before in _IN_THE_AIR:
+            self._airborne -= 1
+        if after in _IN_THE_AIR:
             self._airborne += 1
-        elif after in _GONE:
-            self._gone += 1
+        elif after in _GONE or before in _GONE:
+            self._gone += (after in _GONE) - (before in _GONE)
+            self._sure = None
         if self._waiting:
-            self._kernel.last = self._serve
+            self._kernel.last = self._serving
 
     def changed(self) -> None:
         """Something changed: serve the queue at the end of this instant."""
         if self._waiting:
-            self._kernel.last = self._serve
+            self._kernel.last = self._serving
 
     @property
     def waiting(self) -> bool:
@@ -180,18 +142,19 @@ class Queue:
     def _new_pool(self, policy: Policy) -> Pool:
         pool = self._pools[policy] = policy()
         if isinstance(pool, BatchPool):
-            self._batches[policy] = pool
+            self._batches.append(pool)
         for drone in self._high:
             pool.add(drone)
         return pool
 
     def _raise(self, drone: Drone) -> None:
         """A drone may be handed out."""
-        self._low.pop(drone, None)
         if drone not in self._high:
             self._high[drone] = None
             for pool in self._pools.values():
                 pool.add(drone)
+        if self._low:
+            self._low.pop(drone, None)
 
     def _take(self, drone: Drone) -> None:
         """A drone may not be handed out."""
@@ -206,41 +169,47 @@ class Queue:
     def _serve(self) -> None:
         if self._low:
             self._raise_who_is_high_enough()
-        if self._high and self._waiting and self.room:
+        if self._high and self._waiting:
             self._share_out()
         if self._waiting:
-            self._refuse_what_cannot_be()
+            if self._fresh or self._asked_of != self._gone:
+                self._refuse_what_cannot_be()
             if self._high and self.room:
                 self._lower_who_is_of_no_use()
             if self._low:
                 self._look_again_when_charged()
                 self.served()
-        else:
-            self._thresholds.clear()
+        elif self._thresholds.kept:
+            self._thresholds.kept.clear()
         self._fresh.clear()
 
     def _share_out(self) -> None:
-        entries, high, batches = self._entries, self._high, self._batches
+        entries, high, most = self._entries, self._high, self._max_airborne
         passed: list[Entry] = []
-        while entries and high and self.room:
+        while entries and high and (most is None or self._airborne < most):
             entry = heappop(entries)
             request = entry[2]
-            if request.is_set or request.left:
+            if request.is_set:
                 continue
-            if batches and request.policy in batches:
-                batch = batches[request.policy]
-                passed += self._share_among(batch, self._alike(entry))
+            if self._batches and request.pool in self._batches:
+                passed += self._share_among(self._alike(entry))
             elif not self._chosen(request):
                 passed.append(entry)
-                if len(passed) == _IN_VAIN and not batches:
+                if len(passed) == _IN_VAIN and not self._batches:
                     break
+        if passed:
+            self._put_back(passed)
+
+    def _put_back(self, passed: list[Entry]) -> None:
+        """Keep those for whom no drone was high enough, and stop asking them one by one."""
+        entries = self._entries
         if len(passed) > _IN_VAIN:
             entries += passed
             heapify(entries)
         else:
             for entry in passed:
                 heappush(entries, entry)
-        if len(passed) == _IN_VAIN and not batches:
+        if len(passed) == _IN_VAIN and not self._batches:
             self._share_out_to_the_able(passed)
 
     def _share_out_to_the_able(self, asked: Sequence[Entry]) -> None:
@@ -267,9 +236,10 @@ class Queue:
         except HookFault as fault:
             self._refuse(request, fault)
             return True
-        if choice is not None:
-            self._give(request, choice)
-        return choice is not None
+        if choice is None:
+            return False
+        self._give(request, choice)
+        return True
 
     def _alike(self, entry: Entry) -> list[Entry]:
         """Take the entries that come next and have the same priority and policy."""
@@ -278,15 +248,16 @@ class Queue:
         for following in entries:
             request = following[2]
             if request.waits:
-                if following[0] != entry[0] or request.policy != entry[2].policy:
+                if following[0] != entry[0] or request.pool is not entry[2].pool:
                     break
                 alike.append(following)
             taken += 1
         del entries[:taken]
         return alike
 
-    def _share_among(self, pool: BatchPool, entries: Sequence[Entry]) -> list[Entry]:
+    def _share_among(self, entries: Sequence[Entry]) -> list[Entry]:
         """Let the policy choose for all of them at once; return those that got nothing."""
+        pool = next(batch for batch in self._batches if batch is entries[0][2].pool)
         offers = [(entry[2].trip, entry[2].able) for entry in entries]
         passed: list[Entry] = []
         for entry, choice in zip(entries, pool.share(offers), strict=True):
@@ -315,12 +286,14 @@ class Queue:
         asked = self._fresh if self._asked_of == self._gone else list(self._waiters())
         self._asked_of = self._gone
         for request in asked:
-            if not request.is_set and not request.left and not self._any_able(request):
+            if not request.is_set and not self._any_able(request):
                 self._refuse(request, self._unable(request))
 
     def _any_able(self, request: Request) -> bool:
         for drone in self._drones:
             if drone.status not in _GONE and request.never(drone) is None:
+                if request.levels[drone.category] <= 1.0:
+                    self._sure = request.levels
                 return True
         return False
 

@@ -7,7 +7,6 @@ from math import isfinite
 from typing import TYPE_CHECKING, Any
 
 from .kernel import Kind
-from .results import SoFar
 from .signals import Signal
 
 if TYPE_CHECKING:
@@ -33,7 +32,7 @@ class Context:
     @property
     def results(self) -> Sequence[Result[Any, Any]]:
         """What every action of the app has given so far."""
-        return SoFar(self._core.results.results)
+        return self._core.results.so_far()
 
     def log(self, text: str) -> None:
         """Write a line on the console."""

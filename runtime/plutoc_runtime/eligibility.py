@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 NO_WAY = 2.0
 """A battery level that no drone ever has."""
 
+_REMEMBERED = 10_000
+"""Targets kept: a hook may think of any number of them."""
+
 
 class Reach:
     """What gets a drone anywhere on the map and home again: most that stand ready have more.
@@ -26,7 +29,8 @@ class Reach:
 
     def __init__(self, app: App, airspace: Airspace) -> None:
         self.app, self.airspace = app, airspace
-        self._size = (*airspace.size, airspace.ceiling)
+        self._on_map: set[Point] = set()
+        """Targets that have been looked at."""
         self._levels = {
             action: {category: self._level(category, action) for category in app.categories}
             for action in app.actions
@@ -38,17 +42,18 @@ class Reach:
 
         `NO_WAY` where that takes a closer look.
         """
-        x, y, z = trip.target
-        width, depth, ceiling = self._size
-        if (
-            trip.item is None
-            and 0.0 <= x <= width
-            and 0.0 <= y <= depth
-            and 0.0 <= z <= ceiling
-            and (trip.source is None or self.airspace.problem(trip.source) is None)
-        ):
-            return self._levels[trip.action]
-        return self._unknown
+        plain = trip.item is None and trip.source is None and trip.target in self._on_map
+        return self._levels[trip.action] if plain or self._is_plain(trip) else self._unknown
+
+    def _is_plain(self, trip: Trip) -> bool:
+        """Say whether it carries nothing and stays on the map; a hook may have changed it."""
+        places = (trip.target,) if trip.source is None else (trip.source, trip.target)
+        if trip.item is not None or any(self.airspace.problem(place) for place in places):
+            return False
+        if len(self._on_map) == _REMEMBERED:
+            self._on_map.clear()
+        self._on_map.add(trip.target)
+        return True
 
     def _level(self, category: Category, action: str) -> float:
         space = self.airspace

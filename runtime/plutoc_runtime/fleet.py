@@ -49,17 +49,18 @@ class Fleet:
         self.drones, self.queue = tuple(drones), queue
         self._kernel, self._trace, self._airspace = kernel, trace, airspace
         self._navigation, self._after_trip = navigation, after_trip
-        self._errands: dict[Drone, Task[None]] = {}
+        self._stays = after_trip is AfterTrip.STAY
+        self.errands: dict[Drone, Task[None]] = {}
+        """What drones do for themselves."""
         self._change: Signal[None] | None = None
         """The next change of any drone, if anybody waits for it."""
         queue.served = self._fetch_what_is_low
 
     def engage(self, drone: Drone) -> None:
         """A drone is about to fly for a mission: whatever it was doing for itself is over."""
-        if self._errands:
-            errand = self._errands.pop(drone, None)
-            if errand is not None:
-                errand.cancel()
+        errand = self.errands.pop(drone, None)
+        if errand is not None:
+            errand.cancel()
 
     def keep(self, drone: Drone, lose: Callable[[str], None]) -> None:
         """A drone with an item aboard lands where it is and waits for its mission.
@@ -82,7 +83,7 @@ class Fleet:
         if (
             telemetry.landed
             and telemetry.battery_level > drone.category.reserve
-            and (self._after_trip is AfterTrip.STAY or docked(telemetry.location, drone.home))
+            and (self._stays or docked(telemetry.location, drone.home))
         ):
             # navigation has it down already where it shall be, with enough in its battery
             self._become(drone, _FREE)
@@ -105,7 +106,7 @@ class Fleet:
 
     async def all_down(self) -> None:
         """Wait until every drone has done what it does for itself: return, land, recover."""
-        while under_way := [task for task in self._errands.values() if not task.is_set]:
+        while under_way := [task for task in self.errands.values() if not task.is_set]:
             await under_way[0].ended()
 
     async def land_all(self) -> None:
@@ -129,7 +130,7 @@ class Fleet:
     ) -> None:
         self.engage(drone)
         self._become(drone, status)
-        self._errands[drone] = self._kernel.spawn(
+        self.errands[drone] = self._kernel.spawn(
             self._run(errand, drone), self._key(drone), f"{drone.id} {what}"
         )
 
@@ -137,7 +138,7 @@ class Fleet:
         self, errand: Callable[[Drone], Coroutine[Any, Any, None]], drone: Drone
     ) -> None:
         await errand(drone)
-        del self._errands[drone]
+        del self.errands[drone]
 
     def _become(self, drone: Drone, status: DroneStatus) -> None:
         before = drone.status

@@ -28,7 +28,7 @@ class Flight(Signal[Status]):
 
     __slots__ = ("_hook", "_work", "flier", "launched_at", "retry", "state", "trip")
 
-    def __init__(self, state: State, trip: Trip, flier: Drone, *, retry: bool) -> None:
+    def __init__(self, state: State, trip: Trip, flier: Drone, retry: bool) -> None:
         self.is_set = False
         self.error = self.waiter = self._value = self._watchers = None
         self.state, self.trip, self.flier = state, trip, flier
@@ -146,9 +146,10 @@ def launch(state: State, drone: Drone) -> None:
     """Send a drone on the mission's next trip."""
     core, mission, last = state.core, state.mission, state.flight
     trip = mission.current
-    core.fleet.engage(drone)
+    if core.fleet.errands:
+        core.fleet.engage(drone)
     retry = last is not None and last.trip is trip and last.failed
-    state.flight = flight = Flight(state, trip, drone, retry=retry)
+    state.flight = flight = Flight(state, trip, drone, retry)
     state.allocated = None
     core.transitions.launch(mission, trip, drone)
     core.navigation.fly(flight, flight.report)

@@ -96,42 +96,52 @@ class Task(Signal[T]):
         kernel.count = self.turn = turn = kernel.count + 1
         heappush(kernel.ready, (self.key, turn, self))
 
-    def step(self, thrown: BaseException | None = None) -> None:
+    def step(self) -> None:
         """Let the coroutine run up to its next wait."""
-        failed: BaseException | None = None
-        returned: Any = None
         try:
-            if thrown is None:
-                waits_for = self._coroutine.send(None)
-            else:
-                waits_for = self._coroutine.throw(thrown)
-            while not isinstance(waits_for, Signal):
-                error = ForeignAwait(f"it awaited {type(waits_for).__name__}")
-                waits_for = self._coroutine.throw(error)
-        except StopIteration as end:
-            returned = end.value
+            waits_for = self._coroutine.send(None)
         except (KeyboardInterrupt, SystemExit):
             raise
         except WHATEVER as error:
-            failed = error
+            end = error
+        else:
+            if isinstance(waits_for, Signal):
+                self._waits_for = waits_for
+                if waits_for.waiter is None:
+                    waits_for.waiter = self
+                else:
+                    waits_for.watch(self.wake)
+            else:
+                self._throw(ForeignAwait(f"it awaited {type(waits_for).__name__}"))
+            return
+        self._end(end)
+
+    def _throw(self, error: BaseException) -> None:
+        """Let the coroutine run on from an error."""
+        try:
+            waits_for = self._coroutine.throw(error)
+            while not isinstance(waits_for, Signal):
+                foreign = ForeignAwait(f"it awaited {type(waits_for).__name__}")
+                waits_for = self._coroutine.throw(foreign)
+        except (KeyboardInterrupt, SystemExit):
+            raise
+        except WHATEVER as ended:
+            end = ended
         else:
             self._waits_for = waits_for
-            if waits_for.waiter is None:
-                waits_for.waiter = self
-            else:
-                waits_for.watch(self.wake)
+            waits_for.watch(self.wake)
             return
-        self._end(returned, failed)
+        self._end(end)
 
-    def _end(self, returned: T, failed: BaseException | None) -> None:
+    def _end(self, end: BaseException) -> None:
         self.turn, self._waits_for = 0, None
         del self._kernel.tasks[self]
-        if failed is None:
-            self.set(returned)
+        if isinstance(end, StopIteration):
+            self.set(end.value)
             return
-        if not isinstance(failed, Cancelled) and not self.watched:
-            self._kernel.crash(failed)
-        self.fail(failed)
+        if not isinstance(end, Cancelled) and not self.watched:
+            self._kernel.crash(end)
+        self.fail(end)
 
     def cancel(self) -> None:
         """Stop it where it waits, now."""
@@ -143,7 +153,7 @@ class Task(Signal[T]):
             if waits_for.waiter is self:
                 waits_for.waiter = None
         self.turn = 0  # it may wait once more, to clean up: not for this any longer
-        self.step(Cancelled())
+        self._throw(Cancelled())
 
     async def ended(self) -> None:
         """Wait until it is over, even if it is cancelled."""

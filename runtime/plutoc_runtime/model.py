@@ -12,7 +12,7 @@ from math import dist
 from typing import TYPE_CHECKING, Generic, Protocol, TypeVar
 
 from .errors import MissionFailed
-from .status import DroneStatus, Status, TripStatus
+from .status import UNEXECUTED, DroneStatus, Status, TripStatus
 
 if TYPE_CHECKING:
     from .actions import Plain
@@ -122,21 +122,21 @@ class Trip:
     parameters: Mapping[str, Plain] = field(default_factory=dict)
     """The action's parameters, in SI units."""
     item: Item | None = None
-    status: TripStatus = TripStatus.WAITING
-    drone: Drone | None = None
+    status: TripStatus = field(default=TripStatus.WAITING, init=False)
+    drone: Drone | None = field(default=None, init=False)
     """Who flies it, from allocation on."""
-    start_time: float | None = None
+    start_time: float | None = field(default=None, init=False)
     """When its drone left for it, the last time."""
-    end_time: float | None = None
-    attempt: int = 1
+    end_time: float | None = field(default=None, init=False)
+    attempt: int = field(default=1, init=False)
     """How often it has been tried in this round, this time included."""
     index: int = 0
     """Its place in the missions file."""
-    added: bool = False
+    added: bool = field(default=False, init=False)
     """An evaluator added it: it is not repeated."""
-    reason: str = ""
+    reason: str = field(default="", init=False)
     """Why it failed, the last time."""
-    now: Callable[[], float] | None = field(default=None, repr=False)
+    now: Callable[[], float] | None = field(default=None, init=False, repr=False)
     """The clock, once the trip belongs to a mission that runs."""
 
     @property
@@ -177,13 +177,13 @@ class Mission(Generic[AnyTrip]):
     name: str
     trips: list[AnyTrip]
     """Still to do, in order; the first is the one that flies now, or flies next."""
-    completed_trips: list[AnyTrip] = field(default_factory=list)
-    status: Status = Status.UNEXECUTED
-    reason: str = ""
+    completed_trips: list[AnyTrip] = field(default_factory=list, init=False)
+    status: Status = field(default=UNEXECUTED, init=False)
+    reason: str = field(default="", init=False)
     """Why it failed."""
-    round: int = 0
+    round: int = field(default=0, init=False)
     """How often it has begun again."""
-    attempts: int = 0
+    attempts: int = field(default=0, init=False)
     """How many flights it has had, good and bad."""
     index: int = 0
     """Its place in the missions file."""

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterator, Sequence
-from itertools import islice
+from itertools import islice, starmap
 from typing import Any, Generic, NamedTuple, TypeVar, overload
 
 from .model import Mission, Trip
 
-R = TypeVar("R")
 M = TypeVar("M", bound=Mission[Any])
 T = TypeVar("T", bound=Trip)
 
@@ -23,30 +23,33 @@ class Result(NamedTuple, Generic[M, T]):
     value: object
 
 
-class SoFar(Sequence[R]):
-    """The first so many of a list that only grows: a view, not a copy."""
+Row = tuple[Mission[Any], Trip, int, int, object]
+"""A result as it is kept: most are never looked at, and a plain tuple is made far faster."""
 
-    __slots__ = ("_count", "_list")
 
-    def __init__(self, growing: list[R]) -> None:
-        self._list, self._count = growing, len(growing)
+class SoFar(Sequence[Result[Any, Any]]):
+    """The first so many of the rows that only grow, as results: a view, not a copy."""
+
+    __slots__ = ("_count", "_rows")
+
+    def __init__(self, rows: list[Row]) -> None:
+        self._rows, self._count = rows, len(rows)
 
     def __len__(self) -> int:
         return self._count
 
     @overload
-    def __getitem__(self, index: int) -> R: ...
+    def __getitem__(self, index: int) -> Result[Any, Any]: ...
     @overload
-    def __getitem__(self, index: slice) -> Sequence[R]: ...
-    def __getitem__(self, index: int | slice) -> R | Sequence[R]:
-        if isinstance(index, slice):
-            return tuple(self._list[place] for place in range(*index.indices(self._count)))
-        if not -self._count <= index < self._count:
-            raise IndexError(index)
-        return self._list[index if index >= 0 else index + self._count]
+    def __getitem__(self, index: slice) -> Sequence[Result[Any, Any]]: ...
+    def __getitem__(self, index: int | slice) -> Result[Any, Any] | Sequence[Result[Any, Any]]:
+        places = range(self._count)[index]  # an IndexError is its own
+        if isinstance(places, range):
+            return tuple(Result(*self._rows[place]) for place in places)
+        return Result(*self._rows[places])
 
-    def __iter__(self) -> Iterator[R]:
-        return islice(self._list, self._count)
+    def __iter__(self) -> Iterator[Result[Any, Any]]:
+        return starmap(Result, islice(self._rows, self._count))
 
 
 class Results(NamedTuple, Generic[M, T]):
@@ -62,20 +65,15 @@ class ResultStore:
     """Where results are kept."""
 
     def __init__(self) -> None:
-        self.results: list[Result[Any, Any]] = []
-        self._new: dict[Mission[Any], list[Result[Any, Any]]] = {}
+        self.rows: list[Row] = []
+        self.new: defaultdict[Mission[Any], list[Row]] = defaultdict(list)
         """What each mission has brought since its evaluator was last asked."""
 
-    def add(self, mission: Mission[Any], trip: Trip, value: object) -> None:
-        """Keep what the trip's action gave."""
-        result = Result(mission, trip, mission.round, trip.attempt, value)
-        self.results.append(result)
-        new = self._new.get(mission)
-        if new is None:
-            self._new[mission] = [result]
-        else:
-            new.append(result)
+    def so_far(self) -> SoFar:
+        """Return every result there is by now."""
+        return SoFar(self.rows)
 
     def for_evaluator(self, mission: Mission[Any]) -> Results[Any, Any]:
         """Return what a mission's evaluator gets now."""
-        return Results(new=tuple(self._new.pop(mission, ())), all=SoFar(self.results))
+        new = tuple(starmap(Result, self.new.pop(mission, ())))
+        return Results(new, self.so_far())

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Generator
-from typing import Any, Generic, Protocol, TypeVar, cast
+from typing import Any, Generic, Protocol, TypeVar
 
 T = TypeVar("T")
 
@@ -29,7 +29,7 @@ class Signal(Generic[T]):
         self.error: BaseException | None = None
         self.waiter: Waiter | None = None
         """Who awaits it; most signals are awaited by one task, and the others watch."""
-        self._value: T | None = None
+        self._value: Any = None
         self._watchers: list[Watcher] | None = None
 
     def set(self, value: T) -> None:
@@ -78,11 +78,13 @@ class Signal(Generic[T]):
         """Return the value, or raise the error; only once it is set."""
         if self.error is not None:
             raise self.error
-        return cast("T", self._value)
+        value: T = self._value
+        return value
 
     def __await__(self) -> Generator[Signal[Any], None, T]:
         if not self.is_set:
             yield self
         if self.error is not None:
             raise self.error
-        return cast("T", self._value)
+        value: T = self._value
+        return value

@@ -43,16 +43,13 @@ class Thresholds(Generic[A]):
     """
 
     def __init__(self) -> None:
-        self._of: dict[Drone, _Asked[A]] = {}
+        self.kept: dict[Drone, _Asked[A]] = {}
+        """What is known of each drone that was too low; to be cleared when nobody waits."""
 
     def add(self, entry: tuple[int, int, A]) -> None:
         """Somebody has come."""
-        for asked in self._of.values():
+        for asked in self.kept.values():
             asked.add(entry)
-
-    def clear(self) -> None:
-        """Nobody waits any longer."""
-        self._of.clear()
 
     def least(self, drone: Drone, waiting: Iterable[tuple[int, int, A]]) -> float:
         """Return the lowest level that somebody asks of a drone where it stands."""
@@ -74,9 +71,9 @@ class Thresholds(Generic[A]):
                     yield heap[index][1]
 
     def _asked(self, drone: Drone, waiting: Iterable[tuple[int, int, A]]) -> _Asked[A]:
-        asked, here = self._of.get(drone), drone.location
+        asked, here = self.kept.get(drone), drone.location
         if asked is None or asked.here != here:
-            asked = self._of[drone] = _Asked(here, list(waiting))
+            asked = self.kept[drone] = _Asked(here, list(waiting))
         asked.settle(drone)
         return asked
 

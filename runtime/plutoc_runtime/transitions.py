@@ -60,10 +60,13 @@ class Transitions:
     def complete(self, mission: Mission[Any], trip: Trip, value: object) -> None:
         """A trip has ended well."""
         trip.status, trip.end_time = _COMPLETED, self._kernel.now
-        mission.trips.remove(trip)
+        trips, results = mission.trips, self._results
+        trips.remove(trip)
         mission.completed_trips.append(trip)
-        mission.status = STANDBY if mission.trips else COMPLETED
-        self._results.add(mission, trip, value)
+        mission.status = STANDBY if trips else COMPLETED
+        row = (mission, trip, mission.round, trip.attempt, value)
+        results.rows.append(row)
+        results.new[mission].append(row)
         if self._trace.live:
             self._ended(mission, trip, "trip.completed", {"value": shown(value)})
 

@@ -118,7 +118,8 @@ def test_a_modifier_without_emits_may_return_nothing_at_all() -> None:
 
 
 def test_a_trip_is_reset_only_when_it_is_over() -> None:
-    trip = apps.trip("A", 2.0, status=TripStatus.EXECUTING)
+    trip = apps.trip("A", 2.0)
+    trip.status = TripStatus.EXECUTING
     with pytest.raises(ValueError, match="in flight"):
         trip.reset()
     trip.status = TripStatus.FAILED

@@ -36,24 +36,23 @@ class Ordered:
         self._free.pop(drone, None)
 
     def choose(self, trip: Trip, able: Able) -> Choice | None:
-        """Return the first drone that is able; those before it stay."""
+        """Return the first drone that is able."""
         heap, free = self._heap, self._free
-        passed: list[tuple[Rank, Drone]] | None = None
-        found: Choice | None = None
         while heap:
             rank, drone = heap[0]
-            if free.get(drone) is not rank:
-                heappop(heap)  # it has been given away since
-            elif able(drone):
-                found = drone, partial(self._why, len(free), rank)
-                break
-            elif passed is None:
-                passed = [heappop(heap)]
-            else:
-                passed.append(heappop(heap))
-        for entry in passed or ():
-            heappush(heap, entry)
-        return found
+            if free.get(drone) is rank:
+                if able(drone):
+                    return drone, partial(self._why, len(free), rank)
+                return self._next(able)
+            heappop(heap)  # it has been given away since
+        return None
+
+    def _next(self, able: Able) -> Choice | None:
+        """Return the first able drone behind one that is not."""
+        for drone, rank in sorted(self._free.items(), key=lambda pair: pair[1]):
+            if able(drone):
+                return drone, partial(self._why, len(self._free), rank)
+        return None
 
     def _tidy(self) -> None:
         """Drop the entries of drones that are gone."""

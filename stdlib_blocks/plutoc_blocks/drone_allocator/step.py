@@ -10,7 +10,7 @@ from plutoc_runtime.status import FAILED, STANDBY, Status
 from plutoc_runtime.words import duration
 
 if TYPE_CHECKING:
-    from plutoc_runtime.allocation import Request
+    from plutoc_runtime.request import Request
     from plutoc_runtime.policy import Policy
     from plutoc_runtime.run import Run
 
