@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-EXAMPLE = Path(__file__).parents[2] / "examples/alfalfa"
+ROOT = Path(__file__).parents[2]
+EXAMPLE = ROOT / "examples/alfalfa"
 ALFALFA = (EXAMPLE / "app.pluto").read_text(encoding="utf-8")
 HOOKS = (EXAMPLE / "hooks.py").read_text(encoding="utf-8")
+SHORTER = (ROOT / "tests/cases/alfalfa/app.pluto").read_text(encoding="utf-8")
+"""The same app with its clock outside of every loop: another arrow to it makes a second one."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -17,11 +20,11 @@ class Edit:
     """A source before and after."""
 
     name: str
+    before: str
     after: str
-    before: str = ALFALFA
 
 
-def edited(*replacements: tuple[str, str], text: str = ALFALFA) -> str:
+def edited(text: str, *replacements: tuple[str, str]) -> str:
     """Return a text with something else in place of what it holds exactly once."""
     for old, new in replacements:
         assert text.count(old) == 1, f"{old!r} stands {text.count(old)} times in the source"
@@ -29,7 +32,7 @@ def edited(*replacements: tuple[str, str], text: str = ALFALFA) -> str:
     return text
 
 
-def renamed(old: str, new: str, text: str = ALFALFA) -> str:
+def renamed(text: str, old: str, new: str) -> str:
     """Return a text with another name for a block; what comments say stays."""
     return "\n".join(
         re.sub(rf"\b{old}\b", new, code) + comment for code, comment in _halves(text.split("\n"))
@@ -42,41 +45,30 @@ def _halves(lines: Iterable[str]) -> Iterable[tuple[str, str]]:
         yield code, sign + comment
 
 
-RESTED = edited(
-    ("  first = GateFIFO\n", "  first = GateFIFO\n  rest = Clock\n"),
-    ("  retry -> allocate when STANDBY\n", "  retry -> rest -> allocate\n"),
-)
+def nine(text: str) -> Iterator[Edit]:
+    """Yield nine edits of an app like alfalfa."""
 
-EDITS = (
-    Edit(name="rename a block", after=renamed("judge", "assess")),
-    Edit(
-        name="add a third branch to a fork",
-        after=edited(
-            ("  first = GateFIFO\n", "  gap = GapMonitor(default: 2 min)\n  first = GateFIFO\n"),
-            ("[watch, timer]", "[watch, timer, gap]"),
-        ),
-    ),
-    Edit(name="change a parameter", after=edited(("max_attempts: 3", "max_attempts: 5"))),
-    Edit(name="insert a block in a chain", after=RESTED),
-    Edit(name="remove it", before=RESTED, after=ALFALFA),
-    Edit(
-        name="retarget an edge",
-        after=edited(("  retry -> allocate when", "  retry -> wait when")),
-    ),
-    Edit(
-        name="add a hook",
-        after=edited(
-            ("  evaluator find_blooms\n", "  evaluator find_blooms\n  evaluator find_pests\n")
-        ),
-    ),
-    Edit(
-        name="change a guard",
-        after=edited(
-            ("  judge -> allocate when STANDBY", "  judge -> allocate when STANDBY, FAILED")
-        ),
-    ),
-    Edit(
-        name="add a comment at the top",
-        after=edited(("pluto 1\n", "pluto 1\n# The field behind the barn.\n")),
-    ),
-)
+    def edit(name: str, *replacements: tuple[str, str]) -> Edit:
+        return Edit(name=name, before=text, after=edited(text, *replacements))
+
+    gate = "  first = GateFIFO\n"
+    yield Edit(name="rename a block", before=text, after=renamed(text, "judge", "assess"))
+    yield edit(
+        "add a third branch to a fork",
+        (gate, f"  gap = GapMonitor(default: 2 min)\n{gate}"),
+        ("[watch, timer]", "[watch, timer, gap]"),
+    )
+    yield edit("change a parameter", ("max_attempts: 3", "max_attempts: 5"))
+    inserted = edit(
+        "insert a block in a chain",
+        (gate, f"{gate}  rest = Clock\n"),
+        ("  retry -> allocate when STANDBY\n", "  retry -> rest -> allocate\n"),
+    )
+    yield inserted
+    yield Edit(name="remove it", before=inserted.after, after=text)
+    yield edit("retarget an edge", ("  retry -> allocate when", "  retry -> wait when"))
+    evaluator = "  evaluator find_blooms\n"
+    yield edit("add a hook", (evaluator, f"{evaluator}  evaluator find_pests\n"))
+    judged = "  judge -> allocate when STANDBY"
+    yield edit("change a guard", (judged, f"{judged}, FAILED"))
+    yield edit("add a comment at the top", ("pluto 1\n", "pluto 1\n# The field behind the barn.\n"))
