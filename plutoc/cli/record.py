@@ -8,11 +8,12 @@ import sys
 from pathlib import Path
 
 from plutoc.cli import unchanged
-from plutoc.cli.compiler import OURS, files_of
+from plutoc.cli.compiler import OURS
 from plutoc.cli.files import hooks_path, shown
 from plutoc.cli.options import Options
 from plutoc.compile import Compiled
 from plutoc.emit.write import Changes
+from plutoc.installed import files_of
 
 _USE = re.compile(r"^\s*use\b", re.MULTILINE)
 

@@ -18,7 +18,8 @@ from hashlib import sha256
 
 from plutoc import cache
 from plutoc.cli.colour import in_colour
-from plutoc.cli.compiler import facts_of, identity
+from plutoc.cli.compiler import identity
+from plutoc.installed import digest, fact
 from plutoc_runtime.cli import output
 
 TYPE_CHECKING = False  # `typing` itself is slow to import
@@ -46,12 +47,14 @@ def said_again(arguments: Sequence[str]) -> bool:
         record = cache.kept(file, identity())
         if record is None:
             return False
-        digest, facts, read, written, there, others, words = _apart(record)
+        contents, facts, read, written, there, others, words = _apart(record)
         app, hooks, folder = _texts(read)
         files = _texts(written)
-        if facts_of(_texts(others)) != facts or not _is_as_left(folder, files, _texts(there)):
+        if digest(map(fact, _texts(others))) != facts or not _is_as_left(
+            folder, files, _texts(there)
+        ):
             return False
-        if _digest(_contents(app, hooks, folder, files)) != digest:
+        if _digest(_contents(app, hooks, folder, files)) != contents:
             return False
     except (OSError, ValueError):
         return False
@@ -84,7 +87,7 @@ def remember(
         on = list(others)
         record = [
             _digest(text.encode() for text in texts),
-            facts_of(on),
+            digest(map(fact, on)),
             _bytes([app[0], hooks[0], folder]),
             _bytes(written),
             _bytes(there),

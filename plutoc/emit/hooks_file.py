@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from textwrap import wrap
 
 from plutoc.block import HookKind
 from plutoc.check.model import Checked
 from plutoc.emit.fields import fields_of
 from plutoc.emit.imports import Import, import_lines, names
-from plutoc.emit.lines import LINE_LENGTH
-from plutoc.emit.python import builtins_alias, formatted, shadows
+from plutoc.emit.python import LINE_LENGTH, builtins_alias, formatted, shadows
 from plutoc.emit.render import render
 from plutoc.emit.stubs import Stub, in_order, stubs
 from plutoc.frozen import frozen
@@ -90,6 +88,8 @@ def stub(checked: Checked, name: str) -> str:
 
 def _offers(what: str, basics: str, graph: Graph, entity: Entity) -> list[str]:
     own = [f", `{field.name}`" for field in fields_of(graph) if field.on is entity]
+    from textwrap import wrap
+
     return wrap(f"A {what} offers {basics}{''.join(own)}.", LINE_LENGTH)
 
 

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import re
 
-from plutoc.emit.lines import INDENT, LINE_LENGTH
+from plutoc.emit.lines import INDENT
+from plutoc.emit.python import LINE_LENGTH
 
 _SIGN = re.compile(
     r'"(?:[^"\\]|\\.)*"|(?P<open>[(\[{])|(?P<close>[)\]}])|(?P<comma>,)|(?P<odd>[#\'])'

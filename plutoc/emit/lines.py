@@ -15,9 +15,9 @@ from dataclasses import dataclass
 from functools import cache
 from keyword import kwlist
 
+from plutoc.emit.python import LINE_LENGTH
 from plutoc.frozen import frozen
 
-LINE_LENGTH = 100
 INDENT = 4
 _CONTINUED = "\x01"
 _ODD = "\x00"

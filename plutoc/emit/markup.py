@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import json
 import re
 
 _MARKS = re.compile(r"[\\`*_\[\]<>#|~&$@]")
-_BEYOND_ASCII = re.compile(r"[^\x00-\x7e]")
+_NOT_PLAIN = re.compile(r'["\\]|[^\x20-\x7e]')
+_SHORT = {'"': '\\"', "\\": "\\\\", "\b": "\\b", "\t": "\\t", "\n": "\\n", "\f": "\\f", "\r": "\\r"}
 _FENCE = re.compile(r"`{3,}")
 
 
@@ -17,10 +17,12 @@ def one_line(text: str) -> str:
 
 def toml_text(text: str) -> str:
     """Return a text as a TOML string, in ASCII."""
-    return _BEYOND_ASCII.sub(_escaped, json.dumps(text, ensure_ascii=False))
+    return f'"{_NOT_PLAIN.sub(_escaped, text)}"'
 
 
 def _escaped(match: re.Match[str]) -> str:
+    if match[0] in _SHORT:
+        return _SHORT[match[0]]
     code = ord(match[0])
     if 0xD800 <= code <= 0xDFFF:  # half a character: TOML has no way to write it
         code = 0xFFFD

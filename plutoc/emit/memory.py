@@ -7,13 +7,12 @@ who made it. What is not there exactly as it was written is made anew.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable
 from functools import cache
-from importlib.util import find_spec
 
 from plutoc import __version__
 from plutoc.cache import recalled
+from plutoc.installed import facts_of_release
 
 SHELF = "texts"
 
@@ -32,21 +31,4 @@ def _bytes(text: str) -> bytes:
 @cache
 def edition(package: str) -> str:
     """Return what tells an installed package from another release of it, without importing it."""
-    spec = find_spec(package)
-    if spec is None or spec.origin is None:
-        return "none"
-    site = os.path.dirname(os.path.dirname(spec.origin))
-    try:
-        beside = sorted(name for name in os.listdir(site) if name.startswith(f"{package}-"))
-    except OSError:
-        beside = []
-    return "\n".join([stamp(spec.origin), *beside])  # the release is in the name of a folder
-
-
-def stamp(file: str) -> str:
-    """Return what changes with a file: where it is, how long, and since when."""
-    try:
-        facts = os.stat(file)
-    except OSError:  # in an archive
-        return file
-    return f"{file}\n{facts.st_size}\n{facts.st_mtime_ns}"
+    return "\n".join(facts_of_release(package))

@@ -7,12 +7,12 @@ from collections.abc import Collection, Iterable
 from functools import cache
 from pathlib import Path
 
-from plutoc.emit.canonical import are_well_apart, is_known, settled, text_of
-from plutoc.emit.lines import LINE_LENGTH
-from plutoc.emit.memory import edition, remembered, stamp
-from plutoc.emit.pieces import in_pieces
+from plutoc.emit.memory import edition, remembered
 from plutoc.graph.model import Plain
+from plutoc.installed import fact
 from plutoc_runtime.status import Status
+
+LINE_LENGTH = 100
 
 _PLAIN_FILE = re.compile(r"[A-Za-z0-9_.-]+")
 _PLAIN_DOC = re.compile(r'[^\x00-\x1f\x7f"\\]+')
@@ -45,14 +45,18 @@ def formatted(text: str) -> str:
 def _means() -> str:
     """Return what changes with the modules by which a text is formatted here."""
     names = ("python.py", "lines.py", "layout.py", "canonical.py", "canonical.txt", "pieces.py")
-    return "\n".join(stamp(str(Path(__file__).with_name(name))) for name in names)
+    return "\n".join(fact(str(Path(__file__).with_name(name))) for name in names)
 
 
 def _formatted(text: str) -> str:
     """Format a module; of what is known to be as Black has it, Black is not asked."""
+    from plutoc.emit.canonical import are_well_apart, is_known, settled, text_of
+
     lines = settled(text)
     if are_well_apart(lines) and all(map(is_known, lines)):
         return text_of(lines)
+    from plutoc.emit.pieces import in_pieces
+
     return in_pieces(lines, black_asked) or black_asked(text)
 
 

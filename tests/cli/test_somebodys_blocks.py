@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
 from plutoc import registry
+from plutoc.emit import modules
 from tests.cli.conftest import APP, Call, tree
 
 FIELD_APP = APP.replace("pluto 1\n", "pluto 1\nuse field_kit\n").replace(
@@ -31,8 +33,12 @@ def installed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]
     (facts / "entry_points.txt").write_text("[plutoc.blocks]\nfield_kit = field_kit:BLOCKS\n")
     monkeypatch.syspath_prepend(folder)
     registry.blocks_of.cache_clear()
+    modules.load.cache_clear()
     yield folder
     registry.blocks_of.cache_clear()
+    modules.load.cache_clear()
+    for name in [name for name in sys.modules if name.partition(".")[0] == "field_kit"]:
+        del sys.modules[name]
 
 
 def test_a_block_that_cannot_be_carried_along_ends_with_1(

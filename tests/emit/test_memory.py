@@ -63,4 +63,4 @@ def test_the_edition_of_a_package_tells_its_release_without_importing_it() -> No
     from importlib.metadata import version
 
     assert f"black-{version('black')}.dist-info" in edition("black").split("\n")
-    assert edition("no_such_package") == "none"
+    assert edition("no_such_package") == ""
