@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from math import isfinite
 from typing import TYPE_CHECKING, Any
 
-from .kernel import Kind
+from .kernel import Key, Kind, mission_key
 from .signals import Signal
 
 if TYPE_CHECKING:
@@ -77,8 +77,8 @@ class Context:
         return flight.is_set
 
     @property
-    def _key(self) -> tuple[int, ...]:
-        return (self._state.mission.index,)
+    def _key(self) -> Key:
+        return mission_key(self._state.mission.index)
 
 
 def _must_be_finite(seconds: float) -> None:

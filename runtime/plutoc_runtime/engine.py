@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from .blame import blame, blamed
 from .errors import HookFault, MissionFailed
 from .flight import abort
-from .kernel import Cancelled, Kind, Task
+from .kernel import Cancelled, Kind, Task, mission_key
 from .run import Run
 from .signals import Signal
 from .state import State
@@ -33,7 +33,7 @@ class Engine:
         """Set the missions on their way, all at once."""
         ended, doomed = self._ended, self._doomed
         for mission in missions:
-            state, key = State(self._core, mission, doomed), (mission.index,)
+            state, key = State(self._core, mission, doomed), mission_key(mission.index)
             run = Run(mission, state, key)
             task = self._core.kernel.spawn(self._core.app.flow(run), key, mission.name)
             run.task = state.task = task
@@ -53,7 +53,7 @@ class Engine:
         """End a doomed mission, once whoever found out has finished its turn."""
         kernel = self._core.kernel
         if state.task is not None:
-            kernel.at(kernel.now, Kind.READY, (state.mission.index,), state.task.cancel)
+            kernel.at(kernel.now, Kind.READY, mission_key(state.mission.index), state.task.cancel)
 
     def _ended(self, task: Task[Status]) -> None:
         """A mission's coroutine is over: see how it ended."""

@@ -237,7 +237,7 @@ class Fleet:
         return drone.telemetry.landed and docked(drone.location, drone.home)
 
     def _key(self, drone: Drone) -> Key:
-        return (FLEET[0] + 1 + drone.index,)
+        return FLEET + 1 + drone.index
 
 
 _FREE = DroneStatus.FREE

@@ -10,6 +10,7 @@ from .actions import PICK, RELEASE
 from .context import Context
 from .errors import ActionFailed, Failure, FlightFailed, HookFault
 from .hooks import Hook, call_action
+from .kernel import mission_key
 from .signals import Signal
 from .status import FAILED, Status, TripStatus
 
@@ -97,7 +98,7 @@ class Flight(Signal[Status]):
         else:
             self._work = state.core.kernel.spawn(
                 self._act(self._hook),
-                (state.mission.index,),
+                mission_key(state.mission.index),
                 f"{state.mission.name}: {self.trip.action}",
             )
 
@@ -117,7 +118,7 @@ class Flight(Signal[Status]):
     async def _done_while_hovering(self, hook: Hook) -> object:
         state, trip, drone = self.state, self.trip, self.flier
         core = state.core
-        kernel, key = core.kernel, (state.mission.index,)
+        kernel, key = core.kernel, mission_key(state.mission.index)
         call = call_action(kernel, hook, drone, trip, Context(core, state), **trip.parameters)
         work = kernel.spawn(call, key, f"{state.mission.name}: {trip.action}")
         hover = kernel.spawn(core.navigation.hold(drone.id), key, f"{drone.id} hovers")

@@ -6,6 +6,7 @@ import asyncio
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
+from .kernel import FLEET
 from .realtime import RealTime
 from .session import Listener, Outcome, Simulation
 
@@ -33,7 +34,7 @@ async def fly_simulated(
         ended = await kernel.run(session.start(missions))
     except asyncio.CancelledError:
         session.engine.halt()
-        landing = kernel.spawn(session.core.fleet.land_all(), (), "land all")
+        landing = kernel.spawn(session.core.fleet.land_all(), FLEET, "land all")
         await kernel.run(landing)
         raise
     finally:

@@ -19,11 +19,28 @@ from .signals import Signal
 
 T = TypeVar("T")
 
-Key = tuple[int, ...]
-"""Who an event belongs to: the mission's place, then the branches'. Drones come after missions."""
+Key = int
+"""Who an event belongs to: the mission's place, then the branches'. Drones come after missions.
 
-FLEET: Key = (1 << 30,)
+A number and not a tuple: events are compared all the time.
+"""
+
+_BRANCH, _DEPTH = 12, 4
+"""Bits for a branch's number, and how deep forks may nest before branches share their places."""
+
+FLEET: Key = 1 << 96
 """The key of what belongs to the fleet and to no mission."""
+
+
+def mission_key(index: int) -> Key:
+    """Return the key of the mission with this place in its file."""
+    return index << (_BRANCH * _DEPTH)
+
+
+def branch_key(key: Key, number: int, depth: int) -> Key:
+    """Return the key of a branch, at a depth of forks, of whoever has this key."""
+    room = (1 << _BRANCH) - 1
+    return key + (min(number + 1, room) << (_BRANCH * (_DEPTH - depth))) if depth <= _DEPTH else key
 
 
 class Kind(IntEnum):

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 from .context import Context
 from .errors import MissionFailed
 from .hooks import fault_of, hook_name
-from .kernel import WHATEVER, Cancelled
+from .kernel import WHATEVER, Cancelled, branch_key
 from .model import Mission
 from .status import Status
 
@@ -24,10 +24,10 @@ Way = Coroutine[Any, Any, Status]
 class Run(Generic[M]):
     """One mission, or one branch of it, and everything that a step may use."""
 
-    __slots__ = ("core", "key", "mission", "state", "task")
+    __slots__ = ("_depth", "core", "key", "mission", "state", "task")
 
-    def __init__(self, mission: M, state: State, key: Key) -> None:
-        self.mission, self.state, self.key = mission, state, key
+    def __init__(self, mission: M, state: State, key: Key, depth: int = 0) -> None:
+        self.mission, self.state, self.key, self._depth = mission, state, key, depth
         self.core = state.core
         self.task: Task[Status] | None = None
         """The coroutine of this branch."""
@@ -65,8 +65,9 @@ class Run(Generic[M]):
     def _branch(
         self, status: Status, branch: Callable[[Run[M], Status], Way], number: int
     ) -> Task[Status]:
-        key = (*self.key, number)
-        run = Run(self.mission, self.state, key)
+        depth = self._depth + 1
+        key = branch_key(self.key, number, depth)
+        run = Run(self.mission, self.state, key, depth)
         name = f"{self.mission.name}: branch {number + 1}"
         run.task = self.core.kernel.spawn(branch(run, status), key, name)
         return run.task

@@ -36,7 +36,7 @@ def watch(run: Run[Any], *limits: Limit | None) -> Flight:
     for number, limit in enumerate(limits):
         if limit is not None:
             # behind a hook of the mission's at that instant, as if it stood in a branch of its own
-            run.core.deadlines.watch((flight, run.task, (*run.key, number), limit))
+            run.core.deadlines.watch((flight, run.task, run.key + 1 + number, limit))
     return flight
 
 
@@ -75,7 +75,7 @@ class Deadlines:
     def _arm(self, span: float) -> None:
         self._armed.add(span)
         until = self._queues[span][0][3][0] + span
-        self._kernel.schedule(until, Kind.TIMER, (), partial(self._due, span))
+        self._kernel.schedule(until, Kind.TIMER, -1, partial(self._due, span))
 
     def _due(self, span: float) -> None:
         """Let expire what is due, each in its own place among the events of this instant."""

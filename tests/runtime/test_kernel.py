@@ -16,10 +16,10 @@ from plutoc_runtime.virtual import Stuck, VirtualTime
 def test_events_of_one_instant_come_by_kind_then_key_whatever_the_order_of_entry() -> None:
     kernel, seen = VirtualTime(), list[str]()
     done: Signal[None] = Signal()
-    entries = [(Kind.ALLOCATE, (0,)), (Kind.TIMER, (0,)), (Kind.FLIGHT, (1,)), (Kind.FLIGHT, (0,))]
+    entries = [(Kind.ALLOCATE, 0), (Kind.TIMER, 0), (Kind.FLIGHT, 1), (Kind.FLIGHT, 0)]
     for kind, key in entries:
-        kernel.at(5.0, kind, key, partial(seen.append, f"{kind.name} {key[0]}"))
-    kernel.at(6.0, Kind.CLOCK, (), partial(done.set, None))
+        kernel.at(5.0, kind, key, partial(seen.append, f"{kind.name} {key}"))
+    kernel.at(6.0, Kind.CLOCK, 0, partial(done.set, None))
     assert kernel.run(done)
     assert seen == ["FLIGHT 0", "FLIGHT 1", "TIMER 0", "ALLOCATE 0"]
     assert kernel.now == 6.0
@@ -30,10 +30,10 @@ def test_a_signal_that_comes_at_the_very_limit_has_come() -> None:
     signal: Signal[None] = Signal()
 
     async def wait() -> None:
-        won.append(await kernel.within(signal, 5.0, Kind.TIMER, (0,)))
+        won.append(await kernel.within(signal, 5.0, Kind.TIMER, 0))
 
-    task = kernel.spawn(wait(), (0,), "waiter")
-    kernel.at(5.0, Kind.FLIGHT, (0,), partial(signal.set, None))
+    task = kernel.spawn(wait(), 0, "waiter")
+    kernel.at(5.0, Kind.FLIGHT, 0, partial(signal.set, None))
     kernel.run(task)
     assert won == [True]
 
@@ -41,7 +41,7 @@ def test_a_signal_that_comes_at_the_very_limit_has_come() -> None:
 def test_time_that_runs_out_says_so() -> None:
     kernel = VirtualTime()
     never: Signal[None] = Signal()
-    task = kernel.spawn(kernel.within(never, 5.0, Kind.TIMER, (0,)), (0,), "waiter")
+    task = kernel.spawn(kernel.within(never, 5.0, Kind.TIMER, 0), 0, "waiter")
     kernel.run(task)
     assert (task.result(), kernel.now) == (False, 5.0)
 
@@ -53,7 +53,7 @@ def test_a_run_that_can_never_end_names_who_waits() -> None:
     async def wait() -> None:
         await never
 
-    task = kernel.spawn(wait(), (0,), "the nurse's mission")
+    task = kernel.spawn(wait(), 0, "the nurse's mission")
     with pytest.raises(Stuck, match="the nurse's mission"):
         kernel.run(task)
     kernel.close()
@@ -68,8 +68,8 @@ def test_a_cancelled_coroutine_stops_where_it_waits_and_cleans_up() -> None:
         finally:
             seen.append(f"cleaned up at {kernel.now}")
 
-    task = kernel.spawn(wait(), (0,), "waiter")
-    kernel.at(3.0, Kind.TIMER, (0,), task.cancel)
+    task = kernel.spawn(wait(), 0, "waiter")
+    kernel.at(3.0, Kind.TIMER, 0, task.cancel)
     kernel.run(task)
     assert seen == ["cleaned up at 3.0"]
     with pytest.raises(Cancelled):
@@ -87,14 +87,14 @@ def test_a_coroutine_that_is_cancelled_in_its_turn_may_still_wait_to_clean_up() 
             await kernel.sleep(2.0)
             seen.append(kernel.now)
 
-    task = kernel.spawn(wait(), (1,), "waiter")
+    task = kernel.spawn(wait(), 1, "waiter")
 
     def happen_and_cancel() -> None:
         signal.set(None)  # its turn comes at this instant
         task.cancel()
 
-    kernel.at(3.0, Kind.CLOCK, (0,), happen_and_cancel)
-    over = kernel.spawn(kernel.sleep(10.0), (2,), "clock")
+    kernel.at(3.0, Kind.CLOCK, 0, happen_and_cancel)
+    over = kernel.spawn(kernel.sleep(10.0), 2, "clock")
     kernel.run(over)
     assert seen == [5.0]
 
@@ -105,7 +105,7 @@ def test_an_error_that_nobody_awaits_stops_the_run() -> None:
     async def broken() -> None:
         raise ZeroDivisionError
 
-    kernel.spawn(broken(), (0,), "broken")
+    kernel.spawn(broken(), 0, "broken")
     with pytest.raises(ZeroDivisionError):
         kernel.run(Signal[None]())
 
@@ -118,19 +118,19 @@ def test_an_error_reaches_whoever_awaits() -> None:
 
     async def awaiting() -> str:
         try:
-            await kernel.spawn(broken(), (0,), "broken")
+            await kernel.spawn(broken(), 0, "broken")
         except ZeroDivisionError:
             return "caught"
         return "missed"
 
-    task = kernel.spawn(awaiting(), (0,), "awaiting")
+    task = kernel.spawn(awaiting(), 0, "awaiting")
     kernel.run(task)
     assert task.result() == "caught"
 
 
 def test_a_run_stops_at_its_time_and_can_go_on() -> None:
     kernel = VirtualTime()
-    task = kernel.spawn(kernel.sleep(10), (0,), "sleeper")
+    task = kernel.spawn(kernel.sleep(10), 0, "sleeper")
     assert not kernel.run(task, until=4.0)
     assert kernel.now == 4.0
     assert kernel.run(task)
@@ -141,9 +141,9 @@ def test_real_time_takes_the_same_events_in_the_same_order() -> None:
     async def main() -> list[str]:
         kernel, seen = RealTime(), list[str]()
         when = kernel.now + 0.1  # a busy machine may need some of it to get there
-        for kind, key in [(Kind.TIMER, (0,)), (Kind.FLIGHT, (1,)), (Kind.FLIGHT, (0,))]:
-            kernel.at(when, kind, key, partial(seen.append, f"{kind.name} {key[0]}"))
-        task = kernel.spawn(kernel.sleep(0.15), (0,), "sleeper")
+        for kind, key in [(Kind.TIMER, 0), (Kind.FLIGHT, 1), (Kind.FLIGHT, 0)]:
+            kernel.at(when, kind, key, partial(seen.append, f"{kind.name} {key}"))
+        task = kernel.spawn(kernel.sleep(0.15), 0, "sleeper")
         await kernel.run(task)
         return seen
 
@@ -157,7 +157,7 @@ def test_in_real_time_a_hook_may_await_anything_of_asyncio() -> None:
 
     async def main() -> object:
         kernel = RealTime()
-        task = kernel.spawn(kernel.call_hook(hook, "done"), (0,), "hook")
+        task = kernel.spawn(kernel.call_hook(hook, "done"), 0, "hook")
         return await kernel.run(task)
 
     assert asyncio.run(main()) == "DONE"
@@ -168,7 +168,7 @@ def test_in_real_time_a_blocking_hook_does_not_hold_the_others_up() -> None:
         import threading
 
         kernel, thread = RealTime(), threading.get_ident()
-        task = kernel.spawn(kernel.call_hook(threading.get_ident), (0,), "hook")
+        task = kernel.spawn(kernel.call_hook(threading.get_ident), 0, "hook")
         return await kernel.run(task), thread == task.result()
 
     ident, same_thread = asyncio.run(main())
@@ -185,7 +185,7 @@ def test_in_virtual_time_a_hook_that_awaits_asyncio_is_told_what_it_may_await() 
 
     for hook in (sleeps, yields):
         kernel = VirtualTime()
-        task = kernel.spawn(kernel.call_hook(hook), (0,), "hook")
+        task = kernel.spawn(kernel.call_hook(hook), 0, "hook")
         task.watch(lambda _: None)
         kernel.run(task)
         with pytest.raises(RuntimeError, match=r"only what its context offers"):

@@ -214,7 +214,7 @@ async def main():
         inside.set()
         threading.Event().wait()
 
-    task = kernel.spawn(kernel.call_hook(stuck), (0,), "hook")
+    task = kernel.spawn(kernel.call_hook(stuck), 0, "hook")
     running = asyncio.ensure_future(kernel.run(task))
     while not inside.is_set():
         await asyncio.sleep(0)

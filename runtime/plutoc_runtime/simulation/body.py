@@ -40,7 +40,7 @@ class Body:
 
     def __init__(self, drone: SimulatedDrone, clock: Callable[[], float]) -> None:
         self.drone, self._clock = drone, clock
-        self.key: Key = (FLEET[0] + 1 + drone.index,)
+        self.key: Key = FLEET + 1 + drone.index
         self.down: FlightFailed | None = None
         """Why it takes no commands, if it takes none."""
         self.down_since = 0.0

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.errors import MissionFailed
-from plutoc_runtime.kernel import FLEET, Kind
+from plutoc_runtime.kernel import Kind
 from plutoc_runtime.status import FAILED, STANDBY, Status
 from plutoc_runtime.words import duration
 
@@ -51,8 +51,8 @@ async def allocate_drone(
 
 async def _no_longer_than(run: Run[Any], request: Request, seconds: float) -> None:
     kernel, queue = run.core.kernel, run.core.queue
-    key = (*FLEET, *run.key)  # after the queue is served: who gets a drone then has one
-    if not await kernel.within(request, kernel.now + seconds, Kind.ALLOCATE, key):
+    # the queue is served first: who gets a drone at that instant has one
+    if not await kernel.within(request, kernel.now + seconds, Kind.ALLOCATE, run.key):
         raise MissionFailed(
             f"trip {request.trip.name} had no drone within {duration(seconds)}: "
             f"waits for a drone ({queue.standing()})"

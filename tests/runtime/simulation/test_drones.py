@@ -328,7 +328,7 @@ def test_drones_that_arrive_together_are_taken_in_the_fleets_order() -> None:
         arrived.append(drone)
 
     for drone, key in (("cf2", 2), ("cf1", 1)):
-        kernel.spawn(rise(drone), (FLEET[0] + key,), drone)
+        kernel.spawn(rise(drone), FLEET + key, drone)
     advance(kernel, 5)
     assert arrived == ["cf1", "cf2"]
 
