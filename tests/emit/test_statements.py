@@ -286,7 +286,7 @@ def test_last_block_is_returned_at_once() -> None:
     """What the last block gives is what the function returns."""
     assert list(lines(Call(node=node("a")), End())) == [
         "# a = X",
-        "return step(run, status, block='a')",
+        'return step(run, status, block="a")',
     ]
 
 
@@ -324,9 +324,9 @@ def test_a_plain_switch_asks_for_every_status() -> None:
         "    return status",
         "if status is STANDBY:",
         "    # a = X",
-        "    status = step(run, status, block='a')",
+        '    status = step(run, status, block="a")',
         "elif status not in (RUNNING, COMPLETED):",
         "    raise AssertionError(status)",
         "# b = X",
-        "return step(run, status, block='b')",
+        'return step(run, status, block="b")',
     ]
