@@ -112,12 +112,14 @@ class AllTogether(Still):
 class ThroughTheKernel(Still):
     """Reports in virtual time: at this instant, when its turn comes."""
 
-    def __init__(self, crash: Exception, kernel: Kernel, kind: Kind) -> None:
+    def __init__(
+        self, crash: Exception, kernel: Kernel, kind: Kind, key: Callable[[int], int]
+    ) -> None:
         super().__init__(crash, kernel)
-        self.kind = kind
+        self.kind, self.key = kind, key
 
     def fly(self, job: Flight, report: Report) -> None:
         """Fly, then report."""
         trip, kernel, mission = job.trip, self.kernel, job.state.mission.index
         result = self.crash if fails(mission, trip.index, trip.attempt - 1) else None
-        kernel.schedule(kernel.now, self.kind, (mission,), partial(report, result))
+        kernel.schedule(kernel.now, self.kind, self.key(mission), partial(report, result))

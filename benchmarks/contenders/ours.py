@@ -134,7 +134,8 @@ async def in_real_time(given: argparse.Namespace, work: Work, notes: Notes) -> D
 def in_virtual_time(given: argparse.Namespace, work: Work) -> Done:
     """Fly in a simulation."""
     kernel = runtime("virtual").VirtualTime()
-    navigation = ThroughTheKernel(crash(), kernel, runtime("kernel").Kind.FLIGHT)
+    events = runtime("kernel")
+    navigation = ThroughTheKernel(crash(), kernel, events.Kind.FLIGHT, events.mission_key)
     plan, over = started(given, work, kernel, navigation)
     kernel.run(over)
     return told(plan)
