@@ -269,7 +269,35 @@ def _dispatch(dispatch: Dispatch, scope: Scope) -> Iterator[str]:
     for case in dispatch.cases:
         yield f"        case {literal(case.label)}:"
         inner = replace(scope, in_loop=False)
-        yield from _indented(_indented(_indented(body_lines(case.body, inner))))
+        yield from _indented(_indented(_indented(_at_the_end(case.body, inner))))
+
+
+def _at_the_end(body: Body, scope: Scope) -> Iterator[str]:
+    """Yield the lines of a body at whose end the loop around it begins again anyway."""
+    match body:
+        case (*before, Goto(label=label)) if not (before and _leads_on(before[-1])):
+            yield from body_lines(tuple(before), scope)
+            yield f"at = {literal(label)}"
+        case (*before, Switch(arms=(*early, _)) as switch, Goto() as last) if _leads_on(switch):
+            yield from body_lines(tuple(before), scope)
+            keyword = "if"
+            for arm in early:
+                yield f"{keyword} {_condition(arm)}:"
+                yield from _indented(_at_the_end(arm.body, scope))
+                keyword = "elif"
+            yield "else:"
+            yield from _indented(_at_the_end((last,), scope))
+        case _:
+            yield from body_lines(body, scope)
+
+
+def _leads_on(step: Step) -> bool:
+    """Say whether a step is a switch of which every way but the last leads elsewhere."""
+    match step:
+        case Switch(arms=(*early, Arm(body=())), decided=True):
+            return bool(early) and all(leaves(arm.body) for arm in early)
+        case _:
+            return False
 
 
 def _indented(lines: Iterable[str]) -> Iterator[str]:

@@ -330,3 +330,30 @@ def test_a_plain_switch_asks_for_every_status() -> None:
         "# b = X",
         'return step(run, status, block="b")',
     ]
+
+
+def test_a_jump_at_the_end_of_a_case_is_an_assignment() -> None:
+    """There the loop around all cases begins again anyway."""
+    ways = Switch(
+        arms=(
+            Arm(statuses=(Status.FAILED,), to="end", body=(End(),)),
+            Arm(statuses=(Status.STANDBY,), to="a", body=(Goto(label="a"),)),
+            Arm(statuses=(Status.COMPLETED,), to="b", body=()),
+        ),
+        decided=True,
+    )
+    cases = (Case(label="a", body=(Call(node=node("a")), ways, Goto(label="b"))),)
+    assert list(lines(Dispatch(start="a", cases=cases))) == [
+        'at = "a"',
+        "while True:",
+        "    match at:",
+        '        case "a":',
+        "            # a = X",
+        '            status = step(run, status, block="a")',
+        "            if status is FAILED:",
+        "                return status",
+        "            elif status is STANDBY:",
+        '                at = "a"',
+        "            else:",
+        '                at = "b"',
+    ]
