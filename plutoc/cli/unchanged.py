@@ -42,19 +42,19 @@ def said_again(arguments: Sequence[str]) -> bool:
     """Say what a command would say, and return True, where it is known to have nothing to do."""
     try:
         file = _file(arguments)
-        if file is None or not file.exists():
-            return False
-        record = cache.kept(file, identity())
+        record = cache.kept(file, b"") if file is not None else None
         if record is None:
             return False
-        contents, facts, read, written, there, others, words = _apart(record)
+        compiler, typed, held, facts, read, written, there, others, words = _apart(record)
         app, hooks, folder = _texts(read)
         files = _texts(written)
-        if digest(map(fact, _texts(others))) != facts or not _is_as_left(
-            folder, files, _texts(there)
+        if (
+            _digest(_typed(app, hooks)) != typed  # first what most likely has changed
+            or identity() != compiler
+            or digest(map(fact, _texts(others))) != facts
+            or not _is_as_left(folder, files, _texts(there))
+            or _digest(_held(folder, files)) != held
         ):
-            return False
-        if _digest(_contents(app, hooks, folder, files)) != contents:
             return False
     except (OSError, ValueError):
         return False
@@ -83,10 +83,11 @@ def remember(
         file = _file(arguments)
         if file is None:
             return
-        texts = [app[1], hooks[1], *written.values()]
         on = list(others)
         record = [
-            _digest(text.encode() for text in texts),
+            identity(),
+            _digest(text.encode() for text in (app[1], hooks[1])),
+            _digest(text.encode() for text in written.values()),
             digest(map(fact, on)),
             _bytes([app[0], hooks[0], folder]),
             _bytes(written),
@@ -94,7 +95,7 @@ def remember(
             _bytes(on),
             _bytes(one for on_output, text in words for one in (str(int(on_output)), text)),
         ]
-        cache.keep(file, identity(), b"".join(_strung(record)))
+        cache.keep(file, b"", b"".join(_strung(record)))
         cache.tidy(file.parent, _MOST)
     except (OSError, ValueError):
         return
@@ -124,13 +125,17 @@ def _is_as_left(folder: str, written: Iterable[str], there: Iterable[str]) -> bo
     return all(stat.S_ISDIR(os.lstat(one).st_mode) for one in folders)
 
 
-def _contents(app: str, hooks: str, folder: str, written: Iterable[str]) -> Iterable[bytes]:
-    """Yield what the files hold, as the compiler reads them."""
+def _typed(app: str, hooks: str) -> Iterator[bytes]:
+    """Yield what people wrote, as the compiler reads it."""
     yield _read(app)
     own = _read(hooks).removeprefix(b"\xef\xbb\xbf")
     for end, plain in _LINE_ENDS:
         own = own.replace(end, plain)
     yield own
+
+
+def _held(folder: str, written: Iterable[str]) -> Iterator[bytes]:
+    """Yield what the package's files hold, as the compiler compares it."""
     for path in written:
         yield _read(os.path.join(folder, *path.split("/"))).replace(b"\r\n", b"\n")
 

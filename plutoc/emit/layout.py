@@ -12,7 +12,9 @@ from plutoc.emit.lines import INDENT
 from plutoc.emit.python import LINE_LENGTH
 
 _SIGN = re.compile(
-    r'"(?:[^"\\]|\\.)*"|(?P<open>[(\[{])|(?P<close>[)\]}])|(?P<comma>,)|(?P<odd>[#\'])'
+    r'"(?:[^"\\]|\\.)*"'
+    r"|'[^'\\]*\"[^'\\]*'"
+    r"|(?P<open>[(\[{])|(?P<close>[)\]}])|(?P<comma>,)|(?P<odd>[#\'])"
 )
 _DISPLAY = re.compile(r"(?<![\w\])}])[(\[{]$")
 _TAIL = re.compile(r",|(?: -> [\w.]+(?: \| [\w.]+)*)?:|")

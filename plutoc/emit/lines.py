@@ -25,6 +25,7 @@ _ODD = "\x00"
 _TOKEN = re.compile(
     r'(?P<long>f?"""(?:[^"\\]|\\.|"(?!""))*+""")'
     r'|(?P<text>f?"(?:[^"\\\n]|\\[^"\n])*+")'
+    r"|(?P<quotes>'[^'\\\n]*\"[^'\\\n]*')"  # those in it would need escapes
     r"|(?P<comment>\#[^\n]*)"
     r"|(?P<word>[A-Za-z_]\w*)"
     r"|(?P<number>\d[\w.]*(?:(?<=e)[+-]\d+)?)"
@@ -97,6 +98,8 @@ def _shaped(text: str) -> str:
                 if token[0] != "f":
                     return "s"
                 return "f's'" if re.search(r"[\\']", token) is None else _ODD
+            case "quotes":
+                return "s"
             case "comment":
                 return "#" if _PLAIN_COMMENT.fullmatch(token) else _ODD
             case "number":

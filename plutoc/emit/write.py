@@ -256,10 +256,13 @@ def _prepare(changes: Changes, aside: Path, save: Save) -> None:
     """Write the new texts aside, and keep the old ones there. Most of what can fail fails here."""
     from shutil import copy2
 
+    parents: set[Path] = set()
     for change in changes.files:
         if change.after is not None:
             new = aside / "new" / change.path
-            new.parent.mkdir(parents=True, exist_ok=True)
+            if new.parent not in parents:
+                new.parent.mkdir(parents=True, exist_ok=True)
+                parents.add(new.parent)
             save(new, change.after.encode())
         if change.before is not None:
             old = aside / "old" / change.path
