@@ -168,8 +168,8 @@ class Block:
 
     @property
     def asks(self) -> bool:
-        """Whether its step gets anything besides the run, the status and the branches."""
-        return bool(self.params or self.needs or self.uses or self.named)
+        """Whether its step gets what a user wrote: in the source, in the missions file."""
+        return bool(self.params or self.needs or self.uses)
 
     def param(self, name: str) -> AnyParam | None:
         """Return the parameter of that name."""

@@ -62,7 +62,7 @@ def _only_waits(block: Block) -> bool:
     """Does the block do no more than to wait, under a limit that can be asked for?"""
     if not block.watches:
         return False
-    return block.limit is not None or not (block.limits or block.asks)
+    return block.limit is not None or not (block.limits or block.asks or block.named)
 
 
 def _only_closes(gate: Node) -> bool:
