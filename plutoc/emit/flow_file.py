@@ -114,7 +114,7 @@ _WORD = re.compile(r"\b[A-Z]+\b")
 
 def _app(graph: Graph) -> list[str]:
     """Return the arguments of the `App`."""
-    own = ", ".join(f"{literal(action.name)}: {_action(action)}" for action in graph.actions)
+    own = "".join(_entry(action) for action in graph.actions)
     evaluators = [hook.name for hook in graph.hooks if hook.kind is HookKind.EVALUATOR]
     arguments = [
         f"name={literal(graph.name)}",
@@ -124,12 +124,18 @@ def _app(graph: Graph) -> list[str]:
         "trip=Trip",
         "fields=FIELDS",
         "categories=CATEGORIES",
-        f"actions={{**BUILT_IN, {own},}}" if own else "actions=BUILT_IN",
+        f"actions={{\n        **BUILT_IN,\n{own}    }}" if own else "actions=BUILT_IN",
     ]
     if evaluators:
         functions = "".join(f"{literal(name)}: hooks.{name}," for name in evaluators)
         arguments.append(f"evaluators={{{functions}}}")  # a line each
     return arguments
+
+
+def _entry(action: Action) -> str:
+    """Return an action of the app's own below the declaration that it comes from."""
+    lines = (f"# {action.declaration}", f"{literal(action.name)}: {_action(action)},")
+    return "".join(f"        {line}\n" for line in lines)
 
 
 def _action(action: Action) -> str:

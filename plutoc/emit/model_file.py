@@ -28,6 +28,14 @@ class Attribute:
 
 
 @frozen
+class CategoryEntry:
+    """A category, below the declaration that it comes from."""
+
+    declaration: str
+    written: str
+
+
+@frozen
 class ModelFile:
     """What the template places."""
 
@@ -36,7 +44,7 @@ class ModelFile:
     mission: list[Attribute]
     trip: list[Attribute]
     fields: list[str]
-    categories: list[str]
+    categories: list[CategoryEntry]
 
 
 def model_file(graph: Graph) -> str:
@@ -50,7 +58,10 @@ def model_file(graph: Graph) -> str:
             mission=_attributes(fields, Entity.MISSION),
             trip=_attributes(fields, Entity.TRIP),
             fields=[_field(field) for field in fields],
-            categories=[_category(category) for category in graph.categories],
+            categories=[
+                CategoryEntry(declaration=category.declaration, written=_category(category))
+                for category in graph.categories
+            ],
         ),
     )
 

@@ -8,8 +8,8 @@ from plutoc.graph import errors, value_errors
 from plutoc.graph.arguments import once_each
 from plutoc.graph.model import Category
 from plutoc.graph.unclear import Unclear
-from plutoc.graph.values import typed
-from plutoc.source import Source, Span
+from plutoc.graph.values import typed, written
+from plutoc.source import Source
 from plutoc.syntax.tree import Argument, CategoryDecl
 from plutoc_runtime.quantities import Type
 
@@ -62,7 +62,7 @@ def category(
         elif first is not name:
             found.append(errors.named_twice(source, name, first))
     can = tuple(dict.fromkeys(name.text for name in declared.can))
-    return _category(declared.name.text, values, can, declared.name.span)
+    return _category(declared.name.text, values, can, declared)
 
 
 def _is_possible(
@@ -80,7 +80,10 @@ def _is_possible(
 
 
 def _category(
-    name: str, given: dict[str, float], actions: tuple[str, ...] | None, span: Span | None
+    name: str,
+    given: dict[str, float],
+    actions: tuple[str, ...] | None,
+    declared: CategoryDecl | None,
 ) -> Category:
     def value(param: str) -> float:
         default = _BY_NAME[param].default
@@ -95,5 +98,13 @@ def _category(
         charge_time=value("charge_time"),
         reserve=value("reserve"),
         actions=actions,
-        span=span,
+        declaration=_declaration(declared) if declared else "",
+        span=declared.name.span if declared else None,
     )
+
+
+def _declaration(declared: CategoryDecl) -> str:
+    arguments = ", ".join(f"{a.name.text}: {written(a.value)}" for a in declared.arguments)
+    given = f"({arguments})" if arguments else ""
+    can = ", ".join(name.text for name in declared.can)
+    return f"category {declared.name.text}{given} can {can}"

@@ -11,7 +11,7 @@ from plutoc.graph import errors, names
 from plutoc.graph.model import Action, Hook, Parameter
 from plutoc.graph.names import Style
 from plutoc.graph.scope import ACTION, HOOK_ROLES
-from plutoc.graph.values import typed
+from plutoc.graph.values import typed, written
 from plutoc.source import Source
 from plutoc.syntax import tree
 from plutoc_runtime.quantities import Type
@@ -35,8 +35,19 @@ def action(source: Source, declared: tree.ActionDecl, found: list[Diagnostic]) -
         name=declared.name.text,
         parameters=_parameters(source, declared.parameters, ACTION, found),
         repeat=repeat.text if repeat else "once",
+        declaration=_declaration(declared),
         span=declared.name.span,
     )
+
+
+def _declaration(declared: tree.ActionDecl) -> str:
+    parameters = ", ".join(
+        f"{one.name.text}: {one.type.text}{f' = {written(one.default)}' if one.default else ''}"
+        for one in declared.parameters
+    )
+    given = f"({parameters})" if parameters else ""
+    repeat = f" {declared.repeat.text}" if declared.repeat else ""
+    return f"action {declared.name.text}{given}{repeat}"
 
 
 def hook(source: Source, declared: tree.HookDecl, found: list[Diagnostic]) -> Hook:

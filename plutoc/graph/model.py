@@ -34,6 +34,8 @@ class Action:
     parameters: tuple[Parameter, ...]
     repeat: str
     """`safe`, `once` or `ask`: may it be repeated after a crash?"""
+    declaration: str
+    """`action pollinate(dose: mass = 50 mg) once`: canonical, on one line, texts left out."""
     span: Span
 
 
@@ -62,6 +64,8 @@ class Category:
     reserve: float
     actions: tuple[str, ...] | None
     """In the order written; None: every action there is."""
+    declaration: str
+    """`category scout can measure`: canonical, on one line; empty where there is none."""
     span: Span | None
     """Its name; None where the source declares no category."""
 

@@ -221,8 +221,9 @@ class Kernel:
     def schedule(self, when: float, kind: Kind, key: Key, call: Call) -> None:
         """Call this at a time, in any case; a time that has passed, or is none, means now."""
         self.count = count = self.count + 1
-        now = self.now
-        heappush(self._heap, (when if when > now else now, kind, key, count, call))
+        if not when > self.now:
+            when = self.now
+        heappush(self._heap, (when, kind, key, count, call))
 
     def spawn(self, coroutine: Coroutine[Any, Any, T], key: Key, name: str) -> Task[T]:
         """Set a coroutine on its way; it begins when its turn comes."""

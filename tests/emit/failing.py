@@ -35,8 +35,19 @@ def limit(run: Any, *, block: str) -> None:
     _go(run, block, Status.RUNNING)
 
 
-async def close(run: Any, status: Status, *branches: Branch, block: str) -> Status:
+async def first(run: Any, status: Status, *branches: Branch) -> Status:
+    """Close a fork; a gate does not get its name."""
+    return await _close(run, branches, "first")
+
+
+async def both(run: Any, status: Status, *branches: Branch) -> Status:
+    """Close another fork."""
+    return await _close(run, branches, "both")
+
+
+async def _close(run: Any, branches: tuple[Branch, ...], block: str) -> Status:
     """Go through the branches of a fork, one after the other."""
+    status = Status.RUNNING
     for branch in branches:
         status = await branch(run, Status.RUNNING)
     return _go(run, block, status)

@@ -28,8 +28,8 @@ STEPS: Mapping[str, Callable[..., Any]] = {
     "TripLauncher": failing.launch,
     "TripMonitor": failing.watch,
     "TimerMonitor": failing.watch,
-    "GateFIFO": failing.close,
-    "GateFunnel": failing.close,
+    "GateFIFO": failing.first,
+    "GateFunnel": failing.both,
 }
 
 APP = """\
@@ -86,7 +86,7 @@ def _failing(block: Block) -> Block:
         params=(),
         needs=(),
         uses=(),
-        named=block.limits or not block.watches,
+        named=block.limits or not (block.watches or block.gate),
     )
     return replace(made, limit=failing.limit) if block.limits else made
 

@@ -10,8 +10,8 @@ from plutoc_runtime.status import FAILED, STANDBY, Status
 from plutoc_runtime.words import duration
 
 if TYPE_CHECKING:
-    from plutoc_runtime.request import Request
     from plutoc_runtime.policy import Policy
+    from plutoc_runtime.request import Request
     from plutoc_runtime.run import Run
 
 

@@ -75,6 +75,7 @@ APP = App(
     categories=CATEGORIES,
     actions={
         **BUILT_IN,
+        # action pollinate(dose: mass = 50 mg) once
         "pollinate": Action(
             name="pollinate",
             parameters=(Parameter(name="dose", type=Type.MASS, default=5e-05),),

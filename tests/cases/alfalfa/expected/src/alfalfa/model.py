@@ -55,7 +55,9 @@ FIELDS: tuple[Field, ...] = (
 """What the user of the app fills in besides the basics; the blocks of the graph need it."""
 
 CATEGORIES = (
+    # category scout can take_photo, measure
     Category(name="scout", actions=frozenset({"take_photo", "measure"})),
+    # category carrier(payload: 5 g, speed: 0.8 m/s) can pick_item, release_item, pollinate
     Category(
         name="carrier",
         payload=0.005,
