@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-import black
 import pytest
 
 from plutoc.cli import main
@@ -44,23 +43,6 @@ name = "North"
   action = "take_photo"
   target = [2, 3]
 """
-
-
-@pytest.fixture(autouse=True, scope="session")
-def formatted_once() -> Iterator[None]:
-    """Remember what Black made of a text: it takes most of the time of these tests."""
-    known: dict[tuple[str, str], str] = {}
-    real = black.format_str
-
-    def format_str(text: str, *, mode: black.Mode) -> str:
-        key = (text, mode.get_cache_key())
-        if key not in known:
-            known[key] = real(text, mode=mode)
-        return known[key]
-
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(black, "format_str", format_str)
-        yield
 
 
 @dataclass(frozen=True, slots=True)

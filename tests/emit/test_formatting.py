@@ -124,7 +124,7 @@ def test_a_large_module_is_given_to_black_in_pieces(monkeypatch: pytest.MonkeyPa
         "x = 'single'\n",
         "x = '\"'\n",
         "x = '\"\\''\n",
-        "x = \"\\\"\"\n",
+        'x = "\\""\n',
         "x = b'\"'\n",
         "x = 0XFF\n",
         "x = 1_000 if y else 1E5\n",

@@ -6,9 +6,12 @@ import ast
 
 import pytest
 
+from plutoc.compile import analyse, check_hooks, package_of
 from plutoc.emit.hooks_file import hooks_file, hooks_test, stub
+from plutoc.source import Source
 from tests.emit.apps import ODD_NAMES, PLAIN
 from tests.emit.plans import checked_of
+from tests.emit.texts import APPS
 
 
 def with_modifier(declaration: str, arrows: str) -> str:
@@ -129,3 +132,11 @@ def test_tests_of_hooks_name_each() -> None:
     assert "def test_str_can_be_called() -> None:" in written
     assert "def test_run_can_be_called() -> None:" in written
     assert "An evaluator can be tested" in written
+
+
+@pytest.mark.parametrize("app", APPS, ids=range(len(APPS)))
+def test_nothing_is_to_be_said_of_stubs(app: str) -> None:
+    """So who compiles again, with nothing written yet, is told what was told before."""
+    checked, _ = analyse(Source("app.pluto", app))
+    hooks = package_of(checked, source_name="app.pluto").once[f"src/{checked.graph.name}/hooks.py"]
+    assert check_hooks(checked, Source("hooks.py", hooks)) == ()

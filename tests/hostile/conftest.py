@@ -2,6 +2,6 @@
 
 from __future__ import annotations
 
-from tests.cli.conftest import app, formatted_once, here, plutoc
+from tests.cli.conftest import app, here, plutoc
 
-__all__ = ["app", "formatted_once", "here", "plutoc"]
+__all__ = ["app", "here", "plutoc"]
