@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 from .ordered import Ordered, Rank
 
 if TYPE_CHECKING:
-    from ..model import Drone
     from ..policy import Pool
 
 
