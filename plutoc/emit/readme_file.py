@@ -39,6 +39,7 @@ class Readme:
     fence: str
     picture: str
     gates: bool
+    dotted: bool
     kinds: list[KindRow]
     sample: MissionTable
     fields: list[FieldRow]
@@ -58,6 +59,7 @@ def readme(graph: Graph, source_name: str, picture: str) -> str:
             title=markdown(graph.title),
             fence=fence(picture),
             picture=picture.rstrip("\n"),
+            dotted="-.->" in picture,
             gates=any(node.block.gate is not None for node in graph.nodes),
             kinds=[_kind(block) for block in dict.fromkeys(node.block for node in graph.nodes)],
             sample=mission,
