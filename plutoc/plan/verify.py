@@ -106,7 +106,8 @@ def _step(step: Step, where: str, *, in_loop: bool, labels: tuple[str, ...] | No
         case Dispatch():
             raise errors.dispatch_inside(where)
         case Watch():
-            if step.watchers != _watchers(step.instead):
+            own = _watchers(step.instead)
+            if step.watchers[: len(own)] != own:
                 raise errors.other_watchers(where)
         case Join():
             _spared(step, where)
@@ -117,13 +118,33 @@ def _step(step: Step, where: str, *, in_loop: bool, labels: tuple[str, ...] | No
 
 
 def _spared(join: Join, where: str) -> None:
-    """Check that a branch without a clone is an arrow, or one that is called off at once."""
+    """Check that a branch without a clone is an arrow, is called off at once, or is waited for."""
     arrow = False
+    waited: tuple[Node, ...] = ()
     for branch in join.branches:
+        own, others = _alone(branch.body)
         free = branch.body == (End(),) if join.gate.block.gate is Gate.ALL else arrow
+        if branch.idle and own and waited[: len(own)] == own:
+            waited = waited[len(own) :]
+            continue
+        if waited:
+            raise errors.other_watchers(where)
         if branch.idle and not free:
             raise errors.no_clone(where, branch.name)
+        waited = others
         arrow = arrow or branch.body == (End(),)
+    if waited:
+        raise errors.other_watchers(where)
+
+
+def _alone(body: Body) -> tuple[tuple[Node, ...], tuple[Node, ...]]:
+    """Return what a branch waits for, if it only waits: its own blocks, and those beside it."""
+    match body:
+        case (Watch(instead=instead, watchers=watchers), End()):
+            own = _watchers(instead)
+            return own, watchers[len(own) :]
+        case _:
+            return (), ()
 
 
 def _watchers(step: Step) -> tuple[Node, ...]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 import pytest
 
@@ -22,10 +23,11 @@ from plutoc.plan.model import (
     Join,
     Loop,
     Plan,
+    Step,
     Switch,
     Watch,
 )
-from plutoc.plan.rewrite import rewritten_body
+from plutoc.plan.rewrite import rewritten, rewritten_body
 from plutoc.plan.verify import verify
 from plutoc_runtime.status import Status
 from tests.check.graphs import checked
@@ -162,6 +164,28 @@ def test_a_wait_that_forgets_a_limit_is_refused() -> None:
     body = rewritten_body(plan.body, lambda step, _: (spoilt if step is wait else step,))
     with pytest.raises(BadPlan, match="does not stand for all"):
         verify(replace(plan, body=body))
+
+
+def test_a_branch_that_nobody_waits_for_is_refused() -> None:
+    """Of branches that only wait the first stands for those behind it, and for no others."""
+    text = GRAPHS["alfalfa"].replace("[watch, timer]", "[watch, timer, note]")
+    plan = after("watch", f"{text}\nnote = MissionModifier emits STANDBY, COMPLETED, FAILED")
+    join = next(step for step in steps(plan.body) if isinstance(step, Join))
+    verify(plan)
+    first, second, third = join.branches
+    spoilt = (
+        (first, replace(second, idle=False), third),
+        (replace(first, idle=True), replace(second, idle=False), third),
+        (replace(first, body=FORKED.body), second, third),
+    )
+    for ways in spoilt:
+        wrong = partial(_put, join, replace(join, branches=ways))
+        with pytest.raises(BadPlan, match=r"no clone goes into|does not stand for all"):
+            verify(rewritten(plan, wrong))
+
+
+def _put(old: Step, new: Step, step: Step, _: Step) -> Body:
+    return (new if step is old else step,)
 
 
 def spoilt_cases(*cases: Case, start: str = "create") -> Plan:

@@ -39,7 +39,9 @@ def clones(plan: Plan) -> Plan:
             return (step,)
         arrows = [n for n, branch in enumerate(before.branches) if branch.body == (End(),)]
         idle = _idle(before, arrows, brought) if arrows else ()
-        branches = (replace(branch, idle=n in idle) for n, branch in enumerate(step.branches))
+        branches = (
+            replace(branch, idle=branch.idle or n in idle) for n, branch in enumerate(step.branches)
+        )
         return (replace(step, branches=tuple(branches)),) if idle else (step,)
 
     return rewritten(plan, spared)

@@ -14,13 +14,15 @@ A block with a limit fails the trip itself, so all of them see the same end at t
 and whichever gate closes the fork lets that status through. Two tasks, a fork and a gate become a
 single wait. A block that waits alone is the same wait without limits of others.
 
-A fork stays that has anything else in a branch. Blocks of other packages are fused too, if they say
+A fork stays that has anything else in a branch; but of branches side by side that only wait, the first
+waits for all of them, and no clone goes into the others. Blocks of other packages are fused too, if they say
 what their limit is, or have none and ask for nothing that a wait could not give them; and so are
 gates that ask for nothing.
 """
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import chain
 
 from plutoc.block import Block, Gate
@@ -43,7 +45,29 @@ def _fused(step: Step, _: Step) -> Body:
             watchers = tuple(chain.from_iterable(some for some in found if some))
             if watchers and all(some is not None for some in found):
                 return (Watch(instead=step, watchers=watchers),)
+            return (replace(step, branches=_together(branches, found)),)
     return (step,)
+
+
+def _together(
+    branches: tuple[Branch, ...], found: list[tuple[Node, ...] | None]
+) -> tuple[Branch, ...]:
+    """Let the first of some branches side by side that only wait do so for all of them."""
+    made: list[Branch] = []
+    first: int | None = None
+    for number, (branch, watchers) in enumerate(zip(branches, found, strict=True)):
+        if not watchers:
+            first = None
+        elif first is None:
+            first = number
+        else:
+            wait, end = made[first].body
+            assert isinstance(wait, Watch)
+            both = replace(wait, watchers=wait.watchers + watchers)
+            made[first] = replace(made[first], body=(both, end))
+            branch = replace(branch, idle=True)
+        made.append(branch)
+    return tuple(made)
 
 
 def _watchers(branch: Branch, gate: Node) -> tuple[Node, ...] | None:
