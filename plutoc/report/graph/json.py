@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from json import dumps
-
 from plutoc.check.model import Checked
 from plutoc.report.graph.picture import picture
 
 
 def json(checked: Checked) -> str:
     """Return the graph as one JSON object; lines count from 1."""
+    from json import dumps  # slow to import, and other pictures do without
+
     graph = checked.graph
     return (
         dumps(
