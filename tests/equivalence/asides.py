@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import product
 
+from plutoc_runtime.status import WORST_FIRST
 from tests.equivalence.drawing import C, Drawing, Ends, F, S, Statuses, U, ordered
 
 RETRIES = ("", "max_attempts: 0", "max_attempts: 1", "max_attempts: 2", "max_attempts: 3")
@@ -17,7 +19,6 @@ def aside(drawing: Drawing, ends: Ends) -> Ends:
         return drawing.into(ends, drawing.modifier("mark"))
     if len(ends) > 1:
         ends = drawing.into(ends, drawing.modifier("meet"))
-    gate, kind = ("first", "GateFIFO") if drawing.chance(0.5) else ("all", "GateFunnel")
     branches: list[Ends] = []
     for _ in range(drawing.rng.choice((2, 2, 3))):
         branch = drawing.into(ends, drawing.modifier("do"))
@@ -25,14 +26,26 @@ def aside(drawing: Drawing, ends: Ends) -> Ends:
             branch = drawing.into(branch, drawing.modifier("then"))
         elif drawing.chance(0.15):
             branch = aside(drawing, branch)
+        elif drawing.chance(0.25):
+            branch = retried(drawing, branch)
         branches.append(branch)
-    if drawing.chance(0.15):
-        branches.append(dict(ends))
-    statuses = ordered(s for each in ends.values() for s in each)
-    name = drawing.block(gate, kind, statuses)
-    for branch in branches:
-        drawing.lead(branch, name)
-    return {name: statuses}
+    if drawing.chance(0.2):
+        branches.insert(drawing.rng.randint(0, len(branches)), dict(ends))
+    return closed(drawing, branches)
+
+
+def closed(drawing: Drawing, branches: Sequence[Ends], first: float = 0.6) -> Ends:
+    """Draw the gate at which these branches close."""
+    came = [ordered(s for statuses in ends.values() for s in statuses) for ends in branches]
+    if drawing.chance(first):
+        passes = ordered(status for statuses in came for status in statuses)
+        gate = drawing.block("first", "GateFIFO", passes)
+    else:
+        passes = ordered(min(each, key=WORST_FIRST.index) for each in product(*came))
+        gate = drawing.block("all", "GateFunnel", passes)
+    for ends in branches:
+        drawing.lead(ends, gate)
+    return {gate: passes}
 
 
 def _strange(drawing: Drawing) -> str:
@@ -51,6 +64,19 @@ def retried(drawing: Drawing, ends: Ends) -> Ends:
     emits = (S,) if written.endswith(" 0") else (S, F)
     retry = drawing.block("retry", "PriorityManager", emits, written)
     return {**drawing.lead(ends, retry, (F,)), retry: emits}
+
+
+def beside(drawing: Drawing, ends: Ends) -> Ends:
+    """Draw a fork of failed missions of which a branch is only the arrow to the gate."""
+    failed: Ends = {block: (F,) for block, statuses in ends.items() if F in statuses}
+    if not failed:
+        return ends
+    kept = {block: tuple(s for s in each if s is not F) for block, each in ends.items()}
+    mended = retried(drawing, dict(failed))
+    if drawing.chance(0.4):
+        mended = drawing.into(dict(failed), drawing.modifier("mend", (S, F)))
+    branches = [mended, dict(failed)] if drawing.chance(0.5) else [dict(failed), mended]
+    return {block: each for block, each in kept.items() if each} | closed(drawing, branches, 0.3)
 
 
 def judged(drawing: Drawing, ends: Ends, kinds: Sequence[str] | None = None) -> Ends:
@@ -74,7 +100,7 @@ def tangle(drawing: Drawing, ends: Ends) -> Ends:
     said: tuple[Statuses, ...] = ((S, F), (S, C, F), (S, F), (C, F))
     if U in statuses:
         said = ((U, S), (U, S, F), (S, F))
-    left = drawing.rng.choice((1, 2, 3))
+    left = drawing.rng.choice((1, 2, 3, 3, 5))
     names = [drawing.modifier("maze", drawing.rng.choice(said))]
 
     def somewhere() -> str:
@@ -92,7 +118,7 @@ def tangle(drawing: Drawing, ends: Ends) -> Ends:
     loose: Ends = {}
     for name in names:  # it grows on the way
         for status in drawing.emits[name]:
-            if drawing.chance(0.55):
+            if drawing.chance(0.65):
                 drawing.lead({name: (status,)}, somewhere())
             else:
                 loose[name] = (*loose.get(name, ()), status)

@@ -2,11 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from itertools import product
-
-from plutoc_runtime.status import WORST_FIRST
-from tests.equivalence.asides import aside, judged, retried, tangle
+from tests.equivalence.asides import aside, closed, judged, retried, tangle
 from tests.equivalence.drawing import C, Drawing, Ends, F, R, S, Statuses, ordered
 
 OUTCOMES = (S, C, F)
@@ -119,17 +115,3 @@ def _behind(drawing: Drawing, ends: Ends) -> Ends:
     if drawn < 0.2:
         return tangle(drawing, ends)
     return aside(drawing, ends)
-
-
-def closed(drawing: Drawing, branches: Sequence[Ends]) -> Ends:
-    """Draw the gate at which these branches close."""
-    came = [ordered(s for statuses in ends.values() for s in statuses) for ends in branches]
-    if drawing.chance(0.6):
-        passes = ordered(status for statuses in came for status in statuses)
-        gate = drawing.block("first", "GateFIFO", passes)
-    else:
-        passes = ordered(min(each, key=WORST_FIRST.index) for each in product(*came))
-        gate = drawing.block("all", "GateFunnel", passes)
-    for ends in branches:
-        drawing.lead(ends, gate)
-    return {gate: passes}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from random import Random
 
-from tests.equivalence.asides import aside, judged, retried, tangle
+from tests.equivalence.asides import aside, beside, judged, retried, tangle
 from tests.equivalence.drawing import END, START, Drawing, Ends, F, R, S, Statuses, U
 from tests.equivalence.flights import flight
 from tests.soundness.randoms import random_app
@@ -126,10 +126,11 @@ class _Graph:
             (0.12, tangle),
             (0.15, aside),
             (0.4, judged),
+            (0.2, beside),
             (0.5, retried),
             (0.15, aside),
         ):
-            if drawing.chance(share) and ends and (draw is retried or not drawing.full):
+            if drawing.chance(share) and ends and (draw in (retried, beside) or not drawing.full):
                 ends = draw(drawing, ends)
         other = self._other_way() if drawing.chance(0.35) else ""
         for block, statuses in ends.items():

@@ -10,7 +10,7 @@ from tests.equivalence.flows import packaged
 from tests.equivalence.fly import Record, record
 from tests.equivalence.worlds import World, random_world
 
-GRAPHS = 60
+GRAPHS = 40
 
 
 def test_real_time_takes_simultaneous_events_in_the_order_of_virtual_time() -> None:
@@ -28,7 +28,7 @@ def test_real_time_takes_simultaneous_events_in_the_order_of_virtual_time() -> N
             whole = not virtual.ends[0].startswith(("BadInput", f"over after {world.until!r}"))
             assert _seen(real, world, whole) == _seen(virtual, world, whole), f"{text}\n{world}"
             events += len(virtual.events)
-    assert events > 5_000
+    assert events > 3_000
 
 
 def _seen(record: Record, world: World, whole: bool) -> list[str]:
