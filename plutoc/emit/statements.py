@@ -127,8 +127,8 @@ def _wait(watch: Watch, scope: Scope) -> Iterator[str]:
 
 def _watched(watch: Watch) -> str:
     match watch.instead:
-        case Call(node=node):
-            return node.declaration
+        case Call():
+            return ", ".join(node.declaration for node in watch.watchers)
         case Join() as join:
             return _picture(join)
 
