@@ -52,6 +52,7 @@ class Queue:
         """Those that have not been served yet."""
         self._waiting = self._arrivals = 0
         self._pools: dict[Policy, Pool] = {}
+        self._all_pools: list[Pool] = []
         self._batches: list[BatchPool] = []
         """Those of the pools that look at all trips at once."""
         self._sure: Mapping[Category, float] | None = None
@@ -108,6 +109,15 @@ class Queue:
         if self._waiting:
             self._kernel.last = self._serving
 
+    def freed(self, drone: Drone) -> None:
+        """A drone that was BUSY is FREE."""
+        self._airborne -= 1
+        self._high[drone] = None
+        for pool in self._all_pools:
+            pool.add(drone)
+        if self._waiting:
+            self._kernel.last = self._serving
+
     def changed(self) -> None:
         """Something changed: serve the queue at the end of this instant."""
         if self._waiting:
@@ -141,6 +151,7 @@ class Queue:
 
     def _new_pool(self, policy: Policy) -> Pool:
         pool = self._pools[policy] = policy()
+        self._all_pools.append(pool)
         if isinstance(pool, BatchPool):
             self._batches.append(pool)
         for drone in self._high:
@@ -151,7 +162,7 @@ class Queue:
         """A drone may be handed out."""
         if drone not in self._high:
             self._high[drone] = None
-            for pool in self._pools.values():
+            for pool in self._all_pools:
                 pool.add(drone)
         if self._low:
             self._low.pop(drone, None)
@@ -160,7 +171,7 @@ class Queue:
         """A drone may not be handed out."""
         if drone in self._high:
             del self._high[drone]
-            for pool in self._pools.values():
+            for pool in self._all_pools:
                 pool.remove(drone)
         self._low.pop(drone, None)
 
@@ -185,17 +196,26 @@ class Queue:
 
     def _share_out(self) -> None:
         entries, high, most = self._entries, self._high, self._max_airborne
+        batches = self._batches
         passed: list[Entry] = []
         while entries and high and (most is None or self._airborne < most):
             entry = heappop(entries)
             request = entry[2]
             if request.is_set:
                 continue
-            if self._batches and request.pool in self._batches:
+            if batches and request.pool in batches:
                 passed += self._share_among(self._alike(entry))
-            elif not self._chosen(request):
+                continue
+            try:
+                choice = request.pool.choose(request.trip, request.able)
+            except HookFault as fault:
+                self._refuse(request, fault)
+                continue
+            if choice is not None:
+                self._give(request, choice)
+            else:
                 passed.append(entry)
-                if len(passed) == _IN_VAIN and not self._batches:
+                if len(passed) == _IN_VAIN and not batches:
                     break
         if passed:
             self._put_back(passed)
@@ -272,7 +292,7 @@ class Queue:
         self._waiting -= 1
         self._airborne += 1
         del self._high[drone]
-        for pool in self._pools.values():
+        for pool in self._all_pools:
             pool.remove(drone)
         drone.status = _BUSY  # at once: nobody else may have it
         request.set(drone)

@@ -86,7 +86,12 @@ class Fleet:
             and (self._stays or docked(telemetry.location, drone.home))
         ):
             # navigation has it down already where it shall be, with enough in its battery
-            self._become(drone, _FREE)
+            drone.status = _FREE
+            if self._trace.live:
+                self._note(drone)
+            self.queue.freed(drone)
+            if self._change is not None:
+                self._changed()
         elif self._after_trip is AfterTrip.HOME or self._is_low(drone):
             self.send_home(drone)
         else:
@@ -145,15 +150,22 @@ class Fleet:
         if before is not status:
             drone.status = status
             if self._trace.live:
-                self._trace.note(
-                    f"drone.{status.value.lower()}",
-                    drone=drone.id,
-                    battery=round(drone.battery_level, 4),
-                    at=[round(value, 3) for value in drone.location],
-                )
+                self._note(drone)
         self.queue.moved(drone, before, status)
         if self._change is not None:
-            change, self._change = self._change, None
+            self._changed()
+
+    def _note(self, drone: Drone) -> None:
+        self._trace.note(
+            f"drone.{drone.status.value.lower()}",
+            drone=drone.id,
+            battery=round(drone.battery_level, 4),
+            at=[round(value, 3) for value in drone.location],
+        )
+
+    def _changed(self) -> None:
+        change, self._change = self._change, None
+        if change is not None:
             change.set(None)
 
     async def _land(self, drone: Drone) -> bool:

@@ -146,7 +146,7 @@ class Flight(Signal[Status]):
 def launch(state: State, drone: Drone) -> None:
     """Send a drone on the mission's next trip."""
     core, mission, last = state.core, state.mission, state.flight
-    trip = mission.current
+    trip = mission.trips[0] if mission.trips else mission.current
     if core.fleet.errands:
         core.fleet.engage(drone)
     retry = last is not None and last.trip is trip and last.failed
@@ -162,10 +162,8 @@ def complete(state: State, flight: Flight, value: object) -> None:
     if trip not in mission.trips:
         fail(state, flight, "a hook took it from the mission's trips", mends=False)
         return
-    if trip.action == PICK:
-        state.carries, state.carrier = trip.item, flight.flier
-    elif trip.action == RELEASE:
-        state.carries = state.carrier = None
+    if trip.item is not None:
+        _carry(state, flight, trip)
     state.last_action_end = core.kernel.now
     core.transitions.complete(mission, trip, value)
     if state.carrier is None:
@@ -173,6 +171,14 @@ def complete(state: State, flight: Flight, value: object) -> None:
     else:
         core.fleet.keep(flight.flier, partial(_lose, state))
     flight.set(mission.status)
+
+
+def _carry(state: State, flight: Flight, trip: Trip) -> None:
+    """What was picked is aboard until it is released."""
+    if trip.action == PICK:
+        state.carries, state.carrier = trip.item, flight.flier
+    elif trip.action == RELEASE:
+        state.carries = state.carrier = None
 
 
 def _lose(state: State, reason: str) -> None:

@@ -51,7 +51,7 @@ class Deadlines:
     def __init__(self, kernel: Kernel) -> None:
         self._kernel = kernel
         self._queues: dict[float, deque[Guard]] = {}
-        self._armed: set[float] = set()
+        """By length; each has a timer that comes no later than its first limit."""
 
     def watch(self, guard: Guard) -> None:
         """Fail the flight at its limit, unless it is over by then, or whoever asked for it."""
@@ -61,26 +61,24 @@ class Deadlines:
             return
         queue = self._queues.get(span)
         if queue is None:
-            queue = self._queues[span] = deque()
+            self._queues[span] = deque((guard,))
+            self._arm(span)
+            return
         while queue and queue[0][0].is_set:
             queue.popleft()
         queue.append(guard)
-        if span not in self._armed:
-            self._arm(span)
 
     def _schedule(self, guard: Guard) -> None:
         _, _, key, (since, span, _) = guard
         self._kernel.schedule(since + span, Kind.TIMER, key, partial(_expire, guard))
 
     def _arm(self, span: float) -> None:
-        self._armed.add(span)
         until = self._queues[span][0][3][0] + span
         self._kernel.schedule(until, Kind.TIMER, -1, partial(self._due, span))
 
     def _due(self, span: float) -> None:
         """Let expire what is due, each in its own place among the events of this instant."""
         now, queue = self._kernel.now, self._queues[span]
-        self._armed.remove(span)
         while queue and (queue[0][0].is_set or queue[0][3][0] + span <= now):
             self._schedule(queue.popleft())
         if queue:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from operator import attrgetter
 from typing import TYPE_CHECKING
 
 from .ordered import Ordered, Rank
@@ -12,7 +13,7 @@ if TYPE_CHECKING:
 
 def first() -> Pool:
     """Give each trip, in turn, the first free drone of the fleet."""
-    return Ordered(lambda drone: (drone.index, 0), _why)
+    return Ordered(attrgetter("index"), _why)
 
 
 def _why(free: int, _: Rank) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from operator import attrgetter
 from typing import TYPE_CHECKING
 
 from .ordered import Ordered, Rank
@@ -12,7 +13,7 @@ if TYPE_CHECKING:
 
 def least_used() -> Pool:
     """Give each trip, in turn, the free drone with the fewest trips behind it."""
-    return Ordered(lambda drone: (drone.trips, drone.index), _why)
+    return Ordered(attrgetter("trips", "index"), _why)
 
 
 def _why(free: int, rank: Rank) -> str:

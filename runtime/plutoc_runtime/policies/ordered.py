@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import partial
 from heapq import heapify, heappop, heappush
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..policy import Able, Choice
 
 if TYPE_CHECKING:
     from ..model import Drone, Trip
 
-Rank = tuple[int, int]
-"""Drones of a lower rank come first; no two have the same."""
+Rank = Any
+"""What drones are compared by: of a lower rank is first; no two have the same."""
 
 class Ordered:
     """A pool that gives each trip the first able drone by rank."""
@@ -34,6 +34,9 @@ class Ordered:
     def remove(self, drone: Drone) -> None:
         """A drone is not free any more; its entry is dropped when it comes up."""
         self._free.pop(drone, None)
+        heap = self._heap
+        if heap and heap[0][1] is drone:
+            heappop(heap)
 
     def choose(self, trip: Trip, able: Able) -> Choice | None:
         """Return the first drone that is able."""
