@@ -19,7 +19,8 @@ def run(
     hash_seed: str, *words: str | Path, path: str | None = None, codes: tuple[int, ...] = (0,)
 ) -> None:
     """Run Python with this hash seed; it must end with one of the codes."""
-    environment = {**os.environ, "PYTHONHASHSEED": hash_seed}
+    cache = os.path.join(os.environ["XDG_CACHE_HOME"], hash_seed)  # none takes what another kept
+    environment = {**os.environ, "PYTHONHASHSEED": hash_seed, "XDG_CACHE_HOME": cache}
     if path is not None:
         environment["PYTHONPATH"] = path
     done = subprocess.run(
