@@ -41,16 +41,25 @@ def load() -> None:
         runtime(name)
 
 
+def formatter() -> Callable[[Event], str]:
+    """Return what makes a line of an event: the runtime's own, if it has one."""
+    try:
+        line: Callable[[Event], str] = runtime("journal_line").line
+    except ModuleNotFoundError:
+        return json.JSONEncoder(separators=(",", ":"), check_circular=False).encode
+    return line
+
+
 class Journal:
     """Each transition as a line of JSON; kept, but not written to a disk."""
 
     def __init__(self) -> None:
         self.lines: list[str] = []
-        self._encode = json.JSONEncoder(separators=(",", ":"), check_circular=False).encode
+        self._line = formatter()
 
     def note(self, event: Event) -> None:
         """Format an event."""
-        self.lines.append(self._encode(event))
+        self.lines.append(self._line(event))
 
 
 class Listener:
