@@ -31,14 +31,14 @@ class Engine:
 
     def start(self, missions: Sequence[Mission[Any]]) -> None:
         """Set the missions on their way, all at once."""
+        core, kernel = self._core, self._core.kernel
         ended, doomed = self._ended, self._doomed
         for mission in missions:
-            state, key = State(self._core, mission, doomed), mission_key(mission.index)
+            state, key = State(core, mission, doomed), mission_key(mission.index)
             run = Run(mission, state, key)
-            task = self._core.kernel.spawn(self._core.app.flow(run), key, mission.name)
-            run.task = state.task = task
+            run.task = state.task = task = kernel.spawn(core.app.flow(run), key, mission.name)
+            task.over = ended
             self._living[task] = state
-            task.watch(ended)
 
     def halt(self) -> None:
         """Take every mission out of its graph where it is; nothing is launched any more."""
@@ -59,22 +59,22 @@ class Engine:
         """A mission's coroutine is over: see how it ended."""
         if self._halted:
             return
-        state = self._living.pop(task)
-        match task.error:
-            case None if (status := task.result()) is FAILED:
+        state, error = self._living.pop(task), task.error
+        reason = ""
+        if error is None:
+            status = task.result()
+            if status is FAILED:
                 reason = state.mission.reason or "the graph ended it as FAILED"
-            case None:
-                reason = ""
-            case MissionFailed() as error:
-                status, reason = FAILED, str(error)
-                if isinstance(error, HookFault) and error.detail:
-                    self._tell(error, state.mission)
-            case Cancelled():
-                status, reason = FAILED, state.doom or "it was called off"
-            case error:
-                blame(error, self._core.app.flow)
-                self._core.kernel.crash(error)
-                return
+        elif isinstance(error, MissionFailed):
+            status, reason = FAILED, str(error)
+            if isinstance(error, HookFault) and error.detail:
+                self._tell(error, state.mission)
+        elif isinstance(error, Cancelled):
+            status, reason = FAILED, state.doom or "it was called off"
+        else:
+            blame(error, self._core.app.flow)
+            self._core.kernel.crash(error)
+            return
         self._end(state, status, reason)
 
     def _tell(self, fault: HookFault, mission: Mission[Any]) -> None:
@@ -84,7 +84,8 @@ class Engine:
 
     def _end(self, state: State, status: Status, reason: str) -> None:
         mission, fleet = state.mission, self._core.fleet
-        abort(state, f"its mission ended: {reason or status.value}")
+        if state.in_flight is not None:
+            abort(state, f"its mission ended: {reason or status.value}")
         if state.allocated is not None:
             fleet.never_flew(state.allocated)
         if state.carrier is not None:

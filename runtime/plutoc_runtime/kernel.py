@@ -93,7 +93,7 @@ class Timer:
 class Task(Signal[T]):
     """A coroutine on its way; it is set when the coroutine ends."""
 
-    __slots__ = ("_coroutine", "_kernel", "_waits_for", "key", "name", "turn")
+    __slots__ = ("_coroutine", "_kernel", "_waits_for", "key", "name", "over", "turn")
 
     def __init__(
         self, kernel: Kernel, coroutine: Coroutine[Any, Any, T], key: Key, name: str
@@ -105,6 +105,8 @@ class Task(Signal[T]):
         self.turn = 0
         """The number of its next turn; another one is not its any longer."""
         self.key, self.name = key, name
+        self.over: Callable[[Task[T]], None] | None = None
+        """Told when it has ended, however it has; without anybody an error stops the run."""
         kernel.tasks[self] = None
 
     def wake(self, _: object = None) -> None:
@@ -155,10 +157,12 @@ class Task(Signal[T]):
         del self._kernel.tasks[self]
         if isinstance(end, StopIteration):
             self.set(end.value)
-            return
-        if not isinstance(end, Cancelled) and not self.watched:
-            self._kernel.crash(end)
-        self.fail(end)
+        else:
+            if not (isinstance(end, Cancelled) or self.watched or self.over):
+                self._kernel.crash(end)
+            self.fail(end)
+        if self.over is not None:
+            self.over(self)
 
     def cancel(self) -> None:
         """Stop it where it waits, now."""

@@ -6,16 +6,15 @@ import asyncio
 import time
 from collections.abc import Callable, Coroutine
 from contextlib import suppress
-from functools import lru_cache, partial
-from inspect import CO_COROUTINE, iscoroutine, iscoroutinefunction
+from functools import partial
+from inspect import iscoroutine, iscoroutinefunction
 from math import inf
-from opcode import opmap
 from threading import Thread
-from types import CodeType
 from typing import Any, NoReturn, TypeVar, cast
 
 from .kernel import WHATEVER, Call, Kernel, Key, Kind
 from .signals import Signal
+from .straight import never_waits
 
 T = TypeVar("T")
 
@@ -109,7 +108,7 @@ class RealTime(Kernel):
 
         One that never waits needs no task: it is over as soon as it is called.
         """
-        if _never_waits(hook):
+        if never_waits(hook):
             return await cast("Coroutine[Any, Any, object]", hook(*args, **named))
         result: Signal[object] = Signal()
         running = asyncio.ensure_future(self._answer(hook, partial(hook, *args, **named), result))
@@ -169,18 +168,6 @@ class RealTime(Kernel):
         finally:
             signal.unwatch(tell)
         return signal.result()
-
-
-def _never_waits(hook: Callable[..., object]) -> bool:
-    """Say whether this is an `async def` without any `await`, `async for` or `async with`."""
-    code = getattr(getattr(hook, "func", hook), "__code__", None)  # a partial carries its function
-    return isinstance(code, CodeType) and _runs_through(code)
-
-
-@lru_cache(maxsize=1_000)
-def _runs_through(code: CodeType) -> bool:
-    waits = opmap.get("SEND")  # what every way to wait is compiled to
-    return bool(waits and code.co_flags & CO_COROUTINE and waits not in code.co_code[::2])
 
 
 def _nothing() -> None:

@@ -49,7 +49,8 @@ class Run(Generic[M]):
     @property
     def trip(self) -> Any:
         """The mission's trip that flies now, or flies next: of the app's own class."""
-        return self.mission.current
+        trips = self.mission.trips
+        return trips[0] if trips else self.mission.current
 
     @property
     def context(self) -> Context:

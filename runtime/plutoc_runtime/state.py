@@ -29,7 +29,8 @@ class State:
         "ending",
         "first_start",
         "flight",
-        "hooks_at",
+        "hooked_at",
+        "hooks",
         "last_action_end",
         "mission",
         "task",
@@ -58,8 +59,10 @@ class State:
         """(block, trip, round, attempt) of every delay that is over."""
         self.doom: str | None = None
         """Why it must end whatever its graph says: a failure that no retry can mend."""
-        self.hooks_at = (0.0, 0)
-        """When its last hook was called, and how many were at that instant."""
+        self.hooked_at = 0.0
+        """When its last hook was called."""
+        self.hooks = 0
+        """How many were called at that instant."""
 
     def end(self, reason: str) -> None:
         """Take it out of its graph, FAILED; only the first reason counts."""
@@ -69,9 +72,10 @@ class State:
 
     def goes_round(self, now: float) -> bool:
         """Count a call of a hook; say whether the mission goes round and round without time."""
-        when, count = self.hooks_at
-        self.hooks_at = (now, count + 1 if now == when else 1)
-        return self.hooks_at[1] > HOOKS_AT_ONCE
+        if now != self.hooked_at:
+            self.hooked_at, self.hooks = now, 0
+        self.hooks += 1
+        return self.hooks > HOOKS_AT_ONCE
 
     @property
     def in_flight(self) -> Flight | None:

@@ -11,6 +11,7 @@ from typing import Any, TypeVar
 
 from .kernel import Cancelled, ForeignAwait, Kernel
 from .signals import Signal
+from .straight import never_waits
 
 T = TypeVar("T")
 
@@ -58,6 +59,8 @@ class VirtualTime(Kernel):
             raise _not_its_own(error) from error
         if not iscoroutine(result):
             return result
+        if never_waits(hook):
+            return await result
         try:
             return await _called_off_for_good(result)
         except RuntimeError as error:
