@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Coroutine
 from enum import IntEnum
+from gc import unfreeze
 from heapq import heappop, heappush
 from typing import Any, TypeVar
 
@@ -119,10 +120,13 @@ class Task(Signal[T]):
         """Let the coroutine run up to its next wait."""
         try:
             waits_for = self._coroutine.send(None)
+        except StopIteration as end:
+            returned: T = end.value
         except (KeyboardInterrupt, SystemExit):
             raise
         except WHATEVER as error:
-            end = error
+            self._failed(error)
+            return
         else:
             if isinstance(waits_for, Signal):
                 self._waits_for = waits_for
@@ -133,7 +137,10 @@ class Task(Signal[T]):
             else:
                 self._throw(ForeignAwait(f"it awaited {type(waits_for).__name__}"))
             return
-        self._end(end)
+        self._leave()
+        self.set(returned)
+        if self.over is not None:
+            self.over(self)
 
     def _throw(self, error: BaseException) -> None:
         """Let the coroutine run on from an error."""
@@ -142,27 +149,33 @@ class Task(Signal[T]):
             while not isinstance(waits_for, Signal):
                 foreign = ForeignAwait(f"it awaited {type(waits_for).__name__}")
                 waits_for = self._coroutine.throw(foreign)
+        except StopIteration as end:
+            returned: T = end.value
         except (KeyboardInterrupt, SystemExit):
             raise
         except WHATEVER as ended:
-            end = ended
+            self._failed(ended)
+            return
         else:
             self._waits_for = waits_for
             waits_for.watch(self.wake)
             return
-        self._end(end)
-
-    def _end(self, end: BaseException) -> None:
-        self.turn, self._waits_for = 0, None
-        del self._kernel.tasks[self]
-        if isinstance(end, StopIteration):
-            self.set(end.value)
-        else:
-            if not (isinstance(end, Cancelled) or self.watched or self.over):
-                self._kernel.crash(end)
-            self.fail(end)
+        self._leave()
+        self.set(returned)
         if self.over is not None:
             self.over(self)
+
+    def _failed(self, error: BaseException) -> None:
+        self._leave()
+        if not (isinstance(error, Cancelled) or self.watched or self.over):
+            self._kernel.crash(error)
+        self.fail(error)
+        if self.over is not None:
+            self.over(self)
+
+    def _leave(self) -> None:
+        self.turn, self._waits_for = 0, None
+        del self._kernel.tasks[self]
 
     def cancel(self) -> None:
         """Stop it where it waits, now."""
@@ -284,6 +297,7 @@ class Kernel:
         """Drop what still waits; nothing of it runs on."""
         for task in list(self.tasks):
             task.drop()
+        unfreeze()
 
     def next_time(self) -> float | None:
         """Return the time of the next event to come; None: nothing will ever happen."""

@@ -110,6 +110,24 @@ class Drone:
         return dist(self.location, point)
 
 
+class Nothing(dict[str, "Plain"]):
+    """No parameters: one mapping for the many trips that have none, so nobody may fill it."""
+
+    __slots__ = ()
+
+    def __hash__(self) -> int:
+        return 0  # it never changes, so it may be a default
+
+    def __setitem__(self, key: str, value: Plain) -> None:
+        raise TypeError(f"a trip's parameters are given as a whole: parameters={{{key!r}: ...}}")
+
+    def __deepcopy__(self, _: object) -> Nothing:
+        return self
+
+
+NOTHING = Nothing()
+
+
 @dataclass(slots=True, kw_only=True, eq=False)
 class Trip:
     """A drone's flight to a target that ends with an action."""
@@ -119,7 +137,7 @@ class Trip:
     target: Point
     source: Point | None = None
     """Where the flight begins; None: where the drone is."""
-    parameters: Mapping[str, Plain] = field(default_factory=dict)
+    parameters: Mapping[str, Plain] = NOTHING
     """The action's parameters, in SI units."""
     item: Item | None = None
     status: TripStatus = field(default=TripStatus.WAITING, init=False)

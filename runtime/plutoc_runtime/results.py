@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
-from itertools import islice, starmap
 from typing import Any, Generic, NamedTuple, TypeVar, overload
 
 from .model import Mission, Trip
@@ -23,17 +22,16 @@ class Result(NamedTuple, Generic[M, T]):
     value: object
 
 
-Row = tuple[Mission[Any], Trip, int, int, object]
-"""A result as it is kept: most are never looked at, and a plain tuple is made far faster."""
+_WIDTH = len(Result._fields)
 
 
 class SoFar(Sequence[Result[Any, Any]]):
-    """The first so many of the rows that only grow, as results: a view, not a copy."""
+    """The results that there are by now: a view of all that ever come, not a copy."""
 
-    __slots__ = ("_count", "_rows")
+    __slots__ = ("_count", "_values")
 
-    def __init__(self, rows: list[Row]) -> None:
-        self._rows, self._count = rows, len(rows)
+    def __init__(self, values: list[Any]) -> None:
+        self._values, self._count = values, len(values) // _WIDTH
 
     def __len__(self) -> int:
         return self._count
@@ -45,11 +43,14 @@ class SoFar(Sequence[Result[Any, Any]]):
     def __getitem__(self, index: int | slice) -> Result[Any, Any] | Sequence[Result[Any, Any]]:
         places = range(self._count)[index]  # an IndexError is its own
         if isinstance(places, range):
-            return tuple(Result(*self._rows[place]) for place in places)
-        return Result(*self._rows[places])
+            return tuple(self._at(place) for place in places)
+        return self._at(places)
 
     def __iter__(self) -> Iterator[Result[Any, Any]]:
-        return starmap(Result, islice(self._rows, self._count))
+        return map(self._at, range(self._count))
+
+    def _at(self, place: int) -> Result[Any, Any]:
+        return Result(*self._values[_WIDTH * place : _WIDTH * (place + 1)])
 
 
 class Results(NamedTuple, Generic[M, T]):
@@ -62,18 +63,23 @@ class Results(NamedTuple, Generic[M, T]):
 
 
 class ResultStore:
-    """Where results are kept."""
+    """Where results are kept.
+
+    Most are never looked at again, and there may be millions: so they are kept as the plain values
+    of their fields, one result behind the other, and made into results for whoever looks.
+    """
 
     def __init__(self) -> None:
-        self.rows: list[Row] = []
-        self.new: defaultdict[Mission[Any], list[Row]] = defaultdict(list)
-        """What each mission has brought since its evaluator was last asked."""
+        self.values: list[Any] = []
+        self.new: defaultdict[Mission[Any], list[int]] = defaultdict(list)
+        """Where the values begin that each mission has brought since its evaluator was asked."""
 
     def so_far(self) -> SoFar:
         """Return every result there is by now."""
-        return SoFar(self.rows)
+        return SoFar(self.values)
 
     def for_evaluator(self, mission: Mission[Any]) -> Results[Any, Any]:
         """Return what a mission's evaluator gets now."""
-        new = tuple(starmap(Result, self.new.pop(mission, ())))
-        return Results(new, self.so_far())
+        values = self.values
+        new = (Result(*values[start : start + _WIDTH]) for start in self.new.pop(mission, ()))
+        return Results(tuple(new), self.so_far())

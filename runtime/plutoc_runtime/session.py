@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from gc import freeze
 from typing import TYPE_CHECKING, Any
 
 from .allocation import Queue
@@ -107,6 +108,8 @@ class Session:
         It is done when every drone is down as well.
         """
         self.engine.start(missions)
+        # They live until the end: the garbage collector need not look at them again and again.
+        freeze()
         return self._kernel.spawn(self._see_through(), FLEET, "the session")
 
     async def _see_through(self) -> float:

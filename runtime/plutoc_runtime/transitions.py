@@ -64,9 +64,8 @@ class Transitions:
         trips.remove(trip)
         mission.completed_trips.append(trip)
         mission.status = STANDBY if trips else COMPLETED
-        row = (mission, trip, mission.round, trip.attempt, value)
-        results.rows.append(row)
-        results.new[mission].append(row)
+        results.new[mission].append(len(results.values))
+        results.values += (mission, trip, mission.round, trip.attempt, value)
         if self._trace.live:
             self._ended(mission, trip, "trip.completed", {"value": shown(value)})
 

@@ -33,10 +33,12 @@ def watch(run: Run[Any], *limits: Limit | None) -> Flight:
     flight = run.state.flight
     if flight is None:
         raise RuntimeError(f"mission {run.mission.name} has no flight to watch")
-    for number, limit in enumerate(limits):
+    # behind a hook of the mission's at that instant, as if it stood in a branch of its own
+    key = run.key
+    for limit in limits:
+        key += 1
         if limit is not None:
-            # behind a hook of the mission's at that instant, as if it stood in a branch of its own
-            run.core.deadlines.watch((flight, run.task, run.key + 1 + number, limit))
+            run.core.deadlines.watch((flight, run.task, key, limit))
     return flight
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from ..actions import PICK, RELEASE, Action, Plain
 from ..fields import Entity
-from ..model import Item, Point, Trip
+from ..model import NOTHING, Item, Point, Trip
 from ..quantities import Type
 from ..words import quoted
 from . import errors, values
@@ -53,7 +53,7 @@ def _trip(table: Table, index: int, app: App, airspace: Airspace, names: dict[st
         action=action.name if action else "",
         target=target or NOWHERE,
         source=_point(table, "source", airspace, required=False),
-        parameters=_parameters(table, action) if action else {},
+        parameters=(_parameters(table, action) if action else None) or NOTHING,
         item=_item(table, action),
         index=index,
         **given,
