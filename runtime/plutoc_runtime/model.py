@@ -115,9 +115,6 @@ class Nothing(dict[str, "Plain"]):
 
     __slots__ = ()
 
-    def __hash__(self) -> int:
-        return 0  # it never changes, so it may be a default
-
     def __setitem__(self, key: str, value: Plain) -> None:
         raise TypeError(f"a trip's parameters are given as a whole: parameters={{{key!r}: ...}}")
 
@@ -126,6 +123,11 @@ class Nothing(dict[str, "Plain"]):
 
 
 NOTHING = Nothing()
+
+
+def nothing() -> Mapping[str, Plain]:
+    """Return the parameters of a trip that has none."""
+    return NOTHING
 
 
 @dataclass(slots=True, kw_only=True, eq=False)
@@ -137,7 +139,7 @@ class Trip:
     target: Point
     source: Point | None = None
     """Where the flight begins; None: where the drone is."""
-    parameters: Mapping[str, Plain] = NOTHING
+    parameters: Mapping[str, Plain] = field(default_factory=nothing)
     """The action's parameters, in SI units."""
     item: Item | None = None
     status: TripStatus = field(default=TripStatus.WAITING, init=False)

@@ -25,38 +25,40 @@ class Result(NamedTuple, Generic[M, T]):
 _WIDTH = len(Result._fields)
 
 
-class SoFar(Sequence[Result[Any, Any]]):
-    """The results that there are by now: a view of all that ever come, not a copy."""
+class View(Sequence[Result[Any, Any]]):
+    """Some of the results, by where their values begin; made only for whoever looks at them."""
 
-    __slots__ = ("_count", "_values")
+    __slots__ = ("_starts", "_values")
 
-    def __init__(self, values: list[Any]) -> None:
-        self._values, self._count = values, len(values) // _WIDTH
+    def __init__(self, values: list[Any], starts: Sequence[int]) -> None:
+        self._values, self._starts = values, starts
 
     def __len__(self) -> int:
-        return self._count
+        return len(self._starts)
 
     @overload
     def __getitem__(self, index: int) -> Result[Any, Any]: ...
     @overload
     def __getitem__(self, index: slice) -> Sequence[Result[Any, Any]]: ...
     def __getitem__(self, index: int | slice) -> Result[Any, Any] | Sequence[Result[Any, Any]]:
-        places = range(self._count)[index]  # an IndexError is its own
-        if isinstance(places, range):
-            return tuple(self._at(place) for place in places)
-        return self._at(places)
+        if isinstance(index, slice):
+            return tuple(map(self._at, self._starts[index]))
+        return self._at(self._starts[index])  # an IndexError is its own
 
     def __iter__(self) -> Iterator[Result[Any, Any]]:
-        return map(self._at, range(self._count))
+        return map(self._at, self._starts)
 
-    def _at(self, place: int) -> Result[Any, Any]:
-        return Result(*self._values[_WIDTH * place : _WIDTH * (place + 1)])
+    def __repr__(self) -> str:
+        return repr(tuple(self))
+
+    def _at(self, start: int) -> Result[Any, Any]:
+        return Result(*self._values[start : start + _WIDTH])
 
 
 class Results(NamedTuple, Generic[M, T]):
     """What an evaluator gets to judge."""
 
-    new: tuple[Result[M, T], ...]
+    new: Sequence[Result[M, T]]
     """The mission's results since its evaluator was last asked."""
     all: Sequence[Result[M, T]]
     """Every result of the app, of all missions."""
@@ -74,12 +76,10 @@ class ResultStore:
         self.new: defaultdict[Mission[Any], list[int]] = defaultdict(list)
         """Where the values begin that each mission has brought since its evaluator was asked."""
 
-    def so_far(self) -> SoFar:
+    def so_far(self) -> View:
         """Return every result there is by now."""
-        return SoFar(self.values)
+        return View(self.values, range(0, len(self.values), _WIDTH))
 
     def for_evaluator(self, mission: Mission[Any]) -> Results[Any, Any]:
         """Return what a mission's evaluator gets now."""
-        values = self.values
-        new = (Result(*values[start : start + _WIDTH]) for start in self.new.pop(mission, ()))
-        return Results(tuple(new), self.so_far())
+        return Results(View(self.values, self.new.pop(mission, ())), self.so_far())

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..errors import BadInput
-from .as_json import dumped
+from ..journal_line import line
 
 if TYPE_CHECKING:
     from ..trace import Event
@@ -53,7 +53,7 @@ class _Trace:
     def write(self, event: Event) -> None:
         """Write an event as one line."""
         try:
-            self._file.write(dumped(event) + "\n")
+            self._file.write(line(event) + "\n")
         except OSError as error:
             raise self._failed(error) from None
 

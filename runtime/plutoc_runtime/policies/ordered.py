@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 Rank = Any
 """What drones are compared by: of a lower rank is first; no two have the same."""
 
+
 class Ordered:
     """A pool that gives each trip the first able drone by rank."""
 

@@ -1,0 +1,41 @@
+"""An event as one line of JSON: what a trace, or a journal, keeps of it."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from json.encoder import encode_basestring_ascii
+from math import isfinite
+from typing import TYPE_CHECKING, Any
+
+from .cli.as_json import dumped
+
+if TYPE_CHECKING:
+    from .trace import Event
+
+
+def line(event: Event) -> str:
+    """Return an event as a line of JSON, without the end of the line; numbers have three decimals.
+
+    There is one for each transition, so each kind of event has a template, made once.
+    """
+    kind = event["event"], len(event)
+    template = _TEMPLATES.get(kind)
+    if template is None:
+        facts = [json.dumps(key).replace("%", "%%") + ": %s" for key in event]
+        template = _TEMPLATES[kind] = "{" + ", ".join(facts) + "}"
+    return template % tuple([_WRITE.get(type(fact), dumped)(fact) for fact in event.values()])
+
+
+def _number(value: float) -> str:
+    return repr(round(value, 3) + 0.0) if isfinite(value) else "null"  # + 0.0: never -0.0
+
+
+_TEMPLATES: dict[tuple[object, int], str] = {}
+
+_WRITE: dict[type, Callable[[Any], str]] = {
+    str: encode_basestring_ascii,
+    int: repr,
+    float: _number,
+    type(None): lambda _: "null",
+}
