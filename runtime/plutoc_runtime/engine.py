@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from .blame import blame, blamed
 from .errors import HookFault, MissionFailed
 from .flight import abort
-from .kernel import Cancelled, Kind, Task, mission_key
+from .kernel import Cancelled, Task, mission_key
 from .run import Run
 from .signals import Signal
 from .state import State
@@ -51,9 +51,10 @@ class Engine:
 
     def _doomed(self, state: State) -> None:
         """End a doomed mission, once whoever found out has finished its turn."""
-        kernel = self._core.kernel
-        if state.task is not None:
-            kernel.at(kernel.now, Kind.READY, mission_key(state.mission.index), state.task.cancel)
+        mission = state.mission
+        self._core.kernel.spawn(
+            _call_off(state), mission_key(mission.index), f"{mission.name} is doomed"
+        )
 
     def _ended(self, task: Task[Status]) -> None:
         """A mission's coroutine is over: see how it ended."""
@@ -94,3 +95,9 @@ class Engine:
         self._core.transitions.end(mission, status, reason)
         if not self._living:
             self.done.set(None)
+
+
+async def _call_off(state: State) -> None:
+    """Take its turn among the coroutines of this instant: before whoever is woken later."""
+    if state.task is not None:
+        state.task.cancel()
