@@ -21,7 +21,9 @@ async def watch_timer(
     return await watch(run, timer_limit(run, default=default, safe_time=safe_time))
 
 
-def timer_limit(run: Run[Any], *, default: float | None = None, safe_time: float | None) -> Limit | None:
+def timer_limit(
+    run: Run[Any], *, default: float | None = None, safe_time: float | None
+) -> Limit | None:
     """Return the limit of the trip in flight, from its start on; None: it has none."""
     flight, safe = run.state.flight, default if safe_time is None else safe_time
     if flight is None or not safe:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 import re
-from random import Random
 
 import pytest
 from hypothesis import given
@@ -17,7 +16,7 @@ from plutoc_runtime.kernel import FLEET
 from plutoc_runtime.model import Item, Point
 from plutoc_runtime.realtime import RealTime
 from plutoc_runtime.simulation.drones import SimulatedNavigation
-from plutoc_runtime.simulation.faults import Drawn, Faults, draw
+from plutoc_runtime.simulation.faults import Faults, draw
 from plutoc_runtime.virtual import VirtualTime
 from tests.runtime.simulation.flights import CLIMB, HOME, SCOUT, failure, fly, order, team
 
@@ -315,31 +314,6 @@ def test_a_cancelled_recovery_can_be_asked_for_again() -> None:
     assert navigation.telemetry("cf1").location == pytest.approx((2.5, 3, 1.2))
     assert fly(kernel, navigation.recover("cf1"))
     assert navigation.telemetry("cf1").location == HOME
-
-
-def test_faults_fire_as_often_as_they_should() -> None:
-    """Of many flights the asked share goes wrong, at moments all over the flight."""
-    faults = Faults(crash=0.3, link=0.1, action=0.2, battery=0.05)
-    drawn = [draw(faults, 1, order(f"m/t/0/{i}", seconds=100)) for i in range(5000)]
-    crashes = [each.crash for each in drawn if each.crash is not None]
-    assert len(crashes) == pytest.approx(1500, rel=0.1)
-    assert sum(each.link is not None for each in drawn) == pytest.approx(500, rel=0.15)
-    assert sum(each.battery is not None for each in drawn) == pytest.approx(250, rel=0.25)
-    assert sum(each.action for each in drawn) == pytest.approx(1000, rel=0.1)
-    assert min(crashes) < 2
-    assert 98 < max(crashes) <= 100
-    assert sum(crashes) / len(crashes) == pytest.approx(50, rel=0.05)
-
-
-def test_what_goes_wrong_depends_on_the_flight_alone() -> None:
-    """Another probability, or another flight before, changes nothing; another seed does."""
-    alone = draw(Faults(link=0.5), 3, order())
-    assert draw(Faults(link=0.5, crash=1, battery=1), 3, order()).link == alone.link
-    Random(3).random()
-    assert draw(Faults(link=0.5), 3, order()) == alone
-    assert draw(Faults(crash=1), 3, order()) != draw(Faults(crash=1), 4, order())
-    assert draw(Faults(crash=1, link=1, action=1, battery=1), 3, None) == Drawn()
-    assert draw(Faults(), 3, order()) == Drawn()
 
 
 def test_the_same_seed_flies_the_same() -> None:
