@@ -24,18 +24,32 @@ def line(event: Event) -> str:
     if template is None:
         facts = [json.dumps(key).replace("%", "%%") + ": %s" for key in event]
         template = _TEMPLATES[kind] = "{" + ", ".join(facts) + "}"
-    return template % tuple([_WRITE.get(type(fact), dumped)(fact) for fact in event.values()])
+    return template % tuple([_WRITE[type(fact)](fact) for fact in event.values()])
+
+
+class _Writers(dict[type, Callable[[Any], str]]):
+    """How a fact of each type is written; what is not here is left to `dumped`."""
+
+    def __missing__(self, _: type) -> Callable[[Any], str]:
+        return dumped
 
 
 def _number(value: float) -> str:
     return repr(round(value, 3) + 0.0) if isfinite(value) else "null"  # + 0.0: never -0.0
 
 
+def _list(values: list[Any]) -> str:
+    return "[" + ", ".join([_WRITE[type(value)](value) for value in values]) + "]"
+
+
 _TEMPLATES: dict[tuple[object, int], str] = {}
 
-_WRITE: dict[type, Callable[[Any], str]] = {
-    str: encode_basestring_ascii,
-    int: repr,
-    float: _number,
-    type(None): lambda _: "null",
-}
+_WRITE = _Writers(
+    {
+        str: encode_basestring_ascii,
+        int: repr,
+        float: _number,
+        list: _list,
+        type(None): lambda _: "null",
+    }
+)

@@ -65,6 +65,8 @@ def printable(text: str) -> str:
 
 def shown(value: object) -> str:
     """Write any value so that it is the same text in every run."""
+    if value is None or isinstance(value, (bool, int, float)):
+        return repr(value)
     return _ADDRESS.sub("", _EVERYTHING.repr(value))
 
 
