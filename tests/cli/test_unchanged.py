@@ -4,7 +4,11 @@ from __future__ import annotations
 
 import os
 import shutil
+import sys
 from collections.abc import Callable
+from importlib.abc import MetaPathFinder
+from importlib.machinery import ModuleSpec
+from importlib.util import spec_from_file_location
 from pathlib import Path
 
 import pytest
@@ -26,6 +30,20 @@ from plutoc.block import ANY_SAME, Block
 from field_step import chime
 BLOCKS = [Block(name="Chime", doc="Chimes.", step=chime, transitions=ANY_SAME)]
 """
+
+
+class Editable(MetaPathFinder):
+    """Finds a package that is in no folder on Python's path, as an editable install may do."""
+
+    def __init__(self, package: Path) -> None:
+        self.package = package
+
+    def find_spec(
+        self, fullname: str, path: object = None, target: object = None
+    ) -> ModuleSpec | None:
+        """Return where the package is, if it is this one that is asked for."""
+        init = self.package / "__init__.py"
+        return spec_from_file_location(fullname, init) if fullname == self.package.name else None
 
 
 @pytest.fixture
@@ -251,6 +269,29 @@ def test_other_peoples_blocks_count(
     (installed / "another-1.dist-info").mkdir()
     os.utime(installed, (1, 1))
     assert again(plutoc, runs, app)[1]
+
+
+def test_blocks_that_somebody_works_on_count(
+    plutoc: Call,
+    app: Path,
+    runs: list[str],
+    installed: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Of an editable install, which some tools make by a finder of their own, each edit is noticed."""
+    package = tmp_path / "checkout/field_kit"
+    package.mkdir(parents=True)
+    (package / "__init__.py").write_text(BLOCK.replace("field_step", ".step"))
+    step = package / "step.py"
+    step.write_text("def chime(run, status):\n    return status\n")
+    app.write_text(FIELD_APP)
+    monkeypatch.setattr("sys.meta_path", [*sys.meta_path, Editable(package)])
+    assert plutoc("compile", app).code == 0
+    assert not again(plutoc, runs, app)[1]
+    step.write_text("def chime(run, status):\n    return status  # the same\n")
+    modules.load.cache_clear()
+    assert "_runtime/blocks/field_kit/step.py" in again(plutoc, runs, app)[0].out
 
 
 @pytest.mark.parametrize(
