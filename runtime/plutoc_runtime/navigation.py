@@ -71,7 +71,8 @@ class Navigation(Protocol):
         """Take off, fly to the job's stops and do its action.
 
         `report` is told once, and never from within this call, what the action gave or the
-        `FlightFailed` that ended it; with no action to do, None on arrival.
+        `FlightFailed` that ended it; with no action to do, None on arrival. It must be told within
+        the kernel: from one of its events or coroutines, or by `kernel.post(report, result)`.
         """
         ...
 
