@@ -207,6 +207,8 @@ class Mission(Generic[AnyTrip]):
     """How many flights it has had, good and bad."""
     index: int = 0
     """Its place in the missions file."""
+    last_result: int | None = field(default=None, init=False, repr=False)
+    """Where the store of results has its newest one that its evaluator has not seen."""
 
     @property
     def current(self) -> AnyTrip:

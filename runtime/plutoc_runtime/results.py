@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from typing import Any, Generic, NamedTuple, TypeVar, overload
 
@@ -23,6 +22,8 @@ class Result(NamedTuple, Generic[M, T]):
 
 
 _WIDTH = len(Result._fields)
+_STEP = _WIDTH + 1
+"""Behind the values of a result stands where the mission's result before it begins."""
 
 
 class View(Sequence[Result[Any, Any]]):
@@ -68,18 +69,21 @@ class ResultStore:
     """Where results are kept.
 
     Most are never looked at again, and there may be millions: so they are kept as the plain values
-    of their fields, one result behind the other, and made into results for whoever looks.
+    of their fields, one result behind the other, and made into results for whoever looks. Those of
+    one mission are a chain that `mission.last_result` begins.
     """
 
     def __init__(self) -> None:
         self.values: list[Any] = []
-        self.new: defaultdict[Mission[Any], list[int]] = defaultdict(list)
-        """Where the values begin that each mission has brought since its evaluator was asked."""
 
     def so_far(self) -> View:
         """Return every result there is by now."""
-        return View(self.values, range(0, len(self.values), _WIDTH))
+        return View(self.values, range(0, len(self.values), _STEP))
 
     def for_evaluator(self, mission: Mission[Any]) -> Results[Any, Any]:
         """Return what a mission's evaluator gets now."""
-        return Results(View(self.values, self.new.pop(mission, ())), self.so_far())
+        new: list[int] = []
+        while mission.last_result is not None:
+            new.append(mission.last_result)
+            mission.last_result = self.values[mission.last_result + _WIDTH]
+        return Results(View(self.values, new[::-1]), self.so_far())

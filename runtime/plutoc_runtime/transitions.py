@@ -60,12 +60,13 @@ class Transitions:
     def complete(self, mission: Mission[Any], trip: Trip, value: object) -> None:
         """A trip has ended well."""
         trip.status, trip.end_time = _COMPLETED, self._kernel.now
-        trips, results = mission.trips, self._results
+        trips, results = mission.trips, self._results.values
         trips.remove(trip)
         mission.completed_trips.append(trip)
         mission.status = STANDBY if trips else COMPLETED
-        results.new[mission].append(len(results.values))
-        results.values += (mission, trip, mission.round, trip.attempt, value)
+        start = len(results)
+        results += (mission, trip, mission.round, trip.attempt, value, mission.last_result)
+        mission.last_result = start
         if self._trace.live:
             self._ended(mission, trip, "trip.completed", {"value": shown(value)})
 

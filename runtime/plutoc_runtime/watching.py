@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 Limit = tuple[float, float, Callable[["Trip", float], str]]
 """From when on, how long a trip may take, and what is said, of trip and time, if it takes longer."""
 
-Guard = tuple["Flight", "Task[Any] | None", Key, Limit]
+Guard = tuple["Flight", "Task[Any] | None", Key, float, float, Callable[["Trip", float], str]]
 """What is watched, for whom, its place among simultaneous events, and the limit."""
 
 
@@ -38,7 +38,7 @@ def watch(run: Run[Any], *limits: Limit | None) -> Flight:
     for limit in limits:
         key += 1
         if limit is not None:
-            run.core.deadlines.watch((flight, run.task, key, limit))
+            run.core.deadlines.watch((flight, run.task, key, *limit))
     return flight
 
 
@@ -57,8 +57,8 @@ class Deadlines:
 
     def watch(self, guard: Guard) -> None:
         """Fail the flight at its limit, unless it is over by then, or whoever asked for it."""
-        since, span, _ = guard[3]
-        if since != self._kernel.now:  # it began before: it may expire before those that wait
+        span = guard[4]
+        if guard[3] != self._kernel.now:  # it began before: it may expire before those that wait
             self._schedule(guard)
             return
         queue = self._queues.get(span)
@@ -71,17 +71,17 @@ class Deadlines:
         queue.append(guard)
 
     def _schedule(self, guard: Guard) -> None:
-        _, _, key, (since, span, _) = guard
-        self._kernel.schedule(since + span, Kind.TIMER, key, partial(_expire, guard))
+        until = guard[3] + guard[4]
+        self._kernel.schedule(until, Kind.TIMER, guard[2], partial(_expire, guard))
 
     def _arm(self, span: float) -> None:
-        until = self._queues[span][0][3][0] + span
+        until = self._queues[span][0][3] + span
         self._kernel.schedule(until, Kind.TIMER, -1, partial(self._due, span))
 
     def _due(self, span: float) -> None:
         """Let expire what is due, each in its own place among the events of this instant."""
         now, queue = self._kernel.now, self._queues[span]
-        while queue and (queue[0][0].is_set or queue[0][3][0] + span <= now):
+        while queue and (queue[0][0].is_set or queue[0][3] + span <= now):
             self._schedule(queue.popleft())
         if queue:
             self._arm(span)
@@ -90,6 +90,6 @@ class Deadlines:
 
 
 def _expire(guard: Guard) -> None:
-    flight, task, _, (_, span, overdue) = guard
+    flight, task, _, _, span, overdue = guard
     if not (flight.is_set or (task is not None and task.is_set)):
         abort(flight.state, overdue(flight.trip, span))
