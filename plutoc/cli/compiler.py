@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 
+from plutoc import __version__
 from plutoc.installed import digest, facts_of_package, facts_of_release
 
 OURS = ("plutoc", "plutoc_grammar", "plutoc_runtime", "plutoc_blocks")
@@ -13,8 +14,8 @@ TOOLS = ("black", "jinja2")
 
 
 def identity() -> bytes:
-    """Return the identity of this compiler, and of the Python that it runs on."""
-    facts = [sys.version, sys.executable, str(sys.flags.optimize)]
+    """Return the identity of this compiler, of the Python that it runs on, and where that looks."""
+    facts = [__version__, sys.version, sys.executable, str(sys.flags.optimize), *sys.path]
     for name in OURS:
         facts += facts_of_package(name)
     for name in TOOLS:

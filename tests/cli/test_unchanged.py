@@ -271,6 +271,16 @@ def test_other_peoples_blocks_count(
     assert again(plutoc, runs, app)[1]
 
 
+def test_another_path_of_pythons_compiles(
+    plutoc: Call, app: Path, runs: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Another release of somebody's blocks may stand there, and come first."""
+    plutoc("compile", app)
+    assert not again(plutoc, runs, app)[1]
+    monkeypatch.syspath_prepend(tmp_path / "elsewhere")
+    assert again(plutoc, runs, app)[1]
+
+
 def test_blocks_that_somebody_works_on_count(
     plutoc: Call,
     app: Path,
