@@ -137,10 +137,7 @@ class Task(Signal[T]):
             else:
                 self._throw(ForeignAwait(f"it awaited {type(waits_for).__name__}"))
             return
-        self._leave()
-        self.set(returned)
-        if self.over is not None:
-            self.over(self)
+        self._returned(returned)
 
     def _throw(self, error: BaseException) -> None:
         """Let the coroutine run on from an error."""
@@ -160,8 +157,11 @@ class Task(Signal[T]):
             self._waits_for = waits_for
             waits_for.watch(self.wake)
             return
+        self._returned(returned)
+
+    def _returned(self, value: T) -> None:
         self._leave()
-        self.set(returned)
+        self.set(value)
         if self.over is not None:
             self.over(self)
 

@@ -13,7 +13,10 @@ if TYPE_CHECKING:
     from ..model import Drone, Trip
 
 Rank = Any
-"""What drones are compared by: of a lower rank is first; no two have the same."""
+"""What drones are compared by: the lowest is first; no two that are free have the same."""
+
+_SLACK = 64
+"""Ranks of drones that are gone are dropped when there are so many, and as many as others."""
 
 
 class Ordered:
@@ -21,45 +24,48 @@ class Ordered:
 
     def __init__(self, rank: Callable[[Drone], Rank], why: Callable[[int, Rank], str]) -> None:
         self._rank, self._why = rank, why
-        self._heap: list[tuple[Rank, Drone]] = []
-        self._free: dict[Drone, Rank] = {}
-        self._most = 64
+        self._ranks: list[Rank] = []
+        """A heap; what is in it of drones that are gone is dropped when it comes up."""
+        self._free: dict[Rank, Drone] = {}
+        self._most = _SLACK
 
     def add(self, drone: Drone) -> None:
         """A drone is free."""
-        self._free[drone] = rank = self._rank(drone)
-        heappush(self._heap, (rank, drone))
-        if len(self._heap) > self._most:
+        rank = self._rank(drone)
+        self._free[rank] = drone
+        heappush(self._ranks, rank)
+        if len(self._ranks) > self._most:
             self._tidy()
 
     def remove(self, drone: Drone) -> None:
-        """A drone is not free any more; its entry is dropped when it comes up."""
-        self._free.pop(drone, None)
-        heap = self._heap
-        if heap and heap[0][1] is drone:
-            heappop(heap)
+        """A drone is not free any more."""
+        rank, ranks = self._rank(drone), self._ranks
+        self._free.pop(rank, None)
+        if ranks and ranks[0] == rank:
+            heappop(ranks)
 
     def choose(self, trip: Trip, able: Able) -> Choice | None:
         """Return the first drone that is able."""
-        heap, free = self._heap, self._free
-        while heap:
-            rank, drone = heap[0]
-            if free.get(drone) is rank:
-                if able(drone):
-                    return drone, partial(self._why, len(free), rank)
+        ranks, free = self._ranks, self._free
+        while ranks:
+            rank = ranks[0]
+            drone = free.get(rank)
+            if drone is None:
+                heappop(ranks)
+            elif able(drone):
+                return drone, partial(self._why, len(free), rank)
+            else:
                 return self._next(able)
-            heappop(heap)  # it has been given away since
         return None
 
     def _next(self, able: Able) -> Choice | None:
         """Return the first able drone behind one that is not."""
-        for drone, rank in sorted(self._free.items(), key=lambda pair: pair[1]):
-            if able(drone):
-                return drone, partial(self._why, len(self._free), rank)
+        for rank in sorted(self._free):
+            if able(self._free[rank]):
+                return self._free[rank], partial(self._why, len(self._free), rank)
         return None
 
     def _tidy(self) -> None:
-        """Drop the entries of drones that are gone."""
-        self._heap = [(rank, drone) for drone, rank in self._free.items()]
-        heapify(self._heap)
-        self._most = 64 + 2 * len(self._heap)
+        self._ranks = list(self._free)
+        heapify(self._ranks)
+        self._most = 2 * len(self._ranks) + _SLACK
