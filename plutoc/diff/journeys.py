@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 
 from plutoc.diff.both import Both, Side
 from plutoc.diff.model import Change
@@ -96,10 +96,26 @@ def gained(both: Both) -> Iterator[Change]:
 
 
 def places(side: Side, node: Node, statuses: tuple[Status, ...]) -> tuple[Span, ...]:
-    """Return the arrows by which missions leave; where there are none, the block."""
-    edges = side.graph.outgoing[node.name]
-    carrying = [e.span for e in edges if not side.checked.carries[e].isdisjoint(statuses)]
-    return tuple(carrying) or (node.name_span,)
+    """Return the arrows by which missions leave, past the gates; where there are none, the block."""
+    own = {f.gate for f in side.checked.forks if f.node == node.name and f.status in statuses}
+    return tuple(dict.fromkeys(_arrows(side, node, frozenset(statuses), own)))
+
+
+def _arrows(
+    side: Side, node: Node, statuses: frozenset[Status], passed: Collection[str]
+) -> Iterator[Span]:
+    carries, none = side.checked.carries, True
+    for edge in side.graph.outgoing[node.name]:
+        carried = carries[edge] & statuses
+        if not carried:
+            continue
+        none, target = False, side.graph.node.get(edge.target)
+        if target is None or target.block.gate is None or target.name in passed:
+            yield edge.span
+        else:
+            yield from _arrows(side, target, carried, {*passed, target.name})
+    if none:
+        yield node.name_span
 
 
 def _each(both: Both) -> Iterator[Reroute]:
@@ -132,7 +148,7 @@ def _steps_between(both: Both, one: Reroute) -> tuple[tuple[str, ...], tuple[str
     removed = _steps(both.old, one.before, status, both.new.known(one.after))
     if not (added or removed) and _retries(both.old, one.before):
         # whatever comes instead, that is what matters
-        removed = () if _retries(both.new, one.after) else one.before
+        removed = () if _flown_again(both.new, one) else one.before
     if added and removed:  # one block or two have moved, and all between them has not
         return (added, ()) if len(added) <= len(removed) else ((), removed)
     return added, removed
@@ -142,6 +158,13 @@ def _retries(side: Side, names: tuple[str, ...]) -> bool:
     """Say whether missions come to a block that puts their failed trips back, and nowhere else."""
     node = side.graph.node.get(names[0]) if len(names) == 1 else None
     return node is not None and node.block.retries
+
+
+def _flown_again(side: Side, one: Reroute) -> bool:
+    """Say whether failed trips are put back now, by a block of its own or by one that allocates."""
+    nodes = [side.graph.node.get(name) for name in one.after]
+    allocates = any(n is not None and role(n) is Role.ALLOCATES for n in nodes)
+    return _retries(side, one.after) or (allocates and one.statuses == (Status.FAILED,))
 
 
 def _steps(
