@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from . import Context, Drone, Mission, Photo, Result, Results, Trip, Verdict
 
@@ -54,7 +54,7 @@ def wanted(mission: Mission) -> str:
     return mission.name.partition(":")[0].strip()
 
 
-def photos_of(results: tuple[Result, ...]) -> Iterator[tuple[Result, Photo]]:
+def photos_of(results: Sequence[Result]) -> Iterator[tuple[Result, Photo]]:
     """Yield the results that are photos."""
     for result in results:
         if isinstance(result.value, Photo):

@@ -10,7 +10,14 @@ from hypothesis import strategies as st
 from plutoc_runtime.cli.as_json import dumped
 from plutoc_runtime.journal_line import line
 
-FACTS = st.none() | st.booleans() | st.integers() | st.floats() | st.text() | st.lists(st.text() | st.floats())
+FACTS = (
+    st.none()
+    | st.booleans()
+    | st.integers()
+    | st.floats()
+    | st.text()
+    | st.lists(st.text() | st.floats())
+)
 
 
 @given(
