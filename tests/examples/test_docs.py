@@ -145,12 +145,8 @@ def test_reference_lists_what_trips_missions_and_drones_offer() -> None:
     from plutoc_runtime.model import Drone, Mission, Trip
 
     text = (DOCS / "tutorial/hooks.md").read_text("utf-8")
-    inner = {
-        "index",
-        "last_result",
-        "now",
-        "telemetry",
-    }  # what the runtime needs of them, and hooks do not
+    # what the runtime needs of them, and hooks do not
+    inner = {"index", "last_result", "now", "telemetry"}
     for kind in (Mission, Trip, Drone):
         names = {name for name in dir(kind) if not name.startswith("_")} - inner
         missing = sorted(name for name in names if not re.search(rf"`{name}[`(]", text))
