@@ -27,6 +27,7 @@ from pathlib import Path
 from random import Random
 from typing import TYPE_CHECKING, Any
 
+from measuring.options import at_least_one
 from plutoc_runtime.model import Category, Drone, Point, Trip
 from plutoc_runtime.policies.batch_optimal import batch_optimal
 from plutoc_runtime.policies.first import first
@@ -264,17 +265,17 @@ def measure(given: argparse.Namespace, say: Callable[[str], None]) -> dict[str, 
 def size(text: str) -> tuple[int, int]:
     """Read `TRIPSxDRONES`."""
     waiting, _, free = text.partition("x")
-    return int(waiting), int(free)
+    return at_least_one(waiting), at_least_one(free)
 
 
 def main() -> None:
     """Print tables, or JSON."""
     parser = argparse.ArgumentParser(description="What it costs to choose drones.")
-    parser.add_argument("--rounds", type=int, default=7)
-    parser.add_argument("--fleets", type=int, nargs="*", default=FLEETS, metavar="DRONES")
+    parser.add_argument("--rounds", type=at_least_one, default=7, help="each measures all once")
+    parser.add_argument("--fleets", type=at_least_one, nargs="*", default=FLEETS, metavar="DRONES")
     parser.add_argument("--shares", type=size, nargs="*", default=SHARES, metavar="TRIPSxDRONES")
-    parser.add_argument("--plans", type=int, nargs="*", default=PLANS, metavar="MISSIONS")
-    parser.add_argument("--json", action="store_true")
+    parser.add_argument("--plans", type=at_least_one, nargs="*", default=PLANS, metavar="MISSIONS")
+    parser.add_argument("--json", action="store_true", help="print one object instead of tables")
     given = parser.parse_args()
     told = measure(given, (lambda line: None) if given.json else partial(print, flush=True))
     if given.json:

@@ -17,6 +17,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from statistics import median
 
+from measuring.options import at_least_one
+
 COSTLY = ("lark", "argparse", "importlib.metadata", "networkx", "jinja2", "black", "asyncio")
 
 SOUND = """\
@@ -114,7 +116,9 @@ def imported(arguments: list[str]) -> list[str]:
 def main() -> None:
     """Print a table."""
     parser = argparse.ArgumentParser(description="How long one waits for plutoc.")
-    parser.add_argument("--rounds", type=int, default=20)
+    parser.add_argument(
+        "--rounds", type=at_least_one, default=20, help="each runs every command once"
+    )
     rounds = parser.parse_args().rounds
     with tempfile.TemporaryDirectory() as folder:
         asked = commands(Path(folder))

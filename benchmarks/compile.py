@@ -32,6 +32,7 @@ from statistics import median
 
 from cold_start import SOUND, program
 from large_apps import SHAPES, write_app
+from measuring.options import at_least_one
 
 FORGETFUL = ("cold_black", "black_asked")
 EMPTY = "python -c pass"
@@ -146,9 +147,9 @@ def results(bench: Bench, sizes: tuple[int, int]) -> dict[str, object]:
 def main() -> None:
     """Measure, and print."""
     parser = argparse.ArgumentParser(description="How long one waits for plutoc compile.")
-    parser.add_argument("--rounds", type=int, default=15, help="of ten blocks")
-    parser.add_argument("--large-rounds", type=int, default=3, help="of the large apps")
-    parser.add_argument("--sizes", type=int, nargs=2, default=(1_000, 10_000), metavar="N")
+    parser.add_argument("--rounds", type=at_least_one, default=15, help="of ten blocks")
+    parser.add_argument("--large-rounds", type=at_least_one, default=3, help="of the large apps")
+    parser.add_argument("--sizes", type=at_least_one, nargs=2, default=(1_000, 10_000), metavar="N")
     parser.add_argument("--json", action="store_true", help="print one object instead of a table")
     given = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:

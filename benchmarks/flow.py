@@ -18,6 +18,7 @@ from functools import partial
 from pathlib import Path
 
 from measuring.cases import FULL, SMALL, cases
+from measuring.options import at_least_one
 from measuring.package import compiled
 from measuring.page import picture
 from measuring.rounds import asked, installed, run
@@ -32,13 +33,19 @@ def tell(text: str) -> None:
 def main() -> None:
     """Measure, and print."""
     parser = argparse.ArgumentParser(description="Our generated code beside hand-written code.")
-    parser.add_argument("--rounds", type=int, default=7, help="each runs every contender once")
+    parser.add_argument(
+        "--rounds", type=at_least_one, default=7, help="each runs every contender once"
+    )
     parser.add_argument("--json", action="store_true", help="print one object instead of a table")
     parser.add_argument("--write", type=Path, metavar="DIR", help="results.json and results.svg")
-    parser.add_argument("--only", nargs="*", metavar="CASE", help="measure these cases only")
+    parser.add_argument("--only", nargs="+", metavar="CASE", help="measure these cases only")
     parser.add_argument("--small", action="store_true", help="only see that everything works")
     given = parser.parse_args()
     size = SMALL if given.small else FULL
+    names = [case.name for case in cases(size, "", "")]
+    for name in given.only or ():
+        if name not in names:
+            parser.error(f"argument --only: there is no case {name}, only {', '.join(names)}")
     with tempfile.TemporaryDirectory() as folder:
         ours = compiled(Path(folder) / "ours")
         plain = compiled(Path(folder) / "plain", "-O0")

@@ -100,6 +100,8 @@ def main() -> int:
     parser = argparse.ArgumentParser(description="How many instructions a trip costs.")
     parser.add_argument("--update", action="store_true", help="write what is counted")
     update, reason = parser.parse_args().update, why_not()
+    if update and shutil.which("valgrind") is None:
+        parser.error(f"nothing can be counted: {reason}")
     if reason is not None and not update:
         print(f"nothing is compared: {reason}")
         return 0

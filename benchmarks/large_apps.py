@@ -16,6 +16,8 @@ from collections.abc import Callable, Iterator
 from itertools import pairwise
 from pathlib import Path
 
+from measuring.options import at_least_one
+
 HEAD = """\
   create = MissionCreator
   allocate = DroneAllocator
@@ -101,8 +103,10 @@ def seconds(command: list[str]) -> float:
 def main() -> None:
     """Print a table."""
     parser = argparse.ArgumentParser(description="How the compiler's time grows with an app.")
-    parser.add_argument("--sizes", type=int, nargs=2, default=(1_000, 10_000), metavar="N")
-    parser.add_argument("--rounds", type=int, default=3, help="each time is the least of so many")
+    parser.add_argument("--sizes", type=at_least_one, nargs=2, default=(1_000, 10_000), metavar="N")
+    parser.add_argument(
+        "--rounds", type=at_least_one, default=3, help="each time is the least of so many"
+    )
     arguments = parser.parse_args()
     print(f"{'shape':8}" + "".join(f"{n:>12,}" for n in arguments.sizes) + "   ratio")
     with tempfile.TemporaryDirectory() as folder:

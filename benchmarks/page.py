@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import json
+from argparse import ArgumentParser
 from pathlib import Path
 
 from measuring.page import picture, rewritten
@@ -15,6 +16,8 @@ DOCS = Path(__file__).parents[1] / "docs"
 
 def main() -> None:
     """Read what was measured, and write what is shown of it."""
+    parser = ArgumentParser(description="Put into the documentation what flow.py has measured.")
+    parser.parse_args()
     results = json.loads((DOCS / "benchmarks" / "results.json").read_text())
     (DOCS / "benchmarks" / "results.svg").write_text(picture(results))
     page = DOCS / "benchmarks.md"

@@ -13,6 +13,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from argparse import ArgumentParser
 from pathlib import Path
 
 SOURCE = """\
@@ -64,6 +65,8 @@ def threads(process: int) -> int:
 
 def main() -> int:
     """Compile, fly, measure, print."""
+    parser = ArgumentParser(description="The thesis's own experiment, flown in real time.")
+    parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         home = Path(folder)
         (home / "experiment.pluto").write_text(SOURCE)

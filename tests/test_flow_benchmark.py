@@ -53,6 +53,34 @@ def script(*arguments: str) -> subprocess.CompletedProcess[str]:
     )
 
 
+SCRIPTS = sorted(path.name for path in (ROOT / "benchmarks").glob("*.py"))
+
+
+@pytest.mark.parametrize("name", SCRIPTS)
+def test_every_script_says_what_it_is_for_and_does_nothing_else(name: str) -> None:
+    """And refuses what it does not know."""
+    asked, wrong = script(name, "--help"), script(name, "--no-such-thing")
+    assert (asked.returncode, asked.stderr) == (0, "")
+    assert "show this help message" in asked.stdout
+    assert (wrong.returncode, wrong.stdout) == (2, "")
+
+
+@pytest.mark.parametrize(
+    ("name", "arguments", "told"),
+    [
+        ("flow.py", ["--rounds", "0"], "argument --rounds: 0 is less than 1"),
+        ("flow.py", ["--only", "ours_fre"], "there is no case ours_fre, only ideal_contended,"),
+        ("compile.py", ["--sizes", "0", "10"], "argument --sizes: 0 is less than 1"),
+        ("allocation.py", ["--shares", "10x0"], "argument --shares: 0 is less than 1"),
+    ],
+)
+def test_what_cannot_be_measured_is_refused(name: str, arguments: list[str], told: str) -> None:
+    """At once, and not by a traceback in the end."""
+    done = script(name, *arguments)
+    assert done.returncode == 2
+    assert told in done.stderr
+
+
 def said(flights: int, *cpu: float) -> Said:
     """Return what a contender might print."""
     return Said(
