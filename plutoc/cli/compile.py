@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import time
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -39,7 +40,7 @@ class _Said:
 
 def compile_(options: Options) -> int:
     """Write an app's package, or say what would be written."""
-    said, code = _Said(), CLEAN
+    said, code, begun = _Said(), CLEAN, time.time_ns()
     try:
         _compile(options, said)
     except Rejected as rejected:
@@ -55,7 +56,7 @@ def compile_(options: Options) -> int:
     if said.done is not None:
         compiled, changes = said.done
         again = _again(changes) if text and not options.diff else []
-        record(options, compiled, changes, [*found, *((text, line) for line in again)])
+        record(options, begun, compiled, changes, [*found, *((text, line) for line in again)])
     return code
 
 

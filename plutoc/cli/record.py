@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import os
 import re
+import stat
 import sys
+from collections.abc import Iterable
 from pathlib import Path
 
 from plutoc.cli import unchanged
@@ -15,14 +17,19 @@ from plutoc.compile import Compiled
 from plutoc.emit.write import Changes
 from plutoc.installed import files_of
 
+_CLOCK = 50_000_000
+"""In ns: by how much the times of files may lag behind the clock."""
 _USE = re.compile(r"^\s*use\b", re.MULTILINE)
 
 
-def record(options: Options, compiled: Compiled, changes: Changes, words: unchanged.Words) -> None:
+def record(
+    options: Options, begun: int, compiled: Compiled, changes: Changes, words: unchanged.Words
+) -> None:
     """Remember a compile after which the folder is as it shall be; `words` are those of the next.
 
     What was found in a hooks.py beside the app would be told of its copy next time: this is not
-    remembered, but compiled once more.
+    remembered, but compiled once more. So is what was compiled while somebody wrote the blocks: they
+    may have been read before. `begun` is when it began, in ns of the epoch.
     """
     package, path = compiled.package, hooks_path(compiled.checked)
     own = os.fspath(changes.folder / path)
@@ -30,6 +37,9 @@ def record(options: Options, compiled: Compiled, changes: Changes, words: unchan
     if hooks is not None and compiled.warnings and hooks.path != shown(Path(own)):
         return
     source = compiled.checked.graph.source
+    others = _others(compiled) if _USE.search(source.text) else []
+    if _any_since(begun - _CLOCK, others):
+        return
     unchanged.remember(
         options.arguments,
         app=(os.fspath(options.file), source.text),
@@ -37,7 +47,7 @@ def record(options: Options, compiled: Compiled, changes: Changes, words: unchan
         folder=os.fspath(changes.folder),
         written=package.owned,
         there=package.once,
-        others=_others(compiled) if _USE.search(source.text) else (),
+        others=others,
         words=words,
     )
 
@@ -55,3 +65,15 @@ def _others(compiled: Compiled) -> list[str]:
         *(path for path in loaded if isinstance(path, str)),
         *(path for name in packages for path in files_of(name)),
     ]
+
+
+def _any_since(time: int, paths: Iterable[str]) -> bool:
+    """Say whether a file was written since; a folder may have been, by what Python keeps in it."""
+    for path in paths:
+        try:
+            facts = os.stat(path)
+        except OSError:
+            continue
+        if stat.S_ISREG(facts.st_mode) and facts.st_mtime_ns > time:
+            return True
+    return False

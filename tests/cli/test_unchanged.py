@@ -132,6 +132,12 @@ def edit(path: Path) -> None:
     assert (path.stat().st_size, path.stat().st_mtime_ns) == (facts.st_size, facts.st_mtime_ns)
 
 
+def write(path: Path, text: str, time: int = 1) -> None:
+    """Write a file of blocks, long ago."""
+    path.write_text(text)
+    os.utime(path, (time, time))
+
+
 def become_link(path: Path) -> None:
     """Put a link in place of a file or folder, to another with the same content."""
     moved = path.with_name(f"moved_{path.name}")
@@ -254,13 +260,13 @@ def test_other_peoples_blocks_count(
 ) -> None:
     """Their declarations, their steps, and what else is installed."""
     (installed / "field_kit").mkdir()
-    (installed / "field_kit/__init__.py").write_text(BLOCK.replace("field_step", ".step"))
+    write(installed / "field_kit/__init__.py", BLOCK.replace("field_step", ".step"))
     step = installed / "field_kit/step.py"
-    step.write_text("def chime(run, status):\n    return status\n")
+    write(step, "def chime(run, status):\n    return status\n")
     app.write_text(FIELD_APP)
     assert plutoc("compile", app).code == 0
     assert not again(plutoc, runs, app)[1]
-    step.write_text("def chime(run, status):\n    return status  # the same\n")
+    write(step, "def chime(run, status):\n    return status  # the same\n", time=2)
     modules.load.cache_clear()
     said, compiled = again(plutoc, runs, app)
     assert compiled
@@ -292,16 +298,33 @@ def test_blocks_that_somebody_works_on_count(
     """Of an editable install, which some tools make by a finder of their own, each edit is noticed."""
     package = tmp_path / "checkout/field_kit"
     package.mkdir(parents=True)
-    (package / "__init__.py").write_text(BLOCK.replace("field_step", ".step"))
+    write(package / "__init__.py", BLOCK.replace("field_step", ".step"))
     step = package / "step.py"
-    step.write_text("def chime(run, status):\n    return status\n")
+    write(step, "def chime(run, status):\n    return status\n")
     app.write_text(FIELD_APP)
     monkeypatch.setattr("sys.meta_path", [*sys.meta_path, Editable(package)])
     assert plutoc("compile", app).code == 0
     assert not again(plutoc, runs, app)[1]
-    step.write_text("def chime(run, status):\n    return status  # the same\n")
+    write(step, "def chime(run, status):\n    return status  # the same\n", time=2)
     modules.load.cache_clear()
     assert "_runtime/blocks/field_kit/step.py" in again(plutoc, runs, app)[0].out
+
+
+def test_blocks_that_were_written_meanwhile_are_compiled_once_more(
+    plutoc: Call, app: Path, runs: list[str], installed: Path
+) -> None:
+    """It may be the text before that was carried along."""
+    (installed / "field_kit").mkdir()
+    write(installed / "field_kit/__init__.py", BLOCK.replace("field_step", ".step"))
+    step = installed / "field_kit/step.py"
+    write(step, "def chime(run, status):\n    return status\n")
+    app.write_text(FIELD_APP)
+    os.utime(step, (9e9, 9e9))
+    plutoc("compile", app)
+    assert again(plutoc, runs, app)[1]
+    os.utime(step, (1, 1))
+    assert again(plutoc, runs, app)[1]
+    assert not again(plutoc, runs, app)[1]
 
 
 @pytest.mark.parametrize(
