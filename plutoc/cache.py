@@ -23,6 +23,8 @@ def cache_folder(shelf: str = "") -> Path | None:
         root = os.environ.get("XDG_CACHE_HOME", "")
         base = Path(root) if os.path.isabs(root) else Path.home() / ".cache"
         folder = base / "pluto"
+        if not folder.is_absolute():  # a home beside whatever is worked on is a mistake
+            return None
         return folder / shelf if _is_ours(folder) and _is_ours(folder / shelf) else None
     except (OSError, RuntimeError):  # RuntimeError: there is no home folder
         return None

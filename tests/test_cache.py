@@ -107,3 +107,15 @@ def test_of_too_much_the_oldest_is_taken_away(tmp_path: Path) -> None:
     assert sorted(os.listdir(tmp_path)) == ["0", "4"]
     tidy(tmp_path, most=25)
     assert sorted(os.listdir(tmp_path)) == ["0", "4"]
+
+
+def test_a_home_that_is_nowhere_in_particular_is_none(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Nothing is left in the folder that the user is in."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.delenv("XDG_CACHE_HOME")
+    monkeypatch.setenv("HOME", "elsewhere")
+    monkeypatch.setenv("USERPROFILE", "elsewhere")
+    assert cache_folder(SHELF) is None
+    assert not list(tmp_path.iterdir())
