@@ -29,7 +29,7 @@ def settle(
     if not emits:
         if returned is not None:
             raise HookFault(
-                f"modifier {name} declares no `emits` and so must return nothing, not {returned!r}"
+                f"modifier {name} declares no `emits` and so must return nothing, not {_shown(returned)}"
             )
         return status
     if not isinstance(returned, Status) or returned not in emits:

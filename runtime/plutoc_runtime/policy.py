@@ -98,6 +98,12 @@ class Asked:
             return None
         if drone not in candidates:
             raise HookFault(
-                f"policy {self._name} must return one of the candidates or None, not {drone!r}"
+                f"policy {self._name} must return one of the candidates or None, not {_named(drone)}"
             )
         return drone, lambda: f"chosen by {self._name}"
+
+
+def _named(answer: object) -> str:
+    """Name what a hook answered, in a word or two."""
+    name = getattr(answer, "id", None)
+    return f"drone {name}" if isinstance(name, str) else type(answer).__name__
