@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import argparse
 import asyncio
-import json
 import sys
 from collections.abc import Callable, Sequence
 from importlib import import_module
@@ -37,17 +36,17 @@ def runtime(name: str) -> Any:
 def load() -> None:
     """Import all that flies, as every contender has when its clock starts."""
     import_module("measured.flow")
-    for name in ("airspace", "errors", "files.fleet", "kernel", "realtime", "session", "virtual"):
+    for name in (
+        "airspace",
+        "errors",
+        "files.fleet",
+        "journal_line",
+        "kernel",
+        "realtime",
+        "session",
+        "virtual",
+    ):
         runtime(name)
-
-
-def formatter() -> Callable[[Event], str]:
-    """Return what makes a line of an event: the runtime's own, if it has one."""
-    try:
-        line: Callable[[Event], str] = runtime("journal_line").line
-    except ModuleNotFoundError:
-        return json.JSONEncoder(separators=(",", ":"), check_circular=False).encode
-    return line
 
 
 class Journal:
@@ -55,7 +54,7 @@ class Journal:
 
     def __init__(self) -> None:
         self.lines: list[str] = []
-        self._line = formatter()
+        self._line: Callable[[Event], str] = runtime("journal_line").line
 
     def note(self, event: Event) -> None:
         """Format an event."""

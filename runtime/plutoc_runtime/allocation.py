@@ -205,15 +205,7 @@ class Queue:
                 continue
             if batches and request.pool in batches:
                 passed += self._share_among(self._alike(entry))
-                continue
-            try:
-                choice = request.pool.choose(request.trip, request.able)
-            except HookFault as fault:
-                self._refuse(request, fault)
-                continue
-            if choice is not None:
-                self._give(request, choice)
-            else:
+            elif not self._chosen(request):
                 passed.append(entry)
                 if len(passed) == _IN_VAIN and not batches:
                     break
