@@ -33,3 +33,5 @@ class App:
     """Every action there is, ours before the app's own."""
     evaluators: Mapping[str, Callable[..., Any]] = field(default_factory=dict)
     """The app's evaluators, by name."""
+    resumes: tuple[str, ...] = ()
+    """The blocks at which an interrupted mission can go on: `flow` can be entered there."""

@@ -10,7 +10,7 @@ from .errors import MissionFailed
 from .hooks import fault_of, hook_name
 from .kernel import WHATEVER, Cancelled, branch_key
 from .model import Mission
-from .status import Status
+from .status import UNEXECUTED, Status
 
 if TYPE_CHECKING:
     from .kernel import Key, Task
@@ -24,13 +24,17 @@ Way = Coroutine[Any, Any, Status]
 class Run(Generic[M]):
     """One mission, or one branch of it, and everything that a step may use."""
 
-    __slots__ = ("_depth", "core", "key", "mission", "state", "task")
+    __slots__ = ("_depth", "at", "core", "key", "mission", "state", "status", "task")
 
     def __init__(self, mission: M, state: State, key: Key, depth: int = 0) -> None:
         self.mission, self.state, self.key, self._depth = mission, state, key, depth
         self.core = state.core
         self.task: Task[Status] | None = None
         """The coroutine of this branch."""
+        self.at: str | None = None
+        """The block at which a mission that was interrupted goes on; None: it begins."""
+        self.status = UNEXECUTED
+        """How it stands when it begins, or goes on."""
 
     async def hook(self, hook: Callable[..., object], *args: object) -> object:
         """Call a hook of the app's with these arguments; its faults end the mission."""
