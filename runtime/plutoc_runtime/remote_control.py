@@ -1,0 +1,137 @@
+"""The socket through which commands reach a running app.
+
+Nothing stands between a command and what it does: a request is read, carried out within the kernel
+and answered in one go, whatever else the app waits for.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from collections.abc import AsyncIterator, Callable, Mapping
+from contextlib import asynccontextmanager, suppress
+from pathlib import Path
+from typing import TYPE_CHECKING, Protocol
+
+from .asking import LONGEST
+from .errors import BadInput
+from .private import new_address, publish, withdraw
+from .standing import Down
+
+if TYPE_CHECKING:
+    from asyncio import StreamReader, StreamWriter
+
+_AT_ONCE = 32
+"""Who may be connected at the same time."""
+
+_PATIENCE = 5.0
+"""Seconds within which a request must be there, and an answer be read."""
+
+_LAST_WORDS = 0.5
+"""Seconds for answers that are on their way when the app ends."""
+
+Answer = Callable[[Mapping[str, object]], str]
+
+
+class Control(Protocol):
+    """What can be asked of a running app; each says what it did, or raises `BadInput`."""
+
+    def stop(self, how: Down) -> str:
+        """Bring all drones down; every mission can go on later."""
+        ...
+
+    def pause(self, mission: str | None) -> str:
+        """Let a mission, or all, launch no further trip."""
+        ...
+
+    def go_on(self, mission: str | None) -> str:
+        """Let a paused or held mission, or all that are paused, go on."""
+        ...
+
+    def skip(self, mission: str, trip: str | None) -> str:
+        """Leave out a trip of a mission; None: its next one."""
+        ...
+
+    def cancel(self, mission: str | None) -> str:
+        """End a mission, or all, for good."""
+        ...
+
+    def decide(self, mission: str, done: bool) -> str:
+        """Settle whether the action that nobody knows of was done."""
+        ...
+
+
+def perform(control: Control, request: Mapping[str, object]) -> str:
+    """Do what was asked; raise `BadInput` if it makes no sense."""
+    match request:
+        case {"command": "stop", "how": ("rtl" | "land") as how}:
+            return control.stop(Down(how))
+        case {"command": "pause", "mission": str() | None as mission}:
+            return control.pause(mission)
+        case {"command": "go-on", "mission": str() | None as mission}:
+            return control.go_on(mission)
+        case {"command": "skip", "mission": str(mission), "trip": str() | None as trip}:
+            return control.skip(mission, trip)
+        case {"command": "cancel", "mission": str() | None as mission}:
+            return control.cancel(mission)
+        case {"command": "decide", "mission": str(mission), "done": bool(done)}:
+            return control.decide(mission, done)
+        case _:
+            raise BadInput("this app does not know that command")
+
+
+@asynccontextmanager
+async def listening(note: Path, answer: Answer) -> AsyncIterator[None]:
+    """Answer whoever finds the note; `answer` is called in the loop's thread, and must not wait."""
+    address = new_address(note)
+    served: set[asyncio.Task[None]] = set()
+
+    def serve(reader: StreamReader, writer: StreamWriter) -> None:
+        if len(served) >= _AT_ONCE:
+            writer.transport.abort()
+            return
+        task = asyncio.ensure_future(_serve(reader, writer, answer))
+        served.add(task)
+        task.add_done_callback(served.discard)
+
+    server = await asyncio.start_unix_server(serve, address, limit=LONGEST)
+    try:
+        publish(note, address)
+        yield
+    finally:
+        server.close()
+        withdraw(note)
+        if served:  # an answer that is on its way still arrives
+            _, idle = await asyncio.wait(list(served), timeout=_LAST_WORDS)
+            for task in idle:
+                task.cancel()
+
+
+async def _serve(reader: StreamReader, writer: StreamWriter, answer: Answer) -> None:
+    with suppress(OSError, TimeoutError):
+        async with asyncio.timeout(_PATIENCE):
+            try:
+                line = await reader.readline()
+            except ValueError:  # it is too long
+                line = b""
+            writer.write(_said(line, answer))
+            await writer.drain()
+    with suppress(OSError):
+        writer.close()
+
+
+def _said(line: bytes, answer: Answer) -> bytes:
+    try:
+        request = json.loads(line)
+    except (ValueError, RecursionError):
+        request = None
+    if not isinstance(request, dict):
+        return _reply(ok=False, said="that is not a line of JSON with an object")
+    try:
+        return _reply(ok=True, said=answer(request))
+    except BadInput as error:
+        return _reply(ok=False, said=str(error))
+
+
+def _reply(*, ok: bool, said: str) -> bytes:
+    return json.dumps({"ok": ok, "said": said}).encode() + b"\n"
