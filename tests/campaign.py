@@ -19,8 +19,8 @@ from time import perf_counter
 
 from plutoc_runtime.cli.options import faults as shares
 from plutoc_runtime.cli.report import table
+from plutoc_runtime.testing.invariants import violations
 from tests.flying import MISHAPS, NAMES, Example, built
-from tests.invariants import violations
 
 HEADER = ("example", "runs", "missions", "completed", "failed", "flights", "mishaps", "violations")
 WORDS = 1

@@ -13,7 +13,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from plutoc.cli import main
-from tests.invariants import Items, Trace
+from plutoc_runtime.testing.invariants import Items, items_of
+from plutoc_runtime.trace import Event
 
 if TYPE_CHECKING:
     from plutoc_runtime.model import Mission
@@ -34,7 +35,7 @@ class Flown:
     """What came of one run."""
 
     outcome: Outcome
-    trace: Trace
+    trace: Sequence[Event]
 
     @property
     def ends(self) -> list[tuple[str, str]]:
@@ -103,16 +104,3 @@ def built(name: str, into: Path) -> Example:
     return Example(
         name=name, package=package, missions=missions, items=items_of(missions), fleet=fleet
     )
-
-
-def items_of(missions: Sequence[Mission[Any]]) -> Items:
-    """Return which trips of a plan pick items, and which release them."""
-    items: dict[str, dict[str, str]] = {}
-    for mission in missions:
-        picked = ""
-        for trip in mission.trips:
-            if trip.action == "pick_item":
-                picked = trip.name
-            elif trip.action == "release_item":
-                items.setdefault(mission.name, {})[picked] = trip.name
-    return items

@@ -7,14 +7,14 @@ import os
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 import pytest
 
 from plutoc.cli import main
+from plutoc_runtime.trace import Event
 from tests.flying import EXAMPLES, MISHAPS, Example, built
-from tests.invariants import Event, Trace
 
 SEEDS = range(10)
 
@@ -27,7 +27,7 @@ def apps(tmp_path_factory: pytest.TempPathFactory) -> Mapping[str, Example]:
     return {name: built(name, folder) for name in (*names, "warehouse_item_finder")}
 
 
-def events(trace: Trace, kind: str, **facts: object) -> list[Event]:
+def events(trace: Sequence[Event], kind: str, **facts: object) -> list[Event]:
     """Return the events of a kind, with these facts."""
     return [e for e in trace if e["event"] == kind and facts.items() <= e.items()]
 
@@ -101,7 +101,7 @@ def test_no_gap_is_longer_than_allowed(
     assert overdue > 0, "no seed shows the monitor at work"
 
 
-def in_a_row(trace: Trace) -> Iterator[tuple[Event, Event]]:
+def in_a_row(trace: Sequence[Event]) -> Iterator[tuple[Event, Event]]:
     """Yield each two actions of a mission with no failed flight in between."""
     last: dict[object, Event] = {}
     for event in trace:

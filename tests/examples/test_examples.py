@@ -14,8 +14,8 @@ from xml.etree import ElementTree
 import pytest
 
 from plutoc.cli import main
+from plutoc_runtime.testing.invariants import violations
 from tests.flying import EXAMPLES, MISHAPS, NAMES, Example, compiled
-from tests.invariants import violations
 
 SEEDS = range(10)
 BAD_SEEDS = range(20)

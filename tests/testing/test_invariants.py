@@ -2,26 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Sequence
+from functools import partial
 
 import pytest
 
-from tests.invariants import (
-    INVARIANTS,
-    Event,
-    Trace,
-    attempts_count_up,
-    completed_missions_did_everything,
-    drones_serve_one_mission_at_a_time,
-    items_stay_aboard,
-    missions_end_once,
-    nothing_happens_after_the_end,
-    time_never_runs_backwards,
-    trips_do_not_overlap,
-    unwell_drones_stay_down,
-    violations,
+from plutoc_runtime.testing.drone_rules import ItemsStayAboard, ServesOneMission, StaysDown
+from plutoc_runtime.testing.invariants import RULES, Invariants, violations
+from plutoc_runtime.testing.mission_rules import (
+    CompletedDidEverything,
+    EndsOnce,
+    NothingAfterTheEnd,
 )
+from plutoc_runtime.testing.rule import Rule, Say
+from plutoc_runtime.testing.trip_rules import AttemptsCountUp, DelaysAreWaited, TripsDoNotOverlap
+from plutoc_runtime.trace import Event
 
+Trace = Sequence[Event]
 Change = Callable[[list[dict[str, object]]], None]
 
 ITEMS = {"ward": {"pick": "bed"}}
@@ -103,6 +100,17 @@ def hangs(trace: list[dict[str, object]]) -> None:
 def ends_twice(trace: list[dict[str, object]]) -> None:
     """The mission ends again."""
     trace.append(dict(trace[place(trace, "mission.ended")], t=99.0))
+
+
+def begins_twice(trace: list[dict[str, object]]) -> None:
+    """The mission is made once more."""
+    trace.insert(1, dict(trace[0], t=0.5))
+
+
+def is_impatient(trace: list[dict[str, object]]) -> None:
+    """A trip flies before its delay is over."""
+    delay = {"t": 0.5, "event": "trip.delayed", "mission": "ward", "trip": "pick", "until": 99.0}
+    trace.insert(1, delay)
 
 
 def ends_oddly(trace: list[dict[str, object]]) -> None:
@@ -199,49 +207,51 @@ def serves_another_with_an_item_aboard(trace: list[dict[str, object]]) -> None:
     trace.insert(place(trace, "trip.allocated", trip="bed"), event)
 
 
-def of_items(trace: Trace) -> Iterator[str]:
-    """The invariant that needs to know the items as well."""
-    return items_stay_aboard(trace, ITEMS)
+ITEMS_STAY = partial(ItemsStayAboard, ITEMS)
 
-
-PLANTED: list[tuple[Change, Callable[[Trace], Iterator[str]], str]] = [
-    (back_in_time, time_never_runs_backwards, "comes after something at 4 s"),
-    (hangs, missions_end_once, "ward ended 0 times"),
-    (ends_twice, missions_end_once, "ward ended 2 times"),
-    (ends_oddly, missions_end_once, "ward ended STANDBY"),
-    (fails_silently, missions_end_once, "failed without a reason"),
-    (complains, missions_end_once, "says why it failed: d0 crashed"),
-    (haunts, nothing_happens_after_the_end, "ward had ended before trip.allocated"),
-    (flies_two_trips, trips_do_not_overlap, "ward launched bed during pick"),
-    (lands_without_a_flight, trips_do_not_overlap, "look of ward ended and was not in flight"),
-    (lands_another, trips_do_not_overlap, "look (d2, round 0, attempt 1) of ward ended, not look"),
-    (ends_in_flight, trips_do_not_overlap, "ward ended during look"),
-    (gives_a_returning_drone, drones_serve_one_mission_at_a_time, "before it was free again"),
-    (gives_a_drone_twice, drones_serve_one_mission_at_a_time, "to other while ward had it"),
-    (flies_with_a_stolen_drone, drones_serve_one_mission_at_a_time, "which did not have it"),
-    (gives_a_recovering_drone, unwell_drones_stay_down, "with d0 after drone.lost"),
-    (brings_back_the_lost, unwell_drones_stay_down, "d0 was lost before drone.free"),
-    (miscounts, attempts_count_up, "flight 2 of pick of ward calls itself attempt 1"),
-    (forgets_a_trip, completed_missions_did_everything, "look 1 times to do"),
-    (swaps_drones_with_an_item_aboard, of_items, "has its item aboard d1, yet takes d2"),
-    (serves_another_with_an_item_aboard, of_items, "d1 has the item of ward, yet serves other"),
+PLANTED: list[tuple[Change, Callable[[Say], Rule] | None, str]] = [
+    (back_in_time, None, "comes after 4 s"),
+    (hangs, EndsOnce, "ward ended 0 times"),
+    (ends_twice, EndsOnce, "ward ended 2 times"),
+    (begins_twice, EndsOnce, "ward was created twice"),
+    (ends_oddly, EndsOnce, "ward ended STANDBY"),
+    (fails_silently, EndsOnce, "failed without a reason"),
+    (complains, EndsOnce, "says why it failed: d0 crashed"),
+    (haunts, NothingAfterTheEnd, "ward had ended before trip.allocated"),
+    (flies_two_trips, TripsDoNotOverlap, "ward launched bed during pick"),
+    (lands_without_a_flight, TripsDoNotOverlap, "look of ward ended and was not in flight"),
+    (lands_another, TripsDoNotOverlap, "look (d2, round 0, attempt 1) of ward ended, not look"),
+    (ends_in_flight, TripsDoNotOverlap, "ward ended during look"),
+    (is_impatient, DelaysAreWaited, "whose delay is not over before 99 s"),
+    (gives_a_returning_drone, ServesOneMission, "before it was free again"),
+    (gives_a_drone_twice, ServesOneMission, "to other while ward had it"),
+    (flies_with_a_stolen_drone, ServesOneMission, "which did not have it"),
+    (gives_a_recovering_drone, StaysDown, "with d0 after drone.lost"),
+    (brings_back_the_lost, StaysDown, "d0 was lost before drone.free"),
+    (miscounts, AttemptsCountUp, "flight 2 of pick of ward calls itself attempt 1"),
+    (forgets_a_trip, CompletedDidEverything, "look 1 times to do"),
+    (swaps_drones_with_an_item_aboard, ITEMS_STAY, "has its item aboard d1, yet takes d2"),
+    (serves_another_with_an_item_aboard, ITEMS_STAY, "d1 has the item of ward, yet serves other"),
 ]
 
 
 @pytest.mark.parametrize(
-    ("plant", "invariant", "sentence"), PLANTED, ids=[plant.__name__ for plant, _, _ in PLANTED]
+    ("plant", "rule", "sentence"), PLANTED, ids=[plant.__name__ for plant, _, _ in PLANTED]
 )
 def test_planted_mistake_is_found(
-    plant: Change, invariant: Callable[[Trace], Iterator[str]], sentence: str
+    plant: Change, rule: Callable[[Say], Rule] | None, sentence: str
 ) -> None:
-    """The invariant finds the mistake, says what it is, and the whole of them reports it too."""
+    """The rule finds the mistake, says what it is, and the whole of them reports it too."""
     trace = sound()
     plant(trace)
-    found = list(invariant(trace))
+    invariants = Invariants(ITEMS, rules=[rule] if rule else [])
+    for event in trace:
+        invariants.take(event)
+    found = invariants.over()
     assert any(sentence in text for text in found), found
     assert set(found) <= set(violations(trace, ITEMS))
 
 
-def test_every_invariant_is_shown_to_fail() -> None:
-    """No invariant stands there that nothing could violate."""
-    assert {invariant for _, invariant, _ in PLANTED} == {*INVARIANTS, of_items}
+def test_every_rule_is_shown_to_fail() -> None:
+    """No rule stands there that nothing could violate."""
+    assert {rule for _, rule, _ in PLANTED} == {*RULES, ITEMS_STAY, None}
