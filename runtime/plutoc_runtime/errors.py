@@ -21,6 +21,7 @@ class Failure(Enum):
     BATTERY = "battery"
     ACTION = "action"
     REFUSED = "refused"
+    UNKNOWN = "unknown"  # it was under way, and nobody can say how it ended
 
 
 class FlightFailed(PlutoError):

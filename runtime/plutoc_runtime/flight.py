@@ -86,6 +86,9 @@ class Flight(Signal[Status]):
 
     # What navigation tells
 
+    def begins(self) -> None:
+        """Hear that the action is about to be done."""
+
     def report(self, result: object) -> None:
         """Hear that the job is done and what it gave, or the `FlightFailed` that ended it."""
         state = self.state

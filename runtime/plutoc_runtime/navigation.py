@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from .actions import Plain
     from .airspace import Airspace
     from .model import Item, Point, Telemetry
+    from .standing import Standing
 
 
 class Job(Protocol):
@@ -59,6 +60,13 @@ class Job(Protocol):
         """How long the action is expected to take."""
         ...
 
+    def begins(self) -> None:
+        """Hear that the action is about to be done: told right before it, never for none.
+
+        If this raises `FlightFailed`, it must not be done.
+        """
+        ...
+
 
 class Navigation(Protocol):
     """A team of drones that can be flown, by their ids."""
@@ -77,7 +85,10 @@ class Navigation(Protocol):
         ...
 
     def break_off(self, drone: str) -> None:
-        """Stop a drone's job, if it has one, and hover; nothing of it is reported any more."""
+        """Stop whatever a drone does, and hover.
+
+        Nothing of its job is reported any more; a single command raises `FlightFailed`.
+        """
         ...
 
     async def hold(self, drone: str) -> None:
@@ -98,6 +109,10 @@ class Navigation(Protocol):
 
     async def recover(self, drone: str) -> bool:
         """Bring a drone home after a failed flight, landed; False: it is lost."""
+        ...
+
+    async def roll_call(self, drone: str) -> Standing:
+        """Ask a drone where it is and what it has done; say so if it does not answer."""
         ...
 
 

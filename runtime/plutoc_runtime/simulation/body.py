@@ -14,6 +14,8 @@ from typing import TYPE_CHECKING
 from ..energy import CLIMB_SPEED, docked
 from ..errors import Failure, FlightFailed
 from ..kernel import FLEET, Key
+from ..signals import Signal
+from ..standing import Standing
 from ..words import place
 from .faults import Drawn
 from .motion import Charge, Leg, standing
@@ -47,6 +49,12 @@ class Body:
         self.carries: Item | None = None
         self.command = ""
         """What it is doing; one thing at a time."""
+        self.over: Signal[None] | None = None
+        """Happens when that is done, if it takes time; fails if it is broken off."""
+        self.boot = 0
+        """How often it was switched off and on again."""
+        self.done: dict[str, object] = {}
+        """What it remembers: the jobs whose action it did, with what that gave."""
         self._drawn, self._began = Drawn(), clock()
         self._charge = Charge(drone.battery_level, clock())
         self._leg, self._landed = standing(drone.home, clock()), True
@@ -97,6 +105,22 @@ class Body:
         """Whether the action of this flight goes wrong."""
         return self._drawn.action
 
+    @property
+    def standing(self) -> Standing:
+        """What it answers when the roll is called; one that takes no commands does not answer."""
+        now = self._clock()
+        self.settle(now)
+        return Standing(
+            drone=self.drone.id,
+            reached=self.down is None,
+            location=self._leg.at(now),
+            landed=self._landed,
+            battery_level=self._charge.at(now),
+            boot=self.boot,
+            carrying=None if self.carries is None else self.carries.name,
+            done=dict(self.done),
+        )
+
     # What navigation does to it
 
     def begin(self, drawn: Drawn, now: float) -> None:
@@ -128,9 +152,15 @@ class Body:
 
     def dock(self, now: float) -> None:
         """Stand in its dock, put there by somebody, and take commands again."""
+        if self.down is not None and self.down.failure is Failure.BATTERY:
+            self.reboot()
         self.down = None
         self._turn(standing(self.drone.home, now), now)
         self.touch_down(now)
+
+    def reboot(self) -> None:
+        """Switch it off and on again: it forgets what it has done."""
+        self.boot, self.done = self.boot + 1, {}
 
     def check(self, now: float) -> None:
         """Raise why it takes no commands, if it takes none."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from math import dist, inf
 from typing import TYPE_CHECKING
 
@@ -11,6 +12,7 @@ from ..energy import CLIMB_SPEED, flight_seconds
 from ..errors import Failure, FlightFailed
 from ..kernel import Kernel, Kind, Task
 from ..navigation import permitted_way
+from ..signals import Signal
 from ..words import mass, place
 from .body import Body, SimulatedDrone
 from .faults import Faults, Order, draw
@@ -19,6 +21,7 @@ if TYPE_CHECKING:
     from ..airspace import Airspace
     from ..model import Item, Point, Telemetry
     from ..navigation import Job
+    from ..standing import Standing
     from .world import World
 
 __all__ = ["SimulatedDrone", "SimulatedNavigation"]
@@ -68,10 +71,17 @@ class SimulatedNavigation:
         )
 
     def break_off(self, drone: str) -> None:
-        """Stop a drone's job, if it has one, and hover."""
+        """Stop whatever a drone does, and hover."""
         task = self._jobs.pop(drone, None)
         if task is not None:
             task.cancel()
+            return
+        body = self._bodies[drone]
+        over = body.over
+        if over is not None:
+            body.over, body.command = None, ""
+            body.halt(self._kernel.now)
+            over.fail(FlightFailed(Failure.REFUSED, f"{drone} was told to break it off"))
 
     async def _done(self, job: Job, report: Callable[[object], None]) -> None:
         drone, body = job.drone, self._bodies[job.drone]
@@ -86,7 +96,9 @@ class SimulatedNavigation:
                 for point in permitted_way(self._airspace, drone, body.location, stop):
                     await self.go_to(drone, point)
             if job.action is not None:
+                job.begins()
                 result = await self.act(drone, job.action, job.parameters, job.item)
+                body.done[job.id] = result
         except FlightFailed as error:
             result = error
         del self._jobs[drone]
@@ -156,6 +168,10 @@ class SimulatedNavigation:
         body.carries = None
         return True
 
+    async def roll_call(self, drone: str) -> Standing:
+        """Ask a drone where it is and what it has done."""
+        return self._bodies[drone].standing
+
     async def _flies_home(self, body: Body) -> bool:
         if body.down is not None and body.down.failure is not Failure.LINK:
             return False
@@ -175,7 +191,7 @@ class SimulatedNavigation:
         return way is not None
 
     async def _wait_until(self, body: Body, when: float) -> None:
-        await self._kernel.sleep(when - self._kernel.now, Kind.FLIGHT, body.key)
+        await self._busy(body, when, "to recover")
         body.settle(when)
 
     async def _move(self, body: Body, target: Point, speed: float, command: str) -> float:
@@ -186,22 +202,31 @@ class SimulatedNavigation:
 
     async def _pass(self, body: Body, seconds: float, command: str) -> float:
         """Let the time of a command pass, and return when it is over; a mishap is over it first."""
-        if body.command:
-            raise RuntimeError(f"{body.drone.id} was told {command} while told {body.command}")
-        now = self._kernel.now
-        until = min(now + seconds, body.next_mishap)
-        body.command = command
-        try:
-            if until > now:
-                await self._kernel.sleep(until - now, Kind.FLIGHT, body.key)
-        except BaseException:  # no longer wanted
-            body.halt(self._kernel.now)
-            raise
-        finally:
-            body.command = ""
+        until = min(self._kernel.now + seconds, body.next_mishap)
+        await self._busy(body, until, command)
         # Not the time of now: a real clock is late, and sums of floats are not exact.
         body.check(until)
         return until
+
+    async def _busy(self, body: Body, until: float, command: str) -> None:
+        """Let time pass; whoever cancels this leaves the drone hovering."""
+        if body.command:
+            raise RuntimeError(f"{body.drone.id} was told {command} while told {body.command}")
+        if until <= self._kernel.now:
+            return
+        over: Signal[None] = Signal()
+        body.command, body.over = command, over
+        timer = self._kernel.at(until, Kind.FLIGHT, body.key, partial(over.set, None))
+        try:
+            await over
+        except BaseException:  # no longer wanted
+            if body.over is over:
+                body.halt(self._kernel.now)
+            raise
+        finally:
+            timer.cancel()
+            if body.over is over:
+                body.command, body.over = "", None
 
     def _in_the_air(self, drone: str) -> Body:
         body = self._bodies[drone]
