@@ -27,6 +27,11 @@ def line(event: Event) -> str:
     return template % tuple([_WRITE[type(fact)](fact) for fact in event.values()])
 
 
+def exact(event: Event) -> str:
+    """Return an event as a line of JSON with every number as it is: what the journal keeps."""
+    return json.dumps(event)
+
+
 class _Writers(dict[type, Callable[[Any], str]]):
     """How a fact of each type is written; what is not here is left to `dumped`."""
 

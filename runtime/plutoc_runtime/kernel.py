@@ -218,6 +218,8 @@ class Kernel:
         """The coroutines that go on at this instant, with the number of their turn."""
         self.last: Callable[[], object] | None = None
         """What is called when all else of this instant is done: the fleet's queue is served."""
+        self.settled: Callable[[], object] | None = None
+        """What is called when all of an instant has been taken: its events are written down."""
         self._heap: list[tuple[float, int, Key, int, Call]] = []
 
     def time(self) -> float:

@@ -60,6 +60,8 @@ class RealTime(Kernel):
         try:
             call(*args)
             self.drain()
+            if self.settled is not None:
+                self.settled()
         except KeyboardInterrupt:
             raise
         except WHATEVER as error:  # it must not leave everybody waiting for ever

@@ -76,6 +76,11 @@ class ResultStore:
     def __init__(self) -> None:
         self.values: list[Any] = []
 
+    @property
+    def newest(self) -> object:
+        """What the action gave that was done last."""
+        return self.values[-2]
+
     def so_far(self) -> View:
         """Return every result there is by now."""
         return View(self.values, range(0, len(self.values), _STEP))

@@ -36,6 +36,15 @@ class Run(Generic[M]):
         self.status = UNEXECUTED
         """How it stands when it begins, or goes on."""
 
+    def meets(self, block: str) -> None:
+        """A block that waits or allocates: the mission can go on here when it is interrupted.
+
+        Not within a fork, and not with a drone in hand: an interruption takes both away.
+        """
+        state = self.state
+        if not self._depth and state.allocated is None and block in self.core.app.resumes:
+            state.at = block
+
     async def hook(self, hook: Callable[..., object], *args: object) -> object:
         """Call a hook of the app's with these arguments; its faults end the mission."""
         kernel = self.core.kernel

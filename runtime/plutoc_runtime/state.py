@@ -22,13 +22,16 @@ class State:
 
     __slots__ = (
         "allocated",
+        "at",
         "carrier",
         "carries",
         "core",
+        "delay",
         "doom",
         "ending",
         "first_start",
         "flight",
+        "goes_on",
         "hooked_at",
         "hooks",
         "last_action_end",
@@ -43,6 +46,12 @@ class State:
         """Told once when the mission is doomed."""
         self.task: Task[Status] | None = None
         """The coroutine that takes it through its graph."""
+        self.at: str | None = None
+        """The last block it has met at which it can go on when it is interrupted."""
+        self.goes_on = False
+        """It was interrupted after a launch: until it is back there, it is given no drone."""
+        self.delay: tuple[tuple[str, str, int, int], float] | None = None
+        """(block, trip, round, attempt) where it waits for a time, and until when."""
         self.allocated: Drone | None = None
         """The drone that waits to be launched."""
         self.flight: Flight | None = None

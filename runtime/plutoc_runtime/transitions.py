@@ -32,12 +32,19 @@ class Transitions:
             names = [trip.name for trip in mission.trips]
             self._trace.note("mission.created", mission=mission.name, trips=names)
 
-    def allocate(self, mission: Mission[Any], trip: Trip, drone: Drone, why: Why) -> None:
-        """A trip has its drone."""
+    def allocate(
+        self, mission: Mission[Any], trip: Trip, drone: Drone, at: str | None, why: Why
+    ) -> None:
+        """A trip has its drone; `at` is the block where it goes on if it is interrupted."""
         trip.drone = drone
         if self._trace.live:
             self._trace.note(
-                "trip.allocated", mission=mission.name, trip=trip.name, drone=drone.id, why=why()
+                "trip.allocated",
+                mission=mission.name,
+                trip=trip.name,
+                drone=drone.id,
+                why=why(),
+                resumes_at=at,
             )
 
     def launch(self, mission: Mission[Any], trip: Trip, drone: Drone) -> None:
@@ -132,6 +139,52 @@ class Transitions:
         self._standby(mission)
         if self._trace.live:
             self._trace.note("mission.repeated", mission=mission.name, round=mission.round)
+
+    def begin_action(self, mission: Mission[Any], trip: Trip, drone: Drone) -> None:
+        """An action of the app's own is about to begin: from now on it may have been done."""
+        if self._trace.live:
+            self._trace.note(
+                "action.begun", mission=mission.name, trip=trip.name, drone=drone.id
+            )
+
+    def interrupt(self, mission: Mission[Any], trip: Trip) -> None:
+        """A flight was interrupted before its action was done: it counts as no attempt."""
+        trip.status, trip.drone, trip.start_time, trip.end_time = _WAITING, None, None, None
+        self._note(mission, "trip.interrupted", trip=trip.name)
+
+    def skip(self, mission: Mission[Any], trip: Trip) -> None:
+        """Somebody wants a trip not to be flown after all."""
+        trip.status = TripStatus.SKIPPED
+        mission.trips.remove(trip)
+        self._note(mission, "trip.skipped", trip=trip.name)
+
+    def pause(self, mission: Mission[Any]) -> None:
+        """Somebody wants a mission to wait until it is told to go on."""
+        mission.status, mission.reason = Status.PAUSED, ""
+        self._note(mission, "mission.paused")
+
+    def go_on(self, mission: Mission[Any], status: Status) -> None:
+        """A mission that was interrupted goes on."""
+        mission.status = status
+        self._note(mission, "mission.resumed", status=status.value)
+
+    def doubt(self, mission: Mission[Any], trip: Trip, drone: str, question: str) -> None:
+        """Nobody but a person can say whether a trip's action was done."""
+        mission.status, mission.reason = Status.UNCERTAIN, question
+        self._note(mission, "mission.uncertain", trip=trip.name, drone=drone, reason=question)
+
+    def hold(self, mission: Mission[Any], reason: str) -> None:
+        """A mission cannot go on in this app: a person must decide."""
+        mission.status, mission.reason = Status.HELD, reason
+        self._note(mission, "mission.held", reason=reason)
+
+    def decide(self, mission: Mission[Any], answer: str) -> None:
+        """A person has decided what only a person can know."""
+        self._note(mission, "mission.decided", answer=answer)
+
+    def _note(self, mission: Mission[Any], event: str, **facts: object) -> None:
+        if self._trace.live:
+            self._trace.note(event, mission=mission.name, **facts)
 
     def modify(self, mission: Mission[Any], status: Status, reason: str) -> None:
         """A modifier says how a mission stands."""

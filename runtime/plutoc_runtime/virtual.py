@@ -42,6 +42,8 @@ class VirtualTime(Kernel):
                 return False
             self.now = when
             self.drain()
+            if self.settled is not None:
+                self.settled()
         if self.crashed is not None:
             raise self.crashed
         return True

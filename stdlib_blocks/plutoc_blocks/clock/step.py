@@ -25,25 +25,47 @@ async def wait_for_time(
 ) -> Status:
     """Wait until the next trip's delay is over, and until its round may begin."""
     kernel, mission, state = run.core.kernel, run.mission, run.state
+    run.meets(block)
+    if state.goes_on:
+        return status  # it was interrupted after its launch
     trip = mission.current
     place = (block, trip.name, mission.round, trip.attempt)
     arrival = kernel.now
-    until = arrival
-    if state.waited is None or place not in state.waited:
-        until += delay or 0.0
-    if not mission.completed_trips and trip.attempt == 1:
-        if mission.round == 0 and at is not None and state.first_start is None:
-            until = max(until, arrival + (at - kernel.time_of_day) % DAY)
-        if mission.round > 0 and every and state.first_start is not None:
-            rounds = ceil(round((arrival - state.first_start) / every, 9))
-            until = max(until, state.first_start + rounds * every)
+    if state.delay is not None and state.delay[0] == place:
+        until = state.delay[1]  # it waited here when it was interrupted
+    else:
+        waited = state.waited is not None and place in state.waited
+        until = _until(run, at, every, 0.0 if waited else delay or 0.0)
     if until > arrival:
+        state.delay = (place, until)
         if run.core.trace.live:
-            run.core.trace.note("trip.delayed", mission=mission.name, trip=trip.name, until=until)
+            run.core.trace.note(
+                "trip.delayed",
+                mission=mission.name,
+                trip=trip.name,
+                until=until,
+                block=block,
+                resumes_at=state.at,
+            )
         await kernel.sleep(until - arrival, Kind.CLOCK, run.key)
+    state.delay = None
     if state.waited is None:
         state.waited = set()
     state.waited.add(place)
     if state.first_start is None:
         state.first_start = kernel.now
     return status
+
+
+def _until(run: Run[Any], at: float | None, every: float | None, delay: float) -> float:
+    """Return when the trip may begin: after its delay, and not before its round."""
+    kernel, mission, first_start = run.core.kernel, run.mission, run.state.first_start
+    arrival = kernel.now
+    until = arrival + delay
+    if not mission.completed_trips and mission.current.attempt == 1:
+        if mission.round == 0 and at is not None and first_start is None:
+            until = max(until, arrival + (at - kernel.time_of_day) % DAY)
+        if mission.round > 0 and every and first_start is not None:
+            rounds = ceil(round((arrival - first_start) / every, 9))
+            until = max(until, first_start + rounds * every)
+    return until

@@ -45,5 +45,6 @@ DRONE_ALLOCATOR = Block(
         ),
     ),
     uses=("priority",),
+    named=True,
     allocates=True,
 )

@@ -19,12 +19,16 @@ async def allocate_drone(
     run: Run[Any],
     status: Status,
     *,
+    block: str,
     policy: Policy,
     allocate_within: float | None = None,
     priority: int = 0,
 ) -> Status:
     """Wait for a drone for the next trip; the mission keeps one that carries its item."""
     core, mission, state = run.core, run.mission, run.state
+    run.meets(block)
+    if state.goes_on:
+        return status  # it was interrupted after its launch
     if not mission.trips:
         raise MissionFailed(mission.reason or "no trip is left to fly")
     if status is FAILED:
@@ -32,10 +36,10 @@ async def allocate_drone(
         status = STANDBY
     trip = mission.trips[0]
     if state.allocated is not None:
-        core.transitions.allocate(mission, trip, state.allocated, _before)
+        core.transitions.allocate(mission, trip, state.allocated, state.at, _before)
     elif state.carrier is not None:
         state.allocated = state.carrier
-        core.transitions.allocate(mission, trip, state.carrier, _carries)
+        core.transitions.allocate(mission, trip, state.carrier, state.at, _carries)
     else:
         request = core.queue.enter(mission.trips, policy, priority)
         try:
@@ -45,7 +49,7 @@ async def allocate_drone(
         finally:
             if not request.is_set:
                 core.queue.leave(request)
-        core.transitions.allocate(mission, trip, state.allocated, request.why)
+        core.transitions.allocate(mission, trip, state.allocated, state.at, request.why)
     return status
 
 

@@ -14,8 +14,12 @@ if TYPE_CHECKING:
 
 def launch_trip(run: Run[Any], status: Status) -> Status:
     """Send the allocated drone on the next trip."""
-    drone = run.state.allocated
-    if drone is None:
+    state = run.state
+    drone = state.allocated
+    if drone is not None:
+        launch(state, drone)
+    elif state.goes_on:
+        state.goes_on = False  # the trip was launched before the mission was interrupted
+    else:
         raise RuntimeError(f"mission {run.mission.name} has no drone to launch")
-    launch(run.state, drone)
     return RUNNING

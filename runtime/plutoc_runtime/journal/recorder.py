@@ -1,0 +1,139 @@
+"""Writes down what happens, so that nothing goes out before it is on record.
+
+It listens to the trace, adds to an event what a later life of the app must know and a reader of the
+trace need not, and hands the events of each instant to the journal as one row: all or none. What
+moves a drone waits until the row that says so is durable.
+"""
+
+from __future__ import annotations
+
+import json
+from collections import deque
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, Protocol
+
+from ..fields import Entity
+from ..journal_line import exact
+from .fold import Record, Records
+from .values import fields_of, mission_data, trip_data, value_data
+
+if TYPE_CHECKING:
+    from ..app import App
+    from ..kernel import Kernel
+    from ..model import Mission
+    from ..results import ResultStore
+    from ..trace import Event
+
+Facts = dict[str, Any]
+
+
+class Sink(Protocol):
+    """Where rows go."""
+
+    def add(self, row: str) -> int:
+        """Take a row and return its number; `Recorder.durable` is told that number, or a higher."""
+        ...
+
+
+class Recorder:
+    """The journal of one life of an app."""
+
+    def __init__(self, app: App, kernel: Kernel, sink: Sink, records: Records) -> None:
+        self._app, self._kernel, self._sink = app, kernel, sink
+        self.records = records
+        self.missions: dict[str, Mission[Any]] = {}
+        """The missions by name, as soon as they exist."""
+        self.results: ResultStore | None = None
+        self._lines: list[str] = []
+        """The events of this instant."""
+        self._waiting: deque[tuple[int, Callable[[], object]]] = deque()
+        """What waits for a row to be durable, in order."""
+        self._added = self._durable = 0
+        self._due: list[Callable[[], object]] = []
+        """What this instant wants done once it is durable."""
+        kernel.settled = self._settle
+
+    def take(self, event: Event) -> None:
+        """Something happened: it goes on record with the others of its instant."""
+        add = _ADDED.get(str(event["event"]))
+        if add is None:
+            self._lines.append(exact(event))
+            self.records.take(event)
+        else:
+            written = exact({**event, **add(self, event)})
+            self._lines.append(written)
+            self.records.take(json.loads(written))  # its own, not the living mission's lists
+
+    def when_durable(self, call: Callable[[], object]) -> None:
+        """Call this as soon as all that has happened up to now is durable; not before this instant
+        is over."""
+        self._due.append(call)
+
+    def durable(self, number: int) -> None:
+        """The journal has everything up to the row of this number; told within the kernel."""
+        self._durable = max(self._durable, number)
+        waiting = self._waiting
+        while waiting and waiting[0][0] <= self._durable:
+            waiting.popleft()[1]()
+
+    def look(self, mission: Mission[Any], note: Callable[..., object]) -> None:
+        """A hook has had this mission in its hands: if it changed its trips, that is an event."""
+        app, record = self._app, self.records.missions[mission.name]
+        todo = [trip_data(app, trip) for trip in mission.trips]
+        fields = {name: getattr(mission, name) for name in fields_of(app, Entity.MISSION)}
+        if todo != [_as_new(trip) for trip in record["todo"]] or fields != record["fields"]:
+            done = [trip_data(app, trip) for trip in mission.completed_trips]
+            note("mission.changed", mission=mission.name, todo=todo, done=done, fields=fields)
+
+    def _settle(self) -> None:
+        """The instant is over: its row goes to the journal, and then what waits for it."""
+        if self._lines:
+            row = "[" + ",\n".join(self._lines) + "]"
+            self._lines.clear()
+            self._added = self._sink.add(row)
+        if self._due:
+            due, self._due = self._due, []
+            for call in due:
+                self._waiting.append((self._added, call))
+            self.durable(self._durable)
+
+
+def _as_new(trip: Record) -> Record:
+    """Return a trip's record as `trip_data` writes it."""
+    data = {fact: value for fact, value in trip.items() if fact not in _OF_FLIGHTS}
+    if data.get("attempt") == 1:
+        del data["attempt"]
+    return data
+
+
+_OF_FLIGHTS = ("start_time", "end_time", "reason")
+
+
+def _plan(recorder: Recorder, event: Event) -> Facts:
+    mission = recorder.missions[str(event["mission"])]
+    return {"plan": mission_data(recorder._app, mission)}
+
+
+def _result(recorder: Recorder, _: Event) -> Facts:
+    assert recorder.results is not None
+    return {"result": value_data(recorder.results.newest)}
+
+
+def _fields(recorder: Recorder, event: Event) -> Facts:
+    trip = recorder.missions[str(event["mission"])].current
+    return {"fields": trip_data(recorder._app, trip)["fields"]}
+
+
+def _added(recorder: Recorder, event: Event) -> Facts:
+    names, trips = event["add"], recorder.missions[str(event["mission"])].trips
+    assert isinstance(names, list)
+    return {"trips": [trip_data(recorder._app, trip) for trip in trips if trip.name in names]}
+
+
+_ADDED: dict[str, Callable[[Recorder, Event], Facts]] = {
+    "mission.created": _plan,
+    "trip.completed": _result,
+    "trip.reset": _fields,
+    "mission.extended": _added,
+}
+"""What a later life of the app must know of an event beside what is on the trace."""
