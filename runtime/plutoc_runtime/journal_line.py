@@ -15,21 +15,23 @@ if TYPE_CHECKING:
 
 
 def line(event: Event) -> str:
-    """Return an event as a line of JSON, without the end of the line; numbers have three decimals.
-
-    There is one for each transition, so each kind of event has a template, made once.
-    """
-    kind = event["event"], len(event)
-    template = _TEMPLATES.get(kind)
-    if template is None:
-        facts = [json.dumps(key).replace("%", "%%") + ": %s" for key in event]
-        template = _TEMPLATES[kind] = "{" + ", ".join(facts) + "}"
-    return template % tuple([_WRITE[type(fact)](fact) for fact in event.values()])
+    """Return an event as a line of JSON, without the end of the line; numbers have three decimals."""
+    return _template(event) % tuple([_WRITE[type(fact)](fact) for fact in event.values()])
 
 
 def exact(event: Event) -> str:
     """Return an event as a line of JSON with every number as it is: what the journal keeps."""
-    return json.dumps(event)
+    return _template(event) % tuple([_EXACT[type(fact)](fact) for fact in event.values()])
+
+
+def _template(event: Event) -> str:
+    """Return the line of all events with these facts: there is one for each transition."""
+    facts = tuple(event)
+    template = _TEMPLATES.get(facts)
+    if template is None:
+        named = [json.dumps(fact).replace("%", "%%") + ": %s" for fact in facts]
+        template = _TEMPLATES[facts] = "{" + ", ".join(named) + "}"
+    return template
 
 
 class _Writers(dict[type, Callable[[Any], str]]):
@@ -39,15 +41,26 @@ class _Writers(dict[type, Callable[[Any], str]]):
         return dumped
 
 
+class _ExactWriters(dict[type, Callable[[Any], str]]):
+    """The same, but nothing is rounded."""
+
+    def __missing__(self, _: type) -> Callable[[Any], str]:
+        return json.dumps
+
+
 def _number(value: float) -> str:
     return repr(round(value, 3) + 0.0) if isfinite(value) else "null"  # + 0.0: never -0.0
+
+
+def _exact(value: float) -> str:
+    return repr(value) if isfinite(value) else json.dumps(value)  # as Python reads it again
 
 
 def _list(values: list[Any]) -> str:
     return "[" + ", ".join([_WRITE[type(value)](value) for value in values]) + "]"
 
 
-_TEMPLATES: dict[tuple[object, int], str] = {}
+_TEMPLATES: dict[tuple[str, ...], str] = {}
 
 _WRITE = _Writers(
     {
@@ -57,4 +70,8 @@ _WRITE = _Writers(
         list: _list,
         type(None): lambda _: "null",
     }
+)
+
+_EXACT = _ExactWriters(
+    {str: encode_basestring_ascii, int: repr, float: _exact, type(None): lambda _: "null"}
 )

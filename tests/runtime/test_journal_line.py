@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from plutoc_runtime.cli.as_json import dumped
-from plutoc_runtime.journal_line import line
+from plutoc_runtime.journal_line import exact, line
 
 FACTS = (
     st.none()
@@ -34,3 +34,17 @@ def test_a_line_is_what_json_makes_of_the_event(kind: str, t: float, facts: list
 def test_an_event_that_comes_with_another_fact_has_a_line_of_its_own() -> None:
     first, second = {"t": 1.0, "event": "log"}, {"t": 1.0, "event": "log", "text": 'a "b"'}
     assert [json.loads(line(event)) for event in (first, second)] == [first, second]
+
+
+@given(st.dictionaries(st.text(), FACTS | st.dictionaries(st.text(), FACTS), max_size=4))
+def test_what_the_journal_keeps_is_what_json_makes_of_it_unrounded(
+    facts: dict[str, object],
+) -> None:
+    event = {"t": 0.1 + 0.2, "event": "mission.created", **facts}
+    assert exact(event) == json.dumps(event)
+
+
+def test_events_with_other_facts_never_share_a_line() -> None:
+    first = {"t": 1.0, "event": "log", "text": "a"}
+    second = {"t": 1.0, "event": "log", "mission": "a"}
+    assert [json.loads(exact(event)) for event in (first, second)] == [first, second]
