@@ -9,13 +9,11 @@ from contextlib import suppress
 from pathlib import Path
 
 from .errors import BadInput
+from .journal.place import gateway_folder
 from .private import address_in
 
 LONGEST = 64 * 1024
 """Bytes of a request or of an answer."""
-
-NOTE = "brain"
-"""The note in the journal's folder that says where the app listens."""
 
 
 class Nobody(BadInput):
@@ -24,6 +22,11 @@ class Nobody(BadInput):
 
 class Silent(BadInput):
     """An app runs, but it does not answer."""
+
+
+def note_of(journal: Path) -> Path:
+    """Return the note that says where the app of a journal listens."""
+    return gateway_folder(journal) / "brain"
 
 
 def ask(note: Path, request: Mapping[str, object], patience: float) -> str:

@@ -89,6 +89,18 @@ def _command(app: App, argv: Sequence[str] | None) -> int:
             from .fly import fly
 
             return fly(app, options)
+        case "tell":
+            from .tell import tell
+
+            return tell(app, options)
+        case "decide":
+            from .decide import decide
+
+            return decide(app, options)
+        case "resume":
+            from .resume import resume
+
+            return resume(app, options)
         case _:
             from .check import check
 

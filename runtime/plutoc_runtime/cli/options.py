@@ -8,8 +8,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ..errors import BadInput
 from ..quantities import Type, parse_quantity
 from ..words import quoted
+from .flight_options import add_flights, how_it_flies
 
 if TYPE_CHECKING:
     from ..app import App
@@ -30,8 +32,25 @@ class Options:
     until: float | None = None
     fail: dict[str, float] = field(default_factory=dict)
     trace: Path | None = None
+    plot: Path | None = None
     json: bool = False
     sim: bool = False
+    speed: float = 1.0
+    supervise: bool = False
+    journal: Path | None = None
+    action: str = ""
+    mission: str | None = None
+    trip: str | None = None
+    land: bool = False
+    rtl: bool = False
+    answer: str | None = None
+
+    @property
+    def the_journal(self) -> Path:
+        """The journal, where a command cannot be without."""
+        if self.journal is None:
+            raise BadInput("name the journal")
+        return self.journal
 
 
 def parse(app: App, argv: Sequence[str] | None) -> Options:
@@ -48,12 +67,19 @@ def parse(app: App, argv: Sequence[str] | None) -> Options:
     _files(command("check", "Say whether the fleet can fly the missions; nothing flies."))
     fly = command("fly", "Fly the missions in real time.")
     _files(fly)
+    how_it_flies(fly)
     fly.add_argument(
-        "--sim", action="store_true", help="with simulated drones; real ones cannot be flown yet"
+        "--journal",
+        metavar="J",
+        type=Path,
+        help="where to write down what happens; default: a new file in the user's own folder",
     )
+    add_flights(command)
     options = parser.parse_args(argv, namespace=Options())
     if options.trace is not None and options.runs is not None:
         simulate.error("--trace writes down one run: it does not go with --runs")
+    if options.plot is not None and options.runs is None:
+        simulate.error("--plot draws many runs: it goes with --runs")
     return options
 
 
@@ -78,6 +104,12 @@ def _simulation(parser: ArgumentParser) -> None:
     )
     parser.add_argument(
         "--runs", metavar="N", type=count, help="simulate N times, with N seeds from --seed on"
+    )
+    parser.add_argument(
+        "--plot",
+        metavar="FILE",
+        type=Path,
+        help="draw how the runs lie, into an .svg or a .png; needs matplotlib",
     )
     parser.add_argument(
         "--until", metavar="TIME", type=time, help='stop at this simulated time, such as "2 h"'

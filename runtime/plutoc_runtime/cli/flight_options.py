@@ -1,0 +1,83 @@
+"""The flags of the commands that fly, go on, stop and decide."""
+
+from __future__ import annotations
+
+from argparse import ArgumentParser, ArgumentTypeError
+from collections.abc import Callable
+from math import isfinite
+from pathlib import Path
+
+from ..words import quoted
+
+ACTIONS = ("stop", "pause", "go-on", "skip", "cancel")
+"""What a running app can be told."""
+
+ANSWERS = ("done", "not-done", "go-on", "cancel")
+"""What a person can decide for a mission that waits."""
+
+FASTEST = 1000.0
+
+Command = Callable[[str, str], ArgumentParser]
+
+
+def add_flights(command: Command) -> None:
+    """Add `resume`, `tell` and `decide`."""
+    resume = command("resume", "Go on after a stop or a crash.")
+    resume.add_argument(
+        "journal", metavar="J", type=Path, nargs="?", help="the journal; default: the newest"
+    )
+    how_it_flies(resume)
+
+    tell = command("tell", "Tell a running app to stop, or a mission of it to wait, go on or end.")
+    tell.add_argument("journal", metavar="J", type=Path, help="the journal that the app keeps")
+    tell.add_argument("action", metavar="WHAT", choices=ACTIONS, help=", ".join(ACTIONS))
+    tell.add_argument(
+        "mission", metavar="MISSION", nargs="?", help="which one; default: all, except for skip"
+    )
+    tell.add_argument(
+        "trip", metavar="TRIP", nargs="?", help="which one to skip; default: the next"
+    )
+    how = tell.add_mutually_exclusive_group()
+    how.add_argument(
+        "--land", action="store_true", help="stop: land where the drones are (the default)"
+    )
+    how.add_argument("--rtl", action="store_true", help="stop: fly home first")
+
+    decide = command("decide", "Say what only a person can know; alone, list what is asked.")
+    decide.add_argument("journal", metavar="J", type=Path, help="the journal")
+    decide.add_argument("mission", metavar="MISSION", nargs="?", help="which one waits")
+    decide.add_argument(
+        "answer",
+        metavar="ANSWER",
+        nargs="?",
+        choices=ANSWERS,
+        help="done or not-done: whether its action was done; go-on; cancel",
+    )
+
+
+def how_it_flies(parser: ArgumentParser) -> None:
+    """Add what `fly` and `resume` share."""
+    parser.add_argument(
+        "--sim", action="store_true", help="with simulated drones; real ones cannot be flown yet"
+    )
+    parser.add_argument(
+        "--speed",
+        metavar="N",
+        type=speed,
+        default=1.0,
+        help="with --sim: let time pass N times as fast",
+    )
+    parser.add_argument(
+        "--supervise", action="store_true", help="start the app again if it crashes"
+    )
+
+
+def speed(text: str) -> float:
+    """Read how many times as fast."""
+    try:
+        number = float(text)
+    except ValueError:
+        raise ArgumentTypeError(f"{quoted(text)} is not a number") from None
+    if not isfinite(number) or not 0 < number <= FASTEST:
+        raise ArgumentTypeError(f"{quoted(text)} is not between 0 and {FASTEST:.0f}")
+    return number

@@ -1,0 +1,72 @@
+"""`tell`: a command for the app that runs."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ..asking import Nobody, Silent, ask, note_of
+from ..errors import BadInput
+from ..standing import Down
+from . import output
+
+if TYPE_CHECKING:
+    from ..app import App
+    from .options import Options
+
+AT_ONCE = 1.0
+"""Seconds until a Stop goes to the drones without the app."""
+
+PATIENCE = 10.0
+"""Seconds until any other command is given up."""
+
+
+def tell(app: App, options: Options) -> int:
+    """Say to the running app what it shall do, and say what it did."""
+    request = _request(app, options)
+    if options.action == "stop":
+        output.line(_stop(app, options, request))
+    else:
+        output.line(asked(app, options, request))
+    return 0
+
+
+def asked(app: App, options: Options, request: dict[str, object]) -> str:
+    """Return what the running app says to a request."""
+    journal = options.the_journal
+    try:
+        return ask(note_of(journal), request, PATIENCE)
+    except Nobody:
+        raise Nobody(
+            f"{journal}: {app.name} is not running, so there is nobody to tell; "
+            f"{app.name} resume {journal} goes on"
+        ) from None
+    except Silent as error:
+        raise Silent(
+            f"{journal}: {error}; a hook may keep it busy. "
+            f"{app.name} tell {journal} stop brings the drones down all the same"
+        ) from None
+
+
+def _request(app: App, options: Options) -> dict[str, object]:
+    """Return the request for what the command line says; raise `BadInput` if it makes no sense."""
+    action, mission, trip = options.action, options.mission, options.trip
+    wrong = ""
+    if action != "stop" and (options.land or options.rtl):
+        wrong = f"--land and --rtl go with stop, not with {action}"
+    elif action == "stop" and mission is not None:
+        wrong = "stop brings all drones down; to end one mission, cancel it, or pause it"
+    elif action == "skip" and mission is None:
+        wrong = "skip needs the name of a mission"
+    elif action not in ("stop", "skip") and trip is not None:
+        wrong = f"{action} is for whole missions; only skip takes a trip"
+    if wrong:
+        raise BadInput(f"{app.name} tell: {wrong}")
+    if action == "stop":
+        return {"command": action, "how": (Down.HOME if options.rtl else Down.LAND).value}
+    request: dict[str, object] = {"command": action, "mission": mission}
+    return request | ({"trip": trip} if action == "skip" else {})
+
+
+def _stop(app: App, options: Options, request: dict[str, object]) -> str:
+    """Stop the app; if it says nothing, bring the drones down without it."""
+    return ask(note_of(options.the_journal), request, AT_ONCE)

@@ -1,0 +1,219 @@
+"""A running app hears commands, from its owner and from nobody else."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import socket
+import stat
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+import pytest
+
+from plutoc_runtime.asking import LONGEST, Nobody, Silent, ask, note_of
+from plutoc_runtime.errors import BadInput
+from plutoc_runtime.private import address_in, new_address, publish, withdraw
+from plutoc_runtime.remote_control import listening, perform
+from plutoc_runtime.standing import Down
+
+
+class Told:
+    """An app that writes down what it is told, and knows one mission."""
+
+    def __init__(self) -> None:
+        self.calls: list[tuple[object, ...]] = []
+
+    def stop(self, how: Down) -> str:
+        return self._said("stop", how)
+
+    def pause(self, mission: str | None) -> str:
+        return self._said("pause", mission)
+
+    def go_on(self, mission: str | None) -> str:
+        return self._said("go on", mission)
+
+    def skip(self, mission: str, trip: str | None) -> str:
+        return self._said("skip", mission, trip)
+
+    def cancel(self, mission: str | None) -> str:
+        return self._said("cancel", mission)
+
+    def decide(self, mission: str, done: bool) -> str:
+        if mission != "North":
+            raise BadInput(f"there is no mission {mission}")
+        return self._said("decide", mission, done)
+
+    def _said(self, *call: object) -> str:
+        self.calls.append(call)
+        return f"did {call[0]}"
+
+
+def talk(
+    note: Path, answer: Callable[[Mapping[str, object]], str], client: Callable[[], object]
+) -> object:
+    """Let an app listen while somebody else talks to it."""
+
+    async def scenario() -> object:
+        async with listening(note, answer):
+            return await asyncio.to_thread(client)
+
+    return asyncio.run(scenario())
+
+
+@pytest.fixture
+def note(tmp_path: Path) -> Path:
+    return note_of(tmp_path / "a.journal")
+
+
+@pytest.mark.parametrize(
+    ("request_", "call"),
+    [
+        ({"command": "stop", "how": "rtl"}, ("stop", Down.HOME)),
+        ({"command": "stop", "how": "land"}, ("stop", Down.LAND)),
+        ({"command": "pause", "mission": None}, ("pause", None)),
+        ({"command": "go-on", "mission": "North"}, ("go on", "North")),
+        ({"command": "skip", "mission": "North", "trip": None}, ("skip", "North", None)),
+        ({"command": "cancel", "mission": "North"}, ("cancel", "North")),
+        ({"command": "decide", "mission": "North", "done": False}, ("decide", "North", False)),
+    ],
+)
+def test_each_command_reaches_the_app(
+    request_: dict[str, object], call: tuple[object, ...], note: Path
+) -> None:
+    told = Told()
+    said = talk(note, lambda asked: perform(told, asked), lambda: ask(note, request_, 5))
+    assert told.calls == [call]
+    assert said == f"did {call[0]}"
+
+
+@pytest.mark.parametrize(
+    "request_",
+    [
+        {"command": "stop"},
+        {"command": "stop", "how": "crash"},
+        {"command": "pause"},
+        {"command": "skip", "mission": None, "trip": None},
+        {"command": "decide", "mission": "North", "done": 1},
+        {"command": "__init__"},
+        {},
+    ],
+)
+def test_what_makes_no_sense_is_refused(request_: dict[str, object], note: Path) -> None:
+    told = Told()
+
+    def client() -> None:
+        with pytest.raises(BadInput, match="does not know that command"):
+            ask(note, request_, 5)
+
+    talk(note, lambda asked: perform(told, asked), client)
+    assert told.calls == []
+
+
+def test_the_words_of_a_refusal_arrive(note: Path) -> None:
+    request = {"command": "decide", "mission": "Süd", "done": True}
+
+    def client() -> None:
+        with pytest.raises(BadInput, match="there is no mission Süd"):
+            ask(note, request, 5)
+
+    talk(note, lambda asked: perform(Told(), asked), client)
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        b"\n",
+        b"stop\n",
+        b"[1]\n",
+        b"\xff\xfe\n",
+        b"[" * 50_000 + b"\n",
+        b"x" * (LONGEST + 10) + b"\n",
+    ],
+    ids=lambda line: repr(line[:8]),
+)
+def test_a_strangers_line_is_answered_and_harms_nobody(line: bytes, note: Path) -> None:
+    """The next one is heard as well."""
+    told = Told()
+
+    def client() -> str:
+        address = address_in(note)
+        assert address is not None
+        with socket.socket(socket.AF_UNIX) as stranger:
+            stranger.settimeout(5)
+            stranger.connect(str(address))
+            try:
+                stranger.sendall(line)
+                assert json.loads(stranger.recv(LONGEST))["ok"] is False
+            except ConnectionError:  # it has hung up on who talks too much
+                assert len(line) > LONGEST
+        return ask(note, {"command": "pause", "mission": None}, 5)
+
+    assert talk(note, lambda asked: perform(told, asked), client) == "did pause"
+
+
+def test_who_hangs_up_early_harms_nobody(note: Path) -> None:
+    told = Told()
+
+    def client() -> str:
+        for words in (b"", b'{"command"'):
+            with socket.socket(socket.AF_UNIX) as rude:
+                rude.connect(str(address_in(note)))
+                rude.sendall(words)
+        return ask(note, {"command": "pause", "mission": None}, 5)
+
+    assert talk(note, lambda asked: perform(told, asked), client) == "did pause"
+
+
+def test_without_an_app_there_is_nobody(note: Path) -> None:
+    """Nor after it has ended."""
+    with pytest.raises(Nobody):
+        ask(note, {}, 5)
+    talk(note, lambda asked: "", lambda: None)
+    assert not note.exists()
+    with pytest.raises(Nobody):
+        ask(note, {}, 5)
+
+
+def test_an_app_that_says_nothing_is_not_waited_for(note: Path, tmp_path: Path) -> None:
+    (tmp_path / "f").mkdir(mode=0o700)
+    with socket.socket(socket.AF_UNIX) as deaf:
+        deaf.bind(str(tmp_path / "f" / "s"))
+        deaf.listen()
+        publish(note, tmp_path / "f" / "s")
+        with pytest.raises(Silent):
+            ask(note, {"command": "pause", "mission": None}, 0.01)
+
+
+def test_only_the_owner_may_enter_the_folder(note: Path) -> None:
+    def client() -> int:
+        address = address_in(note)
+        assert address is not None
+        return stat.S_IMODE(address.parent.stat().st_mode)
+
+    assert talk(note, lambda asked: "", client) == 0o700
+
+
+def test_a_folder_that_others_may_enter_is_not_trusted(note: Path, tmp_path: Path) -> None:
+    """A stranger could have put the socket there."""
+    (tmp_path / "open").mkdir()
+    (tmp_path / "open").chmod(0o755)
+    publish(note, tmp_path / "open" / "s")
+    assert address_in(note) is None
+
+
+def test_what_a_killed_app_left_behind_goes(note: Path) -> None:
+    """With the next one that listens."""
+    left = new_address(note)
+    publish(note, left)
+    left.touch()
+    talk(note, lambda asked: "", lambda: None)
+    assert not left.parent.exists()
+
+
+def test_a_note_cannot_make_anything_else_go(note: Path, tmp_path: Path) -> None:
+    (tmp_path / "dear").mkdir(mode=0o700)
+    publish(note, tmp_path / "dear" / "s")
+    withdraw(note)
+    assert (tmp_path / "dear").exists()
+    assert not note.exists()
