@@ -11,14 +11,13 @@ from ..session import Outcome
 from ..session import simulate as simulated
 from ..simulation.faults import Faults
 from ..trace import Event
-from ..words import counted, duration, percent
+from ..words import duration
 from . import output
-from .as_json import dumped, outcome_data, trips_data
+from .as_json import dumped, outcome_data
 from .events import line_of
 from .plans import Plan, load
 from .progress import Progress, on_terminal
-from .report import last_line, report
-from .summary import Run, summary
+from .report import report
 from .trace_file import trace_file
 from .verdict import exit_code
 
@@ -44,7 +43,12 @@ def simulate(app: App, options: Options) -> int:
     try:
         if options.runs is None:
             return _once(app, options, plan, progress)
-        return _often(app, options, options.runs, plan, progress)
+        from .often import often  # one run has no need of it
+
+        def again(seed: int) -> Outcome:
+            return _fly(app, options, plan, seed, None)
+
+        return often(app, options, options.runs, plan, progress, again)
     finally:
         progress.clear()
 
@@ -77,32 +81,6 @@ def _once(app: App, options: Options, plan: Plan, progress: Progress) -> int:
     return exit_code(outcome)
 
 
-def _often(app: App, options: Options, count: int, plan: Plan, progress: Progress) -> int:
-    runs: list[Run] = []
-    data: list[dict[str, object]] = []
-    worst = 0
-    for number in range(count):
-        seed = options.seed + number
-        progress.update(number / count, f"run {number + 1} of {count}")
-        outcome = _fly(app, options, plan, seed, None)
-        runs.append(_run(seed, outcome))
-        worst = max(worst, exit_code(outcome))
-        if options.json:
-            data.append(outcome_data(app.name, seed, outcome))
-        else:
-            progress.clear()
-            output.line(f"seed {seed}: {last_line(outcome)}")
-    figures = summary(runs)
-    if options.json:
-        whole = {"app": app.name, "seed": options.seed, "runs": data, "summary": figures}
-        progress.clear()
-        output.line(dumped(whole))
-    else:
-        output.line()
-        output.line(_in_words(runs))
-    return worst
-
-
 def _fly(app: App, options: Options, plan: Plan, seed: int, listener: Listener | None) -> Outcome:
     return simulated(
         app,
@@ -133,26 +111,3 @@ def _tell(event: Event, progress: Progress) -> None:
     if line is not None:
         progress.clear()
         output.line(line)
-
-
-def _run(seed: int, outcome: Outcome) -> Run:
-    trips = trips_data(outcome)
-    return Run(
-        seed=seed,
-        success=exit_code(outcome) == 0,
-        makespan=outcome.duration,
-        attempts=trips["attempts"],
-        failed=trips["failed"],
-    )
-
-
-def _in_words(runs: list[Run]) -> str:
-    good = [run.makespan for run in runs if run.success]
-    text = (
-        f"{len(good)} of {counted(len(runs), 'run')} succeeded ({percent(len(good) / len(runs))})"
-    )
-    if good:
-        least, most = duration(min(good)), duration(max(good))
-        who = "it" if len(good) == 1 else "each" if least == most else "they"
-        text += f"; {who} took {least}" + (f" to {most}" if least != most else "")
-    return text

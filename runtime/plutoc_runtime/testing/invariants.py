@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..actions import PICK, RELEASE
 from .drone_rules import ItemsStayAboard, ServesOneMission, StaysDown
-from .mission_rules import CompletedDidEverything, EndsOnce, NothingAfterTheEnd
+from .mission_rules import ENDS, CompletedDidEverything, EndsOnce, NothingAfterTheEnd
 from .rule import OVER, Hears, Say, at
 from .trip_rules import AttemptsCountUp, DelaysAreWaited, TripsDoNotOverlap
 
@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from ..model import Mission
     from ..trace import Event
     from .rule import Rule
+
+__all__ = ["ENDS", "RULES", "Invariants", "Items", "items_of", "violations"]
 
 Items = Mapping[str, Mapping[str, str]]
 """By mission: the trips that pick an item, each with the trip that releases it."""

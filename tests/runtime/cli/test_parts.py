@@ -35,10 +35,10 @@ def test_the_summary_counts_successes_and_times_only_those() -> None:
 
 @given(st.lists(st.floats(0, 1e6), min_size=1, max_size=30))
 def test_a_spread_is_ordered(values: list[float]) -> None:
-    """From the least over the median and the ninth tenth to the most."""
+    """From the least over the percentiles to the most."""
     found = spread(values)
     assert found is not None
-    ordered = [found["min"], found["median"], found["p90"], found["max"]]
+    ordered = [found[key] for key in ("min", "p5", "median", "p90", "p95", "max")]
     assert ordered == sorted(ordered)
 
 

@@ -1,0 +1,142 @@
+"""What `simulate --runs` says of many runs, and the picture that it draws of them."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from plutoc_runtime.cli import often
+from plutoc_runtime.cli.summary import percentile
+from plutoc_runtime.session import Outcome
+from plutoc_runtime.testing.invariants import Items
+from plutoc_runtime.trace import Event
+from tests.runtime.cli.conftest import Command
+
+CRASHES = ("--fail", "crash=30%", "--seed", 10)
+
+
+def test_what_the_runs_took_is_a_table(missions: Path, command: Command) -> None:
+    """Makespan, flights, failures and the lowest battery, from the few to the many."""
+    out = command("simulate", missions, "--runs", 20, *CRASHES)[1]
+    table = out.split("\n\n")[1].splitlines()
+    assert table[0].split() == ["p5", "median", "p95"]
+    assert [line.split("  ")[0] for line in table[1:]] == [
+        "completed missions",
+        "makespan",
+        "flights",
+        "failed flights",
+        "lowest battery",
+    ]
+
+
+def test_few_runs_say_that_they_are_few(missions: Path, command: Command) -> None:
+    """And a single one has no percentiles at all."""
+    few = command("simulate", missions, "--runs", 3, *CRASHES)[1]
+    assert "Of 3 runs, p5 and p95 say little: fly 20 or more." in few
+    assert "p95" not in command("simulate", missions, "--runs", 1)[1]
+
+
+def test_a_program_gets_percentiles_and_violations(missions: Path, command: Command) -> None:
+    """Beside what the summary had before."""
+    out = command("simulate", missions, "--runs", 6, *CRASHES, "--json")[1]
+    figures = json.loads(out)["summary"]
+    assert list(figures) == [
+        "runs",
+        "succeeded",
+        "success_rate",
+        "completed_missions",
+        "makespan_s",
+        "attempts",
+        "failed_trips",
+        "battery_level",
+        "failed_seeds",
+        "violations",
+    ]
+    assert figures["violations"] == []
+    assert 0 < figures["battery_level"]["p5"] <= figures["battery_level"]["p95"] < 1
+
+
+def test_the_same_runs_are_the_same_text(missions: Path, command: Command) -> None:
+    """Byte for byte."""
+    flags = ("simulate", missions, "--runs", 5, *CRASHES)
+    assert command(*flags) == command(*flags)
+
+
+def twice(seed: int, outcome: Outcome, items: Items) -> Any:
+    """Let the mission that ended last end once more."""
+    end: Event = next(
+        event for event in reversed(outcome.events) if event["event"] == "mission.ended"
+    )
+    return run_of(seed, replace(outcome, events=(*outcome.events, end)), items)
+
+
+run_of = often.run_of
+
+
+def test_a_run_that_does_what_no_run_may_do_is_exit_70(
+    missions: Path, command: Command, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It says what, with which seed, and how to see it again."""
+    monkeypatch.setattr(often, "run_of", twice)
+    code, out, _ = command("simulate", missions, "--runs", 2, "--fail", "crash=5%", "--seed", 3)
+    assert code == 70
+    assert "seed 3 did what no run may do: North ended 2 times\n" in out
+    again = f"alfalfa simulate {missions} --seed 3 --fail crash=0.05 --trace trace.jsonl\n"
+    assert f"See it again: {again}" in out
+
+
+def test_a_percentile_lies_between_two_neighbours() -> None:
+    """As far on the way as the share says."""
+    numbers: Sequence[float] = (0.0, 10.0, 20.0)
+    assert [percentile(numbers, share) for share in (0, 0.25, 0.5, 0.95, 1)] == [0, 5, 10, 19, 20]
+
+
+@pytest.mark.parametrize("kind", [".svg", ".png"])
+def test_the_picture_is_the_same_each_time(
+    missions: Path, command: Command, tmp_path: Path, kind: str
+) -> None:
+    """No date, no chance: two of them are the same bytes."""
+    pytest.importorskip("matplotlib")
+    pictures = [tmp_path / f"{name}{kind}" for name in ("one", "two")]
+    for picture in pictures:
+        assert command("simulate", missions, "--runs", 4, *CRASHES, "--plot", picture)[0] in (0, 1)
+    one, two = (picture.read_bytes() for picture in pictures)
+    assert one == two
+    assert one.startswith(b"\x89PNG" if kind == ".png" else b"<?xml")
+
+
+def test_without_matplotlib_nothing_flies(
+    missions: Path, command: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Exit 2, and the line that mends it."""
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    code, out, err = command("simulate", missions, "--runs", 2, "--plot", tmp_path / "p.svg")
+    assert (code, out) == (2, "")
+    assert err.endswith('pip install "matplotlib>=3.8"\n')
+
+
+@pytest.mark.parametrize(
+    ("name", "why"),
+    [("p.pdf", "an SVG or a PNG"), ("none/p.svg", "cannot be written: No such file")],
+)
+def test_a_picture_that_cannot_be_is_exit_2(
+    missions: Path, command: Command, tmp_path: Path, name: str, why: str
+) -> None:
+    """And says why."""
+    pytest.importorskip("matplotlib")
+    code, _, err = command("simulate", missions, "--runs", 2, "--plot", tmp_path / name)
+    assert code == 2
+    assert why in err
+
+
+def test_a_picture_is_of_many_runs(missions: Path, command: Command) -> None:
+    """One run is no distribution."""
+    code, _, err = command("simulate", missions, "--plot", "p.svg")
+    assert code == 2
+    assert "--plot draws many runs: it goes with --runs" in err
