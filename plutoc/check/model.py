@@ -23,7 +23,7 @@ class Fork:
 
 @frozen
 class Checked:
-    """A sound graph."""
+    """A sound graph. What missions do after a Stop counts like anything else that they do."""
 
     graph: Graph
     arrives: Mapping[str, frozenset[Status]]
@@ -37,5 +37,8 @@ class Checked:
     """Where a mission ends without an edge to `end`."""
     resumes: Mapping[str, tuple[str, ...]]
     """Where a mission goes on that was stopped at each block: the way it came decides which."""
+    entries: Mapping[str, frozenset[Status]]
+    """The blocks at which interrupted missions go on, in the order of the source, and how they
+    stand then."""
     explored: int
     """How many states of a mission were explored: the whole cost of the checks hangs on it."""

@@ -1,16 +1,18 @@
-"""Where a mission goes on after a Stop: the nearest block behind it that waits or allocates.
+"""Where an interrupted mission goes on: the nearest block behind it that waits or allocates.
 
 A Stop takes the drone away and dissolves every fork, so a block inside a fork is no such point, nor
 one that is reached with a drone allocated already. A mission that has met no point yet begins anew.
-One with nothing left to fly (COMPLETED) is not set back: it goes on where it is.
+One with nothing left to fly (COMPLETED) goes back to where its last drone was allocated, and from
+there it is told once more how that trip ended: nothing is flown again.
 """
 
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 
 from plutoc.check.flow import Facts, Flow, Place
+from plutoc.graph.model import Graph
 from plutoc_runtime.status import Status
 
 _FIRST = frozenset({Status.UNEXECUTED, Status.STANDBY})
@@ -18,9 +20,21 @@ _FIRST = frozenset({Status.UNEXECUTED, Status.STANDBY})
 Points = Mapping[Place, Mapping[str, None]]
 """For each place the nearest points on the ways to it, as an ordered set."""
 
+IsPoint = Callable[[Flow, Place], bool]
 
-def resumed(flow: Flow) -> tuple[Place, ...]:
-    """Return where missions go on after a Stop, each with the status that it has then."""
+
+def nearest(flow: Flow) -> Points:
+    """Return for each place the points at which a mission goes on that is interrupted there."""
+    unfinished = _points(flow, _is_point)
+    over = _points(flow, _is_allocator)
+    return {
+        place: (over if place.status is Status.COMPLETED else unfinished)[place]
+        for place in flow.places
+    }
+
+
+def resumed(points: Points) -> tuple[Place, ...]:
+    """Return where interrupted missions go on, each with the status that it has then."""
     return tuple(
         dict.fromkeys(
             Place(
@@ -29,37 +43,49 @@ def resumed(flow: Flow) -> tuple[Place, ...]:
                 status=Status.STANDBY if place.facts.launched else Status.UNEXECUTED,
                 facts=Facts(launched=place.facts.launched),
             )
-            for place, names in _points(flow).items()
-            if not _is_over(place)
+            for place, names in points.items()
             for name in names
         )
     )
 
 
-def resume_points(flow: Flow) -> Mapping[str, tuple[str, ...]]:
-    """Return the blocks at which a mission can go on that was stopped at each block."""
-    found: dict[str, dict[str, None]] = {name: {} for name in flow.graph.node}
-    for place, names in _points(flow).items():
-        if place.node in found and not _is_over(place):
+def entries(graph: Graph, points: Sequence[Points]) -> Mapping[str, frozenset[Status]]:
+    """Return the blocks at which missions go on, in the order of the source, and their statuses.
+
+    Where they are made is none of them: those that are set back to there begin anew.
+    """
+    found: dict[str, set[Status]] = {}
+    for place in (place for some in points for place in resumed(some)):
+        found.setdefault(place.node, set()).add(place.status)
+    return {
+        node.name: frozenset(found[node.name])
+        for node in graph.nodes
+        if node.name in found and not node.block.creates
+    }
+
+
+def resume_points(graph: Graph, points: Sequence[Points]) -> Mapping[str, tuple[str, ...]]:
+    """Return the blocks at which a mission can go on that was interrupted at each block."""
+    found: dict[str, set[str]] = {name: set() for name in graph.node}
+    for place, names in (pair for some in points for pair in some.items()):
+        if place.node in found:
             found[place.node].update(names)
-        elif place.node in found and place.frame is None:
-            found[place.node][place.node] = None
-    number = {name: i for i, name in enumerate(flow.graph.node)}
+    number = {name: i for i, name in enumerate(graph.node)}
     return {name: tuple(sorted(found[name], key=number.__getitem__)) for name in found}
 
 
-def _points(flow: Flow) -> Points:
+def _points(flow: Flow, is_point: IsPoint) -> Points:
     found: dict[Place, dict[str, None]] = {place: {} for place in flow.places}
     queue: deque[Place] = deque()
     for place, step in flow.places.items():
-        if step is None or _is_point(flow, place):
+        if step is None or is_point(flow, place):
             found[place][place.node] = None
             queue.append(place)
     while queue:
         place = queue.popleft()
         for following in flow.after[place]:
             known = len(found[following])
-            if not _is_point(flow, following):
+            if not is_point(flow, following):
                 found[following].update(found[place])
             if len(found[following]) > known:
                 queue.append(following)
@@ -73,6 +99,5 @@ def _is_point(flow: Flow, place: Place) -> bool:
     return node.block.allocates or (node.block.holds and not place.facts.allocated)
 
 
-def _is_over(place: Place) -> bool:
-    """Is nothing left to fly?"""
-    return place.status is Status.COMPLETED
+def _is_allocator(flow: Flow, place: Place) -> bool:
+    return _is_point(flow, place) and flow.graph.node[place.node].block.allocates

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from typing import TypeVar
 
 from plutoc.check import (
     ending,
@@ -19,11 +20,14 @@ from plutoc.check import (
 )
 from plutoc.check.branches import Branches, branches
 from plutoc.check.entry import entry
-from plutoc.check.flow import Flow
+from plutoc.check.flow import Flow, Place
 from plutoc.check.model import Checked
 from plutoc.check.statuses import creation, explore
 from plutoc.diagnostic import Diagnostic, Rejected, in_order
-from plutoc.graph.model import Graph, Node
+from plutoc.graph.model import Edge, Graph, Node
+from plutoc_runtime.status import Status
+
+T = TypeVar("T", str, Edge)
 
 
 def check(graph: Graph) -> tuple[Checked, tuple[Diagnostic, ...]]:
@@ -35,7 +39,8 @@ def check(graph: Graph) -> tuple[Checked, tuple[Diagnostic, ...]]:
     if creator is None or (found and not graph.outgoing[creator.name]):
         raise Rejected(in_order(found))  # nothing moves: there is nothing else to say
     flow = explore(graph, edges, (creation(creator.name),))
-    stopped = _after_a_stop(flow)
+    points = resume.nearest(flow)
+    stopped, points_then = _after_a_stop(flow, points)
     parallels = branches(flow)
     unwatched = parallel.unwatched_limits(flow, parallels)
     unclosed = forks.unclosed(flow, parallels)
@@ -47,20 +52,23 @@ def check(graph: Graph) -> tuple[Checked, tuple[Diagnostic, ...]]:
     found += reach.untaken(flow, stopped)
     found += parallel.written_twice(flow, parallels)
     found += unwatched
-    if not found:  # else the same things go wrong once more after a Stop
-        again = branches(stopped)
-        wrong = _in_flight(stopped, again, lacking=False) + forks.unclosed(stopped, again)
-        found = [errors.after_a_stop(each) for each in wrong]
-    if found:
+    if found:  # the same things go wrong once more after a Stop
         raise Rejected(in_order(found))
+    again = branches(stopped)
+    wrong = _in_flight(stopped, again, lacking=False) + forks.unclosed(stopped, again)
+    if wrong:
+        raise Rejected(in_order([errors.after_a_stop(each) for each in wrong]))
     checked = Checked(
         graph=graph,
-        arrives=flow.arrives,
-        leaves=flow.leaves,
-        carries=flow.carries,
-        forks=forks.closed(parallels),
-        implicit_ends=stuck.implicit_ends(flow),
-        resumes=resume.resume_points(flow),
+        arrives=_both(flow.arrives, stopped.arrives),
+        leaves=_both(flow.leaves, stopped.leaves),
+        carries=_both(flow.carries, stopped.carries),
+        forks=tuple(dict.fromkeys((*forks.closed(parallels), *forks.closed(again)))),
+        implicit_ends=tuple(
+            dict.fromkeys((*stuck.implicit_ends(flow), *stuck.implicit_ends(stopped)))
+        ),
+        resumes=resume.resume_points(graph, (points, points_then)),
+        entries=resume.entries(graph, (points, points_then)),
         explored=len(flow.places),
     )
     return checked, in_order(_warnings(flow, stopped))
@@ -101,7 +109,21 @@ def _in_flight(flow: Flow, parallels: Branches, *, lacking: bool) -> list[Diagno
     ]
 
 
-def _after_a_stop(flow: Flow) -> Flow:
-    """Follow missions that were stopped and go on, where that is another way than before."""
-    again = [place for place in resume.resumed(flow) if place not in flow.places]
-    return explore(flow.graph, flow.edges, again)
+def _after_a_stop(flow: Flow, points: resume.Points) -> tuple[Flow, resume.Points]:
+    """Follow missions that were stopped and go on, where that is another way than before.
+
+    They may be stopped once more, so this ends where nothing is new any more.
+    """
+    begun: dict[Place, None] = {}
+    while again := [p for p in resume.resumed(points) if p not in flow.places and p not in begun]:
+        begun.update(dict.fromkeys(again))
+        stopped = explore(flow.graph, flow.edges, begun)
+        points = resume.nearest(stopped)
+    return (stopped, points) if begun else (explore(flow.graph, flow.edges, ()), {})
+
+
+def _both(
+    one: Mapping[T, frozenset[Status]], other: Mapping[T, frozenset[Status]]
+) -> Mapping[T, frozenset[Status]]:
+    """Join what was seen before a Stop and after one."""
+    return {key: statuses | other.get(key, frozenset()) for key, statuses in one.items()}

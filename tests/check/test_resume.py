@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from plutoc_runtime.status import Status
 from tests.check.graphs import BASIC, checked, codes, findings
 from tests.check.test_sound_graphs import ALFALFA, SOUND
 
@@ -29,11 +30,40 @@ def test_a_stopped_mission_goes_back_to_the_nearest_block_that_waits_or_allocate
         assert resumes[name] == ("allocate",)
 
 
-def test_a_mission_with_nothing_left_to_fly_goes_on_where_it_is() -> None:
+def test_a_mission_with_nothing_left_to_fly_goes_back_to_where_its_last_drone_was_allocated() -> (
+    None
+):
+    """From there it is told once more how its last trip ended, so no Clock makes it wait again."""
     resumes = checked(ALFALFA).resumes
-    assert resumes["judge"] == ("judge",)
-    assert resumes["again"] == ("again",)
-    assert resumes["first"] == ("allocate", "first")
+    for name in ("first", "judge", "again"):
+        assert resumes[name] == ("allocate",)
+    beyond = f"""{BASIC}
+    wait = Clock
+    done = MissionModifier emits COMPLETED
+    note = MissionModifier
+    start -> create -> allocate -> launch -> watch
+    watch -> wait -> done when STANDBY
+    watch -> end
+    done -> note -> end"""
+    assert checked(beyond).resumes["done"] == ("wait",)
+    assert checked(beyond).resumes["note"] == ("allocate",)
+
+
+def test_the_blocks_at_which_missions_go_on_are_listed_with_how_they_stand() -> None:
+    first = frozenset({Status.UNEXECUTED})
+    both = frozenset({Status.UNEXECUTED, Status.STANDBY})
+    assert checked(ALFALFA).entries == {"wait": first, "allocate": both}
+    assert list(checked(ALFALFA).entries) == ["wait", "allocate"]
+    assert checked(f"{TWO_ALLOCATORS}\n    allocate -> launch").entries == {
+        "allocate": both,
+        "second": frozenset({Status.STANDBY}),
+    }
+
+
+def test_what_missions_do_after_a_stop_counts() -> None:
+    """Stopped on its first flight, a mission comes to `allocate` STANDBY, which it never does else."""
+    found = checked(f"{TWO_ALLOCATORS}\n    allocate -> launch")
+    assert Status.STANDBY in found.arrives["allocate"]
 
 
 def test_a_clock_that_is_reached_with_a_drone_is_no_place_to_go_on() -> None:
