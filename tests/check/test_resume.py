@@ -37,16 +37,6 @@ def test_a_mission_with_nothing_left_to_fly_goes_back_to_where_its_last_drone_wa
     resumes = checked(ALFALFA).resumes
     for name in ("first", "judge", "again"):
         assert resumes[name] == ("allocate",)
-    beyond = f"""{BASIC}
-    wait = Clock
-    done = MissionModifier emits COMPLETED
-    note = MissionModifier
-    start -> create -> allocate -> launch -> watch
-    watch -> wait -> done when STANDBY
-    watch -> end
-    done -> note -> end"""
-    assert checked(beyond).resumes["done"] == ("wait",)
-    assert checked(beyond).resumes["note"] == ("allocate",)
 
 
 def test_the_blocks_at_which_missions_go_on_are_listed_with_how_they_stand() -> None:
