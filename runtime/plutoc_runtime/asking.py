@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import socket
 from collections.abc import Mapping
 from contextlib import suppress
@@ -26,7 +27,7 @@ class Silent(BadInput):
 
 def note_of(journal: Path) -> Path:
     """Return the note that says where the app of a journal listens."""
-    return gateway_folder(journal) / "brain"
+    return gateway_folder(Path(os.path.realpath(journal))) / "brain"
 
 
 def ask(note: Path, request: Mapping[str, object], patience: float) -> str:

@@ -1,0 +1,105 @@
+"""`tell` reaches the app that runs, and says what is wrong where none does."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from threading import Event, Thread
+
+import pytest
+
+from plutoc_runtime.asking import note_of
+from plutoc_runtime.errors import BadInput
+from plutoc_runtime.remote_control import listening
+from tests.runtime.cli.conftest import Command
+
+
+@contextmanager
+def running(journal: Path, answer: Callable[[Mapping[str, object]], str]) -> Iterator[None]:
+    """Let an app listen in a thread of its own."""
+    ready, over = Event(), Event()
+
+    async def listen() -> None:
+        async with listening(note_of(journal), answer):
+            ready.set()
+            await asyncio.to_thread(over.wait)
+
+    thread = Thread(target=lambda: asyncio.run(listen()))
+    thread.start()
+    ready.wait()
+    try:
+        yield
+    finally:
+        over.set()
+        thread.join()
+
+
+@pytest.fixture
+def journal(tmp_path: Path) -> Path:
+    return tmp_path / "a.journal"
+
+
+@pytest.mark.parametrize(
+    ("words", "request_"),
+    [
+        ("stop", {"command": "stop", "how": "land"}),
+        ("stop --land", {"command": "stop", "how": "land"}),
+        ("stop --rtl", {"command": "stop", "how": "rtl"}),
+        ("pause", {"command": "pause", "mission": None}),
+        ("go-on North", {"command": "go-on", "mission": "North"}),
+        ("skip North", {"command": "skip", "mission": "North", "trip": None}),
+        ("skip North A", {"command": "skip", "mission": "North", "trip": "A"}),
+        ("cancel South", {"command": "cancel", "mission": "South"}),
+    ],
+)
+def test_each_command_arrives_and_the_answer_is_printed(
+    words: str, request_: object, journal: Path, command: Command
+) -> None:
+    heard = []
+
+    def answer(request: Mapping[str, object]) -> str:
+        heard.append(request)
+        return "so be it"
+
+    with running(journal, answer):
+        assert command("tell", journal, *words.split()) == (0, "so be it\n", "")
+    assert heard == [request_]
+
+
+def test_a_refusal_is_exit_2(journal: Path, command: Command) -> None:
+    def answer(request: Mapping[str, object]) -> str:
+        raise BadInput("there is no mission East")
+
+    with running(journal, answer):
+        said = command("tell", journal, "pause", "East")
+    assert said == (2, "", "there is no mission East\n")
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ("stop North", "stop brings all drones down"),
+        ("skip", "skip needs the name of a mission"),
+        ("pause North A", "pause is for whole missions; only skip takes a trip"),
+        ("pause --rtl", "--land and --rtl go with stop, not with pause"),
+        ("stop --rtl --land", "not allowed with argument"),
+        ("dance", "invalid choice: 'dance'"),
+    ],
+)
+def test_what_makes_no_sense_is_refused(
+    words: str, said: str, journal: Path, command: Command
+) -> None:
+    code, out, err = command("tell", journal, *words.split())
+    assert (code, out) == (2, "")
+    assert said in err
+
+
+def test_where_no_app_runs_one_is_told_how_to_go_on(journal: Path, command: Command) -> None:
+    code, out, err = command("tell", journal, "pause")
+    assert (code, out) == (2, "")
+    assert err == (
+        f"{journal}: alfalfa is not running, so there is nobody to tell; "
+        f"alfalfa resume {journal} goes on\n"
+    )
