@@ -40,15 +40,15 @@ def inside(point: Corner, polygon: Polygon) -> bool:
     x, y = point
     within = False
     for (ax, ay), (bx, by) in zip(polygon, polygon[1:] + polygon[:1], strict=True):
-        if _distance(point, (ax, ay), (bx, by)) <= EPSILON:
+        if distance(point, (ax, ay), (bx, by)) <= EPSILON:
             return False
         if (ay > y) != (by > y) and x < ax + (y - ay) * (bx - ax) / (by - ay):
             within = not within
     return within
 
 
-def _distance(point: Corner, a: Corner, b: Corner) -> float:
-    """From a point to the nearest of a segment."""
+def distance(point: Corner, a: Corner, b: Corner) -> float:
+    """Return how far a point is from the nearest of a straight leg."""
     dx, dy = b[0] - a[0], b[1] - a[1]
     square = dx * dx + dy * dy
     along = ((point[0] - a[0]) * dx + (point[1] - a[1]) * dy) / square if square else 0.0

@@ -64,6 +64,10 @@ class SimulatedNavigation:
         """Return how many metres a drone has flown, up and down included."""
         return self._bodies[drone].flown
 
+    def reboot(self, drone: str) -> None:
+        """Switch a drone off and on again: it forgets what it has done."""
+        self._bodies[drone].reboot()
+
     def fly(self, job: Job, report: Callable[[object], None]) -> None:
         """Take off, fly to the job's stops and do its action; then report."""
         self._jobs[job.drone] = self._kernel.spawn(

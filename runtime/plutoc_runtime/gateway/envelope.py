@@ -1,0 +1,50 @@
+"""Where drones may be sent at all, whatever the brain believes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+from ..errors import Failure, FlightFailed
+from ..words import number
+
+if TYPE_CHECKING:
+    from ..airspace import Airspace
+    from ..model import Point
+
+_KNOWN = 10_000
+"""Points kept of which it is known that a drone may be there: plans repeat theirs."""
+
+
+class Envelope:
+    """Inside the map, outside the no-fly areas, below the ceiling."""
+
+    def __init__(self, airspace: Airspace) -> None:
+        self._airspace = airspace
+        self._permitted: set[Point] = set()
+
+    def problem(self, points: Iterable[Point]) -> str | None:
+        """Return why no drone may be sent to these points, or None."""
+        permitted = self._permitted
+        for point in points:
+            if point not in permitted:
+                problem = self._airspace.problem(point)
+                if problem is not None:
+                    return problem
+                if len(permitted) >= _KNOWN:
+                    permitted.clear()
+                permitted.add(point)
+        return None
+
+    def check(self, target: Point) -> None:
+        """Raise `FlightFailed` if no drone may be sent to this point."""
+        problem = self.problem((target,))
+        if problem is not None:
+            raise FlightFailed(Failure.REFUSED, problem)
+
+    def check_height(self, height: float) -> None:
+        """Raise `FlightFailed` if no drone may rise so high."""
+        ceiling = self._airspace.ceiling
+        if height > ceiling:
+            reason = f"{number(height)} m is above the ceiling of {number(ceiling)} m"
+            raise FlightFailed(Failure.REFUSED, reason)

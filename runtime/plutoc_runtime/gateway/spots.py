@@ -1,0 +1,40 @@
+"""Where a drone can land when not where it is."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from math import ceil, cos, hypot, pi, sin
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from ..airspace import Airspace
+    from ..model import Point
+
+_STEP = 0.25
+"""Metres between the places that are looked at."""
+
+
+def free_spot(
+    airspace: Airspace, point: Point, taken: Sequence[Point], apart: float
+) -> Point:
+    """Return the nearest permitted place on the ground that is far enough from those taken.
+
+    Where there is none on the whole map, straight below is as good as any.
+    """
+    for x, y in _around(point, hypot(*airspace.size)):
+        if airspace.problem((x, y, 0.0)) is None and all(
+            hypot(x - other[0], y - other[1]) >= apart for other in taken
+        ):
+            return x, y, 0.0
+    return point[0], point[1], 0.0
+
+
+def _around(point: Point, furthest: float) -> Iterator[tuple[float, float]]:
+    """Yield a place, and then places on wider and wider circles around it."""
+    x, y, _ = point
+    yield x, y
+    for ring in range(1, ceil(furthest / _STEP) + 1):
+        radius, places = ring * _STEP, 6 * ring
+        for place in range(places):
+            angle = 2 * pi * place / places
+            yield x + radius * cos(angle), y + radius * sin(angle)

@@ -1,0 +1,88 @@
+"""A gateway over a small simulated team, jobs for it, and a brain's ears."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from plutoc_runtime.actions import BUILT_IN, Plain
+from plutoc_runtime.airspace import Airspace
+from plutoc_runtime.gateway.gateway import Gateway
+from plutoc_runtime.gateway.ledger import MemoryLedger
+from plutoc_runtime.kernel import FLEET, Kernel
+from plutoc_runtime.model import Category, Item, Point
+from plutoc_runtime.simulation.drones import SimulatedDrone, SimulatedNavigation
+from plutoc_runtime.simulation.faults import Faults
+from plutoc_runtime.simulation.world import World
+from plutoc_runtime.virtual import VirtualTime
+
+SCOUT = Category(name="scout", speed=0.5, flight_time=420, charge_time=1200)
+PILLS = Item(name="pills", mass=0.004)
+THERE = (4.0, 5.0, 1.2)
+"""From cf1's home at (1, 1): 4 s up, 10 s there; then the action."""
+
+
+@dataclass(slots=True, kw_only=True)
+class Task:
+    """A job as the brain gives it."""
+
+    id: str = "North field/A/0/1"
+    drone: str = "cf1"
+    stops: tuple[Point, ...] = (THERE,)
+    action: str | None = "pick_item"
+    parameters: Mapping[str, Plain] = field(default_factory=dict)
+    item: Item | None = PILLS
+    begun: int = 0
+
+    @property
+    def seconds(self) -> float:
+        """How long the action is expected to take."""
+        return 0.0 if self.action is None else BUILT_IN[self.action].seconds
+
+    def begins(self) -> None:
+        """Count how often its action has begun."""
+        self.begun += 1
+
+
+class Field:
+    """A kernel, a world with drones in it, and gateways that come and go."""
+
+    def __init__(
+        self,
+        kernel: Kernel | None = None,
+        *,
+        airspace: Airspace | None = None,
+        faults: Faults | None = None,
+        homes: tuple[tuple[float, float], ...] = ((1, 1), (2, 1), (3, 1)),
+        patience: float | None = None,
+    ) -> None:
+        self.airspace = airspace or Airspace()
+        self.kernel = kernel or VirtualTime()
+        self.drones = [
+            SimulatedDrone(id=f"cf{i + 1}", category=SCOUT, home=(x, y, 0.0), index=i)
+            for i, (x, y) in enumerate(homes)
+        ]
+        world = World(1, self.airspace)
+        self.navigation = SimulatedNavigation(
+            self.kernel, self.drones, world, faults or Faults(), 1, self.airspace
+        )
+        self.ledger = MemoryLedger()
+        self.patience = patience
+        self.gateway = self.another()
+
+    def another(self) -> Gateway:
+        """Return another gateway over the same drones, with the same ledger."""
+        self.gateway = Gateway(
+            self.kernel,
+            self.navigation,
+            self.drones,
+            self.airspace,
+            ledger=self.ledger,
+            patience=self.patience,
+        )
+        return self.gateway
+
+    def advance(self, seconds: float) -> None:
+        """Let virtual time pass."""
+        assert isinstance(self.kernel, VirtualTime)
+        self.kernel.run(self.kernel.spawn(self.kernel.sleep(seconds), FLEET, "time passes"))
