@@ -1,0 +1,94 @@
+"""What is read of a journal: rows in order, up to the first that is not what was written."""
+
+from __future__ import annotations
+
+import json
+import sqlite3
+from collections.abc import Generator, Iterator, Sequence
+from typing import Any, NamedTuple
+
+from . import errors
+from .database import is_sound, newest_snapshot
+
+_AT_ONCE = 1_000
+
+
+class Row(NamedTuple):
+    """The events of one instant."""
+
+    seq: int
+    wall: float
+    """Seconds since 1970: when it was written."""
+    text: str
+    """A JSON list of events."""
+
+
+Chunks = Generator[list[Row], None, str | None]
+"""Rows in order; at the end, why there are no more although there should be."""
+
+
+class Read:
+    """A snapshot and the rows after it; iterate over `rows` or `events`, one of them and once."""
+
+    def __init__(
+        self, chunks: Chunks, snapshot: str | None, after: int, warnings: Sequence[str] = ()
+    ) -> None:
+        self.snapshot, self.after = snapshot, after
+        """The state after the row of this number, which is the last that is not read."""
+        self.warnings = tuple(warnings)
+        """What is damaged and does not matter."""
+        self.damaged: str | None = None
+        """Why nothing more can be read, once all that can be was; None: that was everything."""
+        self._chunks = chunks
+
+    @property
+    def rows(self) -> Iterator[Row]:
+        """The rows, in order; never a wrong one."""
+        for chunk in self._sound():
+            yield from chunk
+
+    @property
+    def events(self) -> Iterator[dict[str, Any]]:
+        """The events of all rows, in order."""
+        for chunk in self._sound():
+            for events in json.loads("[" + ",".join([row.text for row in chunk]) + "]"):
+                yield from events
+
+    def _sound(self) -> Iterator[list[Row]]:
+        self.damaged = yield from self._chunks
+
+
+def since_snapshot(database: sqlite3.Connection, last: int) -> Read:
+    """Read what is needed to go on: the newest sound snapshot, and the rows after it."""
+    snapshot, after, warnings = newest_snapshot(database)
+    return Read(_rows(database, after + 1, last), snapshot, after, warnings)
+
+
+def from_the_start(database: sqlite3.Connection, last: int) -> Read:
+    """Read every row, the header first."""
+    return Read(_rows(database, 0, last), None, -1)
+
+
+def _rows(database: sqlite3.Connection, seq: int, last: int) -> Chunks:
+    query = (
+        "SELECT seq, epoch, wall, text, checksum FROM journal"
+        " WHERE seq BETWEEN ? AND ? ORDER BY seq"
+    )
+    sound: list[Row] = []
+    try:
+        found = database.execute(query, (seq, last))
+        while rows := found.fetchmany(_AT_ONCE):
+            for row in rows:
+                if row[0] != seq or not is_sound(row):
+                    yield sound
+                    missing = row[0] > seq
+                    what = errors.missing_rows(seq, row[0] - 1, last) if missing else None
+                    return what or errors.unsound_row(seq, last)
+                sound.append(Row(seq, row[2] / 1000, row[3].decode()))
+                seq += 1
+            yield sound
+            sound = []
+    except sqlite3.Error as error:
+        yield sound
+        return errors.unreadable_from(seq, last, errors.why(error))
+    return errors.missing_rows(seq, last, last) if seq <= last else None

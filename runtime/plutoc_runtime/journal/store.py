@@ -1,0 +1,260 @@
+"""One open journal: an SQLite file that one process writes."""
+
+from __future__ import annotations
+
+import json
+import os
+import sqlite3
+import time
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from functools import cache
+from pathlib import Path
+
+from ..trace import Event
+from . import errors
+from .database import connect, found, look_at, sync_folder
+from .errors import JournalError
+from .format import APPLICATION, TABLES, VERSION, row_checksum, snapshot_checksum, tip_checksum
+from .lock import Lock
+from .place import beside
+from .reading import Read, since_snapshot
+
+RESERVE = 256 * 1024
+"""Bytes kept back, so that on a full disk the last words can still be written."""
+
+SNAPSHOTS = 2
+"""How many are kept: should the newest be damaged, there is the one before."""
+
+_COLUMNS, _AT_ONCE = 5, 500
+"""Rows go in by few statements: a thread that executes one waits its turn among busy ones."""
+
+Clock = Callable[[], float]
+
+
+class Store:
+    """A journal that is open for writing, by this process and no other."""
+
+    def __init__(
+        self, path: Path, lock: Lock, database: sqlite3.Connection, header: Event, clock: Clock
+    ) -> None:
+        self.path, self.header = path, header
+        self.epoch = 0
+        """It grows at each opening: an older one is no longer obeyed."""
+        self.seq = 0
+        """The number of the last row."""
+        self.torn: str | None = None
+        """What was wrong with the last row, which was dropped; None: nothing was."""
+        self.failure: JournalError | None = None
+        """Why nothing more is taken; None: all is well."""
+        self._lock, self._database, self._clock = lock, database, clock
+        self._reserve, self._closed = beside(path, ".reserve"), False
+        most = database.getlimit(sqlite3.SQLITE_LIMIT_VARIABLE_NUMBER)
+        self._at_once = min(_AT_ONCE, most // _COLUMNS)
+
+    @classmethod
+    def create(cls, path: Path, header: Event, clock: Clock = time.time) -> Store:
+        """Begin a journal, which must not be there yet, and open it."""
+        path = _real(path)
+        try:
+            lock = Lock.take(path)
+            try:
+                _make(path, header, _milliseconds(clock))
+            except BaseException:
+                lock.release()
+                raise
+        except (OSError, ValueError, sqlite3.Error) as error:  # ValueError: a NUL in the name
+            raise errors.cannot_make(path, error) from None
+        return cls._opened(path, lock, clock)
+
+    @classmethod
+    def open(cls, path: Path, clock: Clock = time.time) -> Store:
+        """Go on with a journal: it gets a new epoch, durably."""
+        path = _real(path)
+        look_at(path)
+        try:
+            lock = Lock.take(path)
+        except OSError as error:
+            raise errors.cannot_open(path, error) from None
+        return cls._opened(path, lock, clock)
+
+    @classmethod
+    def _opened(cls, path: Path, lock: Lock, clock: Clock) -> Store:
+        try:
+            database = connect(path, "ro")  # to look at it must not change it
+            try:
+                state = found(path, database)
+            finally:
+                database.close()
+            database = connect(path, "rw")
+            store = cls(path, lock, database, state.header, clock)
+            try:
+                store._begin(state.seq, state.epoch + 1, state.torn)
+            except BaseException:
+                database.close()
+                raise
+        except BaseException as error:
+            lock.release()
+            if isinstance(error, (OSError, sqlite3.Error)):
+                raise errors.cannot_open(path, error) from None
+            raise
+        return store
+
+    def _begin(self, seq: int, epoch: int, torn: str | None) -> None:
+        self.seq, self.epoch, self.torn = seq, epoch, torn
+        database = self._database
+        database.execute("PRAGMA journal_mode = WAL")
+        database.execute("PRAGMA synchronous = FULL")  # with NORMAL a power cut takes what was told
+        database.execute("BEGIN IMMEDIATE")
+        database.execute("DELETE FROM journal WHERE seq > ?", (seq,))
+        database.execute("DELETE FROM tip")
+        database.execute(
+            "INSERT INTO tip VALUES (0, ?, ?, ?)", (seq, epoch, tip_checksum(seq, epoch))
+        )
+        database.execute("COMMIT")
+        database.execute("PRAGMA wal_checkpoint(TRUNCATE)")
+        self._keep_back()
+
+    def _keep_back(self) -> None:
+        with self._reserve.open("wb") as file:
+            file.write(os.urandom(RESERVE))  # no file system makes less of it
+            os.fsync(file.fileno())
+
+    def append(self, rows: Sequence[str]) -> None:
+        """Write rows, each the events of one instant; when this returns they are durable."""
+        if self.failure is not None:
+            raise self.failure
+        try:
+            self._commit(rows)
+        except sqlite3.Error as error:
+            raise self._failed(error) from None
+
+    def last_words(self, row: str) -> bool:
+        """Try once to write a row after all, such as why nothing more is written."""
+        try:
+            self._commit([row])
+        except sqlite3.Error:
+            self._roll_back()
+            return False
+        return True
+
+    def snapshot(self, state: str) -> None:
+        """Keep what all rows so far come to; the rows stay."""
+        if self.failure is not None:
+            raise self.failure
+        text, seq, wall = state.encode(), self.seq, _milliseconds(self._clock)
+        checksum, database = snapshot_checksum(seq, self.epoch, wall, text), self._database
+        try:
+            database.execute("BEGIN IMMEDIATE")
+            database.execute(
+                "INSERT OR REPLACE INTO snapshot VALUES (?, ?, ?, ?, ?)",
+                (seq, self.epoch, wall, state, checksum),
+            )
+            database.execute(
+                "DELETE FROM snapshot WHERE seq NOT IN"
+                " (SELECT seq FROM snapshot ORDER BY seq DESC LIMIT ?)",
+                (SNAPSHOTS,),
+            )
+            database.execute("COMMIT")
+        except sqlite3.Error as error:
+            raise self._failed(error) from None
+
+    def read(self) -> Read:
+        """Return the newest sound snapshot and the rows after it."""
+        return since_snapshot(self._database, self.seq)
+
+    def close(self) -> None:
+        """Let others have it; what was acknowledged is on disk already."""
+        if self._closed:
+            return  # what lies beside the journal may be another's by now
+        self._closed = True
+        with suppress(sqlite3.Error):
+            self._database.close()
+        with suppress(OSError):
+            self._reserve.unlink()
+        self._lock.release()
+
+    def _commit(self, rows: Sequence[str]) -> None:
+        wall, epoch, seq = _milliseconds(self._clock), self.epoch, self.seq
+        values: list[object] = []
+        for text in rows:
+            seq += 1
+            values += (seq, epoch, wall, text, row_checksum(seq, epoch, wall, text.encode()))
+        database, most = self._database, self._at_once * _COLUMNS
+        database.execute("BEGIN IMMEDIATE")
+        for start in range(0, len(values), most):
+            part = values[start : start + most]
+            database.execute(_insertion(len(part) // _COLUMNS), part)
+        database.execute("UPDATE tip SET seq = ?, checksum = ?", (seq, tip_checksum(seq, epoch)))
+        database.execute("COMMIT")
+        self.seq = seq
+
+    def _failed(self, error: sqlite3.Error) -> JournalError:
+        """Stop for good: nothing later is acknowledged."""
+        self._roll_back()
+        with suppress(OSError):
+            self._reserve.unlink()
+        self.failure = errors.cannot_write(self.path, error, self.seq)
+        return self.failure
+
+    def _roll_back(self) -> None:
+        with suppress(sqlite3.Error):
+            if self._database.in_transaction:
+                self._database.execute("ROLLBACK")
+
+
+@cache
+def _insertion(rows: int) -> str:
+    return "INSERT INTO journal VALUES " + ", ".join(["(?, ?, ?, ?, ?)"] * rows)
+
+
+def _make(path: Path, header: Event, wall: int) -> None:
+    """Write a whole journal beside its place, and only then let it be seen."""
+    if path.is_dir():
+        raise errors.is_folder(path)
+    if path.exists() or path.is_symlink():
+        raise errors.exists(path)
+    text = json.dumps([header])
+    part = beside(path, f".{os.getpid()}.part")
+    part.unlink(missing_ok=True)
+    try:
+        database = connect(part, "rwc")
+        try:
+            _fill(database, text, wall)
+        finally:
+            database.close()
+        try:
+            os.link(part, path)  # unlike a change of its name this never takes another's place
+        except FileExistsError:
+            raise errors.exists(path) from None
+        except OSError:  # a file system without links
+            part.rename(path)
+        sync_folder(path)
+    finally:
+        part.unlink(missing_ok=True)
+
+
+def _fill(database: sqlite3.Connection, text: str, wall: int) -> None:
+    database.execute("PRAGMA synchronous = FULL")
+    database.execute(f"PRAGMA application_id = {APPLICATION}")
+    database.execute(f"PRAGMA user_version = {VERSION}")
+    database.execute("BEGIN IMMEDIATE")
+    for table in TABLES.values():
+        database.execute(table)
+    header = (0, 0, wall, text, row_checksum(0, 0, wall, text.encode()))
+    database.execute("INSERT INTO journal VALUES (?, ?, ?, ?, ?)", header)
+    database.execute("INSERT INTO tip VALUES (0, 0, 0, ?)", (tip_checksum(0, 0),))
+    database.execute("COMMIT")
+    database.execute("PRAGMA journal_mode = WAL")
+
+
+def _real(path: Path) -> Path:
+    """Follow links: a journal with two names is one journal, with one lock."""
+    try:
+        return Path(os.path.realpath(path))
+    except ValueError as error:  # a NUL in the name
+        raise errors.cannot_open(path, error) from None
+
+
+def _milliseconds(clock: Clock) -> int:
+    return round(clock() * 1000)

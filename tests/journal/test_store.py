@@ -1,0 +1,98 @@
+"""A journal keeps what it acknowledged, in order, and belongs to one process."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from plutoc_runtime.journal.errors import JournalError
+from plutoc_runtime.journal.lock import holder
+from plutoc_runtime.journal.store import Store
+
+HEADER = {"event": "journal.begun", "app": "alfalfa", "missions": '[[mission]]\nname = "Ä"'}
+
+
+def row(number: int) -> str:
+    return json.dumps([{"t": float(number), "event": "log", "text": f"number {number}"}])
+
+
+@pytest.fixture
+def place(tmp_path: Path) -> Path:
+    return tmp_path / "flight.journal"
+
+
+@pytest.fixture
+def store(place: Path) -> Iterator[Store]:
+    store = Store.create(place, HEADER, clock=lambda: 1_000.25)
+    yield store
+    store.close()
+
+
+def test_what_was_appended_is_read_in_another_life(store: Store, place: Path) -> None:
+    store.append([row(1), row(2)])
+    store.append([row(3)])
+    store.close()
+    again = Store.open(place)
+    read = again.read()
+    assert [(found.seq, found.wall, found.text) for found in read.rows] == [
+        (number, 1000.25, row(number)) for number in (1, 2, 3)
+    ]
+    assert (read.damaged, read.snapshot, again.header) == (None, None, HEADER)
+    again.close()
+
+
+def test_the_epoch_grows_at_each_opening_even_if_nothing_is_written(place: Path) -> None:
+    epochs = []
+    store = Store.create(place, HEADER)
+    for _ in range(3):
+        epochs.append(store.epoch)
+        store.close()
+        store = Store.open(place)
+    store.close()
+    assert epochs == [1, 2, 3]
+
+
+def test_events_of_all_rows_come_one_by_one(store: Store) -> None:
+    store.append([json.dumps([{"t": 0, "event": "a"}, {"t": 0, "event": "b"}]), row(2), "[]"])
+    assert [event["event"] for event in store.read().events] == ["a", "b", "log"]
+
+
+def test_only_what_follows_the_newest_snapshot_is_read(store: Store) -> None:
+    for number in range(1, 10):
+        store.append([row(number)])
+        if number % 3 == 0:
+            store.snapshot(f"state {number}")
+    read = store.read()
+    assert (read.snapshot, read.after, list(read.rows)) == ("state 9", 9, [])
+    store.append([row(10)])
+    assert [found.seq for found in store.read().rows] == [10]
+
+
+def test_a_new_journal_never_takes_the_place_of_anything(store: Store, place: Path) -> None:
+    store.append([row(1)])
+    store.close()
+    with pytest.raises(JournalError, match="there is a journal already"):
+        Store.create(place, HEADER)
+    assert Store.open(place).seq == 1
+
+
+def test_a_second_writer_is_told_who_the_first_one_is(store: Store, place: Path) -> None:
+    with pytest.raises(JournalError, match=f"process {os.getpid()} is writing this journal"):
+        Store.open(place)
+    link = place.with_name("another name")
+    link.symlink_to(place)
+    with pytest.raises(JournalError, match=f"process {os.getpid()} is writing"):
+        Store.open(link)
+    assert holder(place) == os.getpid()
+    store.close()
+    assert holder(place) is None
+
+
+def test_nothing_but_the_journal_is_left_when_it_is_closed(store: Store, place: Path) -> None:
+    store.append([row(1)])
+    store.close()
+    assert os.listdir(place.parent) == [place.name]
