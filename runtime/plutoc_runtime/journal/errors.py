@@ -196,3 +196,22 @@ def bad_snapshot(seq: int) -> str:
 def unreadable_snapshots() -> str:
     """They cannot even be listed."""
     return "the snapshots cannot be read: the rows are read instead"
+
+
+def no_home() -> JournalError:
+    """Nobody can tell where this user keeps things."""
+    return JournalError(
+        "there is no home folder to keep the journal in: say where it is to be with --journal"
+    )
+
+
+def no_default_place(folder: Path, error: OSError) -> JournalError:
+    """The folder of journals cannot be made or written."""
+    return JournalError(
+        f"{folder}: the journal cannot be kept here: {why(error)}; name another place with --journal"
+    )
+
+
+def none_yet(app: str, folder: Path) -> JournalError:
+    """There is no newest journal."""
+    return JournalError(f"{app}: there is no journal in {folder}: name the one that is meant")

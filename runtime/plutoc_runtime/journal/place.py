@@ -1,8 +1,15 @@
-"""Where a journal is, and what lies beside it."""
+"""Where a journal is when nobody says, and what lies beside each."""
 
 from __future__ import annotations
 
+import os
+import time
+from contextlib import suppress
 from pathlib import Path
+
+from . import errors
+
+ENDING = ".journal"
 
 
 def beside(path: Path, suffix: str) -> Path:
@@ -13,3 +20,53 @@ def beside(path: Path, suffix: str) -> Path:
 def gateway_folder(path: Path) -> Path:
     """Return where the gateway of this journal keeps its things."""
     return beside(path, ".gateway")
+
+
+def new(app: str, now: float) -> Path:
+    """Return where a flight that begins now is written down, so that nobody flies without.
+
+    The folder is there after that, and nobody else may look into it.
+    """
+    folder = _folder(app)
+    try:
+        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+        if not os.access(folder, os.W_OK | os.X_OK):
+            raise PermissionError(0, "it may only be read")
+    except OSError as error:
+        raise errors.no_default_place(folder, error) from None
+    begun = time.strftime("%Y-%m-%d-%H%M%S", time.localtime(now))
+    path, number = folder / f"{begun}{ENDING}", 1
+    while os.path.lexists(path):
+        number += 1
+        path = folder / f"{begun}-{number}{ENDING}"
+    return path
+
+
+def newest(app: str) -> Path:
+    """Return the journal that was written last, of those whose place nobody chose."""
+    folder = _folder(app)
+    found: list[tuple[int, str, Path]] = []
+    with suppress(OSError):
+        for path in folder.glob(f"*{ENDING}"):
+            with suppress(OSError):
+                found.append((_written(path), path.name, path))
+    if not found:
+        raise errors.none_yet(app, folder)
+    return max(found)[2]
+
+
+def _written(path: Path) -> int:
+    latest = path.stat().st_mtime_ns
+    with suppress(OSError):
+        latest = max(latest, beside(path, "-wal").stat().st_mtime_ns)
+    return latest
+
+
+def _folder(app: str) -> Path:
+    state = Path(os.environ.get("XDG_STATE_HOME", ""))
+    if not state.is_absolute():  # so it is when nobody has set it
+        home = Path(os.path.expanduser("~"))
+        if not home.is_absolute() or os.environ.get("HOME") == "":
+            raise errors.no_home()
+        state = home / ".local" / "state"
+    return state / "pluto" / app
