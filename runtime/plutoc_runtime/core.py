@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from .allocation import Queue
     from .app import App
     from .fleet import Fleet
+    from .journal.recorder import Recorder
     from .kernel import Kernel
     from .navigation import Navigation
     from .results import ResultStore
@@ -32,6 +33,8 @@ class Core:
     queue: Queue
     fleet: Fleet
     deadlines: Deadlines
+    recorder: Recorder | None = None
+    """Writes down what happens; None: nobody will ever go on from here."""
 
     def log(self, text: str, mission: str | None = None) -> None:
         """Write a line on the console of whoever watches."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from .blame import blame, blamed
@@ -25,20 +25,78 @@ class Engine:
     def __init__(self, core: Core) -> None:
         self._core = core
         self._living: dict[Task[Status], State] = {}
+        self._aside: dict[str, State] = {}
+        """The missions that wait for a person: paused, uncertain or held."""
         self._halted = False
         self.done: Signal[None] = Signal()
-        """Set when the last mission has ended."""
+        """Set when the last mission has ended, and none is paused."""
+
+    @property
+    def states(self) -> Iterator[State]:
+        """Every mission that has not ended."""
+        yield from self._living.values()
+        yield from self._aside.values()
+
+    @property
+    def aside(self) -> Sequence[State]:
+        """The missions that wait for a person."""
+        return tuple(self._aside.values())
 
     def start(self, missions: Sequence[Mission[Any]]) -> None:
         """Set the missions on their way, all at once."""
-        core, kernel = self._core, self._core.kernel
+        core, kernel, recorder = self._core, self._core.kernel, self._core.recorder
         ended, doomed = self._ended, self._doomed
         for mission in missions:
+            if recorder is not None:
+                recorder.missions[mission.name] = mission
             state, key = State(core, mission, doomed), mission_key(mission.index)
             run = Run(mission, state, key)
             run.task = state.task = task = kernel.spawn(core.app.flow(run), key, mission.name)
             task.over = ended
             self._living[task] = state
+
+    def new_state(self, mission: Mission[Any]) -> State:
+        """Return the state of a mission that was interrupted in an earlier life of the app."""
+        if self._core.recorder is not None:
+            self._core.recorder.missions[mission.name] = mission
+        return State(self._core, mission, self._doomed)
+
+    def resume(self, state: State, status: Status) -> None:
+        """Let a mission that was interrupted go on at the block where it can, with this status."""
+        core, mission, key = self._core, state.mission, mission_key(state.mission.index)
+        self._aside.pop(mission.name, None)
+        run = Run(mission, state, key)
+        run.at, run.status = state.at, status
+        run.task = state.task = core.kernel.spawn(core.app.flow(run), key, mission.name)
+        run.task.over = self._ended
+        self._living[run.task] = state
+
+    def set_aside(self, state: State) -> None:
+        """Take a mission out of its graph, if it is in it, until a person says how it goes on."""
+        self._aside[state.mission.name] = state
+        self._take_out(state)
+
+    def _take_out(self, state: State) -> None:
+        task, state.task = state.task, None
+        if task is not None:
+            del self._living[task]
+            task.over = None
+            task.cancel()
+        if state.allocated is not None:
+            if state.allocated is not state.carrier:
+                self._core.fleet.never_flew(state.allocated)
+            state.allocated = None
+
+    def end(self, state: State, status: Status, reason: str) -> None:
+        """End a mission that waits for a person."""
+        self._aside.pop(state.mission.name, None)
+        self._end(state, status, reason)
+
+    def look_for_the_end(self) -> None:
+        """See whether there is nothing left to do."""
+        paused = (state.mission.status is Status.PAUSED for state in self._aside.values())
+        if not self._living and not any(paused):
+            self.done.set(None)
 
     def halt(self) -> None:
         """Take every mission out of its graph where it is; nothing is launched any more."""
@@ -47,14 +105,22 @@ class Engine:
             flight = state.in_flight
             if flight is not None:
                 flight.break_off()
+            state.flight = None  # whatever is still reported of it is read from the ledger
             task.cancel()
 
     def _doomed(self, state: State) -> None:
         """End a doomed mission, once whoever found out has finished its turn."""
         mission = state.mission
         self._core.kernel.spawn(
-            _call_off(state), mission_key(mission.index), f"{mission.name} is doomed"
+            self._call_off(state), mission_key(mission.index), f"{mission.name} is doomed"
         )
+
+    async def _call_off(self, state: State) -> None:
+        """Take its turn among the coroutines of this instant: before whoever is woken later."""
+        if state.task is not None:
+            state.task.cancel()
+        elif state.mission.name in self._aside:
+            self.end(state, FAILED, state.doom or "it was called off")
 
     def _ended(self, task: Task[Status]) -> None:
         """A mission's coroutine is over: see how it ended."""
@@ -94,10 +160,4 @@ class Engine:
         state.allocated = state.carrier = state.carries = None
         self._core.transitions.end(mission, status, reason)
         if not self._living:
-            self.done.set(None)
-
-
-async def _call_off(state: State) -> None:
-    """Take its turn among the coroutines of this instant: before whoever is woken later."""
-    if state.task is not None:
-        state.task.cancel()
+            self.look_for_the_end()

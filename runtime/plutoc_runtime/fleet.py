@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from .allocation import Queue
     from .model import Drone
     from .navigation import Navigation
+    from .standing import Standing
     from .trace import Trace
 
 
@@ -108,6 +109,25 @@ class Fleet:
     def never_flew(self, drone: Drone) -> None:
         """A drone was allocated and is not needed after all."""
         self._send(drone, DroneStatus.BUSY, self._stay, "is not needed")
+
+    def take_up(self, drone: Drone, standing: Standing) -> None:
+        """Find out what becomes of a drone that nobody needs now, when an app begins or goes on.
+
+        It is handed out only once it stands on the ground, well, with nothing aboard.
+        """
+        well = standing.reached and standing.landed and standing.carrying is None
+        if not (well and self._rests(drone)):
+            self.recover(drone)
+
+    def flies_on(self, drone: Drone) -> None:
+        """A drone has been flying for a mission since before the app was interrupted."""
+        self._become(drone, DroneStatus.BUSY)
+
+    def halt(self) -> None:
+        """Let go of every drone: somebody else brings them down."""
+        for errand in list(self.errands.values()):
+            errand.cancel()
+        self.errands.clear()
 
     async def all_down(self) -> None:
         """Wait until every drone has done what it does for itself: return, land, recover."""
@@ -217,6 +237,12 @@ class Fleet:
 
     async def _settle(self, drone: Drone) -> None:
         """It stands on the ground, well: is there enough in its battery to be handed out?"""
+        if not self._rests(drone):
+            self._become(drone, DroneStatus.RETURNING)
+            await self._return(drone)
+
+    def _rests(self, drone: Drone) -> bool:
+        """Let it be handed out, or charge first; False: it must go home for that."""
         missing = drone.category.reserve - drone.battery_level
         if missing < 0:
             self._become(drone, _FREE)
@@ -225,8 +251,8 @@ class Fleet:
             charged = self._kernel.now + missing * drone.category.charge_time + 0.001
             self._kernel.at(charged, Kind.CLOCK, self._key(drone), partial(self._charged, drone))
         else:
-            self._become(drone, DroneStatus.RETURNING)
-            await self._return(drone)
+            return False
+        return True
 
     def _charged(self, drone: Drone) -> None:
         if drone.status is DroneStatus.CHARGING:

@@ -122,6 +122,9 @@ class Flight(Signal[Status]):
         state, trip, drone = self.state, self.trip, self.flier
         core = state.core
         kernel, key = core.kernel, mission_key(state.mission.index)
+        core.transitions.begin_action(state.mission, trip, drone)
+        if core.recorder is not None:
+            await core.recorder.on_record()
         call = call_action(kernel, hook, drone, trip, Context(core, state), **trip.parameters)
         work = kernel.spawn(call, key, f"{state.mission.name}: {trip.action}")
         hover = kernel.spawn(core.navigation.hold(drone.id), key, f"{drone.id} hovers")
@@ -132,12 +135,15 @@ class Flight(Signal[Status]):
             await over
             if hover.is_set:
                 hover.result()  # raises what went wrong with the drone
-            return work.result()
+            value = work.result()
         except ActionFailed as error:
             raise FlightFailed(Failure.ACTION, f"{trip.action} failed: {error}") from error
         finally:
             work.cancel()
             hover.cancel()
+        if core.recorder is not None:
+            core.recorder.look(state.mission)
+        return value
 
     def break_off(self) -> None:
         """Stop where it is; nothing of it is reported any more."""
@@ -161,19 +167,30 @@ def launch(state: State, drone: Drone) -> None:
 
 def complete(state: State, flight: Flight, value: object) -> None:
     """A trip is over, and went well; its drone is free to go, unless it carries an item."""
-    core, mission, trip = state.core, state.mission, flight.trip
-    if trip not in mission.trips:
+    core = state.core
+    if flight.trip not in state.mission.trips:
         fail(state, flight, "a hook took it from the mission's trips", mends=False)
         return
-    if trip.item is not None:
-        _carry(state, flight, trip)
-    state.last_action_end = core.kernel.now
-    core.transitions.complete(mission, trip, value)
+    record_done(state, flight, value)
     if state.carrier is None:
         core.fleet.dismiss(flight.flier)
     else:
-        core.fleet.keep(flight.flier, partial(_lose, state))
-    flight.set(mission.status)
+        keep_carrier(state, flight.flier)
+    flight.set(state.mission.status)
+
+
+def record_done(state: State, flight: Flight, value: object) -> None:
+    """A trip's action was done; what becomes of its drone is not said yet."""
+    trip = flight.trip
+    if trip.item is not None:
+        _carry(state, flight, trip)
+    state.last_action_end = state.core.kernel.now
+    state.core.transitions.complete(state.mission, trip, value)
+
+
+def keep_carrier(state: State, drone: Drone) -> None:
+    """The mission's item is aboard a drone: it waits for the mission, which loses both together."""
+    state.core.fleet.keep(drone, partial(_lose, state))
 
 
 def _carry(state: State, flight: Flight, trip: Trip) -> None:

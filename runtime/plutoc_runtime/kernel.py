@@ -175,19 +175,21 @@ class Task(Signal[T]):
 
     def _leave(self) -> None:
         self.turn, self._waits_for = 0, None
-        del self._kernel.tasks[self]
+        self._kernel.tasks.pop(self, None)
 
     def cancel(self) -> None:
         """Stop it where it waits, now."""
-        if self.is_set:
-            return
+        if not self.is_set:
+            self._wait_no_longer()
+            self._throw(Cancelled())
+
+    def _wait_no_longer(self) -> None:
         waits_for, self._waits_for = self._waits_for, None
         if waits_for is not None:
             waits_for.unwatch(self.wake)
             if waits_for.waiter is self:
                 waits_for.waiter = None
         self.turn = 0  # it may wait once more, to clean up: not for this any longer
-        self._throw(Cancelled())
 
     async def ended(self) -> None:
         """Wait until it is over, even if it is cancelled."""
@@ -198,7 +200,9 @@ class Task(Signal[T]):
             self.result()
 
     def drop(self) -> None:
-        """Forget it where it waits: the run is over."""
+        """Forget it where it waits: the run is over, for it at least."""
+        self._wait_no_longer()
+        self._kernel.tasks.pop(self, None)
         self._coroutine.close()
 
 

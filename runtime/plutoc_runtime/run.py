@@ -53,11 +53,14 @@ class Run(Generic[M]):
                 f"it goes round in its graph for ever without time passing, by hook {hook_name(hook)}"
             )
         try:
-            return await kernel.call_hook(hook, *args)
+            answer = await kernel.call_hook(hook, *args)
         except (Cancelled, GeneratorExit, KeyboardInterrupt):
             raise
         except WHATEVER as error:
             raise fault_of(hook, error) from error
+        if self.core.recorder is not None:
+            self.core.recorder.look(self.mission)
+        return answer
 
     @property
     def trip(self) -> Any:

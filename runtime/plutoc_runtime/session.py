@@ -18,7 +18,7 @@ from .model import Drone, Mission
 from .results import ResultStore
 from .simulation.drones import SimulatedDrone, SimulatedNavigation
 from .simulation.world import World
-from .status import Status
+from .status import DroneStatus, Status
 from .trace import Event, Trace
 from .transitions import Transitions
 from .virtual import Stuck, VirtualTime
@@ -28,6 +28,7 @@ from .words import duration
 if TYPE_CHECKING:
     from .app import App
     from .files.fleet import FleetFile
+    from .journal.recorder import Recorder
     from .navigation import Navigation
     from .simulation.faults import Faults
 
@@ -71,8 +72,10 @@ class Session:
         kernel: Kernel,
         navigation: Navigation,
         listeners: Sequence[Listener],
+        recorder: Recorder | None = None,
     ) -> None:
         self._kernel = kernel
+        known = DroneStatus.FREE if recorder is None else DroneStatus.OFFLINE
         categories = {category.name: category for category in app.categories}
         self.drones = tuple(
             Drone(
@@ -80,6 +83,7 @@ class Session:
                 category=categories[entry.category],
                 home=entry.home,
                 telemetry=navigation.telemetry(entry.id),
+                status=known,
                 index=index,
             )
             for index, entry in enumerate(fleet.drones)
@@ -99,7 +103,10 @@ class Session:
                 kernel, trace, fleet.airspace, navigation, self.drones, queue, fleet.after_trip
             ),
             deadlines=Deadlines(kernel),
+            recorder=recorder,
         )
+        if recorder is not None:
+            recorder.trace, recorder.results = trace, results
         self.engine = Engine(self.core)
 
     def start(self, missions: Sequence[Mission[Any]]) -> Task[float]:
@@ -107,12 +114,17 @@ class Session:
 
         It is done when every drone is down as well.
         """
+        self.set_out(missions)
+        return self._kernel.spawn(self.see_through(), FLEET, "the session")
+
+    def set_out(self, missions: Sequence[Mission[Any]]) -> None:
+        """Start the missions."""
         self.engine.start(missions)
         # They live until the end: the garbage collector need not look at them again and again.
         freeze()
-        return self._kernel.spawn(self._see_through(), FLEET, "the session")
 
-    async def _see_through(self) -> float:
+    async def see_through(self) -> float:
+        """Wait until the last mission has ended and every drone is down; return when it ended."""
         await self.engine.done
         ended = self._kernel.now
         await self.core.fleet.all_down()

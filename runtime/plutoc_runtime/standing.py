@@ -51,6 +51,8 @@ class Entry:
     state: JobState
     boot: int
     """The drone's, when the job was given."""
+    flies: bool = False
+    """Whether its drone is at it now: it will be reported."""
     value: object = None
     """What its action gave, once it is DONE."""
     failure: str = ""

@@ -143,9 +143,7 @@ class Transitions:
     def begin_action(self, mission: Mission[Any], trip: Trip, drone: Drone) -> None:
         """An action of the app's own is about to begin: from now on it may have been done."""
         if self._trace.live:
-            self._trace.note(
-                "action.begun", mission=mission.name, trip=trip.name, drone=drone.id
-            )
+            self._trace.note("action.begun", mission=mission.name, trip=trip.name, drone=drone.id)
 
     def interrupt(self, mission: Mission[Any], trip: Trip) -> None:
         """A flight was interrupted before its action was done: it counts as no attempt."""

@@ -118,8 +118,8 @@ def flow(
     """Return create → [clock →] [modifier →] allocate → launch → watch, and what follows."""
 
     async def one_trip(run: Run[Mission], status: Status) -> Status:
-        mission = run.mission
-        if clock:
+        mission, at = run.mission, run.at
+        if clock and at != "allocate":
             status = await wait_for_time(
                 run,
                 status,
@@ -128,11 +128,13 @@ def flow(
                 every=mission.every,
                 delay=mission.current.delay,
             )
-        if prepare is not None:
+        if prepare is not None and at is None:
             status = await modify_mission(run, status, hook=prepare)
+        run.at = None
         status = await allocate_drone(
             run,
             status,
+            block="allocate",
             policy=policy,
             allocate_within=within,
             priority=mission.current.priority,
@@ -140,7 +142,9 @@ def flow(
         return await watch(run, launch_trip(run, status))
 
     async def whole(run: Run[Mission]) -> Status:
-        mission, status = run.mission, create_mission(run, Status.UNEXECUTED)
+        mission, status = run.mission, run.status
+        if run.at is None:
+            status = create_mission(run, status)
         while True:
             status = await one_trip(run, status)
             if status is Status.FAILED and attempts is not None:

@@ -31,6 +31,7 @@ def fly(step: Callable[..., Any], hook: Callable[..., Any], policy: Policy = nea
         status = await allocate_drone(
             run,
             status,
+            block="allocate",
             policy=policy,
             allocate_within=None,
         )

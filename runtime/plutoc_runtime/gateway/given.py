@@ -120,6 +120,7 @@ class Given:
             drone=self.drone,
             state=self.state,
             boot=self.boot,
+            flies=self.flies,
             value=self.value,
             failure=self.failure,
             reason=self.reason,

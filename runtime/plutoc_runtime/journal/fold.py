@@ -83,9 +83,10 @@ def _new() -> Record:
         "carries": None,
         "judged": 0,
         "ended": False,
-        "paused": False,
+        "paused": None,
         "question": None,
         "held": None,
+        "answer": None,
     }
 
 
@@ -161,15 +162,13 @@ def _completed(records: Records, record: Record, event: Fact) -> None:
 
 
 def _failed(_: Records, record: Record, event: Fact) -> None:
-    _trip(record, event).update(
-        status="FAILED", end_time=event["t"], reason=event["reason"]
-    )
+    _trip(record, event).update(status="FAILED", end_time=event["t"], reason=event["reason"])
     record["carrier"] = record["carries"] = None
     _outcome(record, "FAILED", event["reason"])
 
 
 def _outcome(record: Record, status: str, reason: str) -> None:
-    record.update(status=status, reason=reason, question=None)
+    record.update(status=status, reason=reason, question=None, answer=None)
     if record["flight"] is not None:
         record["flight"]["outcome"] = status
 
@@ -185,7 +184,7 @@ def _reset(_: Records, record: Record, event: Fact) -> None:
 def _interrupted(_: Records, record: Record, event: Fact) -> None:
     _goes_on(record)
     _waits(_trip(record, event))
-    record.update(status="STANDBY", reason="", question=None)
+    record.update(status="STANDBY", reason="", question=None, answer=None)
 
 
 def _skipped(_: Records, record: Record, event: Fact) -> None:
@@ -215,9 +214,7 @@ def _repeated(records: Records, record: Record, event: Fact) -> None:
     record["todo"] = sorted([*record["todo"], *own], key=lambda trip: int(trip["index"]))
     record["judged"] = len(records.results)
     record["waited"] = []
-    record.update(
-        done=[], round=event["round"], last_action_end=None, status="STANDBY", reason=""
-    )
+    record.update(done=[], round=event["round"], last_action_end=None, status="STANDBY", reason="")
 
 
 def _modified(_: Records, record: Record, event: Fact) -> None:
@@ -232,15 +229,17 @@ def _judged(_: Records, record: Record, event: Fact) -> None:
 
 def _ended(_: Records, record: Record, event: Fact) -> None:
     record.update(status=event["status"], reason=event["reason"], ended=True)
-    record.update(carrier=None, carries=None, question=None, held=None, paused=False, delay=None)
+    record.update(carrier=None, carries=None, question=None, held=None, paused=None, delay=None)
 
 
 def _paused(_: Records, record: Record, event: Fact) -> None:
-    record["paused"] = True
+    record["paused"] = event["t"]
 
 
 def _resumed(_: Records, record: Record, event: Fact) -> None:
-    record.update(paused=False, held=None, question=None, status=event["status"])
+    if record["paused"] is not None and record["delay"] is not None:
+        record["delay"][1] += event["t"] - record["paused"]
+    record.update(paused=None, held=None, question=None, answer=None, status=event["status"])
 
 
 def _uncertain(_: Records, record: Record, event: Fact) -> None:
@@ -272,6 +271,8 @@ def shift_delays(records: Records, seconds: float) -> None:
     for record in records.missions.values():
         if record["delay"] is not None:
             record["delay"][1] += seconds
+        if record["paused"] is not None:
+            record["paused"] += seconds
 
 
 def _goes_on(record: Record) -> None:

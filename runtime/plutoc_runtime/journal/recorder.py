@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from ..fields import Entity
 from ..journal_line import exact
+from ..signals import Signal
 from .fold import Record, Records
 from .values import fields_of, mission_data, trip_data, value_data
 
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
     from ..kernel import Kernel
     from ..model import Mission
     from ..results import ResultStore
-    from ..trace import Event
+    from ..trace import Event, Trace
 
 Facts = dict[str, Any]
 
@@ -44,6 +45,7 @@ class Recorder:
         self.missions: dict[str, Mission[Any]] = {}
         """The missions by name, as soon as they exist."""
         self.results: ResultStore | None = None
+        self.trace: Trace | None = None
         self._lines: list[str] = []
         """The events of this instant."""
         self._waiting: deque[tuple[int, Callable[[], object]]] = deque()
@@ -69,6 +71,12 @@ class Recorder:
         is over."""
         self._due.append(call)
 
+    async def on_record(self) -> None:
+        """Wait until all that has happened up to now is durable."""
+        durable: Signal[None] = Signal()
+        self.when_durable(lambda: durable.set(None))
+        await durable
+
     def durable(self, number: int) -> None:
         """The journal has everything up to the row of this number; told within the kernel."""
         self._durable = max(self._durable, number)
@@ -76,14 +84,17 @@ class Recorder:
         while waiting and waiting[0][0] <= self._durable:
             waiting.popleft()[1]()
 
-    def look(self, mission: Mission[Any], note: Callable[..., object]) -> None:
+    def look(self, mission: Mission[Any]) -> None:
         """A hook has had this mission in its hands: if it changed its trips, that is an event."""
         app, record = self._app, self.records.missions[mission.name]
         todo = [trip_data(app, trip) for trip in mission.trips]
         fields = {name: getattr(mission, name) for name in fields_of(app, Entity.MISSION)}
         if todo != [_as_new(trip) for trip in record["todo"]] or fields != record["fields"]:
             done = [trip_data(app, trip) for trip in mission.completed_trips]
-            note("mission.changed", mission=mission.name, todo=todo, done=done, fields=fields)
+            assert self.trace is not None
+            self.trace.note(
+                "mission.changed", mission=mission.name, todo=todo, done=done, fields=fields
+            )
 
     def _settle(self) -> None:
         """The instant is over: its row goes to the journal, and then what waits for it."""

@@ -130,14 +130,8 @@ def value_of(data: object) -> object:
     match data:
         case {"$number": str(text)}:
             return float(text)
-        case {"$photo": {**photo}}:
-            return Photo(
-                position=point_of(photo["position"]),
-                width=photo["width"],
-                height=photo["height"],
-                sees=tuple(photo["sees"]),
-                sharpness=photo["sharpness"],
-            )
+        case {"$photo": dict(photo)}:
+            return _photo_of(photo)
         case {"$tuple": [*elements]}:
             return tuple(value_of(element) for element in elements)
         case {"$text": str(text)}:
@@ -148,6 +142,16 @@ def value_of(data: object) -> object:
             return {key: value_of(element) for key, element in data.items()}
         case _:
             return data
+
+
+def _photo_of(photo: Mapping[str, Any]) -> Photo:
+    return Photo(
+        position=point_of(photo["position"]),
+        width=photo["width"],
+        height=photo["height"],
+        sees=tuple(photo["sees"]),
+        sharpness=photo["sharpness"],
+    )
 
 
 def _given(entity: object, names: Sequence[str]) -> Data:

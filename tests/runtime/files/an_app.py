@@ -40,7 +40,9 @@ class FieldMission(Mission[FieldTrip]):
 async def fly_mission(run: Run[FieldMission]) -> Status:
     status = create_mission(run, Status.UNEXECUTED)
     while True:
-        status = await allocate_drone(run, status, policy=nearest, allocate_within=None)
+        status = await allocate_drone(
+            run, status, block="allocate", policy=nearest, allocate_within=None
+        )
         status = await watch_trip(run, launch_trip(run, status))
         if status is Status.FAILED:
             trip = run.mission.current

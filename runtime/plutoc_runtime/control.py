@@ -1,0 +1,265 @@
+"""What a person may tell a running app: stop, pause, go on, skip, cancel, and what only they know.
+
+Each is told within the kernel, and answers with a sentence for whoever asked; `BadInput` says why
+it cannot be done. Nothing here waits before the drones are told.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import TYPE_CHECKING
+
+from .errors import BadInput
+from .flight import keep_carrier
+from .interruption import Fate, doubt, fate, fly_again, settle_doubt, standing
+from .kernel import FLEET, Task, mission_key
+from .signals import Signal
+from .standing import Down
+from .status import Status
+from .words import counted, quoted
+
+if TYPE_CHECKING:
+    from .flight import Flight
+    from .gateway.link import Link
+    from .journal.fold import Record
+    from .model import Trip
+    from .session import Session
+    from .state import State
+
+    Then = Callable[[State], None]
+
+CANCELLED = "cancelled by hand"
+
+
+class Control:
+    """The commands of one running app."""
+
+    def __init__(self, session: Session, link: Link) -> None:
+        self._session, self._link = session, link
+        self._core, self._engine = session.core, session.engine
+        self.stopped: Signal[Down] = Signal()
+        """Set when everything was stopped and all drones are down."""
+        self._stops: Task[None] | None = None
+        self._steps_out: dict[str, Task[None]] = {}
+        """The missions whose flights are being broken off."""
+
+    def stop(self, how: Down) -> str:
+        """Take every mission out of its graph and bring all drones down; all can go on later."""
+        core = self._core
+        if self._stops is None:
+            self._engine.halt()
+            core.fleet.halt()
+            for work in self._steps_out.values():
+                work.cancel()
+            core.trace.note("stopped", how=how.value)
+        else:
+            self._stops.cancel()
+        self._stops = core.kernel.spawn(self._bring_down(how), FLEET, "everything stops")
+        return "stopping: " + _HOW[how]
+
+    async def _bring_down(self, how: Down) -> None:
+        await self._link.bring_down(how)
+        self.stopped.set(how)
+
+    def pause(self, mission: str | None = None) -> str:
+        """Take a mission, or all, out of the graph until it is told to go on."""
+        states = self._those(mission, lambda status: status not in _ASIDE, "can be paused")
+        for state in states:
+            self._step_out(state, self._paused)
+        return f"{_named(states)}: paused"
+
+    def go_on(self, mission: str | None = None) -> str:
+        """Let a mission that is paused, or all that are, go on where it was."""
+        states = self._those(mission, lambda status: status is Status.PAUSED, "is paused")
+        for state in states:
+            self._resume(state)
+        return f"{_named(states)}: going on"
+
+    def skip(self, mission: str, trip: str | None = None) -> str:
+        """Leave out a trip, the next one or the one named; if it flies, its drone comes home."""
+        state = self._state(mission)
+        if state.mission.status in (Status.UNCERTAIN, Status.HELD):
+            raise BadInput(f"mission {quoted(mission)} waits for a decision: decide that first")
+        unwanted = _trip_to_skip(state, trip)
+        if state.in_flight is not None and unwanted is state.in_flight.trip:
+            self._step_out(state, partial(self._skip, unwanted))
+        elif unwanted is state.mission.trips[0] and state.task is not None:
+            self._step_out(state, partial(self._skip, unwanted))
+        else:
+            self._core.transitions.skip(state.mission, unwanted)
+        return f"mission {quoted(mission)}: trip {quoted(unwanted.name)} is skipped"
+
+    def cancel(self, mission: str | None = None) -> str:
+        """End a mission, or all, for good: CANCELLED."""
+        states = self._those(mission, lambda _: True, "can be cancelled")
+        for state in states:
+            self._cancel(state)
+        return f"{_named(states)}: cancelled"
+
+    def decide(self, mission: str, answer: str) -> str:
+        """Settle what only a person can know: `done`, `not-done`, `go-on` or `cancel`."""
+        state = self._state(mission)
+        status = state.mission.status
+        fitting = ANSWERS.get(status, ())
+        if answer not in fitting:
+            asked = f"fitting answers are {', '.join(fitting)}" if fitting else "it asks nothing"
+            raise BadInput(f"mission {quoted(mission)} is {status.value}: {asked}")
+        if answer == "go-on" and not (state.mission.trips or state.mission.completed_trips):
+            raise BadInput(f"mission {quoted(mission)} cannot go on in this app: cancel it")
+        self._core.transitions.decide(state.mission, answer)
+        if answer == "cancel":
+            self._cancel(state)
+        elif answer == "go-on":
+            points = self._core.app.resumes
+            state.at = state.at if state.at in points else next(iter(points), None)
+            self._step_out(state, self._resume)
+        else:
+            settle_doubt(state, self._engine, self._link, answer == "done")
+        return f"mission {quoted(mission)}: {answer}"
+
+    # One mission leaves its graph, or comes back
+
+    def _step_out(self, state: State, then: Then) -> None:
+        """Take a mission out of its graph; go on when it is known what became of its flight."""
+        mission, flight = state.mission, state.in_flight
+        if mission.name in self._steps_out:
+            raise BadInput(f"mission {quoted(mission.name)} is being taken out of its graph")
+        if flight is None:
+            flown = self._record(state)["flight"]
+            state.goes_on = bool(flown and flown["outcome"] and not flown["heard"])
+            self._engine.set_aside(state)
+            then(state)
+            return
+        self._engine.set_aside(state)
+        mission.status = Status.PAUSED
+        flight.break_off()
+        self._steps_out[mission.name] = self._core.kernel.spawn(
+            self._broken_off(state, flight, then),
+            mission_key(mission.index),
+            f"{mission.name} is interrupted",
+        )
+
+    async def _broken_off(self, state: State, flight: Flight, then: Then) -> None:
+        """Ask the ledger what became of a flight, and its drone."""
+        roll = await self._link.call()
+        del self._steps_out[state.mission.name]
+        action = self._core.app.actions[flight.trip.action]
+        begun = bool(self._record(state)["flight"]["begun"])
+        what = fate(roll.jobs.get(flight.id), action, begun)
+        if what is Fate.UNKNOWN:
+            doubt(state, flight)
+            if flight.trip.item is None:
+                self._core.fleet.recover(flight.flier)
+            return
+        if what is Fate.FLIES_ON:  # it has just ended
+            state.mission.status = Status.RUNNING
+            self._link.attach(flight.id, flight.report)
+            await flight
+            state.goes_on = True
+        else:
+            fly_again(state, flight)
+            if flight.flier is state.carrier:
+                keep_carrier(state, flight.flier)
+            else:
+                self._core.fleet.recover(flight.flier)
+        then(state)
+
+    def _paused(self, state: State) -> None:
+        self._core.transitions.pause(state.mission)
+
+    def _resume(self, state: State) -> None:
+        flight = state.flight if state.goes_on else None
+        status = standing(state) if flight is None else flight.result()
+        self._core.transitions.go_on(state.mission, status)
+        delay = self._record(state)["delay"]
+        if state.delay is not None and delay is not None:
+            state.delay = state.delay[0], delay[1]  # it has not waited meanwhile
+        self._engine.resume(state, standing(state))
+
+    def _skip(self, unwanted: Trip, state: State) -> None:
+        mission = state.mission
+        was_paused = self._record(state)["paused"] is not None
+        if unwanted in mission.trips:
+            self._core.transitions.skip(mission, unwanted)
+            state.goes_on = False
+        if not mission.trips and not state.goes_on:
+            self._engine.end(state, Status.COMPLETED, "")
+        elif not was_paused:
+            self._resume(state)
+
+    def _cancel(self, state: State) -> None:
+        work = self._steps_out.pop(state.mission.name, None)
+        if work is not None:
+            work.cancel()
+        self._engine.set_aside(state)
+        flight = state.in_flight
+        if flight is not None and state.mission.status is Status.UNCERTAIN:
+            state.flight = None  # it does not fly: its drone may be on another's way by now
+            if flight.trip.item is not None:
+                self._core.fleet.recover(flight.flier)
+                state.carrier = None
+        self._engine.end(state, Status.CANCELLED, CANCELLED)
+
+    # Which missions
+
+    def _record(self, state: State) -> Record:
+        recorder = self._core.recorder
+        assert recorder is not None
+        return recorder.records.missions[state.mission.name]
+
+    def _state(self, mission: str) -> State:
+        for state in self._engine.states:
+            if state.mission.name == mission:
+                return state
+        names = ", ".join(quoted(state.mission.name) for state in self._engine.states)
+        raise BadInput(f"no mission {quoted(mission)} is under way; there are: {names or 'none'}")
+
+    def _those(
+        self, mission: str | None, fits: Callable[[Status], bool], what: str
+    ) -> Sequence[State]:
+        if mission is not None:
+            state = self._state(mission)
+            if not fits(state.mission.status):
+                raise BadInput(f"mission {quoted(mission)} is {state.mission.status.value}")
+            return (state,)
+        states = [state for state in self._engine.states if fits(state.mission.status)]
+        if not states:
+            raise BadInput(f"no mission {what}")
+        return states
+
+
+def _trip_to_skip(state: State, name: str | None) -> Trip:
+    """Return the trip that is meant; raise `BadInput` where it cannot be skipped."""
+    mission = state.mission
+    trips = {trip.name: trip for trip in mission.trips}
+    who = f"mission {quoted(mission.name)}"
+    if not trips:
+        raise BadInput(f"{who} has no trip left to skip")
+    unwanted: Trip | None = mission.trips[0] if name is None else trips.get(name)
+    if unwanted is None:
+        left = ", ".join(quoted(one) for one in trips)
+        raise BadInput(f"{who} has no trip {quoted(name or '')} to do; it has {left}")
+    if unwanted.item is not None:
+        raise BadInput(
+            f"{who}: trip {quoted(unwanted.name)} picks or releases {unwanted.item.name}, and what "
+            "is picked must be released: cancel the mission instead"
+        )
+    return unwanted
+
+
+def _named(states: Sequence[State]) -> str:
+    if len(states) == 1:
+        return f"mission {quoted(states[0].mission.name)}"
+    return counted(len(states), "mission")
+
+
+_ASIDE = (Status.PAUSED, Status.UNCERTAIN, Status.HELD)
+
+ANSWERS = {Status.UNCERTAIN: ("done", "not-done", "cancel"), Status.HELD: ("go-on", "cancel")}
+"""What a person may answer, by how the mission stands."""
+
+_HOW = {
+    Down.HOME: "all drones fly home and land",
+    Down.LAND: "all drones land where they are",
+}

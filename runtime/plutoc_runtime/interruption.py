@@ -1,0 +1,102 @@
+"""What becomes of a flight that was interrupted, and of its mission.
+
+A flight is interrupted when the app stops or dies, or when somebody takes its mission out of its
+graph. Then the ledger is asked, and the drone; what they cannot say, only a person can.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from enum import Enum
+from typing import TYPE_CHECKING, Any
+
+from .actions import PICK, RELEASE
+from .flight import Flight, keep_carrier, record_done
+from .standing import Entry, JobState
+from .status import STANDBY, UNEXECUTED, Status
+
+if TYPE_CHECKING:
+    from .actions import Action
+    from .engine import Engine
+    from .gateway.link import Link
+    from .state import State
+
+
+class Fate(Enum):
+    """What becomes of an interrupted flight."""
+
+    FLIES_ON = "flies on"  # or has ended, and its end can still be heard
+    AGAIN = "again"  # its action was not done: it counts as no attempt
+    UNKNOWN = "unknown"
+
+
+def fate(entry: Entry | None, action: Action, begun: bool) -> Fate:
+    """Return what becomes of a flight; `begun`: the app's own action had begun when it ended."""
+    repeatable = action.repeat == "safe"
+    if entry is not None and entry.flies:
+        return Fate.FLIES_ON
+    if begun:
+        return Fate.AGAIN if repeatable else Fate.UNKNOWN
+    if entry is None or entry.state is JobState.BROKEN_OFF:
+        return Fate.AGAIN
+    if entry.state is JobState.BEGUN:
+        return Fate.AGAIN if repeatable else Fate.UNKNOWN
+    return Fate.FLIES_ON
+
+
+def probe_of(hook: Callable[..., object]) -> Callable[..., Any] | None:
+    """Return the hook that can tell whether an action was done: `pollinate` has `pollinate_done`."""
+    module = sys.modules.get(hook.__module__)
+    return getattr(module, f"{hook.__name__}_done", None)
+
+
+def fly_on(state: State, flight: Flight, link: Link) -> None:
+    """Hear of a flight that was not interrupted after all, or has ended meanwhile."""
+    mission = state.mission
+    state.goes_on = True
+    mission.status = Status.RUNNING
+    state.core.fleet.flies_on(flight.flier)
+    link.attach(flight.id, flight.report)
+
+
+def fly_again(state: State, flight: Flight) -> None:
+    """Put an interrupted trip back: it has not been flown."""
+    state.flight, state.goes_on = None, False
+    state.core.transitions.interrupt(state.mission, flight.trip)
+
+
+def doubt(state: State, flight: Flight) -> None:
+    """Nobody can say whether the action was done: a drone that may have the item waits, too."""
+    trip, drone = flight.trip, flight.flier
+    state.core.transitions.doubt(
+        state.mission,
+        trip,
+        drone.id,
+        f"was {trip.action} of trip {trip.name} done by {drone.id}? Nobody could see it",
+    )
+    if trip.action in (PICK, RELEASE):
+        keep_carrier(state, drone)
+
+
+def settle_doubt(state: State, engine: Engine, link: Link, done: bool) -> None:
+    """A person has said whether the action was done: the mission goes on accordingly."""
+    flight = state.flight
+    if flight is None:
+        raise RuntimeError(f"nothing is in doubt about mission {state.mission.name}")
+    link.forget(flight.id)
+    trip, kept = flight.trip, flight.trip.action in (PICK, RELEASE)
+    if done:
+        record_done(state, flight, None)
+        flight.set(state.mission.status)
+        state.goes_on = True
+    else:
+        fly_again(state, flight)
+    if kept and state.carrier is None:
+        state.core.fleet.recover(flight.flier)
+    engine.resume(state, standing(state))
+
+
+def standing(state: State) -> Status:
+    """Return the status with which a mission goes on where it was interrupted."""
+    return STANDBY if state.mission.attempts else UNEXECUTED

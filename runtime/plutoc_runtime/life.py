@@ -1,0 +1,77 @@
+"""One life of an app that keeps a journal: from its start, or from where an earlier one ended.
+
+An app lives until its last mission has ended, until it is stopped, or until its process dies. The
+next life begins with the journal's records and a roll call of the drones, whichever it was.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+from .control import Control
+from .journal.careful import Careful
+from .journal.recorder import Recorder, Sink
+from .kernel import FLEET, Kernel, Task
+from .recovery import go_on
+from .session import Listener, Session
+
+if TYPE_CHECKING:
+    from .app import App
+    from .files.fleet import FleetFile
+    from .gateway.link import Link
+    from .journal.fold import Records
+    from .model import Mission
+
+
+class Life:
+    """A session whose every step is on record before anybody outside can see it."""
+
+    def __init__(
+        self,
+        app: App,
+        fleet: FleetFile,
+        kernel: Kernel,
+        link: Link,
+        sink: Sink,
+        records: Records,
+        *,
+        epoch: int,
+        listeners: Sequence[Listener] = (),
+    ) -> None:
+        self._kernel, self._link, self._epoch = kernel, link, epoch
+        self.recorder = Recorder(app, kernel, sink, records)
+        navigation = Careful(link, self.recorder)
+        heard = [self.recorder.take, *listeners]
+        self.session = Session(app, fleet, kernel, navigation, heard, self.recorder)
+        self.control = Control(self.session, link)
+        self.missions: tuple[Mission[Any], ...] = ()
+        """All missions, those of earlier lives that have ended included."""
+
+    def start(self, missions: Sequence[Mission[Any]]) -> Task[float]:
+        """Fly these missions from the beginning; the task is as that of `Session.start`."""
+        return self._kernel.spawn(self._started(missions), FLEET, "the session")
+
+    def go_on(self, planned: Sequence[Mission[Any]]) -> Task[float]:
+        """Go on from the records; where the journal has no mission yet, fly the planned ones."""
+        if not self.recorder.records.missions:
+            return self.start(planned)
+        return self._kernel.spawn(self._went_on(), FLEET, "the session")
+
+    async def _started(self, missions: Sequence[Mission[Any]]) -> float:
+        core = self.session.core
+        roll = await self._link.call()
+        core.trace.note("brain.began", epoch=self._epoch)
+        self.missions = tuple(missions)
+        for drone in core.fleet.drones:
+            core.fleet.take_up(drone, roll.drones[drone.id])
+        self.session.set_out(missions)
+        return await self.session.see_through()
+
+    async def _went_on(self) -> float:
+        session, records = self.session, self.recorder.records
+        roll = await self._link.call()
+        session.core.trace.note("brain.began", epoch=self._epoch)
+        missions = await go_on(session.core, session.engine, self._link, roll, records)
+        self.missions = tuple(missions)
+        return await session.see_through()
