@@ -20,11 +20,14 @@ T = TypeVar("T")
 
 
 class RealTime(Kernel):
-    """The kernel of real flights; made and used inside a running asyncio loop."""
+    """The kernel of real flights; made and used inside a running asyncio loop.
 
-    def __init__(self) -> None:
+    With simulated drones, time may pass at another speed than on the wall.
+    """
+
+    def __init__(self, speed: float = 1.0) -> None:
         super().__init__()
-        self._loop = asyncio.get_running_loop()
+        self._loop, self._speed = asyncio.get_running_loop(), speed
         self._start = self._loop.time()
         self._draining = False
         self._armed: asyncio.TimerHandle | None = None
@@ -33,7 +36,10 @@ class RealTime(Kernel):
 
     def time(self) -> float:
         """Return the seconds since the start; they stand still while an instant is taken."""
-        return self.now if self._draining else self._loop.time() - self._start
+        return self.now if self._draining else self._clock()
+
+    def _clock(self) -> float:
+        return (self._loop.time() - self._start) * self._speed
 
     @property
     def time_of_day(self) -> float:
@@ -55,7 +61,7 @@ class RealTime(Kernel):
         if self._draining:
             call(*args)
             return
-        self.now = self._loop.time() - self._start
+        self.now = self._clock()
         self._draining = True
         try:
             call(*args)
@@ -97,7 +103,7 @@ class RealTime(Kernel):
         if self._armed is not None:
             self._armed.cancel()
         self._armed_for = when
-        self._armed = self._loop.call_at(self._start + when, self._due)
+        self._armed = self._loop.call_at(self._start + when / self._speed, self._due)
 
     def _due(self) -> None:
         self._armed, self._armed_for = None, inf

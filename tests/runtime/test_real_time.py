@@ -16,7 +16,9 @@ from plutoc_runtime.actions import Action
 from plutoc_runtime.airspace import Airspace
 from plutoc_runtime.context import Context
 from plutoc_runtime.fly import fly_simulated
+from plutoc_runtime.kernel import FLEET
 from plutoc_runtime.model import Category, Drone
+from plutoc_runtime.realtime import RealTime
 from plutoc_runtime.simulation.faults import Faults
 from plutoc_runtime.trace import Event
 from tests.runtime import apps
@@ -233,3 +235,14 @@ def test_a_hook_that_never_comes_back_keeps_nobody_from_leaving() -> None:
         [sys.executable, "-c", code], capture_output=True, text=True, timeout=20, check=False
     )
     assert (ended.stdout, ended.stderr) == ("left\n", "")
+
+
+def test_time_can_pass_faster_than_on_the_wall() -> None:
+    """A thousand seconds at a million times the speed take a millisecond."""
+
+    async def main() -> float:
+        kernel = RealTime(speed=1e6)
+        await kernel.run(kernel.spawn(kernel.sleep(1000), FLEET, "waits"))
+        return kernel.now
+
+    assert asyncio.run(main()) >= 1000
