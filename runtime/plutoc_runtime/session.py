@@ -13,6 +13,7 @@ from .eligibility import Reach
 from .engine import Engine
 from .errors import BadInput
 from .fleet import Fleet
+from .gateway.gateway import Gateway
 from .kernel import FLEET, Kernel, Task
 from .model import Drone, Mission
 from .results import ResultStore
@@ -154,9 +155,10 @@ class Simulation:
         self._navigation = SimulatedNavigation(
             kernel, simulated, world, faults, seed, fleet.airspace
         )
+        gateway = Gateway(kernel, self._navigation, simulated, fleet.airspace)
         self._events: list[Event] = []
         listeners = [self._events.append, *([listener] if listener else [])]
-        self.session = Session(app, fleet, kernel, self._navigation, listeners)
+        self.session = Session(app, fleet, kernel, gateway.link(1), listeners)
 
     def outcome(self, missions: Sequence[Mission[Any]], ended: float) -> Outcome:
         """Return what has come of the missions."""
