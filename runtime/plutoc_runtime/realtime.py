@@ -22,11 +22,13 @@ T = TypeVar("T")
 class RealTime(Kernel):
     """The kernel of real flights; made and used inside a running asyncio loop.
 
-    With simulated drones, time may pass at another speed than on the wall.
+    With simulated drones, time may pass at another speed than on the wall. Who goes on where another
+    life of the app has ended begins later than at 0.
     """
 
-    def __init__(self, speed: float = 1.0) -> None:
+    def __init__(self, speed: float = 1.0, begin: float = 0.0) -> None:
         super().__init__()
+        self.now = self._begin = begin
         self._loop, self._speed = asyncio.get_running_loop(), speed
         self._start = self._loop.time()
         self._draining = False
@@ -39,7 +41,7 @@ class RealTime(Kernel):
         return self.now if self._draining else self._clock()
 
     def _clock(self) -> float:
-        return (self._loop.time() - self._start) * self._speed
+        return self._begin + (self._loop.time() - self._start) * self._speed
 
     @property
     def time_of_day(self) -> float:
@@ -103,7 +105,9 @@ class RealTime(Kernel):
         if self._armed is not None:
             self._armed.cancel()
         self._armed_for = when
-        self._armed = self._loop.call_at(self._start + when / self._speed, self._due)
+        self._armed = self._loop.call_at(
+            self._start + (when - self._begin) / self._speed, self._due
+        )
 
     def _due(self) -> None:
         self._armed, self._armed_for = None, inf

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..errors import BadInput
-from ..files.fleet import FleetFile, default_fleet, load_fleet
-from ..files.missions import load_missions
-from ..files.reading import shortened
+from ..files.fleet import FleetFile, default_fleet, fleet_of
+from ..files.missions import missions_of
+from ..files.reading import parsed, shortened, text_of
 from ..plan_check import endless, problems
 
 if TYPE_CHECKING:
     from ..app import App
+    from ..journal.header import Header
     from ..model import Mission
     from .options import Options
 
@@ -23,15 +25,36 @@ class Plan:
 
     missions: list[Mission[Any]]
     fleet: FleetFile
+    missions_text: str = ""
+    """The file, as it was read."""
+    fleet_text: str | None = None
+    """The same; None: there was none."""
 
 
 def load(app: App, options: Options) -> Plan:
     """Return the plan of a command's files; raise `BadInput` where nobody could fly it."""
-    fleet = load_fleet(options.fleet, app) if options.fleet else default_fleet(app)
-    missions = load_missions(options.missions, app, fleet.airspace)
+    fleet_text = text_of(options.fleet) if options.fleet else None
+    fleet = _fleet(app, str(options.fleet), fleet_text)
+    missions_text = text_of(options.missions)
+    missions = missions_of(parsed(str(options.missions), missions_text), app, fleet.airspace)
     found = problems(missions, app, fleet, fleet.airspace)
     if options.command == "simulate" and options.until is None:
         found += endless(missions, app)
     if found:
         raise BadInput(shortened([f"{options.missions}: {sentence}" for sentence in found]))
-    return Plan(missions=missions, fleet=fleet)
+    return Plan(missions=missions, fleet=fleet, missions_text=missions_text, fleet_text=fleet_text)
+
+
+def fleet_in(app: App, journal: Path, header: Header) -> FleetFile:
+    """Return the fleet of a journal; raise `BadInput` if the app does not know it any more."""
+    return _fleet(app, f"{journal} (its fleet)", header["fleet"])
+
+
+def missions_in(app: App, journal: Path, header: Header, fleet: FleetFile) -> list[Mission[Any]]:
+    """Return the missions with which a journal begins, as they were planned."""
+    document = parsed(f"{journal} (its missions)", header["missions"])
+    return missions_of(document, app, fleet.airspace)
+
+
+def _fleet(app: App, name: str, text: str | None) -> FleetFile:
+    return default_fleet(app) if text is None else fleet_of(parsed(name, text), app)

@@ -15,7 +15,7 @@ from ..quantities import Type
 from ..words import quoted
 from . import errors, values
 from .map import read_map
-from .reading import read
+from .reading import Document, read
 from .table import Table
 from .world import read_world
 
@@ -73,7 +73,11 @@ def default_fleet(app: App) -> FleetFile:
 
 def load_fleet(path: Path, app: App) -> FleetFile:
     """Return what a fleet file says; raise `BadInput` with everything that is wrong with it."""
-    document = read(path)
+    return fleet_of(read(path), app)
+
+
+def fleet_of(document: Document, app: App) -> FleetFile:
+    """Return what a fleet file that was read says, as `load_fleet` does."""
     top = Table(document, document.data)
     top.only(("map", "fleet", "drone", "world"), "a fleet file")
     airspace, image = read_map(top)

@@ -9,7 +9,7 @@ from ..fields import Entity
 from ..words import quoted
 from . import errors, values
 from .app_fields import read_fields
-from .reading import read
+from .reading import Document, read
 from .table import Table
 from .trips import read_trips
 
@@ -21,7 +21,11 @@ if TYPE_CHECKING:
 
 def load_missions(path: Path, app: App, airspace: Airspace) -> list[Mission[Any]]:
     """Return the missions of a file; raise `BadInput` with everything that is wrong with it."""
-    document = read(path)
+    return missions_of(read(path), app, airspace)
+
+
+def missions_of(document: Document, app: App, airspace: Airspace) -> list[Mission[Any]]:
+    """Return the missions of a file that was read, as `load_missions` does."""
     top = Table(document, document.data)
     top.only(("mission",), "a missions file")
     names: dict[str, Table] = {}

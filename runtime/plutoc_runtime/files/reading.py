@@ -56,7 +56,11 @@ def shortened(lines: Sequence[str]) -> str:
 
 def read(path: Path) -> Document:
     """Read a plan file; raise `BadInput` if it is no TOML text of a sane size."""
-    text = _text(path)
+    return parsed(str(path), text_of(path))
+
+
+def parsed(path: str, text: str) -> Document:
+    """Return what a plan file's text says; raise `BadInput` if it is no TOML."""
     line = line_of_long_key(text)
     if line is not None:
         raise BadInput(f"{path}:{line}: {errors.nested_too_deep()}")
@@ -66,10 +70,11 @@ def read(path: Path) -> Document:
         raise BadInput(f"{path}: {errors.nested_too_deep()}") from None
     except ValueError as error:  # TOMLDecodeError, and a number with thousands of digits
         raise BadInput(_syntax(path, text, str(error))) from None
-    return Document(str(path), data, places(text))
+    return Document(path, data, places(text))
 
 
-def _text(path: Path) -> str:
+def text_of(path: Path) -> str:
+    """Return the text of a plan file; raise `BadInput` if it cannot be one."""
     try:
         with open(path, "rb", opener=_opened) as file:
             content = file.read(LARGEST + 1)
@@ -93,7 +98,7 @@ def _opened(path: str, flags: int) -> int:
     return descriptor
 
 
-def _syntax(path: Path, text: str, message: str) -> str:
+def _syntax(path: str, text: str, message: str) -> str:
     place = re.search(r" \(at line (\d+), column (\d+)\)$", message)
     if place is not None:
         return f"{path}:{place[1]}: {errors.syntax(message[: place.start()])}, column {place[2]}"
