@@ -7,6 +7,7 @@ from functools import partial
 
 import pytest
 
+from plutoc_runtime.testing.delay_rule import DelaysAreWaited
 from plutoc_runtime.testing.drone_rules import ItemsStayAboard, ServesOneMission, StaysDown
 from plutoc_runtime.testing.invariants import RULES, Invariants, violations
 from plutoc_runtime.testing.mission_rules import (
@@ -15,7 +16,7 @@ from plutoc_runtime.testing.mission_rules import (
     NothingAfterTheEnd,
 )
 from plutoc_runtime.testing.rule import Rule, Say
-from plutoc_runtime.testing.trip_rules import AttemptsCountUp, DelaysAreWaited, TripsDoNotOverlap
+from plutoc_runtime.testing.trip_rules import AttemptsCountUp, TripsDoNotOverlap
 from plutoc_runtime.trace import Event
 
 Trace = Sequence[Event]
@@ -222,7 +223,7 @@ PLANTED: list[tuple[Change, Callable[[Say], Rule] | None, str]] = [
     (lands_without_a_flight, TripsDoNotOverlap, "look of ward ended and was not in flight"),
     (lands_another, TripsDoNotOverlap, "look (d2, round 0, attempt 1) of ward ended, not look"),
     (ends_in_flight, TripsDoNotOverlap, "ward ended during look"),
-    (is_impatient, DelaysAreWaited, "whose delay is not over before 99 s"),
+    (is_impatient, DelaysAreWaited, "its delay is not over before 99 s"),
     (gives_a_returning_drone, ServesOneMission, "before it was free again"),
     (gives_a_drone_twice, ServesOneMission, "to other while ward had it"),
     (flies_with_a_stolen_drone, ServesOneMission, "which did not have it"),

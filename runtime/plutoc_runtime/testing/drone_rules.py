@@ -17,13 +17,17 @@ class ServesOneMission:
     """A drone gets a second trip only after its first ended and it was free again.
 
     A mission may be given again the drone that it holds: it was not launched yet, or has its item.
+    When an app goes on, nobody is free before the roll was called.
     """
 
     def __init__(self, say: Say) -> None:
         self._say = say
         self._holder: dict[object, object] = {}
         self._away: dict[object, None] = {}
+        self._free_since: dict[object, None] | None = None
+        """The drones that have been free in this life of an app that keeps a journal."""
         self.hears = {
+            "brain.began": self._begin,
             "drone.free": self._free,
             "drone.returning": self._leave,
             **dict.fromkeys(UNWELL, self._leave),
@@ -31,9 +35,14 @@ class ServesOneMission:
             "trip.launched": self._launch,
         }
 
+    def _begin(self, _: Event) -> None:
+        self._free_since = {}
+
     def _free(self, event: Event) -> None:
         self._holder.pop(event["drone"], None)
         self._away.pop(event["drone"], None)
+        if self._free_since is not None:
+            self._free_since[event["drone"]] = None
 
     def _leave(self, event: Event) -> None:
         self._holder.pop(event["drone"], None)
@@ -41,9 +50,12 @@ class ServesOneMission:
 
     def _allocate(self, event: Event) -> None:
         drone, mission = event["drone"], event["mission"]
-        holder = self._holder.get(drone, mission)
+        holder = self._holder.get(drone)
         if drone in self._away:
             self._say(f"{at(event)}: {drone} was given to {mission} before it was free again")
+        elif holder is None:
+            if self._free_since is not None and drone not in self._free_since:
+                self._say(f"{at(event)}: {drone} was given to {mission} before it was asked")
         elif holder != mission:
             self._say(f"{at(event)}: {drone} was given to {mission} while {holder} had it")
         self._holder[drone] = mission
@@ -62,6 +74,7 @@ class StaysDown:
         self._state: dict[object, object] = {}
         self.hears = {
             "drone": self._become,
+            "brain.began": self._begin,
             "trip.allocated": self._serve,
             "trip.launched": self._serve,
         }
@@ -70,6 +83,9 @@ class StaysDown:
         state = self._state.get(event["drone"])
         if state in UNWELL:
             self._say(f"{at(event)}: {event['event']} with {event['drone']} after {state}")
+
+    def _begin(self, _: Event) -> None:
+        self._state.clear()  # somebody may have mended it; it is asked
 
     def _become(self, event: Event) -> None:
         drone = event["drone"]

@@ -12,10 +12,11 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from ..actions import PICK, RELEASE
+from .delay_rule import DelaysAreWaited
 from .drone_rules import ItemsStayAboard, ServesOneMission, StaysDown
 from .mission_rules import ENDS, CompletedDidEverything, EndsOnce, NothingAfterTheEnd
 from .rule import OVER, Hears, Say, at
-from .trip_rules import AttemptsCountUp, DelaysAreWaited, TripsDoNotOverlap
+from .trip_rules import AttemptsCountUp, TripsDoNotOverlap
 
 if TYPE_CHECKING:
     from ..model import Mission

@@ -14,14 +14,21 @@ ENDS = ("COMPLETED", "FAILED", "CANCELLED")
 
 
 class EndsOnce:
-    """Every mission ends, once, and says why if it was not completed."""
+    """Every mission ends, once, or waits for a person, and says why if it was not completed."""
 
     def __init__(self, say: Say) -> None:
         self._say = say
         self._ended: Counter[object] = Counter()
         self._waits: dict[object, object] = {}
         """Those that wait for a person, and why."""
-        self.hears = {"mission.created": self._create, "mission.ended": self._end, OVER: self._over}
+        self.hears = {
+            "mission.created": self._create,
+            "mission.ended": self._end,
+            "mission.uncertain": self._wait,
+            "mission.held": self._wait,
+            "mission.decided": self._go_on,
+            OVER: self._over,
+        }
 
     def _create(self, event: Event) -> None:
         if event["mission"] in self._ended:
@@ -31,6 +38,7 @@ class EndsOnce:
     def _end(self, event: Event) -> None:
         mission, status, reason = event["mission"], event["status"], str(event["reason"])
         self._ended[mission] += 1
+        self._waits.pop(mission, None)
         if status not in ENDS:
             self._say(f"{at(event)}: {mission} ended {status}")
         if status == "FAILED" and not reason.strip():
@@ -38,9 +46,18 @@ class EndsOnce:
         if status == "COMPLETED" and reason:
             self._say(f"{at(event)}: {mission} was completed, yet says why it failed: {reason}")
 
+    def _wait(self, event: Event) -> None:
+        self._waits[event["mission"]] = event["reason"]
+        if not str(event["reason"]).strip():
+            self._say(f"{at(event)}: {event['mission']} waits for a person, who is asked nothing")
+
+    def _go_on(self, event: Event) -> None:
+        if self._waits.pop(event["mission"], None) is None:
+            self._say(f"{at(event)}: {event['mission']} asked nothing, and was answered")
+
     def _over(self, _: Event) -> None:
         for mission, times in self._ended.items():
-            if times != 1:
+            if times != 1 and mission not in self._waits:
                 self._say(f"{mission} ended {times} times")
 
 
@@ -73,7 +90,9 @@ class CompletedDidEverything:
             "mission.extended": self._extend,
             "mission.repeated": self._repeat,
             "mission.ended": self._end,
+            "mission.changed": self._change,
             "trip.completed": self._complete,
+            "trip.skipped": self._complete,
         }
 
     def _create(self, event: Event) -> None:
@@ -85,6 +104,11 @@ class CompletedDidEverything:
 
     def _repeat(self, event: Event) -> None:
         self._to_do[event["mission"]] = Counter(self._own[event["mission"]])
+
+    def _change(self, event: Event) -> None:
+        trips = event["todo"]
+        assert isinstance(trips, list)
+        self._to_do[event["mission"]] = Counter(trip["name"] for trip in trips)
 
     def _complete(self, event: Event) -> None:
         self._to_do[event["mission"]][event["trip"]] -= 1

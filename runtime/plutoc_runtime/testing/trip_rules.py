@@ -20,8 +20,11 @@ class TripsDoNotOverlap:
             "trip.launched": self._launch,
             "trip.completed": self._end,
             "trip.failed": self._end,
+            "trip.interrupted": self._interrupt,
+            "mission.uncertain": self._doubt,
             "mission.ended": self._end_mission,
         }
+        self._doubted: dict[object, None] = {}
 
     def _launch(self, event: Event) -> None:
         mission = event["mission"]
@@ -39,22 +42,34 @@ class TripsDoNotOverlap:
             this, other = named(flight(event)), named(launched)
             self._say(f"{at(event)}: {this} of {mission} ended, not {other}")
 
+    def _interrupt(self, event: Event) -> None:
+        mission = event["mission"]
+        launched = self._flying.pop(mission, None)
+        if launched is None or launched[0] != event["trip"]:
+            self._say(f"{at(event)}: {event['trip']} of {mission} was interrupted before it flew")
+
+    def _doubt(self, event: Event) -> None:
+        self._doubted[event["mission"]] = None
+
     def _end_mission(self, event: Event) -> None:
         launched = self._flying.pop(event["mission"], None)
-        if launched is not None:
+        if launched is not None and event["mission"] not in self._doubted:
             self._say(f"{at(event)}: {event['mission']} ended during {named(launched)}")
 
 
 class AttemptsCountUp:
-    """The flights of one trip in one round are numbered 1, 2, 3."""
+    """The flights of one trip in one round are numbered 1, 2, 3; one that was interrupted is none."""
 
     def __init__(self, say: Say) -> None:
         self._say = say
         self._last: dict[tuple[object, object, object], int] = {}
-        self.hears = {"trip.launched": self._launch}
+        self._newest: dict[object, tuple[object, object, object]] = {}
+        """By mission, what it flew last."""
+        self.hears = {"trip.launched": self._launch, "trip.interrupted": self._interrupt}
 
     def _launch(self, event: Event) -> None:
         trip = event["mission"], event["trip"], event["round"]
+        self._newest[event["mission"]] = trip
         last = self._last[trip] = self._last.get(trip, 0) + 1
         if event["attempt"] != last:
             self._say(
@@ -62,33 +77,7 @@ class AttemptsCountUp:
                 f"calls itself attempt {event['attempt']}"
             )
 
-
-class DelaysAreWaited:
-    """No trip gets a drone before its delay is over, and none is waited for twice."""
-
-    def __init__(self, say: Say) -> None:
-        self._say = say
-        self._until: dict[object, float] = {}
-        """By mission, when the delay that it waits for is over."""
-        self._waited: dict[tuple[object, ...], object] = {}
-        self._tries: dict[tuple[object, object], object] = {}
-        self.hears = {
-            "trip.delayed": self._delay,
-            "trip.allocated": self._go_on,
-            "trip.launched": self._go_on,
-        }
-
-    def _delay(self, event: Event) -> None:
-        self._until[event["mission"]] = float(str(event["until"]))
-
-    def _go_on(self, event: Event) -> None:
-        until = self._until.pop(event["mission"], None)
-        if until is not None and float(str(event["t"])) < until - _ROUNDED:
-            self._say(
-                f"{at(event)}: {event['event']} for {event['trip']} of {event['mission']}, "
-                f"whose delay is not over before {until:g} s"
-            )
-
-
-_ROUNDED = 0.002
-"""Seconds. Events say their times with so few decimals."""
+    def _interrupt(self, event: Event) -> None:
+        trip = self._newest.get(event["mission"])
+        if trip in self._last:
+            self._last[trip] -= 1

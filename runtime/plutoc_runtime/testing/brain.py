@@ -1,0 +1,54 @@
+"""One life of an app in a trial: its own clock, and a journal that can fail it."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable
+from random import Random
+from typing import TYPE_CHECKING
+
+from ..kernel import Key, Timer
+from ..kernel import Kind as When
+from ..virtual import VirtualTime
+
+if TYPE_CHECKING:
+    from .case import Weather
+
+
+class BrokenHook(RuntimeError):
+    """What a hook raises that nobody expected."""
+
+
+class BrainTime(VirtualTime):
+    """Virtual time for one brain: it wakes up late, and its hooks fail, as the weather has it."""
+
+    def __init__(
+        self,
+        now: float,
+        weather: Weather,
+        chance: Random,
+        fired: Counter[str],
+        done: Callable[[Callable[..., object], tuple[object, ...]], object],
+    ) -> None:
+        super().__init__()
+        self.now = now
+        self._weather, self._chance, self._fired, self._done = weather, chance, fired, done
+
+    def at(self, when: float, kind: When, key: Key, call: Callable[[], object]) -> Timer:
+        """Call this at a time, or a little later."""
+        late = self._weather.late
+        if late and when > self.now and self._chance.random() < late:
+            self._fired["late wake-up"] += 1
+            when += self._chance.random() * 0.5
+        return super().at(when, kind, key, call)
+
+    async def call_hook(
+        self, hook: Callable[..., object], /, *args: object, **named: object
+    ) -> object:
+        """Run a hook, or let it fail."""
+        if self._weather.hook and self._chance.random() < self._weather.hook:
+            self._fired["hook raising"] += 1
+            raise BrokenHook("by chance")
+        result = await super().call_hook(hook, *args, **named)
+        self._done(hook, args)
+        return result

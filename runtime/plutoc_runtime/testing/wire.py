@@ -1,0 +1,107 @@
+"""Between a brain and its gateway in a trial: messages take their time, and a dead brain is mute."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from ..gateway.link import Link
+from ..kernel import FLEET, Kind
+
+if TYPE_CHECKING:
+    from ..gateway.gateway import Gateway
+    from ..gateway.given import Report
+    from ..kernel import Kernel
+    from ..model import Point
+    from ..navigation import Job
+    from ..standing import Down, RollCall, Standing
+
+
+class Wire(Link):
+    """A link whose messages travel for a while, each way, and in order."""
+
+    def __init__(
+        self, link: Link, gateway: Gateway, brain: Kernel, slow: float, fired: Counter[str]
+    ) -> None:
+        super().__init__(gateway, None)
+        self._real, self._world, self._brain = link, gateway.kernel, brain
+        self._slow, self._fired = slow, fired
+        self.alive = True
+
+    def fly(self, job: Job, report: Report) -> None:
+        """Give a drone its job."""
+        self._send(partial(self._real.fly, job, partial(self._told, report)))
+
+    def break_off(self, drone: str) -> None:
+        """Stop whatever a drone does."""
+        self._send(partial(self._real.break_off, drone))
+
+    def attach(self, id: str, report: Report) -> None:
+        """Hear of a job that was given before."""
+        self._send(partial(self._real.attach, id, partial(self._told, report)))
+
+    def forget(self, id: str) -> None:
+        """Nobody will ask for a job any more."""
+        self._send(partial(self._real.forget, id))
+
+    async def hold(self, drone: str) -> None:
+        """Hover."""
+        await self._travel()
+        await self._real.hold(drone)
+
+    async def takeoff(self, drone: str, height: float) -> None:
+        """Rise to a height."""
+        await self._travel()
+        await self._real.takeoff(drone, height)
+
+    async def go_to(self, drone: str, target: Point) -> None:
+        """Fly straight to a point."""
+        await self._travel()
+        await self._real.go_to(drone, target)
+
+    async def land(self, drone: str) -> None:
+        """Land here."""
+        await self._travel()
+        await self._real.land(drone)
+
+    async def recover(self, drone: str) -> bool:
+        """Bring a drone home after a failed flight."""
+        await self._travel()
+        return await self._real.recover(drone)
+
+    async def roll_call(self, drone: str) -> Standing:
+        """Ask a drone where it is and what it has done."""
+        await self._travel()
+        return await self._real.roll_call(drone)
+
+    async def call(self) -> RollCall:
+        """Ask all drones and the ledger how everything stands."""
+        await self._travel()
+        return await self._real.call()
+
+    async def bring_down(self, how: Down) -> None:
+        """Bring all drones down."""
+        await self._travel()
+        await self._real.bring_down(how)
+
+    async def _travel(self) -> None:
+        if self._slow:
+            self._fired["slow radio"] += 1
+            await self._brain.sleep(self._slow, Kind.FLIGHT, FLEET)
+
+    def _send(self, message: Callable[[], object]) -> None:
+        if self._slow:
+            self._fired["slow radio"] += 1
+            now = self._world.now
+            self._world.schedule(now + self._slow, Kind.FLIGHT, FLEET, partial(self._go, message))
+        else:
+            self._go(message)
+
+    def _go(self, message: Callable[[], object]) -> None:
+        if self.alive:
+            message()
+
+    def _told(self, report: Report, result: Any) -> None:
+        self._send(partial(self._brain.post, report, result))
