@@ -82,9 +82,7 @@ class Control:
         if state.mission.status in (Status.UNCERTAIN, Status.HELD):
             raise BadInput(f"mission {quoted(mission)} waits for a decision: decide that first")
         unwanted = _trip_to_skip(state, trip)
-        if state.in_flight is not None and unwanted is state.in_flight.trip:
-            self._step_out(state, partial(self._skip, unwanted))
-        elif unwanted is state.mission.trips[0] and state.task is not None:
+        if (state.in_flight is not None and unwanted is state.in_flight.trip) or (unwanted is state.mission.trips[0] and state.task is not None):
             self._step_out(state, partial(self._skip, unwanted))
         else:
             self._core.transitions.skip(state.mission, unwanted)

@@ -85,7 +85,7 @@ def settle_doubt(state: State, engine: Engine, link: Link, done: bool) -> None:
     if flight is None:
         raise RuntimeError(f"nothing is in doubt about mission {state.mission.name}")
     link.forget(flight.id)
-    trip, kept = flight.trip, flight.trip.action in (PICK, RELEASE)
+    kept = flight.trip.action in (PICK, RELEASE)
     if done:
         record_done(state, flight, None)
         flight.set(state.mission.status)

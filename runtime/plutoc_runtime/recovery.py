@@ -95,8 +95,9 @@ class _Revival:
         flight = self._flight(state, record)
         why_held = self._why_held(mission.name, record)
         if why_held is not None:
-            if flight is not None and not flight.is_set:
-                self._link.break_off(flight.drone)
+            flown = record["flight"]
+            if flown is not None and flown["outcome"] is None and not flown["heard"]:
+                self._link.break_off(flown["drone"])
             if state.carrier is not None:
                 self._check_carrier(state, None)
             self._engine.set_aside(state)

@@ -188,7 +188,9 @@ def _interrupted(_: Records, record: Record, event: Fact) -> None:
 
 
 def _skipped(_: Records, record: Record, event: Fact) -> None:
-    _goes_on(record)
+    flight = record["flight"]
+    if flight and flight["outcome"] and record["todo"][0]["name"] == event["trip"]:
+        _goes_on(record)
     record["gone"].append(_take(record["todo"], event["trip"]))
 
 
@@ -233,7 +235,8 @@ def _ended(_: Records, record: Record, event: Fact) -> None:
 
 
 def _paused(_: Records, record: Record, event: Fact) -> None:
-    record["paused"] = event["t"]
+    if record["paused"] is None:  # else it says so once more, in another life
+        record["paused"] = event["t"]
 
 
 def _resumed(_: Records, record: Record, event: Fact) -> None:

@@ -1,0 +1,190 @@
+"""What a person may tell a running app, and what becomes of its missions then."""
+
+from __future__ import annotations
+
+import pytest
+
+from plutoc_runtime.actions import Action
+from plutoc_runtime.context import Context
+from plutoc_runtime.errors import BadInput
+from plutoc_runtime.model import Drone, Trip
+
+from . import apps
+from .living import Living, enterable, names
+
+
+def two_trips() -> apps.Mission:
+    return apps.mission("a", apps.trip("1", 3), apps.trip("2", 5))
+
+
+def test_a_paused_mission_flies_nothing_until_it_goes_on_and_loses_no_attempt() -> None:
+    living = Living(enterable(), two_trips())
+    living.at(3.0, lambda: living.life.control.pause("a"))
+    living.at(100.0, lambda: living.life.control.go_on("a"))
+    assert living.run() == ["COMPLETED"]
+    launched = living.named("trip.launched")
+    assert names(launched, "attempt") == [1, 1, 1]
+    assert living.times("trip.launched")[1] >= 100.0
+    assert living.done_by_drones == [("take_photo", ""), ("take_photo", "")]
+
+
+def test_a_mission_that_is_paused_stays_so_when_the_app_dies() -> None:
+    living = Living(enterable(), two_trips())
+    living.at(3.0, lambda: living.life.control.pause("a"))
+    living.crash(50.0)
+    living.at(100.0, lambda: living.life.control.go_on())
+    living.run(90.0)
+    assert living.statuses == ["PAUSED"]
+    assert living.run() == ["COMPLETED"]
+    assert living.times("trip.launched")[-2] >= 100.0
+
+
+def test_a_delay_does_not_pass_while_its_mission_is_paused() -> None:
+    living = Living(enterable(clock=True), apps.mission("a", apps.trip("1", 3, delay=20.0)))
+    living.at(5.0, lambda: living.life.control.pause("a"))
+    living.at(50.0, lambda: living.life.control.go_on("a"))
+    assert living.run() == ["COMPLETED"]
+    assert living.times("trip.launched") == [65.0]
+
+
+def test_a_delay_does_not_pass_while_its_mission_is_paused_and_the_app_stopped() -> None:
+    living = Living(enterable(clock=True), apps.mission("a", apps.trip("1", 3, delay=20.0)))
+    living.at(5.0, lambda: living.life.control.pause("a"))
+    living.stop(10.0, rest=30.0)
+    living.at(50.0, lambda: living.life.control.go_on("a"))
+    assert living.run() == ["COMPLETED"]
+    assert living.times("trip.launched") == [65.0]
+
+
+def test_the_trip_in_flight_can_be_skipped_and_the_next_one_flies() -> None:
+    living = Living(enterable(), two_trips())
+    living.at(3.0, lambda: living.life.control.skip("a"))
+    assert living.run() == ["COMPLETED"]
+    assert names(living.named("trip.completed"), "trip") == ["2"]
+    assert names(living.named("trip.skipped"), "trip") == ["1"]
+    assert len(living.done_by_drones) == 1
+
+
+def test_a_trip_to_come_can_be_skipped_by_its_name() -> None:
+    living = Living(enterable(), two_trips())
+    living.at(3.0, lambda: living.life.control.skip("a", "2"))
+    assert living.run() == ["COMPLETED"]
+    assert names(living.named("trip.completed"), "trip") == ["1"]
+
+
+def test_the_last_trip_can_be_skipped_in_flight() -> None:
+    living = Living(enterable(), apps.mission("a", apps.trip("1", 3)))
+    living.at(3.0, lambda: living.life.control.skip("a"))
+    assert living.run() == ["COMPLETED"]
+    assert living.done_by_drones == []
+
+
+def test_a_skip_is_remembered_by_a_later_life() -> None:
+    living = Living(enterable(), two_trips())
+    living.at(3.0, lambda: living.life.control.skip("a", "2"))
+    living.crash(4.0)
+    assert living.run() == ["COMPLETED"]
+    assert names(living.named("trip.completed"), "trip") == ["1"]
+
+
+def test_what_picks_or_releases_cannot_be_skipped_by_itself() -> None:
+    living = Living(enterable(), apps.mission("a", apps.pick("p", 3), apps.release("r", 5)))
+    living.run(1.0)
+    with pytest.raises(BadInput, match="cancel the mission instead"):
+        living.life.control.skip("a")
+
+
+def test_a_cancelled_mission_ends_and_its_drone_comes_home() -> None:
+    living = Living(enterable(), two_trips(), apps.mission("b", apps.trip("1", 4)))
+    living.at(3.0, lambda: living.life.control.cancel("a"))
+    assert living.run() == ["CANCELLED", "COMPLETED"]
+    assert living.life.session.drones[0].status.value == "FREE"
+
+
+def test_a_mission_with_an_item_aboard_can_be_cancelled() -> None:
+    living = Living(enterable(), apps.mission("a", apps.pick("p", 3), apps.release("r", 9)))
+    living.at(14.0, lambda: living.life.control.cancel("a"))
+    assert living.run() == ["CANCELLED"]
+    assert living.done_by_drones == [("pick_item", "pills")]
+    assert living.navigation.carrying("cf1") is None
+
+
+def test_a_cancelled_mission_stays_so_when_the_app_dies() -> None:
+    living = Living(enterable(), two_trips(), apps.mission("b", apps.trip("1", 9)))
+    living.at(3.0, lambda: living.life.control.cancel("a"))
+    living.crash(4.0)
+    assert living.run() == ["CANCELLED", "COMPLETED"]
+
+
+def test_nobody_is_told_what_does_not_fit() -> None:
+    living = Living(enterable(), two_trips())
+    living.run(1.0)
+    control = living.life.control
+    with pytest.raises(BadInput, match='no mission "x" is under way; there are: "a"'):
+        control.pause("x")
+    with pytest.raises(BadInput, match='mission "a" is RUNNING'):
+        control.go_on("a")
+    with pytest.raises(BadInput, match="no mission is paused"):
+        control.go_on()
+    with pytest.raises(BadInput, match='mission "a" is RUNNING: it asks nothing'):
+        control.decide("a", "done")
+    with pytest.raises(BadInput, match='has no trip "7" to do; it has "1", "2"'):
+        control.skip("a", "7")
+
+
+async def _spray(drone: Drone, trip: Trip, context: Context) -> None:
+    await context.sleep(10.0)
+
+
+def spraying(repeat: str, *others: apps.Mission) -> Living:
+    spray = Action(name="spray", repeat=repeat, hook=_spray)
+    mission = apps.mission("a", apps.trip("1", 3, action="spray"), apps.trip("2", 3))
+    homes = ((0.5, 0.5, 0.0), (1.5, 0.5, 0.0))
+    return Living(enterable(actions=(spray,)), mission, *others, on=apps.fleet(*homes))
+
+
+def test_a_once_action_that_was_under_way_when_the_app_died_is_a_persons_to_judge() -> None:
+    living = spraying("once")
+    living.crash(10.0)
+    assert living.run() == ["UNCERTAIN"]
+    assert "was spray of trip 1 done by cf2?" in living.life.missions[0].reason
+
+
+ANSWERS = [("done", ["1", "2"]), ("not-done", ["1", "1", "2"])]
+
+
+@pytest.mark.parametrize(("answer", "flights"), ANSWERS)
+def test_a_person_decides_and_the_mission_goes_on(answer: str, flights: list[str]) -> None:
+    living = spraying("once", apps.mission("b", apps.trip("long", 15, 15)))
+    living.crash(10.0)
+    living.at(15.0, lambda: living.life.control.decide("a", answer))
+    assert living.run() == ["COMPLETED", "COMPLETED"]
+    assert [
+        trip for trip in names(living.named("trip.launched"), "trip") if trip != "long"
+    ] == flights
+
+
+@pytest.mark.parametrize(("answer", "flights"), ANSWERS)
+def test_a_person_decides_while_the_app_is_at_rest(answer: str, flights: list[str]) -> None:
+    living = spraying("once")
+    living.crash(10.0)
+    assert living.run() == ["UNCERTAIN"]
+    living.decide_at_rest("a", answer)
+    assert living.run() == ["COMPLETED"]
+    assert names(living.named("trip.launched"), "trip") == flights
+
+
+def test_a_mission_that_waits_for_a_decision_can_be_cancelled() -> None:
+    living = spraying("once")
+    living.crash(10.0)
+    living.run()
+    living.decide_at_rest("a", "cancel")
+    assert living.run() == ["CANCELLED"]
+
+
+def test_an_action_that_is_safe_to_repeat_is_flown_again() -> None:
+    living = spraying("safe")
+    living.crash(10.0)
+    assert living.run() == ["COMPLETED"]
+    assert names(living.named("trip.launched"), "trip") == ["1", "1", "2"]
+    assert names(living.named("trip.launched"), "attempt") == [1, 1, 1]

@@ -1,0 +1,178 @@
+"""What is left of missions when the app stops or dies, and how they go on."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+
+import pytest
+
+from plutoc_runtime.actions import Action
+from plutoc_runtime.context import Context
+from plutoc_runtime.journal.fold import Records
+from plutoc_runtime.model import Drone, Trip
+from plutoc_runtime.results import Results
+from plutoc_runtime.simulation.faults import Faults
+from plutoc_runtime.standing import Down
+from plutoc_runtime.status import Status
+from plutoc_runtime.verdict import Verdict
+
+from . import apps
+from .living import Living, enterable, names
+
+HOMES = ((0.5, 0.5, 0.0), (1.5, 0.5, 0.0))
+
+
+def deliveries() -> list[apps.Mission]:
+    return [
+        apps.mission(
+            "a",
+            apps.trip("1", 3, delay=5.0),
+            apps.pick("p", 4),
+            apps.release("r", 6),
+            apps.trip("4", 2),
+        ),
+        apps.mission("b", apps.trip("1", 5), apps.pick("p", 2), apps.release("r", 3)),
+        apps.mission("c", apps.trip("1", 5, delay=20.0, priority=2), apps.trip("2", 5, delay=3.0)),
+    ]
+
+
+def delivering() -> Living:
+    return Living(enterable(clock=True, attempts=3), *deliveries(), on=apps.fleet(*HOMES))
+
+
+MOMENTS = [moment / 2 for moment in range(1, 180, 3)]
+
+
+@pytest.mark.parametrize("moment", MOMENTS)
+def test_the_app_may_die_at_any_moment(moment: float) -> None:
+    living = delivering()
+    living.crash(moment)
+    assert set(living.run()) == {"COMPLETED"}
+    done = [act for act in living.done_by_drones if act[1]]
+    assert sorted(done) == [("pick_item", "pills")] * 2 + [("release_item", "pills")] * 2
+    assert set(names(living.named("trip.launched"), "attempt")) == {1}
+
+
+@pytest.mark.parametrize("how", list(Down))
+@pytest.mark.parametrize("moment", MOMENTS[::4])
+def test_everything_may_be_stopped_at_any_moment(moment: float, how: Down) -> None:
+    living = delivering()
+    living.stop(moment, how, rest=1000.0)
+    assert set(living.run()) == {"COMPLETED"}
+    done = [act for act in living.done_by_drones if act[1]]
+    assert sorted(done) == [("pick_item", "pills")] * 2 + [("release_item", "pills")] * 2
+    assert set(names(living.named("trip.launched"), "attempt")) == {1}
+
+
+def test_a_delay_keeps_its_rest_through_a_stop_and_passes_through_a_crash() -> None:
+    mission = apps.mission("a", apps.trip("1", 3, delay=60.0))
+    stopped = Living(enterable(clock=True), mission)
+    stopped.stop(20.0, rest=100.0)
+    stopped.run()
+    assert stopped.times("trip.launched") == [pytest.approx(160.0)]
+    died = Living(enterable(clock=True), apps.mission("a", apps.trip("1", 3, delay=60.0)))
+    died.crash(20.0, down=10.0)
+    died.run()
+    assert died.times("trip.launched") == [60.0]
+
+
+def test_a_flight_that_goes_on_without_its_brain_is_taken_up_again() -> None:
+    living = Living(enterable(), apps.mission("a", apps.trip("1", 15)))
+    living.crash(5.0, down=3.0)
+    living.run()
+    assert len(living.times("trip.launched")) == 1
+
+
+def test_what_came_of_a_flight_while_no_brain_lived_is_heard_later() -> None:
+    living = Living(enterable(), apps.mission("a", apps.trip("1", 3), apps.trip("2", 5)))
+    living.crash(5.0, down=500.0)
+    living.run()
+    assert names(living.named("trip.completed"), "trip") == ["1", "2"]
+    assert len(living.done_by_drones) == 2
+
+
+async def _slow_judge(mission: apps.Mission, results: Results[apps.Mission, Trip]) -> Verdict:
+    return Verdict(log=(f"{len(results.new)} new of {len(results.all)}",))
+
+
+def test_results_and_what_was_judged_of_them_survive() -> None:
+    app = enterable(evaluator=_slow_judge, repeater=True)
+    mission = apps.mission("a", apps.trip("1", 3), apps.trip("2", 4), repeat=1)
+    living = Living(app, mission)
+    living.crash(48.0)
+    assert living.run() == ["COMPLETED"]
+    assert names(living.named("log"), "text") == ["2 new of 2", "2 new of 4"]
+
+
+def test_a_priority_that_was_raised_stays_so() -> None:
+    """The trip fails once, is raised, and waits for the only drone when the app dies."""
+    fails = Faults(action=1.0)
+    living = Living(
+        enterable(attempts=2), apps.mission("a", apps.trip("1", 3, priority=4)), faults=fails
+    )
+    living.crash(10.0)
+    assert living.run() == ["FAILED"]
+    assert names(living.named("trip.launched"), "attempt") == [1, 2]
+    records = Records()
+    for event in living.memory.read().events:
+        records.take(event)
+    (trip,) = records.missions["a"]["todo"]
+    assert trip["fields"]["priority"] == 5
+
+
+def test_what_a_hook_did_to_its_mission_is_remembered() -> None:
+    def shorten(mission: apps.Mission, context: Context) -> None:
+        if len(mission.trips) == 3:
+            del mission.trips[1]
+
+    mission = apps.mission("a", apps.trip("1", 3), apps.trip("2", 4), apps.trip("3", 5))
+    living = Living(enterable(prepare=shorten), mission)
+    living.crash(3.0)
+    assert living.run() == ["COMPLETED"]
+    assert names(living.named("trip.completed"), "trip") == ["1", "3"]
+
+
+def test_a_crash_may_follow_a_crash_before_the_first_is_dealt_with() -> None:
+    living = delivering()
+    for moment in (15.0, 16.0, 17.5, 40.0):
+        living.crash(moment, down=1.0)
+    assert set(living.run()) == {"COMPLETED"}
+
+
+def test_a_mission_whose_block_is_gone_is_held_and_goes_on_when_told() -> None:
+    living = delivering()
+    changed = replace(living.app, resumes=("allocate",))
+    living.crash(10.0, app=changed)
+    living.run(20.0)
+    held = {m.name: m.reason for m in living.life.missions if m.status is Status.HELD}
+    assert held == {"c": "it stopped at block wait, which the app has no more as a place to go on"}
+    living.at(21.0, lambda: living.life.control.decide("c", "go-on"))
+    assert set(living.run()) == {"COMPLETED"}
+
+
+def test_a_mission_whose_action_is_gone_is_held_and_can_only_be_cancelled() -> None:
+    async def spray(drone: Drone, trip: Trip, context: Context) -> None:
+        await context.sleep(1.0)
+
+    app = enterable(actions=(Action(name="spray", hook=spray),))
+    living = Living(app, apps.mission("a", apps.trip("1", 3), apps.trip("2", 3, action="spray")))
+    living.crash(3.0, app=enterable())
+    assert living.run() == ["HELD"]
+    (mission,) = living.life.missions
+    assert "needs the action spray, which the app has no more" in mission.reason
+    living.decide_at_rest("a", "go-on")
+    assert living.run() == ["HELD"]
+    living.decide_at_rest("a", "cancel")
+    assert living.run() == ["CANCELLED"]
+
+
+def test_the_records_of_a_life_are_what_its_journal_says() -> None:
+    living = delivering()
+    living.crash(30.0)
+    living.run()
+    records = Records()
+    for event in living.memory.read().events:
+        records.take(event)
+    assert records.data == living.life.recorder.records.data
+    assert json.loads(json.dumps(records.data)) == records.data
