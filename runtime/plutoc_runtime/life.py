@@ -7,6 +7,7 @@ next life begins with the journal's records and a roll call of the drones, which
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from .control import Control
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
     from .gateway.link import Link
     from .journal.fold import Records
     from .model import Mission
+    from .trace import Event
 
 
 class Life:
@@ -38,15 +40,22 @@ class Life:
         *,
         epoch: int,
         listeners: Sequence[Listener] = (),
+        watcher: Listener | None = None,
     ) -> None:
+        """Begin; `watcher` is told of an event only when it is durable, `listeners` at once."""
         self._kernel, self._link, self._epoch = kernel, link, epoch
         self.recorder = Recorder(app, kernel, sink, records)
         navigation = Careful(link, self.recorder)
         heard = [self.recorder.take, *listeners]
+        if watcher is not None:
+            heard.append(partial(self._when_durable, watcher))
         self.session = Session(app, fleet, kernel, navigation, heard, self.recorder)
         self.control = Control(self.session, link)
         self.missions: tuple[Mission[Any], ...] = ()
         """All missions, those of earlier lives that have ended included."""
+
+    def _when_durable(self, watcher: Listener, event: Event) -> None:
+        self.recorder.when_durable(partial(watcher, event))
 
     def start(self, missions: Sequence[Mission[Any]]) -> Task[float]:
         """Fly these missions from the beginning; the task is as that of `Session.start`."""
