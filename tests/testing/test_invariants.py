@@ -104,8 +104,8 @@ def ends_twice(trace: list[dict[str, object]]) -> None:
 
 
 def begins_twice(trace: list[dict[str, object]]) -> None:
-    """The mission is made once more."""
-    trace.insert(1, dict(trace[0], t=0.5))
+    """The mission is made once more after its first trip."""
+    trace.append(dict(trace[0], t=99.0))
 
 
 def is_impatient(trace: list[dict[str, object]]) -> None:
@@ -214,7 +214,7 @@ PLANTED: list[tuple[Change, Callable[[Say], Rule] | None, str]] = [
     (back_in_time, None, "comes after 4 s"),
     (hangs, EndsOnce, "ward ended 0 times"),
     (ends_twice, EndsOnce, "ward ended 2 times"),
-    (begins_twice, EndsOnce, "ward was created twice"),
+    (begins_twice, EndsOnce, "ward was created once more"),
     (ends_oddly, EndsOnce, "ward ended STANDBY"),
     (fails_silently, EndsOnce, "failed without a reason"),
     (complains, EndsOnce, "says why it failed: d0 crashed"),

@@ -19,10 +19,13 @@ class EndsOnce:
     def __init__(self, say: Say) -> None:
         self._say = say
         self._ended: Counter[object] = Counter()
+        self._set_out_by_now: dict[object, None] = {}
+        """Those to which more has happened than to exist: they may not begin anew."""
         self._waits: dict[object, object] = {}
         """Those that wait for a person, and why."""
         self.hears = {
             "mission.created": self._create,
+            "trip": self._set_out,
             "mission.ended": self._end,
             "mission.uncertain": self._wait,
             "mission.held": self._wait,
@@ -31,9 +34,12 @@ class EndsOnce:
         }
 
     def _create(self, event: Event) -> None:
-        if event["mission"] in self._ended:
-            self._say(f"{at(event)}: {event['mission']} was created twice")
+        if event["mission"] in self._set_out_by_now:
+            self._say(f"{at(event)}: {event['mission']} was created once more")
         self._ended[event["mission"]] = 0
+
+    def _set_out(self, event: Event) -> None:
+        self._set_out_by_now[event["mission"]] = None
 
     def _end(self, event: Event) -> None:
         mission, status, reason = event["mission"], event["status"], str(event["reason"])

@@ -323,8 +323,7 @@ class _Brain:
         link = rig.gateway.link(rig.lives, self.lost)
         self.wire = Wire(link, rig.gateway, self.kernel, case.weather.slow, rig.fired)
         self.pending: list[Event] = []
-        self.added = 0
-        self.fatal: Blow | None = None
+        self.added = self.committed = 0
         self.full = False
         fresh = not records.missions
         self.before = {} if fresh else dict(rig.known)
@@ -353,7 +352,8 @@ class _Brain:
         due, self.due = self.due, []
         for call in due:
             call()
-        if rig.brain is self and self.task.is_set and not self.life.control.stopped.is_set:
+        all_told = self.task.is_set and self.committed == self.added
+        if rig.brain is self and all_told and not self.life.control.stopped.is_set:
             rig.ended(self)
 
     # The journal
@@ -397,6 +397,7 @@ class _Brain:
         """The row is durable, if the disk was as fast as the brain's death."""
         if self.rig.brain is self and not self.full:
             self.rig.commit(row, events, known)
+            self.committed = number
             if told:
                 self.kernel.post(self.life.recorder.durable, number)
 
@@ -452,7 +453,11 @@ class _Brain:
         named = [str(event["mission"]) for event in events if event.get("mission")]
         mission = (named or [mission.name for mission in self.rig.case.missions])[-1]
         control = self.life.control
-        tell = {Kind.PAUSE: control.pause, Kind.SKIP: control.skip, Kind.CANCEL: control.cancel}
+        tell: dict[Kind, Callable[[str], str]] = {
+            Kind.PAUSE: control.pause,
+            Kind.SKIP: control.skip,
+            Kind.CANCEL: control.cancel,
+        }
         if self.told(partial(tell[kind], mission)):
             self.rig.fired[kind.value] += 1
             if kind is Kind.PAUSE:
