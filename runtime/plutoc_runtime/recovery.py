@@ -17,7 +17,7 @@ from .interruption import (
     standing,
 )
 from .journal.values import item_of, trip_of, value_of
-from .status import Status
+from .status import Status, TripStatus
 
 if TYPE_CHECKING:
     from .app import App
@@ -73,7 +73,8 @@ class _Revival:
         app, trips = self._core.app, self.trips.setdefault(name, {})
         try:
             lists = [
-                [trip_of(app, data) for data in record[which]] for which in ("todo", "done", "gone")
+                [trip_of(app, data, status) for data in record[which]]
+                for which, status in _LISTS.items()
             ]
             mission = app.mission(
                 name=name, trips=lists[0], index=record["index"], **record["fields"]
@@ -252,3 +253,11 @@ def _restore_results(
 def _place(place: Iterable[Any]) -> tuple[str, str, int, int]:
     block, trip, round_, attempt = place
     return block, trip, round_, attempt
+
+
+_LISTS = {
+    "todo": TripStatus.WAITING,
+    "done": TripStatus.COMPLETED,
+    "gone": TripStatus.SKIPPED,
+}
+"""The lists of a record, and how the trips in them stand if it does not say."""

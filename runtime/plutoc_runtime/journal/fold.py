@@ -149,7 +149,7 @@ def _begun(_: Records, record: Record, event: Fact) -> None:
 
 def _completed(records: Records, record: Record, event: Fact) -> None:
     trip = _take(record["todo"], event["trip"])
-    trip.update(status="COMPLETED", end_time=event["t"])
+    _waits(trip)  # what is in this list was completed: nothing more is kept of it
     record["done"].append(trip)
     record["last_action_end"] = event["t"]
     result = [event["mission"], event["trip"], event["round"], event["attempt"], event["result"]]

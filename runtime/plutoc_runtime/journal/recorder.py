@@ -88,7 +88,7 @@ class Recorder:
         """A hook has had this mission in its hands: if it changed its trips, that is an event."""
         app, record = self._app, self.records.missions[mission.name]
         todo = [trip_data(app, trip) for trip in mission.trips]
-        fields = {name: getattr(mission, name) for name in fields_of(app, Entity.MISSION)}
+        fields = fields_of(app, Entity.MISSION, mission)
         if todo != [_as_new(trip) for trip in record["todo"]] or fields != record["fields"]:
             done = [trip_data(app, trip) for trip in mission.completed_trips]
             assert self.trace is not None
@@ -114,6 +114,8 @@ def _as_new(trip: Record) -> Record:
     data = {fact: value for fact, value in trip.items() if fact not in _OF_FLIGHTS}
     if data.get("attempt") == 1:
         del data["attempt"]
+    if not data.get("fields", True):
+        del data["fields"]
     return data
 
 
@@ -132,7 +134,7 @@ def _result(recorder: Recorder, _: Event) -> Facts:
 
 def _fields(recorder: Recorder, event: Event) -> Facts:
     trip = recorder.missions[str(event["mission"])].current
-    return {"fields": trip_data(recorder._app, trip)["fields"]}
+    return {"fields": fields_of(recorder._app, Entity.TRIP, trip)}
 
 
 def _added(recorder: Recorder, event: Event) -> Facts:

@@ -19,16 +19,17 @@ Data = dict[str, Any]
 """Plain data, as JSON can hold it."""
 
 
-def fields_of(app: App, entity: Entity) -> tuple[str, ...]:
-    """Return the names of the fields that the app's graph adds to its missions or trips."""
-    return tuple(field.name for field in app.fields if field.on is entity)
+def fields_of(app: App, entity: Entity, of: object) -> Data:
+    """Return what is filled in of the fields that the app's graph adds to missions or to trips."""
+    given = {field: getattr(of, field.name) for field in app.fields if field.on is entity}
+    return {field.name: value for field, value in given.items() if value != field.default}
 
 
 def mission_data(app: App, mission: Mission[Any]) -> Data:
     """Return everything that its user said of a mission, and its trips."""
     return {
         "index": mission.index,
-        "fields": _given(mission, fields_of(app, Entity.MISSION)),
+        "fields": fields_of(app, Entity.MISSION, mission),
         "trips": [trip_data(app, trip) for trip in mission.trips],
     }
 
@@ -40,8 +41,10 @@ def trip_data(app: App, trip: Trip) -> Data:
         "action": trip.action,
         "target": list(trip.target),
         "index": trip.index,
-        "fields": _given(trip, fields_of(app, Entity.TRIP)),
     }
+    fields = fields_of(app, Entity.TRIP, trip)
+    if fields:
+        data["fields"] = fields
     if trip.source is not None:
         data["source"] = list(trip.source)
     if trip.parameters:
@@ -57,7 +60,7 @@ def trip_data(app: App, trip: Trip) -> Data:
     return data
 
 
-def trip_of(app: App, data: Mapping[str, Any]) -> Trip:
+def trip_of(app: App, data: Mapping[str, Any], status: TripStatus = TripStatus.WAITING) -> Trip:
     """Return the trip that was written down; raise KeyError or TypeError if the app has none such."""
     app.actions[data["action"]]
     trip = app.trip(
@@ -68,11 +71,11 @@ def trip_of(app: App, data: Mapping[str, Any]) -> Trip:
         parameters=data.get("parameters") or NOTHING,
         item=item_of(data.get("item")),
         index=data["index"],
-        **data["fields"],
+        **data.get("fields", {}),
     )
     trip.added = bool(data.get("added"))
     trip.attempt = data.get("attempt", 1)
-    trip.status = TripStatus(data.get("status", "WAITING"))
+    trip.status = TripStatus(data["status"]) if "status" in data else status
     trip.reason = data.get("reason", "")
     trip.start_time, trip.end_time = data.get("start_time"), data.get("end_time")
     return trip
@@ -152,7 +155,3 @@ def _photo_of(photo: Mapping[str, Any]) -> Photo:
         sees=tuple(photo["sees"]),
         sharpness=photo["sharpness"],
     )
-
-
-def _given(entity: object, names: Sequence[str]) -> Data:
-    return {name: getattr(entity, name) for name in names}
