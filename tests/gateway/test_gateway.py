@@ -177,7 +177,7 @@ def test_a_drone_that_did_it_says_so_even_if_the_ledger_does_not() -> None:
     field = Field()
     field.gateway.link(1).fly(Task(action="measure", item=None), lambda _: None)
     field.advance(14.5)
-    field.navigation._bodies["cf1"].done[Task().id] = 21.5
+    field.navigation.bodies["cf1"].done[Task().id] = 21.5
     field.gateway.crash()
     field.another()
     roll = called(field)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 
 from ..errors import BadInput
 from . import output
@@ -18,6 +19,10 @@ BAD_INPUT, INTERNAL, INTERRUPTED, CLOSED_PIPE = 2, 70, 130, 141
 
 def start(name: str, load: Callable[[], App]) -> int:
     """Load an app and run the command that the program was called with."""
+    if sys.argv[1:2] == ["gateway"]:  # it must not fall with the app's own code
+        from ..gateway.process import main as gateway
+
+        return gateway(sys.argv[2:])
     app: App | None = None
     ending = _Ending(name)
     with ending:

@@ -45,6 +45,6 @@ class Envelope:
     def check_height(self, height: float) -> None:
         """Raise `FlightFailed` if no drone may rise so high."""
         ceiling = self._airspace.ceiling
-        if height > ceiling:
-            reason = f"{number(height)} m is above the ceiling of {number(ceiling)} m"
+        if not 0 <= height <= ceiling:
+            reason = f"{number(height)} m is not between the ground and {number(ceiling)} m"
             raise FlightFailed(Failure.REFUSED, reason)

@@ -44,7 +44,7 @@ class Gateway:
     ) -> None:
         self.kernel, self.navigation = kernel, navigation
         self.envelope = Envelope(airspace)
-        self._drones, self._airspace, self._apart = tuple(drones), airspace, apart
+        self.drones, self._airspace, self._apart = tuple(drones), airspace, apart
         self._keys = {drone.id: FLEET + 1 + drone.index for drone in drones}
         self.jobs = Jobs(kernel, navigation, self._keys, self.envelope, ledger)
         self._link: Link | None = None
@@ -97,7 +97,7 @@ class Gateway:
     def flies(self) -> bool:
         """Whether any drone is in the air."""
         telemetry = self.navigation.telemetry
-        return any(not telemetry(drone.id).landed for drone in self._drones)
+        return any(not telemetry(drone.id).landed for drone in self.drones)
 
     def _watch(self, patience: float) -> None:
         """Land everything when nothing was heard for too long; look again when that may be so."""
@@ -122,7 +122,7 @@ class Gateway:
         if self.descent is not None:
             self.descent.cancel()
         self.cut()
-        for drone in self._drones:
+        for drone in self.drones:
             self.navigation.break_off(drone.id)
 
     # All drones
@@ -156,9 +156,9 @@ class Gateway:
             if self._how is Down.LAND or how is Down.HOME:
                 return descent  # they come down no later than that
             descent.cancel()
-        for drone in self._drones:
+        for drone in self.drones:
             self.break_off(drone.id)
-        ways = Descent(self.kernel, self.navigation, self._drones, self._airspace, self._apart)
+        ways = Descent(self.kernel, self.navigation, self.drones, self._airspace, self._apart)
         self._how = how
         self.descent = task = self.kernel.spawn(ways.down(how), FLEET, "all drones come down")
         task.over = self._is_down

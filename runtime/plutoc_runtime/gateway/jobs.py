@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -121,7 +122,7 @@ class Jobs:
         if self._ledger is None:
             self._known.pop(job.id, None)
         elif begun:
-            self._ledger.write(job)
+            self._keep(job)
         if not job.hovers:
             self._current.pop(job.drone, None)
 
@@ -129,6 +130,9 @@ class Jobs:
 
     def settle(self, drones: Mapping[str, Standing]) -> Mapping[str, Entry]:
         """Find out from the drones what has become of actions that had begun; return all jobs."""
+        if self._ledger is not None and not self._ledger.is_whole:
+            for drone in drones.values():
+                self._believe(drone)
         for id, job in self._known.items():
             if job.state is JobState.BEGUN and not _flies(job):
                 self._known[id] = self._settled(job, drones.get(job.drone))
@@ -144,9 +148,24 @@ class Jobs:
         else:
             return job
         entry = Entry(id=job.id, drone=job.drone, state=state, boot=job.boot, value=value)
-        if self._ledger is not None:
-            self._ledger.write(entry)
+        self._keep(entry)
         return entry
+
+    def _believe(self, drone: Standing) -> None:
+        """Take the drone's word for what it did, where the ledger was damaged."""
+        for id, value in (drone.done or {}).items():
+            if id not in self._known:
+                entry = Entry(
+                    id=id, drone=drone.drone, state=JobState.DONE, boot=drone.boot, value=value
+                )
+                self._known[id] = entry
+                self._keep(entry)
+
+    def _keep(self, job: Given | Entry) -> None:
+        """Write down what came of an action; if that fails, its drone still remembers it."""
+        if self._ledger is not None:
+            with suppress(OSError):
+                self._ledger.write(job)
 
     def _post(self, drone: str, call: Callable[[], object]) -> None:
         self._kernel.schedule(self._kernel.now, Kind.FLIGHT, self._keys[drone], call)

@@ -50,6 +50,11 @@ class Written(Protocol):
 class Ledger(Protocol):
     """Keeps of each job whose action has begun how it stands; what is kept is there for good."""
 
+    @property
+    def is_whole(self) -> bool:
+        """Whether all that was ever kept can be read."""
+        ...
+
     def entries(self) -> Iterator[Entry]:
         """Yield what is kept, in the order in which the jobs were given."""
         ...
@@ -65,6 +70,8 @@ class Ledger(Protocol):
 
 class MemoryLedger:
     """A ledger for simulations and tests: it outlives a simulated gateway, not the process."""
+
+    is_whole = True
 
     def __init__(self) -> None:
         self._kept: dict[str, tuple[str, JobState, int, object, str, str]] = {}

@@ -14,9 +14,7 @@ _STEP = 0.25
 """Metres between the places that are looked at."""
 
 
-def free_spot(
-    airspace: Airspace, point: Point, taken: Sequence[Point], apart: float
-) -> Point:
+def free_spot(airspace: Airspace, point: Point, taken: Sequence[Point], apart: float) -> Point:
     """Return the nearest permitted place on the ground that is far enough from those taken.
 
     Where there is none on the whole map, straight below is as good as any.

@@ -37,6 +37,22 @@ class SimulatedDrone:
     """What is in its battery at the start, from 0 to 1."""
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Snapshot:
+    """A drone as it is at a moment; all times are those of its clock."""
+
+    boot: int
+    carries: Item | None
+    down: FlightFailed | None
+    down_since: float
+    drawn: Drawn
+    began: float
+    charge: Charge
+    leg: Leg
+    landed: bool
+    flown: float
+
+
 class Body:
     """The state of one drone. It is its own telemetry."""
 
@@ -55,6 +71,10 @@ class Body:
         """How often it was switched off and on again."""
         self.done: dict[str, object] = {}
         """What it remembers: the jobs whose action it did, with what that gave."""
+        self.on_change: Callable[[], object] | None = None
+        """Told when something of it has changed that time alone does not change."""
+        self.left_alone = False
+        """Whoever let it sink is gone: it touches down by itself."""
         self._drawn, self._began = Drawn(), clock()
         self._charge = Charge(drone.battery_level, clock())
         self._leg, self._landed = standing(drone.home, clock()), True
@@ -149,6 +169,7 @@ class Body:
         rate = 1.0 / self.drone.category.charge_time if at_home else 0.0
         self._charge = self._charge.changing(now, rate)
         self._drawn = Drawn()
+        self._changed()
 
     def dock(self, now: float) -> None:
         """Stand in its dock, put there by somebody, and take commands again."""
@@ -185,7 +206,7 @@ class Body:
         if self._landed:
             return inf, None
         empty = self._charge.empty_at, Failure.BATTERY
-        if self.down is not None:  # it has lost its link, and lands
+        if self.down is not None or self.left_alone:  # it has lost its link, and lands
             return min((self.arrives, None), empty, key=lambda due: due[0])
         drawn = (
             (self._drawn.crash, Failure.CRASH),
@@ -224,4 +245,36 @@ class Body:
 
     def _turn(self, leg: Leg, now: float) -> None:
         self._flown += self._leg.length(now)
-        self._leg = leg
+        self._leg, self.left_alone = leg, False
+        self._changed()
+
+    def _changed(self) -> None:
+        if self.on_change is not None:
+            self.on_change()
+
+    # What outlives the simulation
+
+    @property
+    def snapshot(self) -> Snapshot:
+        """Everything of it, but for what it has done."""
+        return Snapshot(
+            boot=self.boot,
+            carries=self.carries,
+            down=self.down,
+            down_since=self.down_since,
+            drawn=self._drawn,
+            began=self._began,
+            charge=self._charge,
+            leg=self._leg,
+            landed=self._landed,
+            flown=self._flown,
+        )
+
+    def restore(self, was: Snapshot) -> None:
+        """Be as it was; what it was told to do, it does to the end, and then it hovers."""
+        self.boot, self.carries = was.boot, was.carries
+        self.down, self.down_since = was.down, was.down_since
+        self._drawn, self._began = was.drawn, was.began
+        self._charge, self._leg = was.charge, was.leg
+        self._landed, self._flown = was.landed, was.flown
+        self.left_alone = not was.landed and was.leg.end[2] <= 0

@@ -13,8 +13,9 @@ from ..errors import Failure, FlightFailed
 from ..kernel import Kernel, Kind, Task
 from ..navigation import permitted_way
 from ..signals import Signal
-from ..words import mass, place
+from ..words import place
 from .body import Body, SimulatedDrone
+from .deeds import Deed, action_failed, grip_problem
 from .faults import Faults, Order, draw
 
 if TYPE_CHECKING:
@@ -43,35 +44,38 @@ class SimulatedNavigation:
         faults: Faults,
         seed: int,
         airspace: Airspace,
+        record: Callable[[Deed], object] | None = None,
     ) -> None:
         self._kernel, self._world, self._airspace = kernel, world, airspace
         self._faults, self._seed = faults, seed
         self._jobs: dict[str, Task[None]] = {}
         """The jobs under way, by the drones' ids."""
-        self._bodies = {drone.id: Body(drone, kernel.time) for drone in drones}
+        self._record = record
+        """Told of everything that drones do to the world, right before it is so."""
+        self.bodies = {drone.id: Body(drone, kernel.time) for drone in drones}
 
     def telemetry(self, drone: str) -> Telemetry:
         """Return what is known of a drone; the value stays current."""
-        return self._bodies[drone]
+        return self.bodies[drone]
 
     def carrying(self, drone: str) -> Item | None:
         """Return what a drone has aboard."""
-        body = self._bodies[drone]
+        body = self.bodies[drone]
         body.settle(self._kernel.now)
         return body.carries
 
     def flown(self, drone: str) -> float:
         """Return how many metres a drone has flown, up and down included."""
-        return self._bodies[drone].flown
+        return self.bodies[drone].flown
 
     def reboot(self, drone: str) -> None:
         """Switch a drone off and on again: it forgets what it has done."""
-        self._bodies[drone].reboot()
+        self.bodies[drone].reboot()
 
     def fly(self, job: Job, report: Callable[[object], None]) -> None:
         """Take off, fly to the job's stops and do its action; then report."""
         self._jobs[job.drone] = self._kernel.spawn(
-            self._done(job, report), self._bodies[job.drone].key, f"{job.drone} flies {job.id}"
+            self._done(job, report), self.bodies[job.drone].key, f"{job.drone} flies {job.id}"
         )
 
     def break_off(self, drone: str) -> None:
@@ -80,7 +84,7 @@ class SimulatedNavigation:
         if task is not None:
             task.cancel()
             return
-        body = self._bodies[drone]
+        body = self.bodies[drone]
         over = body.over
         if over is not None:
             body.over, body.command = None, ""
@@ -88,7 +92,7 @@ class SimulatedNavigation:
             over.fail(FlightFailed(Failure.REFUSED, f"{drone} was told to break it off"))
 
     async def _done(self, job: Job, report: Callable[[object], None]) -> None:
-        drone, body = job.drone, self._bodies[job.drone]
+        drone, body = job.drone, self.bodies[job.drone]
         result: object = None
         seconds = flight_seconds(
             body.drone.category, self._airspace, body.location, job.stops, job.seconds
@@ -101,8 +105,7 @@ class SimulatedNavigation:
                     await self.go_to(drone, point)
             if job.action is not None:
                 job.begins()
-                result = await self.act(drone, job.action, job.parameters, job.item)
-                body.done[job.id] = result
+                result = await self.act(drone, job.action, job.parameters, job.item, job.id)
         except FlightFailed as error:
             result = error
         del self._jobs[drone]
@@ -110,7 +113,7 @@ class SimulatedNavigation:
 
     async def takeoff(self, drone: str, height: float, order: Order | None = None) -> None:
         """Rise to a height; one that flies stays where it is, but what goes wrong is drawn anew."""
-        body = self._bodies[drone]
+        body = self.bodies[drone]
         now = self._kernel.now
         body.check(now)
         body.begin(draw(self._faults, self._seed, order), now)
@@ -126,30 +129,54 @@ class SimulatedNavigation:
         await self._move(body, target, body.drone.category.speed, command)
 
     async def act(
-        self, drone: str, action: str, parameters: Mapping[str, Plain], item: Item | None
+        self,
+        drone: str,
+        action: str,
+        parameters: Mapping[str, Plain],
+        item: Item | None,
+        job: str | None = None,
     ) -> object:
-        """Do one of the built-in actions here, and return what came of it."""
+        """Do one of the built-in actions here, and return what came of it.
+
+        The drone remembers that it was done for a job.
+        """
         body = self._in_the_air(drone)
         if action not in BUILT_IN:
             raise FlightFailed(Failure.REFUSED, f"{drone} has no action {action}")
-        problem = _grip_problem(body, action, item)
+        problem = grip_problem(body, action, item)
         if problem is None:
             await self._pass(body, BUILT_IN[action].seconds, f"to {action}")
             problem = f"{drone} could not do it" if body.fails_to_act else None
         if problem is not None:
-            raise _action_failed(body, f"{action} failed", problem)
-        return self._outcome(body, action, parameters, item)
+            raise action_failed(body, f"{action} failed", problem)
+        value = self._value(body, action, parameters)
+        aboard = item if action == PICK else None if action == RELEASE else body.carries
+        if self._record is not None:
+            deed = Deed(
+                drone=drone,
+                action=action,
+                item=item,
+                job=job,
+                boot=body.boot,
+                value=value,
+                aboard=aboard,
+            )
+            self._record(deed)
+        body.carries = aboard
+        if job is not None:
+            body.done[job] = value
+        return value
 
     async def hold(self, drone: str) -> None:
         """Hover until something goes wrong or nobody wants it any longer."""
         body = self._in_the_air(drone)
         if body.fails_to_act:
-            raise _action_failed(body, "the action failed", f"{drone} could not do it")
+            raise action_failed(body, "the action failed", f"{drone} could not do it")
         await self._pass(body, inf, "to hover")
 
     async def land(self, drone: str) -> None:
         """Land here; does nothing for a drone that stands on the ground."""
-        body = self._bodies[drone]
+        body = self.bodies[drone]
         body.check(self._kernel.now)
         if not body.landed:
             x, y, _ = body.location
@@ -160,7 +187,7 @@ class SimulatedNavigation:
 
         Whoever meets it there takes off what it still carries.
         """
-        body = self._bodies[drone]
+        body = self.bodies[drone]
         body.settle(self._kernel.now)
         if body.down is not None and body.down.failure is Failure.LINK:
             await self._wait_until(body, max(body.down_since + OUTAGE, body.arrives))
@@ -174,7 +201,7 @@ class SimulatedNavigation:
 
     async def roll_call(self, drone: str) -> Standing:
         """Ask a drone where it is and what it has done."""
-        return self._bodies[drone].standing
+        return self.bodies[drone].standing
 
     async def _flies_home(self, body: Body) -> bool:
         if body.down is not None and body.down.failure is not Failure.LINK:
@@ -233,7 +260,7 @@ class SimulatedNavigation:
                 body.command, body.over = "", None
 
     def _in_the_air(self, drone: str) -> Body:
-        body = self._bodies[drone]
+        body = self.bodies[drone]
         body.check(self._kernel.now)
         if body.landed:
             where = place(body.location)
@@ -241,37 +268,10 @@ class SimulatedNavigation:
             raise FlightFailed(Failure.REFUSED, reason)
         return body
 
-    def _outcome(
-        self, body: Body, action: str, parameters: Mapping[str, Plain], item: Item | None
-    ) -> object:
-        if action == PICK:
-            body.carries = item
-            return None
-        if action == RELEASE:
-            body.carries = None
+    def _value(self, body: Body, action: str, parameters: Mapping[str, Plain]) -> object:
+        if action in (PICK, RELEASE):
             return None
         if action == "take_photo":
             return self._world.photo(body.location, self._kernel.now)
         quantity = parameters.get("quantity", BUILT_IN["measure"].parameters[0].default)
         return self._world.measure(str(quantity), body.location, self._kernel.now)
-
-
-def _grip_problem(body: Body, action: str, item: Item | None) -> str | None:
-    """Return why a drone cannot pick or release this, or None."""
-    who, has = body.drone.id, body.carries
-    if action == PICK:
-        payload = body.drone.category.payload
-        if item is None:
-            return "there is nothing to pick"
-        if has is not None:
-            return f"{who} already carries {has.name}"
-        if item.mass > payload + 1e-9:
-            return f"{item.name} weighs {mass(item.mass)}, {who} carries at most {mass(payload)}"
-    if action == RELEASE and (has is None or item is None or has.name != item.name):
-        carries = "nothing" if has is None else has.name
-        return f"{who} carries {carries}" + ("" if item is None else f", not {item.name}")
-    return None
-
-
-def _action_failed(body: Body, what: str, why: str) -> FlightFailed:
-    return FlightFailed(Failure.ACTION, f"{what}: {why} at {place(body.location)}")

@@ -1,0 +1,154 @@
+"""The gateway as a process of its own: it starts nothing of the app, and ends when nobody needs it."""
+
+from __future__ import annotations
+
+import asyncio
+import fcntl
+import json
+import os
+import signal
+import sys
+import time
+from collections.abc import Sequence
+from contextlib import suppress
+from pathlib import Path
+
+from ..kernel import FLEET, Kind
+from ..private import new_address, publish, withdraw
+from ..realtime import RealTime
+from ..signals import Signal
+from ..simulation.drones import SimulatedNavigation
+from ..simulation.keeping import Keeper
+from ..simulation.world import World
+from ..standing import Down
+from .file_ledger import FileLedger
+from .gateway import Gateway
+from .server import Server
+from .settings import Settings, settings_of
+from .wire import LONGEST_TOLD
+
+NOTE, SETTINGS, LEDGER, LOCK, LOG = "gateway", "settings.json", "ledger", "lock", "log"
+"""What lies in its folder; NOTE says where it listens."""
+
+ANOTHER_RUNS = 3
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Run the gateway of a folder until nobody needs it."""
+    (folder,) = map(Path, arguments)
+    lock = taken(folder)
+    if lock is None:
+        return ANOTHER_RUNS
+    try:
+        settings = settings_of(json.loads((folder / SETTINGS).read_text(encoding="utf-8")))
+        asyncio.run(run(folder, settings))
+    finally:
+        os.close(lock)
+    return 0
+
+
+def taken(folder: Path) -> int | None:
+    """Take the folder's lock, which goes with the process; None: another gateway has it."""
+    lock = os.open(folder / LOCK, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o600)
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        os.close(lock)
+        return None
+    os.ftruncate(lock, 0)
+    os.pwrite(lock, f"{os.getpid()}\n".encode(), 0)
+    return lock
+
+
+async def run(folder: Path, settings: Settings) -> None:
+    """Let the simulated world go on where it was, and let brains command until all is over."""
+    kernel = RealTime(settings.speed)
+    airspace = settings.airspace
+    keeper = Keeper(folder, kernel.time, settings.speed, time.time)
+    navigation = SimulatedNavigation(
+        kernel,
+        settings.drones,
+        World(settings.seed, airspace, settings.world),
+        settings.faults,
+        settings.seed,
+        airspace,
+        keeper.record,
+    )
+    keeper.take_over(navigation.bodies)
+    kernel.settled = keeper.settled
+    gateway = Gateway(
+        kernel,
+        navigation,
+        settings.drones,
+        airspace,
+        ledger=FileLedger(folder / LEDGER),
+        apart=settings.apart,
+        patience=settings.patience * settings.speed,
+    )
+    over: Signal[None] = Signal()
+    ending = _Ending(gateway, over, settings)
+    server = Server(gateway, _say, ending.goodbye)
+    ending.server = server
+    for number in (signal.SIGTERM, signal.SIGINT):
+        asyncio.get_running_loop().add_signal_handler(number, kernel.post, ending.told_to_end)
+    signal.signal(signal.SIGHUP, signal.SIG_IGN)
+    note = folder / NOTE
+    address = new_address(note)
+    listening = await asyncio.start_unix_server(server.accept, address, limit=LONGEST_TOLD)
+    try:
+        publish(note, address)
+        _say("the gateway is ready")
+        kernel.post(ending.look)
+        await kernel.run(over)
+    finally:
+        listening.close()
+        withdraw(note)
+        await server.close()
+    _say("the gateway ends: all drones are down")
+
+
+class _Ending:
+    """Knows when nobody needs the gateway any more."""
+
+    def __init__(self, gateway: Gateway, over: Signal[None], settings: Settings) -> None:
+        self._gateway, self._over = gateway, over
+        self._second = settings.speed
+        self._idle, self._patience = settings.idle, settings.patience
+        self.server: Server | None = None
+        self._alone = -1.0
+        """Seconds without a brain and without a drone in the air."""
+        self._told: float | None = None
+        """Seconds since somebody wants it to end."""
+
+    def goodbye(self) -> None:
+        """End, once all drones are down."""
+        gateway = self._gateway
+        if gateway.flies:
+            gateway.fail_safe(Down.LAND).watch(lambda _: self._over.set(None))
+        else:
+            self._over.set(None)
+
+    def told_to_end(self) -> None:
+        """End as if told goodbye, but give a brain that was told the same the time to stop."""
+        if self._told is None:
+            self._told = 0.0
+
+    def look(self) -> None:
+        """End when nobody has come for a while; look again a second later."""
+        gateway, kernel = self._gateway, self._gateway.kernel
+        brain = self.server is not None and self.server.has_a_brain
+        busy = brain or gateway.flies or gateway.descent is not None
+        self._alone = -1.0 if busy else self._alone + 1.0
+        if self._told is not None:
+            self._told += 1.0
+            if self._told > self._patience and gateway.descent is None:
+                self.goodbye()
+        if self._alone > (self._idle if self._told is None else 0.0):
+            self._over.set(None)
+        kernel.schedule(kernel.now + self._second, Kind.CLOCK, FLEET, self.look)
+
+
+def _say(what: str) -> None:
+    """Write a line of the log; one that nobody can take is no reason to let drones fall."""
+    with suppress(OSError):
+        print(f"{time.strftime('%Y-%m-%d %H:%M:%S')} {what}", file=sys.stderr, flush=True)

@@ -1,0 +1,124 @@
+"""Finds the gateway of a folder, or starts it: a process that outlives whoever started it."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import os
+import subprocess
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from .. import again
+from ..asking import ask
+from ..errors import BadInput
+from ..private import address_in
+from ..standing import Down
+from .process import ANOTHER_RUNS, LOG, NOTE, SETTINGS
+from .remote import RemoteLink
+from .settings import Settings, data_of
+from .wire import LONGEST_HEARD
+
+if TYPE_CHECKING:
+    from ..kernel import Kernel
+
+_WITHIN, _EACH = 10.0, 0.01
+"""Seconds that a gateway may take to begin, and between two looks."""
+
+_STARTED: list[subprocess.Popen[bytes]] = []
+"""The gateways that this process has started: one that has ended is noticed when the next begins."""
+
+
+async def connect(
+    folder: Path,
+    settings: Settings,
+    kernel: Kernel,
+    epoch: int,
+    lost: Callable[[], object] | None = None,
+    command: Sequence[str] | None = None,
+) -> RemoteLink:
+    """Command the drones through the gateway of a folder, which is started unless it runs.
+
+    `command` starts it, its folder added; default: this very program once more.
+    """
+    loop = asyncio.get_running_loop()
+    until = loop.time() + _WITHIN
+    process: subprocess.Popen[bytes] | None = None
+    while True:
+        with suppress(OSError):
+            return await _linked(folder, settings, kernel, epoch, lost)
+        if process is None or process.poll() is not None:
+            if process is not None and process.returncode not in (0, ANOTHER_RUNS):
+                raise BadInput(_ended(folder))
+            process = start(folder, settings, command)
+        if loop.time() > until:
+            raise BadInput(f"the gateway does not answer; what it said is in {folder / LOG}")
+        await asyncio.sleep(_EACH)
+
+
+async def _linked(
+    folder: Path,
+    settings: Settings,
+    kernel: Kernel,
+    epoch: int,
+    lost: Callable[[], object] | None,
+) -> RemoteLink:
+    """Link to the gateway that runs; OSError: none does."""
+    address = address_in(folder / NOTE)
+    if address is None:
+        raise FileNotFoundError(folder / NOTE)
+    reader, writer = await asyncio.open_unix_connection(address, limit=LONGEST_HEARD)
+    link = RemoteLink(kernel, reader, writer, lost)
+    try:
+        await link.link(epoch, settings.patience)
+    except BaseException:
+        writer.close()
+        raise
+    return link
+
+
+def start(
+    folder: Path, settings: Settings, command: Sequence[str] | None = None
+) -> subprocess.Popen[bytes]:
+    """Start a gateway that nobody's end takes along; what it says goes to its log."""
+    folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+    part = folder / f".{SETTINGS}.{os.getpid()}.part"
+    part.write_text(json.dumps(data_of(settings)), encoding="utf-8")
+    part.replace(folder / SETTINGS)
+    _STARTED[:] = [process for process in _STARTED if process.poll() is None]
+    with (folder / LOG).open("ab") as log:
+        process = subprocess.Popen(
+            [*(command or again.command("gateway")), str(folder)],
+            stdin=subprocess.DEVNULL,
+            stdout=log,
+            stderr=log,
+            start_new_session=True,
+        )
+    _STARTED.append(process)
+    return process
+
+
+def speed_in(folder: Path) -> float | None:
+    """Return how fast time passes for the gateway of a folder; None: it was never started."""
+    with suppress(OSError, ValueError, KeyError, TypeError):
+        return float(json.loads((folder / SETTINGS).read_text(encoding="utf-8"))["speed"])
+    return None
+
+
+def stop_directly(folder: Path, how: Down, patience: float) -> str:
+    """Bring all drones down without their brain; return what the gateway says.
+
+    Raises `BadInput`, as `ask` does, if there is no gateway, or it says nothing in these seconds.
+    """
+    return ask(folder / NOTE, {"do": "stop", "how": how.value}, patience)
+
+
+def _ended(folder: Path) -> str:
+    """Say that a gateway could not begin, with the last it said."""
+    said = ""
+    with suppress(OSError):
+        lines = (folder / LOG).read_text(encoding="utf-8", errors="replace").strip().splitlines()
+        said = f": {lines[-1]}" if lines else ""
+    return f"the gateway ended before it was ready{said} (all it said is in {folder / LOG})"

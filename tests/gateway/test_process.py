@@ -1,0 +1,180 @@
+"""The gateway as a process: real sockets, real files, and real kills."""
+
+from __future__ import annotations
+
+import os
+import signal
+from pathlib import Path
+
+import pytest
+
+from plutoc_runtime.errors import BadInput, Failure, FlightFailed
+from plutoc_runtime.gateway.starting import speed_in, stop_directly
+from plutoc_runtime.model import Photo
+from plutoc_runtime.standing import Down, JobState
+from tests.gateway.flights import THERE, Task
+from tests.gateway.processes import SPEED, Brain, deeds, pid, played
+
+FAR = (18.0, 18.0, 1.2)
+PICK = ("cf1", "pick_item", Task().id)
+
+
+def test_a_job_is_flown_through_it(tmp_path: Path) -> None:
+    """Its action begins once and is done once; photos arrive whole; telemetry stays current."""
+
+    async def play(brain: Brain) -> None:
+        link = await brain.linked()
+        job = Task()
+        assert await brain.flown(link, job) is None
+        assert job.begun == 1
+        assert link.telemetry("cf1").location == pytest.approx(THERE)
+        assert not link.telemetry("cf1").landed
+        photo = await brain.flown(link, Task(id="photo", action="take_photo", item=None))
+        assert isinstance(photo, Photo)
+        roll = await brain.told(link.call())
+        assert {id: job.state for id, job in roll.jobs.items()} == {
+            Task().id: JobState.DONE,
+            "photo": JobState.DONE,
+        }
+        assert roll.jobs["photo"].value == photo
+        assert roll.drones["cf1"].carrying == "pills"
+        await brain.told(link.land("cf1"))
+        assert link.telemetry("cf1").landed
+        await link.goodbye()
+        assert not brain.lost.is_set
+        await brain.until(lambda: pid(tmp_path) is None)
+
+    played(tmp_path, play)
+    assert deeds(tmp_path) == [PICK, ("cf1", "take_photo", "photo")]
+    assert speed_in(tmp_path) == SPEED
+
+
+def test_failures_arrive_with_their_reasons(tmp_path: Path) -> None:
+    """Of jobs and of single commands."""
+
+    async def play(brain: Brain) -> None:
+        link = await brain.linked()
+        failed = await brain.flown(link, Task(action="release_item"))
+        assert isinstance(failed, FlightFailed)
+        assert (failed.failure, str(failed)) == (
+            Failure.ACTION,
+            "release_item failed: cf1 carries nothing, not pills at (4, 5)",
+        )
+        with pytest.raises(FlightFailed, match="it must take off first") as refused:
+            await brain.told(link.go_to("cf2", THERE))
+        assert refused.value.failure is Failure.REFUSED
+
+    played(tmp_path, play)
+
+
+def test_a_brain_that_is_gone_finds_its_job_flying_on(tmp_path: Path) -> None:
+    """It links again in time, attaches, and hears the end."""
+
+    async def play(brain: Brain) -> None:
+        link = await brain.linked()
+        brain.kernel.post(link.fly, Task(), lambda _: None)
+        await brain.until(lambda: not link.telemetry("cf1").landed)
+        await link.close()
+        link = await brain.linked()
+        roll = await brain.told(link.call())
+        assert (roll.jobs[Task().id].state, roll.jobs[Task().id].flies) == (JobState.FLYING, True)
+        heard: list[object] = []
+        brain.kernel.post(link.attach, Task().id, heard.append)
+        await brain.until(lambda: bool(heard))
+        assert heard == [None]
+
+    played(tmp_path, play)
+    assert deeds(tmp_path) == [PICK]
+
+
+def test_without_a_brain_everything_lands_and_then_it_ends(tmp_path: Path) -> None:
+    """The world stays as it is on the disk: the next gateway finds the drone where it landed."""
+
+    async def play(brain: Brain) -> None:
+        link = await brain.linked()
+        brain.kernel.post(link.fly, Task(stops=(FAR,)), lambda _: None)
+        await brain.until(lambda: link.telemetry("cf1").location[0] > 2)
+        await link.close()
+        await brain.until(lambda: pid(tmp_path) is None)
+        link = await brain.linked()
+        assert link.telemetry("cf1").landed
+        assert link.telemetry("cf1").location[0] > 2
+        assert (await brain.told(link.call())).jobs == {}
+
+    played(tmp_path, play, patience=0.1, idle=0.5)
+
+
+def test_a_gateway_that_is_killed_comes_back_to_the_same_world(tmp_path: Path) -> None:
+    """The brain notices; drones went on meanwhile; what was done is done, what was not is flown."""
+
+    async def play(brain: Brain) -> None:
+        link = await brain.linked()
+        await brain.flown(link, Task())
+        brain.kernel.post(link.fly, Task(id="far", drone="cf2", stops=(FAR,)), lambda _: None)
+        await brain.until(lambda: link.telemetry("cf2").location[0] > 3)
+        killed = pid(tmp_path)
+        assert killed is not None
+        os.kill(killed, signal.SIGKILL)
+        await brain.kernel.run(brain.lost)
+        link = await brain.linked()
+        roll = await brain.told(link.call())
+        assert pid(tmp_path) != killed
+        assert {id: entry.state for id, entry in roll.jobs.items()} == {Task().id: JobState.DONE}
+        assert roll.drones["cf1"].carrying == "pills"
+        assert not roll.drones["cf2"].landed
+        assert roll.drones["cf2"].location[0] > 3
+        assert await brain.flown(link, Task(id="far", drone="cf2", stops=(FAR,))) is None
+
+    played(tmp_path, play)
+    assert deeds(tmp_path) == [PICK, ("cf2", "pick_item", "far")]
+
+
+def test_all_can_be_brought_down_by_the_brain_and_without_it(tmp_path: Path) -> None:
+    """Home at the brain's word; where they are at anybody's who may open the socket."""
+
+    async def play(brain: Brain) -> None:
+        link = await brain.linked()
+        brain.kernel.post(link.fly, Task(), lambda _: None)
+        await brain.until(lambda: link.telemetry("cf1").location[0] > 2)
+        await brain.told(link.bring_down(Down.HOME))
+        assert link.telemetry("cf1").landed
+        assert link.telemetry("cf1").location == pytest.approx((1, 1, 0))
+        roll = await brain.told(link.call())
+        assert roll.jobs[Task().id].state is JobState.BROKEN_OFF
+        brain.kernel.post(link.fly, Task(), lambda _: None)
+        await brain.until(lambda: link.telemetry("cf1").location[0] > 2)
+        assert stop_directly(tmp_path, Down.LAND, 5) == "the drones come down"
+        await brain.kernel.run(brain.lost)
+        link = await brain.linked()
+        roll = await brain.told(link.call())
+        assert roll.drones["cf1"].landed
+        assert roll.drones["cf1"].location[0] > 2
+
+    played(tmp_path, play)
+
+
+def test_an_older_brain_is_refused_and_a_newer_one_cuts_it_off(tmp_path: Path) -> None:
+    """The numbers come from the journal, and only grow."""
+
+    async def play(brain: Brain) -> None:
+        brain.epoch = 5
+        await brain.linked()
+        lost = brain.lost
+        await brain.linked()
+        await brain.kernel.run(lost)
+        brain.epoch = 2
+        with pytest.raises(BadInput, match="another run of this app has taken over"):
+            await brain.linked()
+
+    played(tmp_path, play)
+
+
+def test_a_gateway_that_cannot_begin_says_why(tmp_path: Path) -> None:
+    """With the last line of its log, and where the rest is."""
+
+    async def play(brain: Brain) -> None:
+        (tmp_path / "world.jsonl").mkdir()
+        with pytest.raises(BadInput, match=r"the gateway ended before it was ready: .*world.jsonl"):
+            await brain.linked()
+
+    played(tmp_path, play)
