@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from dataclasses import replace
 
 from plutoc.block import HookKind
@@ -12,11 +13,11 @@ from plutoc.emit.imports import Import, import_lines, names
 from plutoc.emit.python import call, items, literal
 from plutoc.emit.render import render
 from plutoc.emit.statements import Scope, asked_for, body_lines
-from plutoc.emit.walk import branches, nodes
+from plutoc.emit.walk import branches, nodes, steps
 from plutoc.frozen import frozen
 from plutoc.graph.model import Action, Graph, Parameter
-from plutoc.plan.model import Body, Plan
-from plutoc_runtime.fields import Entity
+from plutoc.plan.model import Arrived, Body, Plan
+from plutoc_runtime.fields import Entity, Field
 from plutoc_runtime.status import IN_GRAPH
 
 
@@ -49,6 +50,7 @@ def flow_file(plan: Plan) -> str:
         fields={field.name: field for field in fields_of(graph)},
         left_out=frozenset(plan.left_out),
         mission="mission",
+        place="at" if _asked_in_loops(plan.body) else "run.at",
     )
     in_branch = replace(scope, mission="run.mission")
     lines = list(body_lines(plan.body, scope))
@@ -56,7 +58,7 @@ def flow_file(plan: Plan) -> str:
         Function(name=one.name, path=one.path, lines=list(body_lines(one.body, in_branch)))
         for one in branches(plan.body)
     ]
-    app_arguments = _app(graph)
+    app_arguments = _app(plan)
     start = _start(plan.body, scope)
     of_functions = (line for function in functions for line in function.lines)
     written = "\n".join([start, *lines, *app_arguments, *of_functions])
@@ -75,9 +77,20 @@ def flow_file(plan: Plan) -> str:
 
 def _start(body: Body, scope: Scope) -> str:
     fields = (field for node in nodes(body) for field in asked_for(node, scope))
-    if any(field.on is Entity.MISSION for field in fields):
-        return "mission, status = run.mission, UNEXECUTED"
-    return "status = UNEXECUTED"
+    found = {"mission": "run.mission"} if _of_mission(fields) else {}
+    found["status"] = "run.status"
+    if scope.place == "at":
+        found["at"] = "run.at"
+    return f"{', '.join(found)} = {', '.join(found.values())}"
+
+
+def _of_mission(fields: Iterable[Field]) -> bool:
+    return any(field.on is Entity.MISSION for field in fields)
+
+
+def _asked_in_loops(body: Body) -> bool:
+    """Is it asked anew in each round of a loop where a mission was interrupted?"""
+    return any(isinstance(step, Arrived) for step in steps(body))
 
 
 def _imports(graph: Graph, written: str) -> list[Import]:
@@ -112,8 +125,9 @@ _TEXT = re.compile(r"""'(?:\\.|[^'\\\n])*'|"(?:\\.|[^"\\\n])*"|#.*""")
 _WORD = re.compile(r"\b[A-Z]+\b")
 
 
-def _app(graph: Graph) -> list[str]:
+def _app(plan: Plan) -> list[str]:
     """Return the arguments of the `App`."""
+    graph, entries = plan.checked.graph, plan.checked.entries
     own = "".join(_entry(action) for action in graph.actions)
     evaluators = [hook.name for hook in graph.hooks if hook.kind is HookKind.EVALUATOR]
     arguments = [
@@ -129,6 +143,8 @@ def _app(graph: Graph) -> list[str]:
     if evaluators:
         functions = "".join(f"{literal(name)}: hooks.{name}," for name in evaluators)
         arguments.append(f"evaluators={{{functions}}}")  # a line each
+    if entries:
+        arguments.append(f"resumes={items(map(literal, entries))}")
     return arguments
 
 

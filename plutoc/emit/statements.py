@@ -14,6 +14,7 @@ from plutoc.frozen import frozen
 from plutoc.graph.model import Node
 from plutoc.plan.model import (
     Arm,
+    Arrived,
     Body,
     Break,
     Call,
@@ -23,6 +24,7 @@ from plutoc.plan.model import (
     Goto,
     Join,
     Loop,
+    Place,
     Step,
     Switch,
     Watch,
@@ -44,6 +46,8 @@ class Scope:
     """How the mission is reached here."""
     head: str = ""
     """Where the innermost loop begins."""
+    place: str = "run.at"
+    """Where a mission goes on that was interrupted."""
     in_loop: bool = False
     """A loop of the plan lies between here and the `Dispatch` around it."""
 
@@ -65,6 +69,8 @@ def body_lines(body: Body, scope: Scope) -> Iterator[str]:
                 yield from (*_go_through(first, following), *rest)
             case Switch():
                 yield from _switch(step, scope)
+            case Arrived():
+                yield f"{scope.place} = None"
             case Loop(head=head, body=inner):
                 yield "while True:"
                 yield from _indented(body_lines(inner, replace(scope, head=head, in_loop=True)))
@@ -192,7 +198,7 @@ def _switch(switch: Switch, scope: Scope) -> Iterator[str]:
         if arm is rest and keyword == "if":
             yield from lines
         else:
-            yield "else:" if arm is rest else f"{keyword} {_condition(arm)}:"
+            yield "else:" if arm is rest else f"{keyword} {_condition(arm, switch, scope)}:"
             yield from _indented(lines)
         if not leaves(arm.body):
             keyword = "elif"
@@ -225,10 +231,26 @@ def _is_not(statuses: tuple[Status, ...]) -> str:
     return f"status not in {_any_of(statuses)}"
 
 
-def _condition(arm: Arm) -> str:
+def _condition(arm: Arm, switch: Switch, scope: Scope) -> str:
+    if arm.places:
+        others = tuple(p for other in switch.arms if other is not arm for p in other.places)
+        return _among(scope.place, arm.places, others)
     if len(arm.statuses) == 1:
         return f"status is {arm.statuses[0].name}"
     return f"status in {_any_of(arm.statuses)}"
+
+
+def _among(name: str, places: tuple[Place, ...], others: tuple[Place, ...]) -> str:
+    """Return the shorter of two questions: is it one of these, or none of the others?"""
+    if places == (None,):
+        return f"{name} is None"
+    if len(places) == 1:
+        return f"{name} == {literal(places[0])}"
+    if len(others) == 1:
+        return f"{name} != {literal(others[0])}"
+    if None in places or len(others) < len(places):
+        return f"{name} not in {items(map(literal, others))}"
+    return f"{name} in {items(map(literal, places))}"
 
 
 def _any_of(statuses: tuple[Status, ...]) -> str:
@@ -263,7 +285,8 @@ def _breaks(body: Body) -> bool:
 
 
 def _dispatch(dispatch: Dispatch, scope: Scope) -> Iterator[str]:
-    yield f"at = {literal(dispatch.start)}"
+    first = literal(dispatch.start)
+    yield f"at = run.at or {first}" if dispatch.entries else f"at = {first}"
     yield "while True:"
     yield "    match at:"
     for case in dispatch.cases:
@@ -282,7 +305,7 @@ def _at_the_end(body: Body, scope: Scope) -> Iterator[str]:
             yield from body_lines(tuple(before), scope)
             keyword = "if"
             for arm in early:
-                yield f"{keyword} {_condition(arm)}:"
+                yield f"{keyword} {_condition(arm, switch, scope)}:"
                 yield from _indented(_at_the_end(arm.body, scope))
                 keyword = "elif"
             yield "else:"

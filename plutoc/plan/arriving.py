@@ -7,13 +7,15 @@ the checks have seen to leave it.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from typing import NamedTuple
 
 from plutoc.check.model import Checked
 from plutoc.frozen import frozen
 from plutoc.graph.model import Node
 from plutoc.plan.chart import let_through
 from plutoc.plan.model import (
+    Arrived,
     Body,
     Branch,
     Break,
@@ -24,6 +26,7 @@ from plutoc.plan.model import (
     Goto,
     Join,
     Loop,
+    Place,
     Plan,
     Step,
     Switch,
@@ -32,9 +35,21 @@ from plutoc.plan.model import (
 from plutoc_runtime.status import Status
 
 Statuses = frozenset[Status]
+
+
+class Entering(NamedTuple):
+    """An interrupted mission on its way to the block where it goes on."""
+
+    place: str
+    status: Status
+
+
+Coming = frozenset[Status | Entering]
+"""What comes to a step."""
 Brought = Mapping[tuple[int, Status], Statuses]
 """What a branch, by its identity, brings to its gate when a mission forks with a status."""
 NONE = frozenset[Status]()
+NOBODY: Coming = frozenset()
 
 
 class _Frame:
@@ -44,14 +59,14 @@ class _Frame:
 
     def __init__(self) -> None:
         self.ends: set[Status] = set()
-        self.continued: set[Status] = set()
-        self.broken: set[Status] = set()
-        self.gone: dict[str, Statuses] = {}
+        self.continued: set[Status | Entering] = set()
+        self.broken: set[Status | Entering] = set()
+        self.gone: dict[str, Coming] = {}
         """What came to each label."""
-        self.known: dict[int, tuple[set[Status], set[Status]]] = {}
+        self.known: dict[int, tuple[set[Status | Entering], set[Status | Entering]]] = {}
         """For each loop, by identity: what came to its head, and what leaves it by `Break`."""
 
-    def inside(self, broken: set[Status]) -> _Frame:
+    def inside(self, broken: set[Status | Entering]) -> _Frame:
         """Return the same function, seen from inside a loop."""
         inner = _Frame()
         inner.ends, inner.gone, inner.known, inner.broken = self.ends, self.gone, self.known, broken
@@ -64,35 +79,41 @@ class _Walk:
         self.found: dict[int, set[Status]] = {}
         self.brought: dict[tuple[int, Status], Statuses] = {}
 
-    def body(self, body: Body, statuses: Statuses, frame: _Frame) -> Statuses:
+    def body(self, body: Body, coming: Coming, frame: _Frame) -> Coming:
         for step in body:
-            statuses = self.step(step, statuses, frame) if statuses else NONE
-        return statuses
+            coming = self.step(step, coming, frame) if coming else NOBODY
+        return coming
 
-    def step(self, step: Step, statuses: Statuses, frame: _Frame) -> Statuses:
+    def step(self, step: Step, coming: Coming, frame: _Frame) -> Coming:
         """Walk a step; return what falls off its end."""
         match step:
             case Call(node=node):
-                return self.leave(node, statuses)
+                return self.leave(node, _at(node, coming))
             case Join():
-                return self.join(step, statuses)
+                return self.join(step, _statuses(coming))
             case Watch(instead=instead):
-                return self.step(instead, statuses, frame)
+                return self.step(instead, coming, frame)
             case Switch():
-                return self.switch(step, statuses, frame)
+                return (
+                    self.enter(step, coming, frame)
+                    if step.enters
+                    else self.switch(step, _statuses(coming), frame)
+                )
+            case Arrived():
+                return coming
             case Loop():
-                return self.loop(step, statuses, frame)
+                return self.loop(step, coming, frame)
             case Dispatch():
-                self.dispatch(step, statuses, frame)
+                self.dispatch(step, coming, frame)
             case Continue():
-                frame.continued.update(statuses)
+                frame.continued.update(coming)
             case Break():
-                frame.broken.update(statuses)
+                frame.broken.update(coming)
             case Goto(label=label):
-                frame.gone[label] = frame.gone.get(label, NONE) | statuses
+                frame.gone[label] = frame.gone.get(label, NOBODY) | coming
             case End():
-                frame.ends.update(statuses)
-        return NONE
+                frame.ends.update(_statuses(coming))
+        return NOBODY
 
     def leave(self, node: Node, statuses: Statuses) -> Statuses:
         given = NONE.union(*(node.emitted(status) for status in statuses))
@@ -113,29 +134,53 @@ class _Walk:
             self.brought[key] = frozenset(frame.ends)
         return self.brought[key]
 
-    def switch(self, step: Switch, statuses: Statuses, frame: _Frame) -> Statuses:
+    def switch(self, step: Switch, statuses: Statuses, frame: _Frame) -> Coming:
         self.found.setdefault(id(step), set()).update(statuses)
-        out = NONE
+        out = NOBODY
         for arm in step.arms:
             out |= self.body(arm.body, statuses.intersection(arm.statuses), frame)
         return out
 
-    def loop(self, step: Loop, statuses: Statuses, frame: _Frame) -> Statuses:
+    def enter(self, step: Switch, coming: Coming, frame: _Frame) -> Coming:
+        out = NOBODY
+        for arm in step.arms:
+            some = (one for one in coming if _place(one) in arm.places)
+            out |= self.body(arm.body, frozenset(some), frame)
+        return out
+
+    def loop(self, step: Loop, coming: Coming, frame: _Frame) -> Coming:
         known, broken = frame.known.setdefault(id(step), (set(), set()))
-        while not statuses <= known:
-            known |= statuses
+        while not coming <= known:
+            known |= coming
             inside = frame.inside(broken)
-            statuses = self.body(step.body, frozenset(known), inside) | inside.continued
+            coming = self.body(step.body, frozenset(known), inside) | inside.continued
         return frozenset(broken)
 
-    def dispatch(self, step: Dispatch, statuses: Statuses, frame: _Frame) -> None:
+    def dispatch(self, step: Dispatch, coming: Coming, frame: _Frame) -> None:
         bodies = {case.label: case.body for case in step.cases}
-        walked: dict[str, Statuses] = {}
-        frame.gone[step.start] = statuses
+        walked: dict[str, Coming] = {}
+        frame.gone[step.start] = _statuses(coming)
+        for label in step.entries:
+            some = frozenset(one for one in coming if _place(one) == label)
+            frame.gone[label] = frame.gone.get(label, NOBODY) | some
         while fresh := [label for label, came in frame.gone.items() if walked.get(label) != came]:
             for label in fresh:
                 walked[label] = frame.gone[label]
                 self.body(bodies[label], walked[label], frame)
+
+
+def _statuses(coming: Iterable[Status | Entering]) -> Statuses:
+    return frozenset(one for one in coming if isinstance(one, Status))
+
+
+def _at(node: Node, coming: Coming) -> Statuses:
+    """Return what comes to a block, with those that go on just there."""
+    here = (one.status for one in coming if isinstance(one, Entering) and one.place == node.name)
+    return _statuses(coming).union(here)
+
+
+def _place(one: Status | Entering) -> Place:
+    return one.place if isinstance(one, Entering) else None
 
 
 @frozen
@@ -150,5 +195,11 @@ class Arriving:
 def arriving(plan: Plan) -> Arriving:
     """Walk a plan with all statuses that can occur."""
     walk = _Walk(plan.checked)
-    walk.body(plan.body, frozenset((Status.UNEXECUTED,)), _Frame())
+    begin = frozenset[Status | Entering]((Status.UNEXECUTED,))
+    entering = (
+        Entering(place, status)
+        for place, statuses in plan.checked.entries.items()
+        for status in statuses
+    )
+    walk.body(plan.body, begin.union(entering), _Frame())
     return Arriving(switches=walk.found, brought=walk.brought)

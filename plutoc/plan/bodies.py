@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 
 from plutoc.plan.model import (
     Arm,
+    Arrived,
     Body,
     Break,
     Call,
@@ -48,7 +50,7 @@ def continues(body: Body) -> bool:
 
 def _passes(step: Step) -> bool:
     match step:
-        case Call() | Join() | Watch():
+        case Call() | Join() | Watch() | Arrived():
             return True
         case Switch():
             return any(falls(arm.body) for arm in step.arms)
@@ -65,13 +67,14 @@ def switch(arms: Iterable[Arm]) -> Body:
     main line stays flat, and the exceptions to it stand indented above.
     """
     ordered = sorted(arms, key=_rank)
+    # where a mission was interrupted is always one of the places that were asked for
+    decided = any(arm.places for arm in ordered)
     if all(_rank(arm) == 0 for arm in ordered):
         ordered.sort(key=lambda arm: arm.body == (Continue(),))
     *early, last = ordered
     if any(falls(arm.body) for arm in early):
-        return (Switch(arms=tuple(ordered)),)
-    flat = Arm(statuses=last.statuses, body=(), to=last.to)
-    return (Switch(arms=(*early, flat)), *last.body)
+        return (Switch(arms=tuple(ordered), decided=decided),)
+    return (Switch(arms=(*early, replace(last, body=())), decided=decided), *last.body)
 
 
 def _rank(arm: Arm) -> int:

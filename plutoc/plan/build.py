@@ -8,8 +8,10 @@ from plutoc.check.model import Checked
 from plutoc.graph.model import START, Edge
 from plutoc.plan.chart import Chart, Charts, Kind, Spot
 from plutoc.plan.dispatch import dispatch
+from plutoc.plan.entering import entrances
 from plutoc.plan.entries import untangled
-from plutoc.plan.model import Body, Branch, Call, End, Join, Plan
+from plutoc.plan.model import Arrived, Body, Branch, Call, End, Join, Plan
+from plutoc.plan.places import asked_once
 from plutoc.plan.shape import Shape, shape
 from plutoc.plan.structure import Around, Hopeless, Unstructured, Writer
 from plutoc_runtime.status import Status
@@ -19,29 +21,43 @@ def build(checked: Checked) -> Plan:
     """Return what the generated coroutine shall do, not yet optimised: every block a call."""
     edge = next(e for e in checked.graph.outgoing[START] if checked.carries[e])
     charts = Charts(checked)
-    chart = charts.chart(edge.target, checked.carries[edge])
-    return Plan(checked=checked, body=_body(charts, chart, {}))
+    chart = charts.chart(edge.target, checked.carries[edge], checked.entries)
+    return Plan(checked=checked, body=_body(charts, chart, {}, tuple(checked.entries)))
 
 
-def _body(charts: Charts, chart: Chart, names: dict[str, int]) -> Body:
+def _body(
+    charts: Charts, chart: Chart, names: dict[str, int], entries: tuple[str, ...] = ()
+) -> Body:
     found = shape(chart)
     steps = {spot: _steps(charts, chart, spot, names) for spot in found.order}
-    return _structured(found, steps) or dispatch(found, steps)
+    return _structured(found, steps, entries) or dispatch(found, steps, entries)
 
 
-def _structured(found: Shape, steps: Mapping[Spot, Body]) -> Body | None:
+def _structured(found: Shape, steps: Mapping[Spot, Body], entries: tuple[str, ...]) -> Body | None:
     """Write the body by loops and switches, if that is possible."""
     one_entry = untangled(found)
     if one_entry is None:
         return None
-    steps = {spot: steps[spot.original] for spot in one_entry.order}
-    for copies in (False, True):
-        writer = Writer(one_entry, steps, copies=copies)
-        try:
-            return writer.body(one_entry.chart.entry, Around())
-        except (Unstructured, Hopeless):
-            continue
+    for entered in entrances(one_entry, entries):
+        written = {spot: _at(spot, steps) for spot in entered.order}
+        for copies in (False, True):
+            writer = Writer(entered, written, copies=copies)
+            try:
+                body = writer.body(entered.chart.entry, Around())
+            except (Unstructured, Hopeless):
+                continue
+            return asked_once(body, entries)
     return None
+
+
+def _at(spot: Spot, steps: Mapping[Spot, Body]) -> Body:
+    match spot.kind:
+        case Kind.ENTERED | Kind.ENTERED_LOOP:
+            return ()  # the ways from there ask
+        case Kind.ARRIVED:
+            return (Arrived(),)
+        case _:
+            return steps[spot.original]
 
 
 def _steps(charts: Charts, chart: Chart, spot: Spot, names: dict[str, int]) -> Body:
@@ -58,6 +74,8 @@ def _steps(charts: Charts, chart: Chart, spot: Spot, names: dict[str, int]) -> B
                 _branch(charts, edge, statuses, spot.gate, names) for edge in spot.branches
             )
             return (Join(fork=node[spot.name], gate=node[spot.gate], branches=branches),)
+        case _:
+            raise AssertionError(f"{spot.kind} is no place of the source")
 
 
 def _branch(

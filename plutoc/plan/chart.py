@@ -14,10 +14,16 @@ from plutoc.block import Gate
 from plutoc.check.model import Checked
 from plutoc.frozen import frozen
 from plutoc.graph.model import END, Edge
+from plutoc.plan.model import Place
 from plutoc_runtime.status import IN_GRAPH, WORST_FIRST, Status
 
 Leads = Mapping[Status, tuple[int, "Spot | None", str]]
 """For each status that leaves a spot: the edge's number, the target, and its name."""
+
+
+Entries = Mapping[str, frozenset[Status]]
+"""Blocks at which missions go on that were interrupted, and how they stand then."""
+NONE: Entries = {}
 
 
 class Kind(Enum):
@@ -26,6 +32,9 @@ class Kind(Enum):
     BLOCK = "the mission goes through a block"
     FORK = "it goes through all branches of a fork, up to the gate"
     BEHIND = "it is behind a gate, with the status that the gate let through"
+    ENTERED = "does an interrupted mission go on here?"
+    ENTERED_LOOP = "the same, at the head of a loop"
+    ARRIVED = "it has come to where it goes on"
 
     __hash__ = object.__hash__  # members are single: hashing by name is six times slower
 
@@ -60,6 +69,8 @@ class Way:
     """The target as a person names it."""
     asked: tuple[Status, ...] = ()
     """What the source says that leads there, whether it can come or not; empty: all that comes."""
+    places: tuple[Place, ...] = ()
+    """Where those were interrupted that are led there; empty: it is the status that counts."""
 
 
 @frozen
@@ -82,10 +93,15 @@ class Charts:
         self.numbers = {edge: number for number, edge in enumerate(checked.graph.edges)}
         self.brought: dict[tuple[Edge, Status], frozenset[Status]] = {}
 
-    def chart(self, entry: str, statuses: frozenset[Status]) -> Chart:
-        """Return the body that begins at a block with these statuses."""
+    def chart(self, entry: str, statuses: frozenset[Status], entries: Entries = NONE) -> Chart:
+        """Return the body that begins at a block with these statuses, and is entered at others."""
         first = Spot(kind=Kind.BLOCK, name=entry)
-        queue = [(first, status) for status in IN_GRAPH if status in statuses]
+        queue = [
+            (Spot(kind=Kind.BLOCK, name=name), status)
+            for name, some in ((entry, statuses), *entries.items())
+            for status in IN_GRAPH
+            if status in some
+        ]
         known = set(queue)
         exits: set[Status] = set()
         found: dict[Spot, dict[Status, tuple[int, Spot | None, str]]] = {}

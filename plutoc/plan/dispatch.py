@@ -7,19 +7,26 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from plutoc.plan.chart import Spot
+from plutoc.plan.chart import Kind, Spot
 from plutoc.plan.model import Body, Case, Dispatch
 from plutoc.plan.shape import Shape
 from plutoc.plan.structure import Around, Writer
 
 
-def dispatch(found: Shape, steps: Mapping[Spot, Body]) -> Body:
-    """Return a chart as one dispatch over the spots that several arrows lead to."""
-    places = tuple(s for s in found.order if s in found.shared or s == found.chart.entry)
+def dispatch(found: Shape, steps: Mapping[Spot, Body], entries: tuple[str, ...] = ()) -> Body:
+    """Return a chart as one dispatch over the spots that several arrows, or missions, lead to."""
+    first = found.chart.entry
+    places = tuple(
+        spot
+        for spot in found.order
+        if spot in found.shared
+        or spot == first
+        or (spot.kind is Kind.BLOCK and spot.name in entries)
+    )
     around = Around(elsewhere=frozenset(places), labels=frozenset(places))
     cases = tuple(
         # each with a writer of its own: here nothing is ever tried twice
         Case(label=spot.name, body=Writer(found, steps).body(spot, around))
         for spot in places
     )
-    return (Dispatch(start=found.chart.entry.name, cases=cases),)
+    return (Dispatch(start=first.name, cases=cases, entries=entries),)

@@ -75,6 +75,26 @@ def idle_arm(where: str, status: Status) -> BadPlan:
     return BadPlan(f"{where}: an arm takes {status.value}, which never arrives")
 
 
+def asked_before(where: str, source: str, status: Status) -> BadPlan:
+    return BadPlan(f"{where}: a mission {source} is asked for its status, {status.value}, too soon")
+
+
+def no_way_in(where: str, source: str) -> BadPlan:
+    return BadPlan(f"{where}: no arm is for a mission {source}")
+
+
+def never_entered(where: str, name: str) -> BadPlan:
+    return BadPlan(f"{where}: no way leads an interrupted mission to {name}")
+
+
+def led_astray(where: str, place: str | None) -> BadPlan:
+    return BadPlan(f"{where}: a mission is led astray that {place or 'the beginning'} lies behind")
+
+
+def places_twice(where: str, place: str | None) -> BadPlan:
+    return BadPlan(f"{where}: two arms are for {place or 'the beginning'}")
+
+
 def no_edge(where: str, source: str, target: str, status: Status) -> BadPlan:
     return BadPlan(f"{where}: from {source} no edge leads {status.value} to {target}")
 

@@ -11,6 +11,9 @@ from plutoc.frozen import frozen
 from plutoc.graph.model import Node
 from plutoc_runtime.status import Status
 
+Place = str | None
+"""The block at which an interrupted mission goes on; None: it begins."""
+
 
 @frozen
 class Call:
@@ -58,15 +61,27 @@ class Arm:
     statuses: tuple[Status, ...]
     body: Body
     to: str
+    places: tuple[Place, ...] = ()
+    """In place of statuses, where an interrupted mission goes on."""
 
 
 @frozen
 class Switch:
-    """Goes on by status. The arms share no status."""
+    """Goes on by status, or by where a mission was interrupted. The arms share neither."""
 
     arms: tuple[Arm, ...]
     decided: bool = False
     """Nothing else can arrive, so the last arm takes what the others leave, without asking."""
+
+    @property
+    def enters(self) -> bool:
+        """Does it ask where an interrupted mission goes on?"""
+        return any(arm.places for arm in self.arms)
+
+
+@frozen
+class Arrived:
+    """An interrupted mission has come to where it goes on: from here it is one like any other."""
 
 
 @frozen
@@ -113,9 +128,11 @@ class Dispatch:
 
     start: str
     cases: tuple[Case, ...]
+    entries: tuple[str, ...] = ()
+    """Cases with which interrupted missions begin."""
 
 
-Step = Call | Join | Watch | Switch | Loop | Continue | Break | End | Goto | Dispatch
+Step = Call | Join | Watch | Switch | Arrived | Loop | Continue | Break | End | Goto | Dispatch
 Body = tuple[Step, ...]
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from plutoc.plan.model import (
     Arm,
+    Arrived,
     Body,
     Branch,
     Break,
@@ -46,9 +47,12 @@ def _step(step: Step) -> list[str]:
             return [f"watch {_watched(step)}"]
         case Switch():
             head = "switch" if step.decided else "switch, asking all"
+            head = "enter" if step.enters else head
             return [head, *(line for arm in step.arms for line in _arm(arm))]
         case Loop():
             return [f"loop {step.head}", *_inside(step.body)]
+        case Arrived():
+            return ["arrived"]
         case Continue():
             return ["continue"]
         case Break():
@@ -61,7 +65,8 @@ def _step(step: Step) -> list[str]:
             lines = []
             for case in step.cases:
                 lines += [f"  case {case.label}", *(f"  {line}" for line in _inside(case.body))]
-            return [f"dispatch from {step.start}", *lines]
+            begun = ", ".join((step.start, *step.entries))
+            return [f"dispatch from {begun}", *lines]
 
 
 def _watched(watch: Watch) -> str:
@@ -81,7 +86,8 @@ def _branch(branch: Branch) -> list[str]:
 
 
 def _arm(arm: Arm) -> list[str]:
-    names = ", ".join(status.value for status in arm.statuses)
+    places = ("begin" if place is None else place for place in arm.places)
+    names = ", ".join((*(status.value for status in arm.statuses), *places))
     match arm.body:
         case ():
             rest = ["go on"]

@@ -107,7 +107,7 @@ class Writer:
         early = [way for way in ways if way in early]
         if early:
             arms = [self.arm(way, spot, around) for way in early]
-            written = switch([*arms, Arm(statuses=_asked(last), body=(), to=last.to)])
+            written = switch([*arms, _arm((last,), ())])
         else:
             written = _only(last, ())
         if self.inlined(last, spot, around):
@@ -176,12 +176,7 @@ class Writer:
         written, behind = self.merging(ways, merges, spot, around)
         if behind is not None:
             written += self.body(behind, around)
-        statuses = {status for way in ways for status in _asked(way)}
-        return Arm(
-            statuses=tuple(s for s in IN_GRAPH if s in statuses),
-            body=written,
-            to=", ".join(way.to for way in ways),
-        )
+        return _arm(ways, written)
 
     def switching(
         self, ways: Sequence[Way], merges: Sequence[Spot], spot: Spot, around: Around
@@ -199,7 +194,7 @@ class Writer:
             written = self.body(way.target, replace(around, arms=around.arms + 1))
         else:
             written = self.jump(way.target, around)
-        return Arm(statuses=_asked(way), body=written, to=way.to)
+        return _arm((way,), written)
 
     def inlined(self, way: Way, spot: Spot, around: Around) -> bool:
         """Is the target written just where the way leads there?"""
@@ -238,10 +233,7 @@ class Writer:
             raise Unstructured
         ways = self.shape.chart.ways[target]
         rest = (copies - 1) // len(ways)
-        arms = [
-            Arm(statuses=_asked(way), body=self.jump(way.target, around, rest), to=way.to)
-            for way in ways
-        ]
+        arms = [_arm((way,), self.jump(way.target, around, rest)) for way in ways]
         return (
             *self.steps[target],
             *(switch(arms) if len(arms) > 1 else _only(ways[0], arms[0].body)),
@@ -328,6 +320,16 @@ def _only(way: Way, behind: Body) -> Body:
     if not way.asked:
         return behind
     return (Switch(arms=(Arm(statuses=way.asked, body=(), to=way.to),)), *behind)
+
+
+def _arm(ways: Sequence[Way], body: Body) -> Arm:
+    statuses = {status for way in ways for status in _asked(way)}
+    return Arm(
+        statuses=tuple(s for s in IN_GRAPH if s in statuses),
+        body=body,
+        to=", ".join(way.to for way in ways),
+        places=tuple(place for way in ways for place in way.places),
+    )
 
 
 def _asked(way: Way) -> tuple[Status, ...]:

@@ -20,11 +20,13 @@ from plutoc.plan.model import (
     Goto,
     Join,
     Loop,
+    Place,
     Plan,
     Step,
     Switch,
     Watch,
 )
+from plutoc.plan.places import GOES_ON, comers
 from plutoc.plan.walk import walk
 from plutoc_runtime.status import Status
 
@@ -35,6 +37,7 @@ def verify(plan: Plan) -> None:
     """Raise `BadPlan` if the plan is malformed, or does not do what the graph says."""
     names: dict[str, None] = {}
     _whole(plan.body, FLOW, names)
+    _led_astray(plan)
     walk(plan, FLOW)
 
 
@@ -57,6 +60,9 @@ def _dispatch(step: Dispatch, where: str, names: dict[str, None]) -> None:
         labels[case.label] = None
     if step.start not in labels:
         raise errors.no_label(where, step.start)
+    for label in step.entries:
+        if label not in labels:
+            raise errors.no_label(where, label)
     for case in step.cases:
         inside = f"{where}, case {case.label}"
         _body(case.body, inside, names, in_loop=False, labels=tuple(labels))
@@ -111,6 +117,8 @@ def _step(step: Step, where: str, *, in_loop: bool, labels: tuple[str, ...] | No
                 raise errors.other_watchers(where)
         case Join():
             _spared(step, where)
+        case Switch() if step.enters:
+            _places(step.arms, where)
         case Switch():
             _arms(step.arms, where, least=2 if step.decided else 1)
         case _:
@@ -169,6 +177,26 @@ def _arms(arms: tuple[Arm, ...], where: str, least: int) -> None:
             if status in taken:
                 raise errors.arms_overlap(where, status)
             taken.add(status)
+
+
+def _places(arms: tuple[Arm, ...], where: str) -> None:
+    taken: set[Place] = set()
+    for arm in arms:
+        if arm.statuses or not arm.places:
+            raise errors.few_arms(where)
+        for place in arm.places:
+            if place in taken:
+                raise errors.places_twice(where, place)
+            taken.add(place)
+
+
+def _led_astray(plan: Plan) -> None:
+    """Check that who goes on already is led nowhere else by where it was once interrupted."""
+    for step, found in comers(plan.body, tuple(plan.checked.entries)).values():
+        for comer in found:
+            ways = [arm.places for arm in step.arms if comer.place in arm.places]
+            if not ways or (comer.on and GOES_ON in found and None not in ways[0]):
+                raise errors.led_astray(FLOW, comer.place)
 
 
 def _branch(branch: Branch, names: dict[str, None]) -> None:

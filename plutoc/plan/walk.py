@@ -14,6 +14,7 @@ from plutoc.graph.model import END, START, Node
 from plutoc.plan import errors
 from plutoc.plan.chart import let_through
 from plutoc.plan.model import (
+    Arrived,
     Body,
     Branch,
     Break,
@@ -24,12 +25,16 @@ from plutoc.plan.model import (
     Goto,
     Join,
     Loop,
+    Place,
     Plan,
     Step,
     Switch,
     Watch,
 )
 from plutoc_runtime.status import IN_GRAPH, Status
+
+ENTERS, ARRIVED = "interrupted at ", "arrived at "
+"""What stands for the block that was left, before an interrupted mission has come to any."""
 
 Left = dict[tuple[str, Status], None]
 """Blocks that were left, and with which status: an ordered set."""
@@ -57,6 +62,8 @@ class _Walk:
     carried: Mapping[tuple[str, str], frozenset[Status]]
     forks: Mapping[tuple[str, Status], Fork]
     called: dict[str, None] = field(default_factory=dict)
+    entered: dict[str, None] = field(default_factory=dict)
+    """Blocks to which interrupted missions came, and to nothing before."""
     switched: dict[int, tuple[str, Switch, set[Status]]] = field(default_factory=dict)
     """By identity: two switches may be equal and stand in different places."""
 
@@ -82,7 +89,10 @@ class _Walk:
             case Watch():
                 return self.step(step.instead, left, frame)
             case Switch():
-                return self.switch(step, left, frame)
+                walked = self.enter if step.enters else self.switch
+                return walked(step, left, frame)
+            case Arrived():
+                return {(_arrived(source), status): None for source, status in left}
             case Loop():
                 return self.loop(step, left, frame)
             case Dispatch():
@@ -105,6 +115,8 @@ class _Walk:
             implicit = target == END and (source, status) in self.checked.implicit_ends
             if not edge and not implicit:
                 raise errors.no_edge(frame.where, source, target, status)
+            if source.startswith((ENTERS, ARRIVED)):
+                self.entered[target] = None
         if target != END:
             self.called[target] = None
 
@@ -146,6 +158,25 @@ class _Walk:
             out.update(self.body(arm.body, taken, frame))
         for _, status in rest:
             raise errors.no_arm(frame.where, status)
+        for source, status in left:
+            if source.startswith((ENTERS, ARRIVED)):
+                raise errors.asked_before(frame.where, source, status)
+        return out
+
+    def enter(self, step: Switch, left: Left, frame: _Frame) -> Left:
+        """Walk on where those go on that were interrupted, and the others where they begin."""
+        out: Left = {}
+        for arm in step.arms:
+            out.update(
+                self.body(
+                    arm.body,
+                    {pair: None for pair in left if _place(pair[0]) in arm.places},
+                    frame,
+                )
+            )
+        for source, _ in left:
+            if not any(_place(source) in arm.places for arm in step.arms):
+                raise errors.no_way_in(frame.where, source)
         return out
 
     def loop(self, step: Loop, left: Left, frame: _Frame) -> Left:
@@ -158,7 +189,10 @@ class _Walk:
         return inside.broken
 
     def dispatch(self, step: Dispatch, left: Left, frame: _Frame) -> None:
-        frame.gone[step.start] = dict(left)
+        frame.gone[step.start] = {pair: None for pair in left if _place(pair[0]) is None}
+        for label in step.entries:
+            some = {pair: None for pair in left if _place(pair[0]) == label}
+            frame.gone.setdefault(label, {}).update(some)
         known: dict[str, Left] = {case.label: {} for case in step.cases}
         while any(known[label].keys() != gone.keys() for label, gone in frame.gone.items()):
             for case in step.cases:
@@ -167,6 +201,16 @@ class _Walk:
         for label, came in known.items():
             if not came:
                 raise errors.never_reached(frame.where, f"case {label}")
+
+
+def _place(source: str) -> Place:
+    """Return where a mission goes on that is still on its way there."""
+    return source.removeprefix(ENTERS) if source.startswith(ENTERS) else None
+
+
+def _arrived(source: str) -> str:
+    place = _place(source)
+    return source if place is None else ARRIVED + place
 
 
 def _first(body: Body, gate: str) -> str:
@@ -191,7 +235,14 @@ def walk(plan: Plan, where: str) -> None:
         carried[pair] = carried.get(pair, frozenset()) | statuses
     forks = {(fork.node, fork.status): fork for fork in checked.forks}
     walked = _Walk(checked=checked, carried=carried, forks=forks)
-    walked.function(plan.body, {(START, Status.UNEXECUTED): None}, where, END)
+    begin: Left = {(START, Status.UNEXECUTED): None}
+    for name, statuses in checked.entries.items():
+        carried[ENTERS + name, name] = carried[ARRIVED + name, name] = statuses
+        begin.update(((ENTERS + name, status), None) for status in IN_GRAPH if status in statuses)
+    walked.function(plan.body, begin, where, END)
+    for name in checked.entries:
+        if name not in walked.entered:
+            raise errors.never_entered(where, name)
     for place, step, seen in walked.switched.values():
         for arm in step.arms:
             for status in arm.statuses:

@@ -39,7 +39,7 @@ def test_no_more_and_no_less_than_what_passes_arrives(name: str) -> None:
     """Each switch is come to, and asks for all that comes; a walk by chance meets nothing else."""
     plan = build(checked(GRAPHS[name]))
     found = arriving(plan).switches
-    for switch in switches(plan.body):
+    for switch in (switch for switch in switches(plan.body) if not switch.enters):
         came = found[id(switch)]
         assert came
         assert came <= {status for arm in switch.arms for status in arm.statuses}

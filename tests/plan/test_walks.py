@@ -17,6 +17,7 @@ from plutoc.plan.model import Plan
 from plutoc.plan.optimise import stages
 from plutoc.plan.show import show
 from plutoc.plan.verify import verify
+from plutoc_runtime.status import IN_GRAPH, Status
 from tests.check import graphs
 from tests.check.test_walks import edited
 from tests.plan.graphs import GRAPHS, random_graphs
@@ -32,7 +33,19 @@ def compare(checked: Checked, seeds: range) -> Plan:
         wanted = kept(lambda diary: along_graph(checked, diary), seed)
         for plan in (plans[0], plans[-1]):
             assert kept(partial(through_plan, plan), seed) == wanted
+        for place, status in goes_on(checked):
+            wanted = kept(partial(along_graph, checked, place=place, status=status), seed)
+            for plan in (plans[0], plans[-1]):
+                through = partial(through_plan, plan, place=place, status=status)
+                assert kept(through, seed) == wanted
     return plans[-1]
+
+
+def goes_on(checked: Checked) -> list[tuple[str, Status]]:
+    """Return where interrupted missions go on, and with which status."""
+    return [
+        (name, s) for name, statuses in checked.entries.items() for s in IN_GRAPH if s in statuses
+    ]
 
 
 @pytest.mark.parametrize("name", GRAPHS)

@@ -1,7 +1,7 @@
 """Two walks of one mission, with the same luck: along the graph, and through the plan.
 
 Neither knows anything of how plans are made. Each notes every block, every branch and every gate
-that it comes to, with the status there.
+that it comes to, with the status there. Both may begin where an interrupted mission goes on.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from plutoc.block import Gate
 from plutoc.check.model import Checked
 from plutoc.graph.model import END, START, Node
 from plutoc.plan.model import (
+    Arrived,
     Body,
     Break,
     Call,
@@ -24,6 +25,7 @@ from plutoc.plan.model import (
     Goto,
     Join,
     Loop,
+    Place,
     Plan,
     Step,
     Switch,
@@ -42,6 +44,8 @@ class Diary:
 
     luck: random.Random
     steps: int
+    place: Place = None
+    """Where the mission goes on, as long as the plan remembers it."""
     lines: list[str] = field(default_factory=list)
 
     def note(self, what: str, status: Status) -> None:
@@ -68,10 +72,12 @@ def kept(walk: Callable[[Diary], None], seed: int, steps: int = 80) -> list[str]
     return diary.lines
 
 
-def along_graph(checked: Checked, diary: Diary) -> None:
-    """Walk the graph."""
+def along_graph(
+    checked: Checked, diary: Diary, place: Place = None, status: Status = Status.UNEXECUTED
+) -> None:
+    """Walk the graph, from its beginning or from a block."""
     (first,) = checked.graph.outgoing[START]
-    _from(checked, first.target, Status.UNEXECUTED, END, diary)
+    _from(checked, place or first.target, status, END, diary)
 
 
 def _from(checked: Checked, name: str, status: Status, to: str, diary: Diary) -> Status:
@@ -97,9 +103,12 @@ def _from(checked: Checked, name: str, status: Status, to: str, diary: Diary) ->
     return status
 
 
-def through_plan(plan: Plan, diary: Diary) -> None:
-    """Walk the plan."""
-    _function(plan.body, Status.UNEXECUTED, END, diary)
+def through_plan(
+    plan: Plan, diary: Diary, place: Place = None, status: Status = Status.UNEXECUTED
+) -> None:
+    """Walk the plan, from its beginning or as a mission that goes on at a block."""
+    diary.place = place
+    _function(plan.body, status, END, diary)
 
 
 def _function(body: Body, status: Status, to: str, diary: Diary) -> Status:
@@ -128,6 +137,12 @@ def _step(step: Step, status: Status, diary: Diary) -> tuple[Step | None, Status
                 diary.note(f"branch to {branch.path.split(' -> ')[1]}", status)
                 brought.append(_function(branch.body, status, step.gate.name, diary))
             return None, diary.close(step.gate, brought)
+        case Arrived():
+            diary.place = None
+            return None, status
+        case Switch() if step.enters:
+            (arm,) = (arm for arm in step.arms if diary.place in arm.places)
+            return _body(arm.body, status, diary)
         case Switch():
             asked = step.arms[:-1] if step.decided else step.arms
             taken = [arm for arm in asked if status in arm.statuses]
@@ -145,7 +160,7 @@ def _step(step: Step, status: Status, diary: Diary) -> tuple[Step | None, Status
                     return jump, status
         case Dispatch():
             bodies = {case.label: case.body for case in step.cases}
-            label = step.start
+            label = (diary.place if step.entries else None) or step.start
             while True:
                 jump, status = _body(bodies[label], status, diary)
                 if not isinstance(jump, Goto):

@@ -51,7 +51,7 @@ def _to_fuse(dispatch: Dispatch) -> Mapping[str, Body]:
     """Return cases that can be written where they are jumped to, none of which jumps to another."""
     jumps = _jumps(dispatch)
     found: dict[str, Body] = {}
-    led_to = {dispatch.start}
+    led_to = {dispatch.start, *dispatch.entries}
     for case in dispatch.cases:
         targets = set(_gotos(case.body))
         wanted = jumps[case.label] == 1 or _short(case.body)

@@ -18,7 +18,7 @@ from dataclasses import replace
 
 from plutoc.plan.arriving import arriving
 from plutoc.plan.bodies import breaks, continues, falls
-from plutoc.plan.model import Arm, Body, Loop, Plan, Step, Switch
+from plutoc.plan.model import Body, Loop, Plan, Step, Switch
 from plutoc.plan.rewrite import rewritten
 
 
@@ -31,14 +31,13 @@ def impossible(plan: Plan) -> Plan:
             leave(step.body) for leave in (falls, continues, breaks)
         ):
             return step.body
-        if not isinstance(step, Switch):
+        if not isinstance(step, Switch) or step.enters:
             return (step,)
         came = found.get(id(before), set())
         if came.issuperset(status for arm in step.arms for status in arm.statuses):
             return (step,)
         arms = (
-            Arm(statuses=tuple(s for s in arm.statuses if s in came), body=arm.body, to=arm.to)
-            for arm in step.arms
+            replace(arm, statuses=tuple(s for s in arm.statuses if s in came)) for arm in step.arms
         )
         return (replace(step, arms=tuple(arm for arm in arms if arm.statuses)),)
 

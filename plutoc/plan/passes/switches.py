@@ -42,6 +42,8 @@ def _joined(body: Body) -> Body:
 
 def _leads_on(before: Switch, step: Switch) -> bool:
     """Do all statuses that come to a switch come from one arm of that before it, as they are?"""
+    if before.enters or step.enters:
+        return False
     on = [arm for arm in before.arms if falls(arm.body)]
     if len(on) != 1 or on[0].body or not (before.decided and step.decided):
         return False

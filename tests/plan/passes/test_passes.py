@@ -19,6 +19,7 @@ from plutoc.plan.show import show
 from plutoc.plan.verify import verify
 from tests.check.graphs import checked
 from tests.plan.graphs import GRAPHS
+from tests.plan.plans import begun
 
 FOLDER = Path(__file__).parent
 TITLE = re.compile(r"^== (.+)$", re.MULTILINE)
@@ -35,7 +36,7 @@ def cases() -> Iterator[tuple[str, str, str]]:
 
 def written(graph: str, name: str) -> str:
     """Return a case as it must be: the graph, and the plans around the pass."""
-    plans = list(stages(build(checked(graph))))
+    plans = list(stages(build(begun(graph))))
     number = [stage for stage, _ in plans].index(name)
     before, after = (plan for _, plan in plans[number - 1 : number + 1])
     return f"\n{graph.strip()}\n-- before\n{_body(before)}\n-- after\n{_body(after)}\n"
