@@ -14,6 +14,9 @@ from ..virtual import VirtualTime
 if TYPE_CHECKING:
     from .case import Weather
 
+_LONG = 30.0
+"""Seconds that a hook takes that blocks."""
+
 
 class BrokenHook(RuntimeError):
     """What a hook raises that nobody expected."""
@@ -49,6 +52,9 @@ class BrainTime(VirtualTime):
         if self._weather.hook and self._chance.random() < self._weather.hook:
             self._fired["hook raising"] += 1
             raise BrokenHook("by chance")
+        if self._weather.block and self._chance.random() < self._weather.block:
+            self._fired["hook blocking"] += 1
+            await self.sleep(_LONG)
         result = await super().call_hook(hook, *args, **named)
         self._done(hook, args)
         return result

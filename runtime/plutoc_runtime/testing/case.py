@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING, Any
 
-from ..simulation.faults import Faults
+from ..words import number
 
 if TYPE_CHECKING:
     from ..files.fleet import FleetFile
@@ -15,12 +15,20 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Weather:
-    """What goes wrong by itself, as shares from 0 to 1 or in seconds."""
+    """What goes wrong by itself: shares from 0 to 1, or seconds. The names are the command line's."""
 
-    faults: Faults = field(default_factory=Faults)
-    """Of flights."""
+    crash: float = 0.0
+    """Flights that crash."""
+    link: float = 0.0
+    """Flights that lose their link."""
+    action: float = 0.0
+    """Flights whose action fails."""
+    battery: float = 0.0
+    """Flights whose battery is empty all at once."""
     hook: float = 0.0
     """Calls of hooks that raise an error that nobody expected."""
+    block: float = 0.0
+    """Calls of hooks that take half a minute."""
     late: float = 0.0
     """Wake-ups that come late."""
     slow: float = 0.0
@@ -29,6 +37,10 @@ class Weather:
     """Seconds until a row of the journal is durable."""
     jump: float = 0.0
     """Seconds by which the clock of the machine is set on while the app is down."""
+    down: float = 1.0
+    """Seconds until a crashed app is started again."""
+    snapshot: float = 0.0
+    """Lives that begin with a snapshot and not with the first row of the journal."""
 
 
 FAIR = Weather()
@@ -43,7 +55,27 @@ class Case:
     fleet: FleetFile
     weather: Weather = FAIR
     blows: tuple[Blow, ...] = ()
-    down: float = 1.0
-    """Seconds until somebody, or the supervisor, starts the app again."""
-    snapshot: bool = False
-    """Whether a later life begins with a snapshot instead of the first half of the journal."""
+
+
+def weather_of(text: str) -> Weather:
+    """Read `crash=0.1,slow=0.4`; raise `ValueError` where it says nothing."""
+    given: dict[str, float] = {}
+    known = [field.name for field in fields(Weather)]
+    for part in text.split(","):
+        name, _, value = (piece.strip() for piece in part.partition("="))
+        if name not in known:
+            raise ValueError(f"{name} is no weather; there are: {', '.join(known)}")
+        try:
+            given[name] = float(value)
+        except ValueError:
+            raise ValueError(f"{part.strip()} is not written like slow=0.4") from None
+    return replace(FAIR, **given)
+
+
+def weather_text(weather: Weather) -> str:
+    """Write what is not fair of it as one word of a command line."""
+    return ",".join(
+        f"{field.name}={number(value)}"
+        for field in fields(Weather)
+        if (value := getattr(weather, field.name)) != getattr(FAIR, field.name)
+    )

@@ -7,7 +7,7 @@ at one instant the world goes first. So a brain can die at any moment, and the d
 from __future__ import annotations
 
 import json
-from collections import Counter
+from collections import Counter, deque
 from copy import deepcopy
 from dataclasses import dataclass
 from functools import partial
@@ -18,10 +18,11 @@ from ..errors import BadInput
 from ..gateway.gateway import Gateway
 from ..gateway.ledger import MemoryLedger
 from ..journal.fold import Records
-from ..kernel import FLEET
+from ..kernel import FLEET, Cancelled
 from ..kernel import Kind as When
 from ..life import Life
 from ..simulation.drones import SimulatedDrone, SimulatedNavigation
+from ..simulation.faults import Faults
 from ..simulation.world import World
 from ..standing import Down
 from ..virtual import VirtualTime
@@ -91,7 +92,12 @@ class _Rig:
             world,
             self.drones,
             World(case.seed, airspace, case.fleet.world),
-            case.weather.faults,
+            Faults(
+                crash=case.weather.crash,
+                link=case.weather.link,
+                action=case.weather.action,
+                battery=case.weather.battery,
+            ),
             case.seed,
             airspace,
             self.done,
@@ -166,9 +172,12 @@ class _Rig:
         """An error that nobody caught is a mistake of ours: the trial ends with it."""
         if kernel.crashed is not None:
             error, kernel.crashed = kernel.crashed, None
-            kernel.over = False
-            self.found.append(f"{kernel.now:g} s: {type(error).__name__}: {error}")
-            self.over = True
+            self.blame(error)
+
+    def blame(self, error: BaseException) -> None:
+        """Nobody has caught it."""
+        self.found.append(f"{self.world.now:g} s: {type(error).__name__}: {error}")
+        self.over = True
 
     def later(self, seconds: float, call: Callable[[], object]) -> None:
         self.world.schedule(self.world.now + seconds, When.FLIGHT, FLEET, call)
@@ -208,7 +217,7 @@ class _Rig:
     def records(self) -> Records:
         """Read the journal, from a snapshot of half of it if that is asked for."""
         records, rows = Records(), iter(self.rows)
-        if self.case.snapshot and self.rows:
+        if self.rows and self.chance.random() < self.case.weather.snapshot:
             for _ in range(self.chance.randrange(len(self.rows)) + 1):
                 for event in json.loads(next(rows)):
                     records.take(event)
@@ -224,6 +233,8 @@ class _Rig:
         brain, self.brain = self.brain, None
         if brain is None:
             return
+        if self.lives > 1 and brain.added <= 1:
+            self.fired["death in recovery"] += 1
         gateway = self.gateway
         brain.wire.alive = False
         if self.chance.random() < 0.5:
@@ -322,8 +333,8 @@ class _Brain:
         self.kernel = BrainTime(now, case.weather, rig.chance, rig.fired, rig.hook_done)
         link = rig.gateway.link(rig.lives, self.lost)
         self.wire = Wire(link, rig.gateway, self.kernel, case.weather.slow, rig.fired)
-        self.pending: list[Event] = []
         self.added = self.committed = 0
+        self.unwritten: deque[tuple[int, str, list[Event], dict[str, Known]]] = deque()
         self.full = False
         fresh = not records.missions
         self.before = {} if fresh else dict(rig.known)
@@ -335,7 +346,6 @@ class _Brain:
             self,
             records,
             epoch=rig.lives,
-            listeners=[self.pending.append],
         )
         self.life.control.stopped.watch(self.stopped)
         self.task = self.life.go_on(deepcopy(case.missions))
@@ -352,8 +362,12 @@ class _Brain:
         due, self.due = self.due, []
         for call in due:
             call()
-        all_told = self.task.is_set and self.committed == self.added
-        if rig.brain is self and all_told and not self.life.control.stopped.is_set:
+        error = self.task.error
+        if rig.brain is not self or not self.task.is_set or isinstance(error, Cancelled):
+            return
+        if error is not None:
+            rig.blame(error)
+        elif self.committed == self.added:  # else what happened last is not durable yet
             rig.ended(self)
 
     # The journal
@@ -363,7 +377,7 @@ class _Brain:
         rig = self.rig
         self.added += 1
         rig.count += 1
-        events, self.pending[:] = list(self.pending), []
+        events: list[Event] = json.loads(row)
         touched = {str(event["mission"]) for event in events if "mission" in event}
         known = {
             mission.name: known_of(rig.app, mission)
@@ -379,9 +393,9 @@ class _Brain:
             rig.later(0.5, partial(self.die_of, "disk full"))
         lost = self.full or Kind.LOST in kinds
         if not lost:
-            instant = bool(kinds & {Kind.KEPT, Kind.CRASH}) or not rig.case.weather.disk
-            commit = partial(self.commit, self.added, row, events, known, Kind.KEPT not in kinds)
-            if instant:
+            self.unwritten.append((self.added, row, events, known))
+            commit = partial(self.commit, self.added, Kind.KEPT not in kinds)
+            if kinds & {Kind.KEPT, Kind.CRASH} or not rig.case.weather.disk:
                 self.due.append(commit)
             else:
                 rig.fired["slow disk"] += 1
@@ -391,15 +405,15 @@ class _Brain:
                 self.due.append(partial(self.plan, blow, events))
         return self.added
 
-    def commit(
-        self, number: int, row: str, events: list[Event], known: dict[str, Known], told: bool
-    ) -> None:
-        """The row is durable, if the disk was as fast as the brain's death."""
-        if self.rig.brain is self and not self.full:
+    def commit(self, number: int, told: bool) -> None:
+        """All rows up to this one are durable, if the disk was as fast as the brain's death."""
+        if self.rig.brain is not self or self.full or number <= self.committed:
+            return
+        while self.unwritten and self.unwritten[0][0] <= number:
+            self.committed, row, events, known = self.unwritten.popleft()
             self.rig.commit(row, events, known)
-            self.committed = number
-            if told:
-                self.kernel.post(self.life.recorder.durable, number)
+        if told:
+            self.kernel.post(self.life.recorder.durable, number)
 
     def look_back(self, events: list[Event]) -> None:
         """See, once it is known again, what has been forgotten since the last life."""
@@ -438,7 +452,7 @@ class _Brain:
             return
         elif kind in DEATHS:
             rig.fired[kind.value] += 1
-            rig.lose_brain(rig.case.down)
+            rig.lose_brain(rig.case.weather.down)
         elif kind is Kind.CUT:
             rig.fired[kind.value] += 1
             rig.gateway.cut()
@@ -497,7 +511,7 @@ class _Brain:
 
     def die_of(self, _: str) -> None:
         if self.rig.brain is self:
-            self.rig.lose_brain(self.rig.case.down)
+            self.rig.lose_brain(self.rig.case.weather.down)
 
     def stopped(self, _: object) -> None:
         """Everything is down: somebody goes on later."""

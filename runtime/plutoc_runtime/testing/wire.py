@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Coroutine
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
+from ..errors import FlightFailed
 from ..gateway.link import Link
-from ..kernel import FLEET, Kind
+from ..kernel import FLEET, Cancelled, Kind, Task
+from ..signals import Signal
 
 if TYPE_CHECKING:
     from ..gateway.gateway import Gateway
@@ -17,6 +19,8 @@ if TYPE_CHECKING:
     from ..model import Point
     from ..navigation import Job
     from ..standing import Down, RollCall, Standing
+
+T = TypeVar("T")
 
 
 class Wire(Link):
@@ -48,48 +52,61 @@ class Wire(Link):
 
     async def hold(self, drone: str) -> None:
         """Hover."""
-        await self._travel()
-        await self._real.hold(drone)
+        await self._far(partial(self._real.hold, drone))
 
     async def takeoff(self, drone: str, height: float) -> None:
         """Rise to a height."""
-        await self._travel()
-        await self._real.takeoff(drone, height)
+        await self._far(partial(self._real.takeoff, drone, height))
 
     async def go_to(self, drone: str, target: Point) -> None:
         """Fly straight to a point."""
-        await self._travel()
-        await self._real.go_to(drone, target)
+        await self._far(partial(self._real.go_to, drone, target))
 
     async def land(self, drone: str) -> None:
         """Land here."""
-        await self._travel()
-        await self._real.land(drone)
+        await self._far(partial(self._real.land, drone))
 
     async def recover(self, drone: str) -> bool:
         """Bring a drone home after a failed flight."""
-        await self._travel()
-        return await self._real.recover(drone)
+        return await self._far(partial(self._real.recover, drone))
 
     async def roll_call(self, drone: str) -> Standing:
         """Ask a drone where it is and what it has done."""
-        await self._travel()
-        return await self._real.roll_call(drone)
+        return await self._far(partial(self._real.roll_call, drone))
 
     async def call(self) -> RollCall:
         """Ask all drones and the ledger how everything stands."""
-        await self._travel()
-        return await self._real.call()
+        return await self._far(partial(self._real.call))
 
     async def bring_down(self, how: Down) -> None:
         """Bring all drones down."""
-        await self._travel()
-        await self._real.bring_down(how)
+        await self._far(partial(self._real.bring_down, how))
 
-    async def _travel(self) -> None:
-        if self._slow:
-            self._fired["slow radio"] += 1
-            await self._brain.sleep(self._slow, Kind.FLIGHT, FLEET)
+    async def _far(self, command: Callable[[], Coroutine[Any, Any, T]]) -> T:
+        """Let the gateway do something, and hear of it; whoever does not want it any more, says so."""
+        if not self._slow:
+            return await command()
+        over: Signal[T] = Signal()
+        under_way: list[Task[T]] = []
+
+        def begin() -> None:
+            task = self._world.spawn(command(), FLEET, "a command from afar")
+            under_way.append(task)
+            task.over = end
+
+        def end(task: Task[T]) -> None:
+            self._send(partial(self._brain.post, _settle, over, task))
+
+        def call_off() -> None:
+            for task in under_way:
+                task.cancel()
+
+        self._send(begin)
+        try:
+            return await over
+        except Cancelled:
+            self._send(call_off)
+            raise
 
     def _send(self, message: Callable[[], object]) -> None:
         if self._slow:
@@ -104,4 +121,16 @@ class Wire(Link):
             message()
 
     def _told(self, report: Report, result: Any) -> None:
+        if isinstance(result, FlightFailed):
+            self._fired[f"flight: {result.failure.value}"] += 1
+        if not self.alive:
+            self._fired["lost report"] += 1
         self._send(partial(self._brain.post, report, result))
+
+
+def _settle(over: Signal[T], task: Task[T]) -> None:
+    """Tell what came of a command; one that was called off is waited for by nobody."""
+    if task.error is None:
+        over.set(task.result())
+    elif not isinstance(task.error, Cancelled):
+        over.fail(task.error)
