@@ -165,6 +165,8 @@ def test_an_action_that_had_begun_is_settled_by_its_drone(rebooted: bool, state:
         assert job.begun == 0
         link = field.gateway.link(99)
         link.forget(job.id)  # a person has decided
+        assert isinstance(field.kernel, VirtualTime)
+        assert fly(field.kernel, link.recover("cf1"))
         link.fly(job, heard.append)
         field.advance(100)
         assert job.begun == 1

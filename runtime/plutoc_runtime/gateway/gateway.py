@@ -21,6 +21,7 @@ from .link import Link
 if TYPE_CHECKING:
     from ..airspace import Airspace
     from ..navigation import Navigation
+    from .given import Report
     from .ledger import Ledger
 
 
@@ -48,6 +49,8 @@ class Gateway:
         self._keys = {drone.id: FLEET + 1 + drone.index for drone in drones}
         self.jobs = Jobs(kernel, navigation, self._keys, self.envelope, ledger)
         self._link: Link | None = None
+        self.line: Callable[[Report], Report] | None = None
+        """What lies between a brain and its reports in a simulation: it wraps whoever hears them."""
         self._epoch = 0
         self.descent: Task[None] | None = None
         """Brings all drones down, while that is so."""
@@ -77,6 +80,11 @@ class Gateway:
         if link is not None:
             self.jobs.mute()
             link.cut()
+
+    @property
+    def commander(self) -> Link | None:
+        """The link through which the drones are commanded now."""
+        return self._link
 
     def is_commanded_by(self, link: Link) -> bool:
         """Say whether this is the link through which the drones are commanded."""

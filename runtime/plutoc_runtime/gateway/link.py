@@ -29,6 +29,7 @@ class Link:
 
     def __init__(self, gateway: Gateway, lost: Callable[[], object] | None) -> None:
         self._gateway, self._navigation, self._lost = gateway, gateway.navigation, lost
+        self._line = gateway.line
         self._is_heard = gateway.descent is None
         self._under_way: dict[str, None] = {}
         """The drones that do something for themselves."""
@@ -42,7 +43,7 @@ class Link:
     def fly(self, job: Job, report: Report) -> None:
         """Give a drone its job. One that was done already is not flown, but reported once more."""
         if self._is_heard:
-            self._gateway.jobs.fly(job, report)
+            self._gateway.jobs.fly(job, report if self._line is None else self._line(report))
 
     def break_off(self, drone: str) -> None:
         """Stop whatever a drone does, and hover."""
@@ -110,7 +111,7 @@ class Link:
     def attach(self, id: str, report: Report) -> None:
         """Hear of a job that was given before: when it ends, or now if it has."""
         if self._is_heard:
-            self._gateway.jobs.attach(id, report)
+            self._gateway.jobs.attach(id, report if self._line is None else self._line(report))
 
     def forget(self, id: str) -> None:
         """Nobody will ask for a job any more: its id may be given again."""

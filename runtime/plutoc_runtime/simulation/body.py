@@ -189,6 +189,14 @@ class Body:
         if self.down is not None:
             raise FlightFailed(self.down.failure, str(self.down))
 
+    def befall(self, now: float, what: Failure) -> bool:
+        """Let something go wrong at this moment; False: it took no commands before."""
+        self.settle(now)
+        if self.down is not None:
+            return False
+        self._happen(now, what)
+        return True
+
     # What comes to pass by itself
 
     def settle(self, now: float) -> None:

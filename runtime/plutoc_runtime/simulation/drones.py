@@ -68,9 +68,27 @@ class SimulatedNavigation:
         """Return how many metres a drone has flown, up and down included."""
         return self.bodies[drone].flown
 
+    def strike(self, drone: str, failure: Failure) -> bool:
+        """Let a crash, an empty battery or a lost link happen now; False: it was down already."""
+        body = self.bodies[drone]
+        if not body.befall(self._kernel.now, failure):
+            return False
+        self._interrupt(body, FlightFailed(failure, str(body.down)))
+        return True
+
     def reboot(self, drone: str) -> None:
-        """Switch a drone off and on again: it forgets what it has done."""
-        self.bodies[drone].reboot()
+        """Switch a drone off and on again: it forgets what it has done, and sinks if it flies."""
+        body = self.bodies[drone]
+        if not body.landed:
+            self.strike(drone, Failure.LINK)
+        body.reboot()
+
+    def _interrupt(self, body: Body, why: FlightFailed) -> None:
+        """Let what it does end here with an error."""
+        over = body.over
+        if over is not None:
+            body.over, body.command = None, ""
+            over.fail(why)
 
     def fly(self, job: Job, report: Callable[[object], None]) -> None:
         """Take off, fly to the job's stops and do its action; then report."""
@@ -85,11 +103,10 @@ class SimulatedNavigation:
             task.cancel()
             return
         body = self.bodies[drone]
-        over = body.over
-        if over is not None:
-            body.over, body.command = None, ""
+        if body.over is not None:
             body.halt(self._kernel.now)
-            over.fail(FlightFailed(Failure.REFUSED, f"{drone} was told to break it off"))
+            why = FlightFailed(Failure.REFUSED, f"{drone} was told to break it off")
+            self._interrupt(body, why)
 
     async def _done(self, job: Job, report: Callable[[object], None]) -> None:
         drone, body = job.drone, self.bodies[job.drone]
