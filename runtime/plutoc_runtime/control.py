@@ -21,7 +21,7 @@ from .words import counted, quoted
 
 if TYPE_CHECKING:
     from .flight import Flight
-    from .gateway.link import Link
+    from .gateway.commanding import Commanding
     from .journal.fold import Record
     from .model import Trip
     from .session import Session
@@ -35,11 +35,13 @@ CANCELLED = "cancelled by hand"
 class Control:
     """The commands of one running app."""
 
-    def __init__(self, session: Session, link: Link) -> None:
+    def __init__(self, session: Session, link: Commanding) -> None:
         self._session, self._link = session, link
         self._core, self._engine = session.core, session.engine
         self.stopped: Signal[Down] = Signal()
         """Set when everything was stopped and all drones are down."""
+        self.whole: Task[float] | None = None
+        """The task that sets all missions out, or takes them up again, and waits for their end."""
         self._stops: Task[None] | None = None
         self._steps_out: dict[str, Task[None]] = {}
         """The missions whose flights are being broken off."""
@@ -52,6 +54,8 @@ class Control:
             core.fleet.halt()
             for work in self._steps_out.values():
                 work.cancel()
+            if self.whole is not None:
+                self.whole.cancel()  # a roll call may be under way: nothing may begin after it
             core.trace.note("stopped", how=how.value)
         else:
             self._stops.cancel()
@@ -73,6 +77,8 @@ class Control:
         """Let a mission that is paused, or all that are, go on where it was."""
         states = self._those(mission, lambda status: status is Status.PAUSED, "is paused")
         for state in states:
+            self._refuse_while_it_steps_out(state)
+        for state in states:
             self._resume(state)
         return f"{_named(states)}: going on"
 
@@ -82,7 +88,9 @@ class Control:
         if state.mission.status in (Status.UNCERTAIN, Status.HELD):
             raise BadInput(f"mission {quoted(mission)} waits for a decision: decide that first")
         unwanted = _trip_to_skip(state, trip)
-        if (state.in_flight is not None and unwanted is state.in_flight.trip) or (unwanted is state.mission.trips[0] and state.task is not None):
+        if (state.in_flight is not None and unwanted is state.in_flight.trip) or (
+            unwanted is state.mission.trips[0] and state.task is not None
+        ):
             self._step_out(state, partial(self._skip, unwanted))
         else:
             self._core.transitions.skip(state.mission, unwanted)
@@ -121,8 +129,7 @@ class Control:
     def _step_out(self, state: State, then: Then) -> None:
         """Take a mission out of its graph; go on when it is known what became of its flight."""
         mission, flight = state.mission, state.in_flight
-        if mission.name in self._steps_out:
-            raise BadInput(f"mission {quoted(mission.name)} is being taken out of its graph")
+        self._refuse_while_it_steps_out(state)
         if flight is None:
             flown = self._record(state)["flight"]
             state.goes_on = bool(flown and flown["outcome"] and not flown["heard"])
@@ -137,6 +144,14 @@ class Control:
             mission_key(mission.index),
             f"{mission.name} is interrupted",
         )
+
+    def _refuse_while_it_steps_out(self, state: State) -> None:
+        name = state.mission.name
+        if name in self._steps_out:
+            raise BadInput(
+                f"mission {quoted(name)} is just being interrupted: its drone is asked what it has "
+                "done; try again in a moment"
+            )
 
     async def _broken_off(self, state: State, flight: Flight, then: Then) -> None:
         """Ask the ledger what became of a flight, and its drone."""
@@ -172,7 +187,7 @@ class Control:
         self._core.transitions.go_on(state.mission, status)
         delay = self._record(state)["delay"]
         if state.delay is not None and delay is not None:
-            state.delay = state.delay[0], delay[1]  # it has not waited meanwhile
+            state.delay = state.delay[0], delay[1], delay[2]  # it has not waited meanwhile
         self._engine.resume(state, standing(state))
 
     def _skip(self, unwanted: Trip, state: State) -> None:
@@ -207,15 +222,21 @@ class Control:
         return recorder.records.missions[state.mission.name]
 
     def _state(self, mission: str) -> State:
+        self._refuse_after_stop()
         for state in self._engine.states:
             if state.mission.name == mission:
                 return state
         names = ", ".join(quoted(state.mission.name) for state in self._engine.states)
         raise BadInput(f"no mission {quoted(mission)} is under way; there are: {names or 'none'}")
 
+    def _refuse_after_stop(self) -> None:
+        if self._stops is not None:
+            raise BadInput("everything was stopped: resume the journal first")
+
     def _those(
         self, mission: str | None, fits: Callable[[Status], bool], what: str
     ) -> Sequence[State]:
+        self._refuse_after_stop()
         if mission is not None:
             state = self._state(mission)
             if not fits(state.mission.status):

@@ -29,7 +29,7 @@ class Engine:
         """The missions that wait for a person: paused, uncertain or held."""
         self._halted = False
         self.done: Signal[None] = Signal()
-        """Set when the last mission has ended, and none is paused."""
+        """Set when the last mission has ended, and none is paused; another one when one goes on."""
 
     @property
     def states(self) -> Iterator[State]:
@@ -64,6 +64,8 @@ class Engine:
     def resume(self, state: State, status: Status) -> None:
         """Let a mission that was interrupted go on at the block where it can, with this status."""
         core, mission, key = self._core, state.mission, mission_key(state.mission.index)
+        if self.done.is_set:
+            self.done = Signal()
         self._aside.pop(mission.name, None)
         run = Run(mission, state, key)
         run.at, run.status = state.at, status

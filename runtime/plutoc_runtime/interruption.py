@@ -19,7 +19,7 @@ from .status import STANDBY, UNEXECUTED, Status
 if TYPE_CHECKING:
     from .actions import Action
     from .engine import Engine
-    from .gateway.link import Link
+    from .gateway.commanding import Commanding
     from .state import State
 
 
@@ -51,7 +51,7 @@ def probe_of(hook: Callable[..., object]) -> Callable[..., Any] | None:
     return getattr(module, f"{hook.__name__}_done", None)
 
 
-def fly_on(state: State, flight: Flight, link: Link) -> None:
+def fly_on(state: State, flight: Flight, link: Commanding) -> None:
     """Hear of a flight that was not interrupted after all, or has ended meanwhile."""
     mission = state.mission
     state.goes_on = True
@@ -79,7 +79,7 @@ def doubt(state: State, flight: Flight) -> None:
         keep_carrier(state, drone)
 
 
-def settle_doubt(state: State, engine: Engine, link: Link, done: bool) -> None:
+def settle_doubt(state: State, engine: Engine, link: Commanding, done: bool) -> None:
     """A person has said whether the action was done: the mission goes on accordingly."""
     flight = state.flight
     if flight is None:

@@ -6,7 +6,7 @@ next life begins with the journal's records and a roll call of the drones, which
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Coroutine, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -20,7 +20,7 @@ from .session import Listener, Session
 if TYPE_CHECKING:
     from .app import App
     from .files.fleet import FleetFile
-    from .gateway.link import Link
+    from .gateway.commanding import Commanding
     from .journal.fold import Records
     from .model import Mission
     from .trace import Event
@@ -34,7 +34,7 @@ class Life:
         app: App,
         fleet: FleetFile,
         kernel: Kernel,
-        link: Link,
+        link: Commanding,
         sink: Sink,
         records: Records,
         *,
@@ -59,13 +59,17 @@ class Life:
 
     def start(self, missions: Sequence[Mission[Any]]) -> Task[float]:
         """Fly these missions from the beginning; the task is as that of `Session.start`."""
-        return self._kernel.spawn(self._started(missions), FLEET, "the session")
+        return self._set_out(self._started(missions))
 
     def go_on(self, planned: Sequence[Mission[Any]]) -> Task[float]:
         """Go on from the records; where the journal has no mission yet, fly the planned ones."""
         if not self.recorder.records.missions:
             return self.start(planned)
-        return self._kernel.spawn(self._went_on(), FLEET, "the session")
+        return self._set_out(self._went_on())
+
+    def _set_out(self, whole: Coroutine[Any, Any, float]) -> Task[float]:
+        self.control.whole = task = self._kernel.spawn(whole, FLEET, "the session")
+        return task
 
     async def _started(self, missions: Sequence[Mission[Any]]) -> float:
         core = self.session.core

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from .app import App
     from .core import Core
     from .engine import Engine
-    from .gateway.link import Link
+    from .gateway.commanding import Commanding
     from .journal.fold import Record, Records
     from .model import Drone, Mission, Trip
     from .standing import RollCall
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 
 async def go_on(
-    core: Core, engine: Engine, link: Link, roll: RollCall, records: Records
+    core: Core, engine: Engine, link: Commanding, roll: RollCall, records: Records
 ) -> list[Mission[Any]]:
     """Take up everything where it was interrupted; return all missions, those that ended too."""
     by_index = sorted(records.missions.items(), key=lambda item: int(item[1]["index"]))
@@ -58,7 +58,7 @@ async def go_on(
 class _Revival:
     """One recovery."""
 
-    def __init__(self, core: Core, engine: Engine, link: Link, roll: RollCall) -> None:
+    def __init__(self, core: Core, engine: Engine, link: Commanding, roll: RollCall) -> None:
         self._core, self._engine, self._link, self._roll = core, engine, link, roll
         self._drones = {drone.id: drone for drone in core.fleet.drones}
         self.engaged: set[Drone] = set()
@@ -134,8 +134,8 @@ class _Revival:
         state.last_action_end = record["last_action_end"]
         state.waited = {_place(place) for place in record["waited"]} or None
         if record["delay"] is not None:
-            place, until = record["delay"]
-            state.delay = _place(place), until
+            place, over, begins = record["delay"]
+            state.delay = _place(place), over, begins
         if record["carrier"] is not None:
             state.carrier = self._drones[record["carrier"]]
             state.carries = item_of(record["carries"])

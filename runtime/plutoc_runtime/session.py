@@ -126,10 +126,13 @@ class Session:
 
     async def see_through(self) -> float:
         """Wait until the last mission has ended and every drone is down; return when it ended."""
-        await self.engine.done
-        ended = self._kernel.now
-        await self.core.fleet.all_down()
-        return ended
+        engine = self.engine
+        while True:
+            await engine.done
+            ended = self._kernel.now
+            await self.core.fleet.all_down()
+            if engine.done.is_set:  # and nobody has let a mission go on meanwhile
+                return ended
 
 
 class Simulation:

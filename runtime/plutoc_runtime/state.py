@@ -50,8 +50,8 @@ class State:
         """The last block it has met at which it can go on when it is interrupted."""
         self.goes_on = False
         """It was interrupted after a launch: until it is back there, it is given no drone."""
-        self.delay: tuple[tuple[str, str, int, int], float] | None = None
-        """(block, trip, round, attempt) where it waits for a time, and until when."""
+        self.delay: tuple[tuple[str, str, int, int], float, float] | None = None
+        """(block, trip, round, attempt) where it waits, when its delay is over, and its round begins."""
         self.allocated: Drone | None = None
         """The drone that waits to be launched."""
         self.flight: Flight | None = None

@@ -117,7 +117,8 @@ class Living:
         return life
 
     def _is_done(self, task: Signal[float]) -> None:
-        self.done.set(task.result())
+        if task.error is None:  # else everything was stopped
+            self.done.set(task.result())
 
     def at(self, when: float, call: Callable[[], object]) -> None:
         """Do something at a time."""

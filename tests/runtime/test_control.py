@@ -8,6 +8,7 @@ from plutoc_runtime.actions import Action
 from plutoc_runtime.context import Context
 from plutoc_runtime.errors import BadInput
 from plutoc_runtime.model import Drone, Trip
+from plutoc_runtime.standing import Down
 
 from . import apps
 from .living import Living, enterable, names
@@ -188,3 +189,19 @@ def test_an_action_that_is_safe_to_repeat_is_flown_again() -> None:
     assert living.run() == ["COMPLETED"]
     assert names(living.named("trip.launched"), "trip") == ["1", "1", "2"]
     assert names(living.named("trip.launched"), "attempt") == [1, 1, 1]
+
+
+def test_after_a_stop_nothing_else_is_done() -> None:
+    living = Living(enterable(), two_trips())
+    living.run(3.0)
+    living.life.control.stop(Down.HOME)
+    for command in (living.life.control.pause, living.life.control.cancel):
+        with pytest.raises(BadInput, match="everything was stopped: resume the journal first"):
+            command("a")
+
+
+def test_an_app_lives_on_when_somebody_decides_while_the_last_drone_comes_home() -> None:
+    living = spraying("once", apps.mission("b", apps.trip("long", 15, 15)))
+    living.crash(10.0)
+    living.at(60.0, lambda: living.life.control.decide("a", "not-done"))
+    assert living.run() == ["COMPLETED", "COMPLETED"]

@@ -176,3 +176,11 @@ def test_the_records_of_a_life_are_what_its_journal_says() -> None:
         records.take(event)
     assert records.data == living.life.recorder.records.data
     assert json.loads(json.dumps(records.data)) == records.data
+
+
+def test_a_time_of_day_is_not_moved_by_a_stop() -> None:
+    mission = apps.mission("a", apps.trip("1", 3), at=3600.0)
+    living = Living(enterable(clock=True), mission)
+    living.stop(20.0, rest=100.0)
+    living.run()
+    assert living.times("trip.launched") == [3600.0]

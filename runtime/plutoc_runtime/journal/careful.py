@@ -7,7 +7,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from ..gateway.link import Link
+    from ..gateway.commanding import Commanding
     from ..model import Point, Telemetry
     from ..navigation import Job
     from ..standing import Standing
@@ -20,7 +20,7 @@ class Careful:
     What brings drones down waits for nothing.
     """
 
-    def __init__(self, link: Link, recorder: Recorder) -> None:
+    def __init__(self, link: Commanding, recorder: Recorder) -> None:
         self._link, self._recorder = link, recorder
         self._held: dict[str, Job] = {}
         """The flights that wait for the journal, by the drones' ids."""

@@ -107,17 +107,17 @@ def _delayed(_: Records, record: Record, event: Fact) -> None:
     _goes_on(record)
     trip = _trip(record, event)
     place = [event["block"], trip["name"], record["round"], trip.get("attempt", 1)]
-    record["at"], record["delay"] = event["resumes_at"], [place, event["until"]]
+    record["at"], record["delay"] = event["resumes_at"], [place, event["over"], event["begins"]]
 
 
 def _allocated(_: Records, record: Record, event: Fact) -> None:
     _goes_on(record)
     if record["delay"] is not None:
-        place, until = record["delay"]
+        place, over, begins = record["delay"]
         record["waited"].append(place)
         record["delay"] = None
         if record["first_start"] is None:
-            record["first_start"] = until
+            record["first_start"] = max(over, begins)
     if record["first_start"] is None:
         record["first_start"] = event["t"]
     record["at"] = event["resumes_at"]

@@ -32,18 +32,22 @@ async def wait_for_time(
     place = (block, trip.name, mission.round, trip.attempt)
     arrival = kernel.now
     if state.delay is not None and state.delay[0] == place:
-        until = state.delay[1]  # it waited here when it was interrupted
+        over, begins = state.delay[1:]  # it waited here when it was interrupted
     else:
         waited = state.waited is not None and place in state.waited
-        until = _until(run, at, every, 0.0 if waited else delay or 0.0)
+        over = arrival if waited else arrival + (delay or 0.0)
+        begins = _begins(run, at, every)
+    until = max(over, begins)
     if until > arrival:
-        state.delay = (place, until)
+        state.delay = (place, over, begins)
         if run.core.trace.live:
             run.core.trace.note(
                 "trip.delayed",
                 mission=mission.name,
                 trip=trip.name,
                 until=until,
+                over=over,
+                begins=begins,
                 block=block,
                 resumes_at=state.at,
             )
@@ -57,15 +61,14 @@ async def wait_for_time(
     return status
 
 
-def _until(run: Run[Any], at: float | None, every: float | None, delay: float) -> float:
-    """Return when the trip may begin: after its delay, and not before its round."""
+def _begins(run: Run[Any], at: float | None, every: float | None) -> float:
+    """Return when its round may begin: a time of day, or a multiple since the first start."""
     kernel, mission, first_start = run.core.kernel, run.mission, run.state.first_start
     arrival = kernel.now
-    until = arrival + delay
-    if not mission.completed_trips and mission.current.attempt == 1:
-        if mission.round == 0 and at is not None and first_start is None:
-            until = max(until, arrival + (at - kernel.time_of_day) % DAY)
-        if mission.round > 0 and every and first_start is not None:
-            rounds = ceil(round((arrival - first_start) / every, 9))
-            until = max(until, first_start + rounds * every)
-    return until
+    if mission.completed_trips or mission.current.attempt > 1:
+        return 0.0
+    if mission.round == 0 and at is not None and first_start is None:
+        return arrival + (at - kernel.time_of_day) % DAY
+    if mission.round > 0 and every and first_start is not None:
+        return first_start + ceil(round((arrival - first_start) / every, 9)) * every
+    return 0.0
