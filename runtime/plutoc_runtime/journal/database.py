@@ -12,12 +12,16 @@ from pathlib import Path
 
 from ..trace import Event
 from . import errors, wal
+from .errors import TROUBLE
 from .format import APPLICATION, TABLES, VERSION, row_checksum, snapshot_checksum, tip_checksum
 
 PATIENCE = 5.0
 """Seconds that a commit waits for somebody who looks at the file with a tool of his own."""
 
 _MAGIC = b"SQLite format 3\0"
+_LOOKED_AT, _SIZE_OF_HEAD = 4096, 100
+_SANE = 1000
+"""No format will ever have that number: a bit was flipped."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -29,13 +33,15 @@ class Found:
     """Of the last row."""
     epoch: int
     torn: str | None
-    """What is wrong with the last row, if something is; then `seq` is that of the row before."""
+    """What is wrong with what was written last, if something is: it is left out."""
+    lost: bool
+    """Whether what was written after that row cannot be read."""
 
 
-def connect(path: Path, mode: str) -> sqlite3.Connection:
-    """Open a database as it is: `ro`, `rw` or `rwc`; texts come as bytes."""
+def connect(path: Path, how: str) -> sqlite3.Connection:
+    """Open a database as it is, such as by `mode=ro`; texts come as bytes."""
     database = sqlite3.connect(
-        f"{path.absolute().as_uri()}?mode={mode}",
+        f"{path.absolute().as_uri()}?{how}",
         uri=True,
         isolation_level=None,
         check_same_thread=False,
@@ -56,21 +62,21 @@ def look_at(path: Path) -> None:
         if not stat.S_ISREG(kind.st_mode):
             raise errors.no_file(path)
         with path.open("rb") as file:
-            start = file.read(100)
+            start = file.read(_LOOKED_AT)
     except FileNotFoundError:
         raise errors.missing(path) from None
     except (OSError, ValueError) as error:  # ValueError: a NUL in the name
         raise errors.cannot_open(path, error) from None
     if not start:
         raise errors.empty(path)
-    if len(start) < 100:
+    if len(start) < _SIZE_OF_HEAD:
         raise errors.no_journal(path)
-    version, application = struct.unpack(">60xI4xI28x", start)
-    if application != APPLICATION:
+    version, application = struct.unpack_from(">60xI4xI", start)
+    if application != APPLICATION and TABLES["journal"].encode() not in start:
         raise errors.no_journal(path)
-    if version > VERSION:
+    if VERSION < version < _SANE:
         raise errors.newer(path, version, VERSION)
-    if not start.startswith(_MAGIC) or version != VERSION:
+    if not start.startswith(_MAGIC) or version != VERSION or application != APPLICATION:
         raise errors.damaged(path, errors.no_beginning())
 
 
@@ -81,17 +87,18 @@ def found(path: Path, database: sqlite3.Connection) -> Found:
             raise errors.damaged(path, errors.other_tables())
         header = _header(database)
         seq, epoch = _tip(database)
-        lost = wal.lost_commits(path)
-    except sqlite3.Error as error:
+    except TROUBLE as error:
         raise errors.refused(path, error) from None
     if header is None:
         raise errors.damaged(path, errors.no_header())
-    if lost:
-        raise errors.damaged(path, errors.lost_log())
-    torn = seq > 0 and not _sound(database, seq) and _sound(database, seq - 1)
-    if torn and newest_snapshot(database)[1] < seq:
-        return Found(header=header, seq=seq - 1, epoch=epoch, torn=errors.torn(seq))
-    return Found(header=header, seq=seq, epoch=epoch, torn=None)
+    rest = wal.rest(path)
+    torn = errors.torn_log() if rest is wal.Rest.TORN else None
+    if seq > 0 and not _sound(database, seq) and _sound(database, seq - 1):
+        if newest_snapshot(database)[1] < seq:  # else nobody needs the row
+            torn = errors.torn(seq)
+            seq -= 1
+    lost = rest is wal.Rest.LOST
+    return Found(header=header, seq=seq, epoch=epoch, torn=torn, lost=lost)
 
 
 def _schema(database: sqlite3.Connection) -> set[str]:
@@ -130,9 +137,14 @@ def _sound(database: sqlite3.Connection, seq: int) -> bool:
     query = "SELECT seq, epoch, wall, text, checksum FROM journal WHERE seq = ?"
     try:
         row = database.execute(query, (seq,)).fetchone()
-    except sqlite3.Error:
+    except TROUBLE:
         return False
     return row is not None and is_sound(row)
+
+
+def last_row(database: sqlite3.Connection) -> int:
+    """Return the number of the last row, as it is by now."""
+    return _tip(database)[0]
 
 
 def is_sound(row: tuple[object, ...]) -> bool:
@@ -150,7 +162,7 @@ def newest_snapshot(database: sqlite3.Connection) -> tuple[str | None, int, list
             if isinstance(text, bytes) and checksum == snapshot_checksum(seq, epoch, wall, text):
                 return text.decode(), seq, damaged
             damaged.append(errors.bad_snapshot(seq))
-    except sqlite3.Error:
+    except TROUBLE:
         damaged.append(errors.unreadable_snapshots())
     return None, 0, damaged
 

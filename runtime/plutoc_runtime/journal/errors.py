@@ -9,9 +9,16 @@ from pathlib import Path
 from ..errors import BadInput
 from ..words import counted
 
+TROUBLE = (sqlite3.Error, UnicodeDecodeError)
+"""What the database raises; the second where it quotes what is damaged."""
+
 
 class JournalError(BadInput):
     """A journal that cannot be made, opened or gone on with; nothing is lost that was acknowledged."""
+
+
+class Damaged(JournalError):
+    """A journal that is not what was written; part of it may be."""
 
 
 def exists(path: Path) -> JournalError:
@@ -98,7 +105,7 @@ def full(seq: int) -> JournalError:
     return cannot_write(Path("the journal in memory"), OSError(ENOSPC, ""), seq)
 
 
-def refused(path: Path, error: sqlite3.Error) -> JournalError:
+def refused(path: Path, error: Exception) -> JournalError:
     """The database reports an error when it is looked at."""
     if code(error) in (sqlite3.SQLITE_CORRUPT, sqlite3.SQLITE_NOTADB, sqlite3.SQLITE_ERROR):
         return damaged(path, f"{why(error)}")
@@ -111,6 +118,8 @@ def why(error: Exception) -> str:
         if error.errno in (ENOSPC, EDQUOT, EFBIG):
             return "the disk is full"
         return (error.strerror or str(error)).lower()
+    if isinstance(error, UnicodeDecodeError):
+        return _WHY[sqlite3.SQLITE_CORRUPT]
     return _WHY.get(code(error), str(error))
 
 
@@ -132,9 +141,9 @@ _WHY = {
 }
 
 
-def damaged(path: Path, what: str) -> JournalError:
+def damaged(path: Path, what: str) -> Damaged:
     """Bits were flipped, or parts are gone."""
-    return JournalError(
+    return Damaged(
         f"{path}: the journal is damaged: {what}. The command journal prints what can be read;"
         " put back a copy of the file if there is one, or fly what is left as a plan of its own"
     )
@@ -185,6 +194,14 @@ def torn(seq: int) -> str:
     return (
         f"row {seq}, the last one, is not what was written: it is left out, as if the app had been"
         " killed right before it"
+    )
+
+
+def torn_log() -> str:
+    """The last commit in the log is not whole."""
+    return (
+        "what was being written last is not whole and is left out: so it is when a machine loses"
+        " its power in the middle of it"
     )
 
 

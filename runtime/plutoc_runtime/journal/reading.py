@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 
 from . import errors
 from .database import is_sound, newest_snapshot
+from .errors import TROUBLE
 
 _AT_ONCE = 1_000
 
@@ -39,6 +40,8 @@ class Read:
         """What is damaged and does not matter."""
         self.damaged: str | None = None
         """Why nothing more can be read, once all that can be was; None: that was everything."""
+        self.written: float | None = None
+        """When the last row that was read was written, in seconds since 1970."""
         self._chunks = chunks
 
     @property
@@ -51,6 +54,8 @@ class Read:
     def events(self) -> Iterator[dict[str, Any]]:
         """The events of all rows, in order."""
         for chunk in self._sound():
+            if chunk:
+                self.written = chunk[-1].wall
             for events in json.loads("[" + ",".join([row.text for row in chunk]) + "]"):
                 yield from events
 
@@ -64,9 +69,9 @@ def since_snapshot(database: sqlite3.Connection, last: int) -> Read:
     return Read(_rows(database, after + 1, last), snapshot, after, warnings)
 
 
-def from_the_start(database: sqlite3.Connection, last: int) -> Read:
-    """Read every row, the header first."""
-    return Read(_rows(database, 0, last), None, -1)
+def rows_between(database: sqlite3.Connection, first: int, last: int) -> Read:
+    """Read some of the rows; the header is row 0."""
+    return Read(_rows(database, first, last), None, first - 1)
 
 
 def _rows(database: sqlite3.Connection, seq: int, last: int) -> Chunks:
@@ -88,7 +93,7 @@ def _rows(database: sqlite3.Connection, seq: int, last: int) -> Chunks:
                 seq += 1
             yield sound
             sound = []
-    except sqlite3.Error as error:
+    except TROUBLE as error:
         yield sound
         return errors.unreadable_from(seq, last, errors.why(error))
     return errors.missing_rows(seq, last, last) if seq <= last else None

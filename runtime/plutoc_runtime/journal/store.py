@@ -14,7 +14,7 @@ from pathlib import Path
 from ..trace import Event
 from . import errors
 from .database import connect, found, look_at, sync_folder
-from .errors import JournalError
+from .errors import TROUBLE, JournalError
 from .format import APPLICATION, TABLES, VERSION, row_checksum, snapshot_checksum, tip_checksum
 from .lock import Lock
 from .place import beside
@@ -63,7 +63,7 @@ class Store:
             except BaseException:
                 lock.release()
                 raise
-        except (OSError, ValueError, sqlite3.Error) as error:  # ValueError: a NUL in the name
+        except (OSError, ValueError, *TROUBLE) as error:  # ValueError: a NUL in the name
             raise errors.cannot_make(path, error) from None
         return cls._opened(path, lock, clock)
 
@@ -81,12 +81,14 @@ class Store:
     @classmethod
     def _opened(cls, path: Path, lock: Lock, clock: Clock) -> Store:
         try:
-            database = connect(path, "ro")  # to look at it must not change it
+            database = connect(path, "mode=ro")  # to look at it must not change it
             try:
                 state = found(path, database)
             finally:
                 database.close()
-            database = connect(path, "rw")
+            if state.lost:
+                raise errors.damaged(path, errors.lost_log())
+            database = connect(path, "mode=rw")
             store = cls(path, lock, database, state.header, clock)
             try:
                 store._begin(state.seq, state.epoch + 1, state.torn)
@@ -95,7 +97,7 @@ class Store:
                 raise
         except BaseException as error:
             lock.release()
-            if isinstance(error, (OSError, sqlite3.Error)):
+            if isinstance(error, (OSError, *TROUBLE)):
                 raise errors.cannot_open(path, error) from None
             raise
         return store
@@ -126,14 +128,14 @@ class Store:
             raise self.failure
         try:
             self._commit(rows)
-        except sqlite3.Error as error:
+        except TROUBLE as error:
             raise self._failed(error) from None
 
     def last_words(self, row: str) -> bool:
         """Try once to write a row after all, such as why nothing more is written."""
         try:
             self._commit([row])
-        except sqlite3.Error:
+        except TROUBLE:
             self._roll_back()
             return False
         return True
@@ -156,7 +158,7 @@ class Store:
                 (SNAPSHOTS,),
             )
             database.execute("COMMIT")
-        except sqlite3.Error as error:
+        except TROUBLE as error:
             raise self._failed(error) from None
 
     def read(self) -> Read:
@@ -168,7 +170,9 @@ class Store:
         if self._closed:
             return  # what lies beside the journal may be another's by now
         self._closed = True
-        with suppress(sqlite3.Error):
+        with suppress(*TROUBLE):
+            self._database.execute("PRAGMA wal_checkpoint(TRUNCATE)")  # even beside a reader
+        with suppress(*TROUBLE):
             self._database.close()
         with suppress(OSError):
             self._reserve.unlink()
@@ -189,7 +193,7 @@ class Store:
         database.execute("COMMIT")
         self.seq = seq
 
-    def _failed(self, error: sqlite3.Error) -> JournalError:
+    def _failed(self, error: Exception) -> JournalError:
         """Stop for good: nothing later is acknowledged."""
         self._roll_back()
         with suppress(OSError):
@@ -198,7 +202,7 @@ class Store:
         return self.failure
 
     def _roll_back(self) -> None:
-        with suppress(sqlite3.Error):
+        with suppress(*TROUBLE):
             if self._database.in_transaction:
                 self._database.execute("ROLLBACK")
 
@@ -218,7 +222,7 @@ def _make(path: Path, header: Event, wall: int) -> None:
     part = beside(path, f".{os.getpid()}.part")
     part.unlink(missing_ok=True)
     try:
-        database = connect(part, "rwc")
+        database = connect(part, "mode=rwc")
         try:
             _fill(database, text, wall)
         finally:

@@ -8,7 +8,9 @@ follow, they had been acknowledged, and something has damaged the log since.
 from __future__ import annotations
 
 import struct
+from enum import Enum
 from pathlib import Path
+from typing import BinaryIO
 
 from .place import beside
 
@@ -16,36 +18,46 @@ _HEADER, _FRAME = struct.Struct(">8I"), struct.Struct(">IIII8x")
 _TAKEN = struct.Struct("=16xI")  # of the shared index, which is in the machine's own order
 
 
-def lost_commits(path: Path) -> bool:
-    """Say whether the log of an open database holds commits that SQLite does not see."""
+class Rest(Enum):
+    """What is in a log beyond what SQLite takes of it."""
+
+    NOTHING = "nothing"
+    TORN = "torn"  # one commit at most: most likely it was never acknowledged
+    LOST = "lost"  # what had been acknowledged
+
+
+def rest(path: Path) -> Rest:
+    """Say what there is in the log of an open database that SQLite does not see."""
     taken = _taken(beside(path, "-shm"))
     if taken is None:
-        return False
+        return Rest.NOTHING
     try:
         with beside(path, "-wal").open("rb") as log:
-            header = log.read(_HEADER.size)
-            if len(header) < _HEADER.size:
-                return False
-            _, _, page, _, salt_1, salt_2, *_ = numbers = _HEADER.unpack(header)
-            whole = _is_sound(header, numbers)
-            if not whole:
-                page, taken = _page_size(path), 0
-            commits, frames, number = 0, 0, 0
-            while len(frame := log.read(_FRAME.size)) == _FRAME.size:
-                number += 1
-                log.seek(page, 1)
-                _, size, first, second = _FRAME.unpack(frame)
-                if number <= taken:
-                    continue
-                if whole and (first, second) != (salt_1, salt_2):
-                    continue  # of an earlier use of the log: all that is in the database
-                frames += 1
-                if commits:
-                    return True
-                commits += size > 0
+            return _rest(log, taken, path)
     except OSError:
-        return False
-    return False
+        return Rest.NOTHING
+
+
+def _rest(log: BinaryIO, taken: int, path: Path) -> Rest:
+    header = log.read(_HEADER.size)
+    if len(header) < _HEADER.size:
+        return Rest.NOTHING
+    numbers = _HEADER.unpack(header)
+    page, salts = numbers[2], numbers[4:6]
+    if not _is_sound(header, numbers):
+        page, salts, taken = _page_size(path), None, 0
+    found, number, commits = Rest.NOTHING, 0, 0
+    while len(start := log.read(_FRAME.size)) == _FRAME.size:
+        number += 1
+        log.seek(page, 1)
+        _, commit, *frames = _FRAME.unpack(start)
+        if number <= taken or (salts and frames[0] != salts[0] and frames[1] != salts[1]):
+            continue  # seen, or of an earlier use of the log: all that is in the database
+        if commits:
+            return Rest.LOST
+        found = Rest.TORN
+        commits += commit > 0
+    return found
 
 
 def _taken(index: Path) -> int | None:
