@@ -1,42 +1,250 @@
-"""Real time: the same session as in a simulation, on asyncio's clock."""
+"""Real time: one life of an app after another, over its journal and the gateway to its drones."""
 
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Sequence
+import json
+import time
+from collections.abc import Awaitable, Callable, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from enum import Enum
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from .kernel import FLEET
+from .errors import BadInput
+from .journal import errors
+from .journal.fold import Records
+from .journal.store import Store
+from .journal.writer import Writer
+from .kernel import Cancelled
+from .life import Life
 from .realtime import RealTime
-from .session import Listener, Outcome, Simulation
+from .remote_control import listening, perform
+from .signals import Signal
+from .standing import Down
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from .app import App
     from .files.fleet import FleetFile
-    from .model import Mission
-    from .simulation.faults import Faults
+    from .gateway.commanding import Reached
+    from .journal.errors import JournalError
+    from .kernel import Task
+    from .model import Drone, Mission
+    from .trace import Event
+
+    Connect = Callable[[RealTime, int, Callable[[], object]], Awaitable[Reached]]
+
+SNAPSHOT_EVERY = 50_000
+"""Events between two snapshots: so many are read again in a tenth of a second."""
+
+SNAPSHOT_AT_END = 1_000
+"""Events that are worth one at the end of a life."""
 
 
-async def fly_simulated(
-    app: App,
-    missions: Sequence[Mission[Any]],
-    fleet: FleetFile,
-    *,
-    seed: int,
-    faults: Faults,
-    on_event: Listener | None,
-) -> Outcome:
-    """Fly the missions with simulated drones in real time; when cancelled, land them all first."""
-    kernel = RealTime()
-    simulation = Simulation(app, fleet, kernel, seed, faults, on_event)
-    session = simulation.session
+class End(Enum):
+    """How a life ended, if not by a crash."""
+
+    OVER = "over"
+    """Every mission has ended, or waits for a person."""
+    STOPPED = "stopped"
+    LOST = "lost"
+    """The gateway has gone: the drones must be asked by another one."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Setting:
+    """What all lives of one app share."""
+
+    app: App
+    missions: Sequence[Mission[Any]]
+    """As they were planned."""
+    fleet: FleetFile
+    connect: Connect
+    """Reaches the gateway, and starts it if there is none: kernel, epoch, what to call if it dies."""
+    note: Path
+    """Where to say how commands reach the app."""
+    tell: Callable[[Event], object]
+    """Shows an event to whoever watches, once it is on record."""
+    speed: float = 1.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Lived:
+    """What came of one life."""
+
+    end: End
+    missions: Sequence[Mission[Any]]
+    drones: Sequence[Drone]
+    records: Records
+
+
+class Stops:
+    """Stops whatever life the app has, and each that would follow."""
+
+    def __init__(self) -> None:
+        self.asked: Down | None = None
+        """How all drones shall come down, once somebody has asked for that."""
+        self.stop_now: Callable[[Down], object] | None = None
+        """Stops the life that is being lived."""
+
+    def stop(self, how: Down) -> None:
+        """Bring all drones down; called in the loop's thread."""
+        self.asked = how
+        if self.stop_now is not None:
+            self.stop_now(how)
+
+
+def recovered(store: Store, speed: float) -> tuple[Records, float]:
+    """Return what a journal says, and what time it is in the life that goes on from there."""
+    read = store.read()
+    records = Records(None if read.snapshot is None else json.loads(read.snapshot))
+    for event in read.events:
+        records.take(event)
+    if read.damaged is not None:
+        raise errors.damaged(store.path, read.damaged)
+    if not records.missions or read.written is None:
+        return records, records.time
+    return records, records.time + max(0.0, time.time() - read.written) * speed
+
+
+async def live(setting: Setting, store: Store, stops: Stops) -> Lived:
+    """Let the app live until all is over, until it is stopped, or until its gateway dies."""
+    records, begin = recovered(store, setting.speed)
+    one = _Living(setting, store, records, begin)
     try:
-        ended = await kernel.run(session.start(missions))
-    except asyncio.CancelledError:
-        session.engine.halt()
-        landing = kernel.spawn(session.core.fleet.land_all(), FLEET, "land all")
-        await kernel.run(landing)
-        raise
+        return await one.live(stops)
     finally:
-        kernel.close()
-    return simulation.outcome(missions, ended)
+        stops.stop_now = None
+        await one.close()
+
+
+class _Living:
+    """One life, with all that stands between it and the outside."""
+
+    def __init__(self, setting: Setting, store: Store, records: Records, begin: float) -> None:
+        self._setting, self._store = setting, store
+        self._loop = asyncio.get_running_loop()
+        self._kernel = RealTime(setting.speed, begin)
+        self._records = records
+        self._writer = Writer(store, partial(self._post, self._durable), self._unwritable)
+        self._link: Reached | None = None
+        self._life: Life | None = None
+        self._end: Signal[End] = Signal()
+        self._failure: JournalError | None = None
+        self._since_snapshot = 0
+
+    async def live(self, stops: Stops) -> Lived:
+        setting, kernel = self._setting, self._kernel
+        lost = partial(self._end.set, End.LOST)
+        self._link = link = await setting.connect(kernel, self._store.epoch, lost)
+        self._life = life = Life(
+            setting.app,
+            setting.fleet,
+            kernel,
+            link,
+            self._writer,
+            self._records,
+            epoch=self._store.epoch,
+            listeners=(self._count,),
+            watcher=setting.tell,
+        )
+        life.control.stopped.watch(lambda _: self._end.set(End.STOPPED))
+        stops.stop_now = partial(kernel.post, life.control.stop)
+        async with listening(setting.note, self._answer):
+            over = life.go_on(setting.missions)
+            over.watch(self._over)
+            if stops.asked is not None:
+                stops.stop(stops.asked)
+            end = await kernel.run(self._end)
+            if end is End.OVER:
+                over.result()  # raises what it could not see through
+        await self._take_leave(link, end)
+        return Lived(
+            end=end,
+            missions=life.missions,
+            drones=life.session.drones,
+            records=self._records,
+        )
+
+    async def _take_leave(self, link: Reached, end: End) -> None:
+        """See to it that all is on record, and only then let the gateway go."""
+        if self._failure is None:
+            if self._since_snapshot > SNAPSHOT_AT_END:
+                self._keep()
+            self._writer.flush()
+            self._kernel.post(self._durable, self._store.seq)
+        if end is not End.LOST:
+            await link.goodbye()
+        if self._failure is not None:
+            raise self._failure
+
+    async def close(self) -> None:
+        """Let nothing of this life go on; the drones hover, or what was asked of them goes on."""
+        self._kernel.close()
+        self._writer.close()
+        if self._link is not None:
+            await self._link.close()
+
+    def _over(self, over: Task[float]) -> None:
+        if not isinstance(over.error, Cancelled):  # as it is by a stop
+            self._end.set(End.OVER)
+
+    # What happens, on its way to the journal and back
+
+    def _count(self, _: Event) -> None:
+        """Keep what all events come to, now and then."""
+        self._since_snapshot += 1
+        if self._since_snapshot == SNAPSHOT_EVERY:
+            self._loop.call_soon(self._keep)  # between two instants
+
+    def _keep(self) -> None:
+        self._since_snapshot = 0
+        if self._failure is None:
+            self._writer.snapshot(json.dumps(self._records.data))
+
+    def _durable(self, number: int) -> None:
+        if self._life is not None:
+            self._life.recorder.durable(number)
+
+    def _post(self, call: Callable[..., object], *args: object) -> None:
+        """Call this within the kernel, from another thread."""
+        with suppress(RuntimeError):  # the loop is closed: it is all over
+            self._loop.call_soon_threadsafe(self._kernel.post, call, *args)
+
+    def _unwritable(self, failure: JournalError) -> None:
+        """Nothing can be put on record any more: bring everything down, and say why."""
+        self._failure = failure
+        self._post(self._stop_unrecorded)
+
+    def _stop_unrecorded(self) -> None:
+        if self._life is None:
+            self._end.set(End.STOPPED)
+        elif not self._end.is_set:
+            self._life.control.stop(Down.LAND)
+            why = f"{self._failure}; all drones land"
+            last = {"t": round(self._kernel.now, 6), "event": "log", "mission": None, "text": why}
+            self._store.last_words(json.dumps([last]))
+
+    # What others ask for
+
+    def _answer(self, request: Mapping[str, object]) -> str:
+        """Do what somebody asks for, at once."""
+        said: list[str] = []
+        refused: list[BadInput] = []
+
+        def carry_out() -> None:
+            assert self._life is not None
+            try:
+                said.append(perform(self._life.control, request))
+            except BadInput as error:
+                refused.append(error)
+
+        self._kernel.post(carry_out)
+        if refused:
+            raise refused[0]
+        if not said:
+            raise BadInput("the app has just crashed")
+        return said[0]

@@ -45,7 +45,7 @@ class Control(Protocol):
         ...
 
     def go_on(self, mission: str | None) -> str:
-        """Let a paused or held mission, or all that are paused, go on."""
+        """Let a paused mission, or all that are, go on."""
         ...
 
     def skip(self, mission: str, trip: str | None) -> str:
@@ -56,8 +56,8 @@ class Control(Protocol):
         """End a mission, or all, for good."""
         ...
 
-    def decide(self, mission: str, done: bool) -> str:
-        """Settle whether the action that nobody knows of was done."""
+    def decide(self, mission: str, answer: str) -> str:
+        """Settle what only a person can know: `done`, `not-done`, `go-on` or `cancel`."""
         ...
 
 
@@ -74,8 +74,8 @@ def perform(control: Control, request: Mapping[str, object]) -> str:
             return control.skip(mission, trip)
         case {"command": "cancel", "mission": str() | None as mission}:
             return control.cancel(mission)
-        case {"command": "decide", "mission": str(mission), "done": bool(done)}:
-            return control.decide(mission, done)
+        case {"command": "decide", "mission": str(mission), "answer": str(answer)}:
+            return control.decide(mission, answer)
         case _:
             raise BadInput("this app does not know that command")
 

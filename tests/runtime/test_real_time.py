@@ -15,13 +15,11 @@ import pytest
 from plutoc_runtime.actions import Action
 from plutoc_runtime.airspace import Airspace
 from plutoc_runtime.context import Context
-from plutoc_runtime.fly import fly_simulated
 from plutoc_runtime.kernel import FLEET
 from plutoc_runtime.model import Category, Drone
 from plutoc_runtime.realtime import RealTime
-from plutoc_runtime.simulation.faults import Faults
 from plutoc_runtime.trace import Event
-from tests.runtime import apps
+from tests.runtime import apps, in_real_time
 
 FAST = Category(name="scout", speed=200.0)
 LOW = Airspace(cruise_height=0.003)
@@ -38,19 +36,15 @@ def fly(*missions: apps.Mission) -> tuple[apps.Outcome, list[Event]]:
     seen: list[Event] = []
     for index, mission in enumerate(missions):
         mission.index = index
-    outcome = asyncio.run(
-        fly_simulated(
-            apps.app(
-                apps.flow(watch=apps.timed),
-                categories=[FAST],
-                actions=[Action(name="blink", hook=blink, seconds=0.01)],
-            ),
-            missions,
-            apps.fleet((0.5, 0.5, 0.0), (1.5, 0.5, 0.0), airspace=LOW),
-            seed=0,
-            faults=Faults(),
-            on_event=seen.append,
-        )
+    outcome = in_real_time.fly(
+        apps.app(
+            apps.flow(watch=apps.timed),
+            categories=[FAST],
+            actions=[Action(name="blink", hook=blink, seconds=0.01)],
+        ),
+        missions,
+        apps.fleet((0.5, 0.5, 0.0), (1.5, 0.5, 0.0), airspace=LOW),
+        seen.append,
     )
     return outcome, seen
 
@@ -71,58 +65,19 @@ def test_missions_fly_side_by_side_in_one_thread() -> None:
     assert launches[:2] == ["a", "b"]
 
 
-def test_an_interrupted_flight_lands_every_drone_and_ends() -> None:
-    landed: list[bool] = []
-
-    async def main() -> None:
-        seen: list[Event] = []
-        mission = apps.mission("a", low("A", 19.0))
-        mission.current.target = (19.0, 0.5, 0.003)
-        slow = Category(name="scout", speed=0.5)
-        flying = asyncio.ensure_future(
-            fly_simulated(
-                apps.app(
-                    apps.flow(), categories=[slow], actions=[Action(name="blink", hook=blink)]
-                ),
-                [mission],
-                apps.fleet(airspace=LOW),
-                seed=0,
-                faults=Faults(),
-                on_event=seen.append,
-            )
-        )
-        while not any(event["event"] == "trip.launched" for event in seen):
-            await asyncio.sleep(0)
-        drone = mission.current.drone
-        assert drone is not None
-        while drone.telemetry.landed:
-            await asyncio.sleep(0)
-        flying.cancel()
-        with pytest.raises(asyncio.CancelledError):
-            await flying
-        landed.append(drone.telemetry.landed)
-
-    asyncio.run(main())
-    assert landed == [True]
-
-
 def hooked(hook: Callable[..., object]) -> str:
     """Fly a mission with this action, and say why it failed or what it gave."""
     seen: list[Event] = []
     mission = apps.mission("m", low("A", 3.0))
-    asyncio.run(
-        fly_simulated(
-            apps.app(
-                apps.flow(),
-                categories=[FAST],
-                actions=[Action(name="blink", hook=hook, seconds=0.01)],
-            ),
-            [mission],
-            apps.fleet(airspace=LOW),
-            seed=0,
-            faults=Faults(),
-            on_event=seen.append,
-        )
+    in_real_time.fly(
+        apps.app(
+            apps.flow(),
+            categories=[FAST],
+            actions=[Action(name="blink", hook=hook, seconds=0.01)],
+        ),
+        [mission],
+        apps.fleet(airspace=LOW),
+        seen.append,
     )
     return mission.reason or next(
         str(event["value"]) for event in seen if event["event"] == "trip.completed"
@@ -171,37 +126,6 @@ def test_a_hook_behind_a_plain_function_is_awaited_as_in_a_simulation() -> None:
         return 7
 
     assert hooked(seven) == "7"
-
-
-def test_an_interrupt_on_the_way_home_waits_for_the_landing_too() -> None:
-    async def main() -> bool:
-        seen: list[Event] = []
-        mission = apps.mission("a", low("A", 3.0))
-        high = Airspace(cruise_height=0.05)
-        mission.current.target = (0.5, 0.5, 0.05)
-        flying = asyncio.ensure_future(
-            fly_simulated(
-                apps.app(
-                    apps.flow(), categories=[FAST], actions=[Action(name="blink", hook=blink)]
-                ),
-                [mission],
-                apps.fleet(airspace=high),
-                seed=0,
-                faults=Faults(),
-                on_event=seen.append,
-            )
-        )
-        while not any(event["event"] == "mission.ended" for event in seen):
-            await asyncio.sleep(0)
-        (drone,) = (trip.drone for trip in mission.completed_trips)
-        assert drone is not None
-        assert not drone.telemetry.landed
-        flying.cancel()
-        with pytest.raises(asyncio.CancelledError):
-            await flying
-        return drone.telemetry.landed
-
-    assert asyncio.run(main())
 
 
 STUCK = """

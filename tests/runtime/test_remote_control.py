@@ -39,10 +39,10 @@ class Told:
     def cancel(self, mission: str | None) -> str:
         return self._said("cancel", mission)
 
-    def decide(self, mission: str, done: bool) -> str:
+    def decide(self, mission: str, answer: str) -> str:
         if mission != "North":
             raise BadInput(f"there is no mission {mission}")
-        return self._said("decide", mission, done)
+        return self._said("decide", mission, answer)
 
     def _said(self, *call: object) -> str:
         self.calls.append(call)
@@ -75,7 +75,7 @@ def note(tmp_path: Path) -> Path:
         ({"command": "go-on", "mission": "North"}, ("go on", "North")),
         ({"command": "skip", "mission": "North", "trip": None}, ("skip", "North", None)),
         ({"command": "cancel", "mission": "North"}, ("cancel", "North")),
-        ({"command": "decide", "mission": "North", "done": False}, ("decide", "North", False)),
+        ({"command": "decide", "mission": "North", "answer": "done"}, ("decide", "North", "done")),
     ],
 )
 def test_each_command_reaches_the_app(
@@ -94,7 +94,7 @@ def test_each_command_reaches_the_app(
         {"command": "stop", "how": "crash"},
         {"command": "pause"},
         {"command": "skip", "mission": None, "trip": None},
-        {"command": "decide", "mission": "North", "done": 1},
+        {"command": "decide", "mission": "North", "answer": 1},
         {"command": "__init__"},
         {},
     ],
@@ -111,7 +111,7 @@ def test_what_makes_no_sense_is_refused(request_: dict[str, object], note: Path)
 
 
 def test_the_words_of_a_refusal_arrive(note: Path) -> None:
-    request = {"command": "decide", "mission": "Süd", "done": True}
+    request = {"command": "decide", "mission": "Süd", "answer": "done"}
 
     def client() -> None:
         with pytest.raises(BadInput, match="there is no mission Süd"):

@@ -2,9 +2,19 @@
 
 from __future__ import annotations
 
+import json
+from contextlib import closing
+from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ..asking import Nobody, ask, note_of
 from ..errors import BadInput
+from ..journal.header import check
+from ..journal.store import Store
+from ..words import printable, quoted
+from . import output
+from .flown import ANSWERS, records_in, waiting, waiting_lines
+from .tell import PATIENCE
 
 if TYPE_CHECKING:
     from ..app import App
@@ -13,4 +23,37 @@ if TYPE_CHECKING:
 
 def decide(app: App, options: Options) -> int:
     """Settle what a mission waits for, in the running app or in its journal."""
-    raise BadInput(f"{app.name}: {options.the_journal}: nothing can be decided yet")
+    journal, mission, answer = options.the_journal, options.mission, options.answer
+    records = records_in(journal)
+    if mission is None:
+        listed = [*waiting_lines(app, journal, records)]
+        for line in listed or ["no mission waits for a person"]:
+            output.line(line)
+        return 0
+    asked = {name: (what, question) for name, what, question in waiting(records)}
+    if mission not in asked:
+        raise BadInput(f"{journal}: mission {quoted(mission)} waits for nobody's decision")
+    what, question = asked[mission]
+    if answer not in ANSWERS[what]:
+        fitting = ", ".join(ANSWERS[what])
+        raise BadInput(
+            f"{journal}: mission {quoted(mission)}: {printable(question)}; say one of: {fitting}"
+        )
+    request = {"command": "decide", "mission": mission, "answer": answer}
+    try:
+        output.line(ask(note_of(journal), request, PATIENCE))
+    except Nobody:
+        _put_down(app, journal, mission, answer, records.time)
+        output.line(
+            f"mission {quoted(mission)}: {answer}; it is on record, and "
+            f"{app.name} resume {journal} --sim acts on it"
+        )
+    return 0
+
+
+def _put_down(app: App, journal: Path, mission: str, answer: str, now: float) -> None:
+    """Write an answer into a journal that nobody is writing."""
+    event = {"t": now, "event": "mission.decided", "mission": mission, "answer": answer}
+    with closing(Store.open(journal)) as store:
+        check(journal, store.header, app)
+        store.append([json.dumps([event])])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from argparse import ArgumentParser, ArgumentTypeError
+from argparse import SUPPRESS, ArgumentParser, ArgumentTypeError
 from collections.abc import Callable
 from math import isfinite
 from pathlib import Path
@@ -64,12 +64,12 @@ def how_it_flies(parser: ArgumentParser) -> None:
         "--speed",
         metavar="N",
         type=speed,
-        default=1.0,
         help="with --sim: let time pass N times as fast",
     )
     parser.add_argument(
         "--supervise", action="store_true", help="start the app again if it crashes"
     )
+    parser.add_argument("--supervised", action="store_true", help=SUPPRESS)  # so it is then called
 
 
 def speed(text: str) -> float:

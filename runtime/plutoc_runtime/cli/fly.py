@@ -1,73 +1,58 @@
-"""`fly`: the whole app in real time."""
+"""`fly`: the whole app in real time, from the beginning."""
 
 from __future__ import annotations
 
-import asyncio
-import signal
-from contextlib import suppress
+import time
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..errors import BadInput
-from ..fly import fly_simulated
-from ..simulation.faults import Faults
+from ..journal import place
+from ..journal.errors import exists
+from ..journal.header import header
+from ..journal.store import Store
 from . import output
-from .events import line_of
-from .plans import Plan, load
-from .report import report
-from .verdict import exit_code
+from .flights import SEED, Flight, see_through, supervised
+from .plans import load
 
 if TYPE_CHECKING:
     from ..app import App
-    from ..session import Outcome
-    from ..trace import Event
     from .options import Options
-
-TERMINATED = 143
 
 
 def fly(app: App, options: Options) -> int:
     """Fly the missions and say what came of them; whoever interrupts it lands the drones."""
+    _only_simulated(app, options)
+    plan = load(app, options)
+    journal = options.journal or place.new(app.name, time.time())
+    if journal.is_symlink() or journal.exists():
+        raise exists(journal)
+    begun = header(
+        app, missions=plan.missions_text, fleet=plan.fleet_text, sim=options.sim, seed=SEED
+    )
+    if not options.supervised:
+        output.tell(f"journal: {journal}")
+    if options.supervise:
+        return supervised(app, options, journal, _words(options, journal))
+    store = Store.create(journal, begun)
+    flight = Flight(
+        app=app,
+        journal=store.path,
+        missions=plan.missions,
+        fleet=plan.fleet,
+        speed=options.speed or 1.0,
+        seed=SEED,
+        obeys=options.supervised,
+    )
+    return see_through(flight, store)
+
+
+def _only_simulated(app: App, options: Options) -> None:
     if not options.sim:
         raise BadInput(f"{app.name}: real drones are not supported yet: use --sim")
-    plan = load(app, options)
-    try:
-        outcome = asyncio.run(flown(app, plan))
-    except asyncio.CancelledError:
-        return TERMINATED  # Ctrl-C comes out as KeyboardInterrupt instead
-    output.line()
-    for line in report(app, outcome):
-        output.line(line)
-    return exit_code(outcome)
 
 
-async def flown(app: App, plan: Plan) -> Outcome:
-    """Fly a plan; whoever cancels this waits until all drones have landed."""
-    _terminate_gently()
-    flight = asyncio.ensure_future(
-        fly_simulated(app, plan.missions, plan.fleet, seed=0, faults=Faults(), on_event=_tell)
-    )
-    try:
-        return await asyncio.shield(flight)
-    except asyncio.CancelledError:
-        output.tell("stopping: the drones land where they are (once more to leave at once)")
-        flight.cancel()
-        with suppress(asyncio.CancelledError):
-            await flight
-        output.tell("all drones have landed")
-        raise
-
-
-def _terminate_gently() -> None:
-    """Let whoever stops the service, not only Ctrl-C, land the drones first."""
-    task = asyncio.current_task()
-    with suppress(NotImplementedError, RuntimeError, ValueError):  # Windows; not the main thread
-        if task is not None:
-            asyncio.get_running_loop().add_signal_handler(signal.SIGTERM, task.cancel)
-
-
-def _tell(event: Event) -> None:
-    line = line_of(event)
-    if line is not None:
-        with suppress(output.ClosedPipe, output.CannotWrite):  # whoever watches has gone: fly on
-            output.line(line)
-            output.flush()
+def _words(options: Options, journal: Path) -> list[str]:
+    """Return the command line of the flight that is supervised."""
+    fleet = ["--fleet", str(options.fleet)] if options.fleet else []
+    return ["fly", str(options.missions), *fleet, "--journal", str(journal)]

@@ -35,8 +35,9 @@ class Options:
     plot: Path | None = None
     json: bool = False
     sim: bool = False
-    speed: float = 1.0
+    speed: float | None = None
     supervise: bool = False
+    supervised: bool = False
     journal: Path | None = None
     action: str = ""
     mission: str | None = None

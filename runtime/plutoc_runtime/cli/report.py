@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..fields import FieldType
 from ..status import Status
@@ -12,12 +12,43 @@ from .as_json import trips_data
 
 if TYPE_CHECKING:
     from ..app import App
-    from ..model import Mission
+    from ..model import Drone, Mission
     from ..session import Outcome
+
+
+class MissionRow(NamedTuple):
+    """What the report says of a mission."""
+
+    name: str
+    status: Status
+    done: int
+    """Trips of this round."""
+    todo: int
+    round: int
+    """From 0."""
+    attempts: int
+    reason: str
 
 
 def report(app: App, outcome: Outcome) -> Iterator[str]:
     """Yield the lines of the report."""
+    yield from mission_table(app, map(row_of, outcome.missions))
+    yield ""
+    yield from drone_table(outcome.drones, outcome.flown)
+    yield ""
+    yield last_line(outcome)
+
+
+def row_of(mission: Mission[Any]) -> MissionRow:
+    """Return what the report says of a mission that is at hand."""
+    done, todo = len(mission.completed_trips), len(mission.trips)
+    return MissionRow(
+        mission.name, mission.status, done, todo, mission.round, mission.attempts, mission.reason
+    )
+
+
+def mission_table(app: App, missions: Iterable[MissionRow]) -> Iterator[str]:
+    """Yield the lines of the first table."""
     rounds = any(field.type is FieldType.ROUNDS for field in app.fields)
     yield from table(
         ("mission", "status", "trips", *(["rounds"] if rounds else []), "attempts", "reason"),
@@ -25,56 +56,63 @@ def report(app: App, outcome: Outcome) -> Iterator[str]:
             (
                 mission.name,
                 mission.status.value,
-                done_of_all(mission),
+                f"{mission.done}/{mission.done + mission.todo}",
                 *([str(mission.round + 1)] if rounds else []),
                 str(mission.attempts),
                 mission.reason,
             )
-            for mission in outcome.missions
+            for mission in missions
         ],
         right=(2, 3, 4) if rounds else (2, 3),
     )
-    yield ""
+
+
+def drone_table(drones: Sequence[Drone], flown: Mapping[str, float]) -> Iterator[str]:
+    """Yield the lines of the second table; not everywhere is it known how far each has flown."""
     yield from table(
-        ("drone", "category", "trips", "flown", "battery", "status"),
+        ("drone", "category", "trips", *(["flown"] if flown else []), "battery", "status"),
         [
             (
                 drone.id,
                 drone.category.name,
                 str(drone.trips),
-                f"{number(round(outcome.flown[drone.id], 1))} m",
+                *([f"{number(round(flown[drone.id], 1))} m"] if flown else []),
                 percent(drone.battery_level),
                 drone.status.value,
             )
-            for drone in outcome.drones
+            for drone in drones
         ],
-        right=(2, 3, 4),
+        right=(2, 3, 4) if flown else (2, 3),
     )
-    yield ""
-    yield last_line(outcome)
-
-
-def done_of_all(mission: Mission[Any]) -> str:
-    """Return how many of this round's trips are done: 2/3."""
-    done = len(mission.completed_trips)
-    return f"{done}/{done + len(mission.trips)}"
 
 
 def last_line(outcome: Outcome) -> str:
     """Return the whole outcome in one line."""
-    missions = outcome.missions
-    completed = sum(mission.status is Status.COMPLETED for mission in missions)
-    failed = sum(mission.status is Status.FAILED for mission in missions)
-    rest = len(missions) - completed - failed
-    parts = [f"{completed} of {counted(len(missions), 'mission')} completed"]
-    if failed:
-        parts.append(f"{failed} failed")
+    trips = trips_data(outcome)
+    statuses = [mission.status for mission in outcome.missions]
+    return in_one_line(statuses, outcome.duration, trips["attempts"], trips["failed"])
+
+
+def in_one_line(statuses: Sequence[Status], seconds: float, flights: int, failed: int) -> str:
+    """Return how missions have ended, after how long and how many flights."""
+    parts = [f"{statuses.count(Status.COMPLETED)} of {counted(len(statuses), 'mission')} completed"]
+    rest = len(statuses) - statuses.count(Status.COMPLETED)
+    for what, of_these in _OTHER_ENDS.items():
+        count = sum(status in of_these for status in statuses)
+        rest -= count
+        if count:
+            parts.append(f"{count} {what if count > 1 else what.replace('wait ', 'waits ')}")
     if rest:
         parts.append(f"{rest} not finished")
-    trips = trips_data(outcome)
-    flights = counted(trips["attempts"], "flight")
-    bad = f", {trips['failed']} failed" if trips["failed"] else ""
-    return f"{', '.join(parts)} in {duration(outcome.duration)} ({flights}{bad})"
+    bad = f", {failed} failed" if failed else ""
+    return f"{', '.join(parts)} in {duration(seconds)} ({counted(flights, 'flight')}{bad})"
+
+
+_OTHER_ENDS = {
+    "failed": (Status.FAILED,),
+    "cancelled": (Status.CANCELLED,),
+    "wait for a person": (Status.UNCERTAIN, Status.HELD),
+}
 
 
 def table(

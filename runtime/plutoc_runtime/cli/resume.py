@@ -5,6 +5,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ..errors import BadInput
+from ..fly import recovered
+from ..gateway.starting import speed_in
+from ..journal import place
+from ..journal.header import check, fingerprint
+from ..journal.store import Store
+from . import output, stop_mark
+from .flights import Flight, reported, see_through, supervised
+from .flown import all_over
+from .plans import fleet_in, missions_in
 
 if TYPE_CHECKING:
     from ..app import App
@@ -12,5 +21,41 @@ if TYPE_CHECKING:
 
 
 def resume(app: App, options: Options) -> int:
-    """Go on with the missions of a journal."""
-    raise BadInput(f"{app.name}: {options.journal}: cannot be resumed yet")
+    """Go on with the missions of a journal, which says what was planned."""
+    journal = options.journal or place.newest(app.name)
+    store = Store.open(journal)
+    try:
+        check(journal, store.header, app)
+        if store.header["sim"] and not options.sim:
+            raise BadInput(f"{journal}: its drones are simulated ones: use --sim")
+        fleet = fleet_in(app, journal, store.header)
+        records, _ = recovered(store, 1.0)
+        planned = [] if records.missions else missions_in(app, journal, store.header, fleet)
+    except BaseException:
+        store.close()
+        raise
+    if all_over(records):
+        store.close()
+        output.line("nothing to go on with: every mission has ended")
+        output.line()
+        return reported(app, journal, records)
+    if not options.supervised:
+        output.tell(f"journal: {journal}")
+        stop_mark.remove(store.path)
+        if store.header["app_hash"] != fingerprint(app):
+            output.tell("the app has changed since: missions go on by the names of its blocks")
+    if store.torn is not None:
+        output.tell(f"{journal}: {store.torn}")
+    if options.supervise:
+        store.close()
+        return supervised(app, options, journal, None)
+    flight = Flight(
+        app=app,
+        journal=store.path,
+        missions=planned,
+        fleet=fleet,
+        speed=options.speed or speed_in(place.gateway_folder(store.path)) or 1.0,
+        seed=int(str(store.header["seed"])),
+        obeys=options.supervised,
+    )
+    return see_through(flight, store)

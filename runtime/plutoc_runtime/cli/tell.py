@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import os
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..asking import Nobody, Silent, ask, note_of
 from ..errors import BadInput
+from ..gateway.starting import stop_directly
+from ..journal.place import gateway_folder
 from ..standing import Down
-from . import output
+from . import output, stop_mark
 
 if TYPE_CHECKING:
     from ..app import App
@@ -69,4 +73,14 @@ def _request(app: App, options: Options) -> dict[str, object]:
 
 def _stop(app: App, options: Options, request: dict[str, object]) -> str:
     """Stop the app; if it says nothing, bring the drones down without it."""
-    return ask(note_of(options.the_journal), request, AT_ONCE)
+    journal = Path(os.path.realpath(options.the_journal))
+    try:
+        return ask(note_of(journal), request, AT_ONCE)
+    except (Nobody, Silent) as nobody:
+        how = Down(request["how"])
+        try:
+            said = stop_directly(gateway_folder(journal), how, PATIENCE)
+        except Nobody:
+            raise Nobody(f"{journal}: {app.name} is not running, and no drone flies") from None
+        stop_mark.leave(journal, how)
+        return f"{nobody}: {said} without it; {app.name} resume {journal} --sim goes on"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from ..status import Status
@@ -18,7 +19,11 @@ def exit_code(outcome: Outcome) -> int:
 
     A mission that `--until` cut short has not failed.
     """
-    statuses = [mission.status for mission in outcome.missions]
+    return code_of([mission.status for mission in outcome.missions])
+
+
+def code_of(statuses: Sequence[Status]) -> int:
+    """Return the exit code for missions that stand so."""
     if any(status in _NEEDS_A_PERSON for status in statuses):
         return 4
     return 1 if any(status in _BAD for status in statuses) else 0

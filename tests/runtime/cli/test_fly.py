@@ -1,86 +1,180 @@
-"""How `fly` ends."""
+"""`fly`, `resume` and `decide`, as far as no drone has to leave for it."""
 
 from __future__ import annotations
 
-import asyncio
+import json
+from collections.abc import Callable, Sequence
+from contextlib import closing
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.cli import fly
-from plutoc_runtime.cli.plans import Plan
-from plutoc_runtime.files.fleet import default_fleet
-from plutoc_runtime.files.missions import load_missions
-from plutoc_runtime.session import Outcome
-from plutoc_runtime.status import Status
-from tests.runtime.cli.conftest import Command
+from plutoc_runtime.journal.header import header
+from plutoc_runtime.journal.store import Store
+from tests.runtime.cli.conftest import MISSIONS, Command
 from tests.runtime.files.an_app import APP
 
+Event = dict[str, Any]
+Write = Callable[..., Path]
 
-def plan(missions: Path) -> Plan:
-    return Plan(missions=load_missions(missions, APP, Airspace()), fleet=default_fleet(APP))
+TRIP = {"name": "A", "action": "take_photo", "target": [2.0, 3.0, 1.2], "index": 0}
 
 
-def test_whoever_cancels_a_flight_waits_for_the_landing(
-    missions: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+def created(name: str, index: int) -> Event:
+    plan = {"index": index, "fields": {}, "trips": [{**TRIP}]}
+    return {"t": 0.0, "event": "mission.created", "mission": name, "trips": ["A"], "plan": plan}
+
+
+def ended(name: str, status: str, reason: str = "") -> Event:
+    what = {"t": 8.0, "event": "mission.ended", "mission": name}
+    return {**what, "status": status, "reason": reason}
+
+
+LAUNCHED = {"t": 0.0, "event": "trip.launched", "mission": "North", "trip": "A", "drone": "cf1",
+            "round": 0, "attempt": 1}  # fmt: skip
+DOUBT = {"t": 5.0, "event": "mission.uncertain", "mission": "North", "trip": "A",
+         "drone": "cf1", "reason": "was it done?"}  # fmt: skip
+
+
+@pytest.fixture
+def journal(tmp_path: Path) -> Write:
+    """Write a journal of these events, a row each."""
+
+    def write(*events: Event, **facts: object) -> Path:
+        path = tmp_path / "a.journal"
+        whole = header(APP, missions=MISSIONS, fleet=None, sim=True, seed=0)
+        with closing(Store.create(path, {**whole, **facts})) as store:
+            store.append([json.dumps([event]) for event in events])
+        return path
+
+    return write
+
+
+def events_of(path: Path) -> Sequence[Event]:
+    with closing(Store.open(path)) as store:
+        return list(store.read().events)
+
+
+def test_a_journal_that_is_there_is_never_overwritten(
+    missions: Path, journal: Write, command: Command
 ) -> None:
-    """And is told what goes on."""
-    landed = []
+    """And one is told what to do."""
+    path = journal()
+    code, out, err = command("fly", missions, "--sim", "--journal", path)
+    assert (code, out) == (2, "")
+    assert err.startswith(f"{path}: there is a journal already")
+    assert "resume" in err
 
-    async def flying(*_: object, **__: object) -> None:
-        try:
-            await asyncio.Event().wait()
-        finally:
-            await asyncio.sleep(0)
-            landed.append(True)
 
-    async def scenario() -> None:
-        task = asyncio.ensure_future(fly.flown(APP, plan(missions)))
-        await asyncio.sleep(0)
-        await asyncio.sleep(0)
-        task.cancel()
-        with pytest.raises(asyncio.CancelledError):
-            await task
+def test_a_plan_that_nobody_can_fly_leaves_no_journal(tmp_path: Path, command: Command) -> None:
+    path = tmp_path / "new.journal"
+    assert command("fly", tmp_path / "none.toml", "--sim", "--journal", path)[0] == 2
+    assert not path.exists()
 
-    monkeypatch.setattr(fly, "fly_simulated", flying)
-    asyncio.run(scenario())
-    assert landed == [True]
-    assert capsys.readouterr().err.split("\n")[:2] == [
-        "stopping: the drones land where they are (once more to leave at once)",
-        "all drones have landed",
-    ]
+
+def test_where_all_missions_have_ended_there_is_nothing_to_resume(
+    journal: Write, command: Command
+) -> None:
+    """The report is printed once more, and it ends as the flight did."""
+    path = journal(
+        created("North", 0),
+        created("South", 1),
+        LAUNCHED,
+        ended("North", "COMPLETED"),
+        ended("South", "FAILED", "no drone can do it"),
+    )
+    code, out, err = command("resume", path, "--sim")
+    assert (code, err) == (1, "")
+    lines = out.splitlines()
+    assert lines[0] == "nothing to go on with: every mission has ended"
+    assert lines[-1] == "1 of 2 missions completed, 1 failed in 8 s (1 flight)"
+    assert any(line.startswith("South") and "no drone can do it" in line for line in lines)
 
 
 @pytest.mark.parametrize(
-    ("status", "code"),
+    ("facts", "said"),
     [
-        (Status.COMPLETED, 0),
-        (Status.FAILED, 1),
-        (Status.UNCERTAIN, 4),
+        ({"app": "wards"}, "this is a journal of wards, and this app is alfalfa"),
+        ({"events": 2}, "it was begun by an app of a newer plutoc"),
+        ({"fleet": '[[drone]]\nid = "a"\ncategory = "gone"\nhome = [1, 1]'}, "(its fleet):3: "),
     ],
 )
-def test_the_exit_code_tells_how_the_missions_stand(
-    missions: Path,
-    command: Command,
-    monkeypatch: pytest.MonkeyPatch,
-    status: Status,
-    code: int,
+def test_a_journal_that_this_app_cannot_go_on_with_is_refused(
+    facts: dict[str, object], said: str, journal: Write, command: Command
 ) -> None:
-    """Completed, failed, or waiting for a person."""
+    path = journal(created("North", 0), **facts)
+    before = events_of(path)
+    code, out, err = command("resume", path, "--sim")
+    assert (code, out) == (2, "")
+    assert said in err
+    assert events_of(path) == before
 
-    async def flying(app: Any, missions: Any, fleet: Any, *, on_event: Any, **_: Any) -> Outcome:
-        on_event({"t": 1.0, "event": "log", "mission": "North", "text": "hello"})
-        for mission in missions:
-            mission.status = status
-        return Outcome(duration=3.0, missions=tuple(missions), drones=(), flown={}, events=())
 
-    monkeypatch.setattr(fly, "fly_simulated", flying)
-    fleet = missions.with_name("f.toml")
-    drones = (f'id = "{name}"\ncategory = "{name}"\nhome = [{x}, 1]'
-              for x, name in enumerate(("scout", "carrier"), 1))  # fmt: skip
-    fleet.write_text("\n".join(f"[[drone]]\n{drone}" for drone in drones))
-    ended, out, err = command("fly", missions, "--fleet", fleet, "--sim")
-    assert (ended, err) == (code, "")
-    assert out.startswith("     1.0 s  North: hello\n\nmission  status")
+def test_simulated_drones_are_asked_for_by_name(journal: Write, command: Command) -> None:
+    """As in `fly`: nobody shall take one for the other."""
+    path = journal(created("North", 0))
+    said = f"{path}: its drones are simulated ones: use --sim\n"
+    assert command("resume", path) == (2, "", said)
+
+
+def test_without_a_name_the_newest_journal_is_resumed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, command: Command
+) -> None:
+    """And where there is none yet, one is told so."""
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
+    code, _, err = command("resume", "--sim")
+    assert code == 2
+    assert "journal" in err
+
+
+def test_two_processes_cannot_go_on_with_one_journal(journal: Write, command: Command) -> None:
+    path = journal(created("North", 0))
+    with closing(Store.open(path)):
+        code, _, err = command("resume", path, "--sim")
+    assert code == 2
+    assert "only one at a time may" in err
+
+
+def test_decide_alone_lists_what_is_asked(journal: Write, command: Command) -> None:
+    """With the commands that answer."""
+    path = journal(created("North", 0), created("South", 1), LAUNCHED, DOUBT)
+    assert command("decide", path) == (
+        0,
+        "North: was it done?\n"
+        f'  alfalfa decide {path} "North" done\n'
+        f'  alfalfa decide {path} "North" not-done\n'
+        f'  alfalfa decide {path} "North" cancel\n',
+        "",
+    )
+
+
+def test_a_decision_is_put_down_in_a_journal_at_rest(journal: Write, command: Command) -> None:
+    path = journal(created("North", 0), LAUNCHED, DOUBT)
+    code, out, err = command("decide", path, "North", "not-done")
+    assert (code, err) == (0, "")
+    assert "it is on record" in out
+    decided = events_of(path)[-1]
+    assert (decided["event"], decided["mission"]) == ("mission.decided", "North")
+    assert (decided["t"], decided["answer"]) == (5.0, "not-done")
+    assert command("decide", path) == (0, "no mission waits for a person\n", "")
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ("South done", 'mission "South" waits for nobody\'s decision'),
+        ("East done", 'mission "East" waits for nobody\'s decision'),
+        ("North", "was it done?; say one of: done, not-done, cancel"),
+        ("North go-on", "was it done?; say one of: done, not-done, cancel"),
+    ],
+)
+def test_a_decision_that_nobody_asked_for_is_refused(
+    words: str, said: str, journal: Write, command: Command
+) -> None:
+    path = journal(created("North", 0), created("South", 1), LAUNCHED, DOUBT)
+    before = events_of(path)
+    code, out, err = command("decide", path, *words.split())
+    assert (code, out) == (2, "")
+    assert said in err
+    assert events_of(path) == before

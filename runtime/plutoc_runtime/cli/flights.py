@@ -1,0 +1,139 @@
+"""What `fly` and `resume` share: one life after another, until all is over or somebody stops it."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Sequence
+from contextlib import closing, suppress
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from .. import again
+from ..asking import note_of
+from ..errors import BadInput
+from ..fly import End, Lived, Setting, Stops, live
+from ..gateway.settings import settings_for
+from ..gateway.starting import connect
+from ..journal.place import gateway_folder
+from ..journal.store import Store
+from . import output, stop_mark
+from .events import line_of
+from .flown import finished, records_in, report_of, waiting_lines
+from .interrupts import Interrupts
+from .supervise import Supervised, supervise
+
+if TYPE_CHECKING:
+    from ..app import App
+    from ..files.fleet import FleetFile
+    from ..journal.fold import Records
+    from ..model import Drone, Mission
+    from ..trace import Event
+    from .options import Options
+
+SEED = 0
+"""What chance depends on in the simulated world of `fly`."""
+
+STOPPED = 130
+"""The exit code after `tell J stop`, as after Ctrl-C."""
+
+MOST_GATEWAYS = 5
+"""How many may die in a row with nothing finished in between."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Flight:
+    """A journal, and all that is needed to go on with it."""
+
+    app: App
+    journal: Path
+    missions: Sequence[Mission[Any]]
+    fleet: FleetFile
+    speed: float
+    seed: int
+    obeys: bool
+    """Whether a Stop that went past an earlier life still counts: so it is under `--supervise`."""
+
+    @property
+    def how_to_go_on(self) -> str:
+        """A sentence for whoever has stopped it."""
+        return f"to go on: {self.app.name} resume {self.journal} --sim"
+
+
+def see_through(flight: Flight, store: Store) -> int:
+    """Fly until all is over or somebody stops it; say what came of it, and return the exit code."""
+    stops = Stops()
+    interrupts = Interrupts(stops, flight.journal, flight.how_to_go_on)
+    with interrupts.listening():
+        lived = asyncio.run(_lives(flight, store, stops, interrupts))
+    if lived.end is End.STOPPED:
+        output.tell(f"all drones are down; {flight.how_to_go_on}")
+        return interrupts.code or STOPPED
+    output.line()
+    return reported(flight.app, flight.journal, lived.records, lived.drones)
+
+
+def reported(app: App, journal: Path, records: Records, drones: Sequence[Drone] = ()) -> int:
+    """Say what came of a flight, and return the exit code for that."""
+    code, lines = report_of(app, journal, records, drones)
+    for line in [*lines, *waiting_lines(app, journal, records)]:
+        output.line(line)
+    return code
+
+
+async def _lives(flight: Flight, store: Store, stops: Stops, interrupts: Interrupts) -> Lived:
+    """Live once more each time that the gateway dies."""
+    interrupts.loop = asyncio.get_running_loop()
+    settings = settings_for(flight.app, flight.fleet, seed=flight.seed, speed=flight.speed)
+    folder = gateway_folder(flight.journal)
+    setting = Setting(
+        app=flight.app,
+        missions=flight.missions,
+        fleet=flight.fleet,
+        connect=lambda kernel, epoch, lost: connect(folder, settings, kernel, epoch, lost),
+        note=note_of(flight.journal),
+        tell=tell,
+        speed=flight.speed,
+    )
+    deaths, done = 0, -1
+    stops.asked = stops.asked or (stop_mark.found(flight.journal) if flight.obeys else None)
+    while True:
+        with closing(store):
+            lived = await live(setting, store, stops)
+        if lived.end is not End.LOST:
+            return lived
+        stops.asked = stops.asked or stop_mark.found(flight.journal)
+        before, done = done, finished(lived.records)
+        deaths = 1 if done > before else deaths + 1
+        if deaths > MOST_GATEWAYS:
+            raise BadInput(
+                f"{flight.journal}: the gateway ended {deaths} times in a row with nothing finished"
+                f" in between; what it said is in {folder / 'log'}; {flight.how_to_go_on}"
+            )
+        output.tell("the gateway has ended: another one is started, and all drones are asked")
+        store = Store.open(flight.journal)
+
+
+def supervised(app: App, options: Options, journal: Path, first: Sequence[str] | None) -> int:
+    """Let another process fly, and start it again when it crashes; `first`: it has not begun."""
+    speed = ["--speed", str(options.speed)] if options.speed else []
+    flags = ["--sim", *speed, "--supervised"]
+    on = again.command("resume", str(journal), *flags)
+    return supervise(
+        Supervised(
+            name=app.name,
+            first=on if first is None else again.command(*first, *flags),
+            again=lambda: on if journal.exists() else None,
+            finished=lambda: finished(records_in(journal)) if journal.exists() else 0,
+            how_to_go_on=f"to go on: {app.name} resume {journal} --sim",
+        )
+    )
+
+
+def tell(event: Event) -> None:
+    """Show an event to whoever watches."""
+    line = line_of(event)
+    if line is not None:
+        with suppress(output.ClosedPipe, output.CannotWrite):  # whoever watches has gone: fly on
+            output.line(line)
+            output.flush()

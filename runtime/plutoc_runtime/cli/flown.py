@@ -1,0 +1,112 @@
+"""How a flight stands, as its journal has it: for the report, and for whoever waits."""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from contextlib import closing
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ..journal.fold import Record, Records
+from ..journal.reader import Reader
+from ..status import Status
+from ..words import printable, quoted
+from .report import MissionRow, drone_table, in_one_line, mission_table
+from .verdict import code_of
+
+if TYPE_CHECKING:
+    from ..app import App
+    from ..model import Drone
+
+ANSWERS = {"question": ("done", "not-done", "cancel"), "held": ("go-on", "cancel")}
+"""What can be said to a mission that waits for this."""
+
+_ASIDE = {"question": Status.UNCERTAIN, "held": Status.HELD, "paused": Status.PAUSED}
+
+
+def report_of(
+    app: App, journal: Path, records: Records, drones: Sequence[Drone] = ()
+) -> tuple[int, list[str]]:
+    """Return the exit code of a flight, and the lines of its report."""
+    rows = [_row(name, record) for name, record in _in_order(records)]
+    statuses = [row.status for row in rows]
+    flights, ended = _flights(journal)
+    lines = [*mission_table(app, rows), ""]
+    if drones:
+        lines += [*drone_table(drones, {}), ""]
+    lines.append(in_one_line(statuses, ended, flights["trip.launched"], flights["trip.failed"]))
+    return code_of(statuses), lines
+
+
+def finished(records: Records) -> int:
+    """Return how many trips and missions have come to an end."""
+    ended = sum(record["ended"] for record in records.missions.values())
+    failed = sum(
+        trip.get("status") == "FAILED"
+        for record in records.missions.values()
+        for trip in record["todo"]
+    )
+    return int(ended + failed + len(records.results))
+
+
+def all_over(records: Records) -> bool:
+    """Whether every mission has ended."""
+    missions = records.missions.values()
+    return bool(missions) and all(record["ended"] for record in missions)
+
+
+def waiting(records: Records) -> Iterator[tuple[str, str, str]]:
+    """Yield the missions that wait for a person: name, for what, and the question."""
+    for name, record in _in_order(records):
+        for what in ANSWERS:
+            if record[what] is not None and record["answer"] is None and not record["ended"]:
+                yield name, what, record[what]
+                break
+
+
+def waiting_lines(app: App, journal: Path, records: Records) -> Iterator[str]:
+    """Yield what is asked, and what can be answered."""
+    for name, what, question in waiting(records):
+        yield f"{printable(name)}: {printable(question)}"
+        for answer in ANSWERS[what]:
+            yield f"  {app.name} decide {journal} {quoted(name)} {answer}"
+
+
+def records_in(journal: Path) -> Records:
+    """Return what a journal says, while somebody else may write it."""
+    records = Records()
+    with closing(Reader(journal)) as reader:
+        for row in reader.rows():
+            for event in json.loads(row.text):
+                records.take(event)
+    return records
+
+
+def _in_order(records: Records) -> list[tuple[str, Record]]:
+    return sorted(records.missions.items(), key=lambda item: int(item[1]["index"]))
+
+
+def _row(name: str, record: Record) -> MissionRow:
+    status, reason = Status(record["status"]), str(record["reason"])
+    for what, aside in _ASIDE.items():
+        if record[what] is not None and not record["ended"]:
+            status, reason = aside, str(record[what])
+            break
+    done, todo = len(record["done"]), len(record["todo"])
+    return MissionRow(name, status, done, todo, record["round"], record["attempts"], reason)
+
+
+def _flights(journal: Path) -> tuple[Counter[str], float]:
+    """Count the flights and those that failed; say when the last mission ended, too."""
+    counts: Counter[str] = Counter()
+    ended = 0.0
+    with closing(Reader(journal)) as reader:
+        for row in reader.rows():
+            if "trip." in row.text or "mission.ended" in row.text:
+                for event in json.loads(row.text):
+                    counts[event["event"]] += 1
+                    if event["event"] == "mission.ended":
+                        ended = event["t"]
+    return counts, ended

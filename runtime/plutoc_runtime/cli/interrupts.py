@@ -1,0 +1,74 @@
+"""Ctrl-C and `kill` while drones fly: the first time they land, the second time the app is gone."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import signal
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from threading import Timer
+from types import FrameType
+from typing import TYPE_CHECKING
+
+from ..errors import BadInput
+from ..gateway.starting import stop_directly
+from ..journal.place import gateway_folder
+from ..standing import Down
+from . import output
+
+if TYPE_CHECKING:
+    from ..fly import Stops
+
+AT_ONCE = 1.0
+"""Seconds that the app may take to stop its drones, before they are told without it."""
+
+
+class Interrupts:
+    """Whoever wants the app to end, and whether it has heard."""
+
+    def __init__(self, stops: Stops, journal: Path, how_to_go_on: str) -> None:
+        self.code: int | None = None
+        """The exit code of what has interrupted it."""
+        self.loop: asyncio.AbstractEventLoop | None = None
+        self._stops, self._journal, self._how = stops, journal, how_to_go_on
+        self._heard = False
+
+    @contextmanager
+    def listening(self) -> Iterator[None]:
+        """Hear signals for as long as this lasts."""
+        before: dict[int, Callable[[int, FrameType | None], object] | int | None] = {}
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            with suppress(ValueError):  # not in the main thread
+                if signal.getsignal(number) is not signal.SIG_IGN:  # as with nohup
+                    before[number] = signal.signal(number, self._told)
+        try:
+            yield
+        finally:
+            for changed, handler in before.items():
+                signal.signal(changed, handler)
+
+    def _told(self, number: int, _: FrameType | None) -> None:
+        if self.code is not None:
+            output.tell(f"leaving at once: the gateway lands the drones; {self._how}")
+            os._exit(128 + number)
+        self.code = 128 + number
+        output.tell("stopping: the drones land where they are (once more to leave at once)")
+        self._stops.asked = Down.LAND
+        if self.loop is not None:
+            self.loop.call_soon_threadsafe(self._stop)
+            late = Timer(AT_ONCE, self._go_past)
+            late.daemon = True
+            late.start()
+
+    def _stop(self) -> None:
+        self._heard = True
+        self._stops.stop(Down.LAND)
+
+    def _go_past(self) -> None:
+        """A hook keeps the app from hearing: tell the drones without it."""
+        if not self._heard:
+            with suppress(BadInput):
+                stop_directly(gateway_folder(self._journal), Down.LAND, AT_ONCE)
+                output.tell("the app is busy: the gateway lands the drones without it")

@@ -1,0 +1,32 @@
+"""Flies an app in real time, with the world in the same process and without a journal."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Sequence
+
+from plutoc_runtime.realtime import RealTime
+from plutoc_runtime.session import Outcome, Simulation
+from plutoc_runtime.simulation.faults import Faults
+from plutoc_runtime.trace import Event
+from tests.runtime import apps
+
+
+def fly(
+    app: apps.App,
+    missions: Sequence[apps.Mission],
+    fleet: apps.FleetFile,
+    listener: Callable[[Event], object],
+) -> Outcome:
+    """Return what came of the missions."""
+
+    async def flown() -> Outcome:
+        kernel = RealTime()
+        simulation = Simulation(app, fleet, kernel, 0, Faults(), listener)
+        try:
+            ended = await kernel.run(simulation.session.start(missions))
+        finally:
+            kernel.close()
+        return simulation.outcome(missions, ended)
+
+    return asyncio.run(flown())

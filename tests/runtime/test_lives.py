@@ -1,0 +1,265 @@
+"""Lives of an app in real time: stopped, lost, gone on with, over a real journal."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from collections.abc import Awaitable, Callable
+from contextlib import closing
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from plutoc_runtime.airspace import Airspace
+from plutoc_runtime.asking import Nobody, ask, note_of
+from plutoc_runtime.errors import BadInput
+from plutoc_runtime.fly import End, Lived, Setting, Stops, live
+from plutoc_runtime.gateway.gateway import Gateway
+from plutoc_runtime.gateway.ledger import MemoryLedger
+from plutoc_runtime.gateway.link import Link
+from plutoc_runtime.journal import header
+from plutoc_runtime.journal.errors import JournalError
+from plutoc_runtime.journal.store import Store
+from plutoc_runtime.model import Category
+from plutoc_runtime.realtime import RealTime
+from plutoc_runtime.simulation.drones import SimulatedDrone, SimulatedNavigation
+from plutoc_runtime.simulation.faults import Faults
+from plutoc_runtime.simulation.world import World
+from plutoc_runtime.standing import Down
+from plutoc_runtime.status import Status
+from plutoc_runtime.trace import Event
+from tests.runtime import apps
+
+SCOUT = Category(name="scout", speed=1.0)
+AIRSPACE = Airspace(cruise_height=1.0)
+
+
+class Near(Link):
+    """A link to a gateway in this process, which ends with it."""
+
+    async def goodbye(self) -> None:
+        """Nobody need be told."""
+
+    async def close(self) -> None:
+        """Nothing is open."""
+
+
+class Tried:
+    """An app with two trips, its journal and its drone, which outlives the app."""
+
+    def __init__(self, folder: Path) -> None:
+        self.path = folder / "a.journal"
+        self.app = replace(apps.app(apps.flow(), categories=[SCOUT]), resumes=("wait", "allocate"))
+        self.fleet = apps.fleet(airspace=AIRSPACE)
+        self.told: list[Event] = []
+        self.drones = [
+            SimulatedDrone(id=entry.id, category=SCOUT, home=entry.home, index=index)
+            for index, entry in enumerate(self.fleet.drones)
+        ]
+        self.ledger = MemoryLedger()
+        self.gateway: Gateway | None = None
+        self.watch: Callable[[Event], object] = lambda event: None
+        whole = header.header(self.app, missions="", fleet=None, sim=True, seed=0)
+        Store.create(self.path, whole).close()
+
+    @property
+    def missions(self) -> list[apps.Mission]:
+        trips = (
+            apps.Trip(name=name, action="measure", target=(x, 0.5, 1.0))
+            for name, x in (("A", 3.0), ("B", 4.0))
+        )
+        return [apps.mission("m", *trips)]
+
+    async def connect(self, kernel: RealTime, epoch: int, lost: Callable[[], object]) -> Near:
+        """Let new drones stand where they stand: of each life they are new."""
+        world = World(0, AIRSPACE, None)
+        navigation = SimulatedNavigation(kernel, self.drones, world, Faults(), 0, AIRSPACE)
+        self.gateway = Gateway(kernel, navigation, self.drones, AIRSPACE, ledger=self.ledger)
+        link = self.gateway.link(epoch, lost)
+        link.__class__ = Near
+        assert isinstance(link, Near)
+        return link
+
+    def tell(self, event: Event) -> None:
+        self.told.append(event)
+        self.watch(event)
+
+    async def live(self, stops: Stops | None = None) -> Lived:
+        setting = Setting(
+            app=self.app,
+            missions=self.missions,
+            fleet=self.fleet,
+            connect=self.connect,
+            note=note_of(self.path),
+            tell=self.tell,
+            speed=1000.0,
+        )
+        with closing(Store.open(self.path)) as store:
+            return await live(setting, store, stops or Stops())
+
+    def on(self, kind: str, call: Callable[[], object]) -> None:
+        """Call this, once, as soon as there is such an event, from outside of the kernel."""
+
+        def watch(event: Event) -> None:
+            if event["event"] == kind:
+                self.watch = lambda event: None
+                asyncio.get_running_loop().call_soon(call)
+
+        self.watch = watch
+
+    @property
+    def kinds(self) -> list[str]:
+        return [str(event["event"]) for event in self.told]
+
+    @property
+    def journal(self) -> list[dict[str, Any]]:
+        with closing(Store.open(self.path)) as store:
+            return list(store.read().events)
+
+
+@pytest.fixture
+def tried(tmp_path: Path) -> Tried:
+    return Tried(tmp_path)
+
+
+def test_a_life_ends_when_all_missions_have(tried: Tried) -> None:
+    lived = asyncio.run(tried.live())
+    assert lived.end is End.OVER
+    assert [mission.status for mission in lived.missions] == [Status.COMPLETED]
+    assert tried.kinds.count("trip.completed") == 2
+
+
+def test_what_is_told_is_on_record(tried: Tried) -> None:
+    """All of it, in the same order."""
+    asyncio.run(tried.live())
+    written = [(event["t"], event["event"]) for event in tried.journal]
+    assert [(event["t"], event["event"]) for event in tried.told] == written
+
+
+def test_nothing_is_told_before_it_is_on_record(
+    tried: Tried, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """So what somebody has read on a screen is there after a crash."""
+    durable: list[str] = []
+    append = Store.append
+
+    def noted(store: Store, rows: list[str]) -> None:
+        append(store, rows)
+        durable.extend(event["event"] for row in rows for event in json.loads(row))
+
+    def watch(event: Event) -> None:
+        assert len(tried.told) <= len(durable)
+
+    monkeypatch.setattr(Store, "append", noted)
+    tried.watch = watch
+    asyncio.run(tried.live())
+    assert tried.kinds == durable
+
+
+@pytest.mark.parametrize("how", Down)
+def test_a_stopped_app_goes_on_where_it_was(how: Down, tried: Tried) -> None:
+    stops = Stops()
+    tried.on("trip.launched", lambda: stops.stop(how))
+    assert asyncio.run(tried.live(stops)).end is End.STOPPED
+    assert tried.kinds[-1] == "stopped"
+    lived = asyncio.run(tried.live())
+    assert lived.end is End.OVER
+    assert tried.kinds.count("trip.completed") == 2
+    assert tried.kinds.count("mission.created") == 1
+    assert [mission.status for mission in lived.missions] == [Status.COMPLETED]
+    assert [trip.attempt for trip in lived.missions[0].completed_trips] == [1, 1]
+
+
+def test_a_stop_before_the_app_lives_stops_it(tried: Tried) -> None:
+    """Whoever presses Ctrl-C at once means it."""
+    stops = Stops()
+    stops.stop(Down.LAND)
+    assert asyncio.run(tried.live(stops)).end is End.STOPPED
+    assert "trip.launched" not in tried.kinds
+
+
+def test_an_app_whose_gateway_dies_begins_another_life(tried: Tried) -> None:
+    def crash() -> None:
+        assert tried.gateway is not None
+        tried.gateway.crash()
+
+    async def lives() -> list[Lived]:
+        tried.on("trip.launched", crash)
+        return [await tried.live(), await tried.live()]
+
+    first, second = asyncio.run(lives())
+    assert (first.end, second.end) == (End.LOST, End.OVER)
+    assert tried.kinds.count("trip.completed") == 2
+
+
+def test_commands_reach_a_living_app(tried: Tried) -> None:
+    """And what they do is on record."""
+    said: list[object] = []
+
+    async def client() -> None:
+        note = note_of(tried.path)
+        for request in (
+            {"command": "pause", "mission": "m"},
+            {"command": "decide", "mission": "m", "answer": "done"},
+            {"command": "go-on", "mission": "m"},
+        ):
+            try:
+                said.append(await asyncio.to_thread(ask, note, request, 5.0))
+            except BadInput as error:
+                said.append(str(error))
+
+    async def whole() -> Lived:
+        talks: list[Awaitable[None]] = []
+        tried.on("trip.completed", lambda: talks.append(asyncio.ensure_future(client())))
+        lived = await tried.live()
+        await talks[0]
+        return lived
+
+    assert asyncio.run(whole()).end is End.OVER
+    assert said == [
+        'mission "m": paused',
+        'mission "m" is PAUSED: it asks nothing',
+        'mission "m": going on',
+    ]
+    assert tried.kinds.count("mission.paused") == tried.kinds.count("mission.resumed") == 1
+    with pytest.raises(Nobody):
+        ask(note_of(tried.path), {"command": "pause", "mission": None}, 5.0)
+
+
+def test_on_a_full_disk_all_drones_land_and_nothing_more_is_told(
+    tried: Tried, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    append, rows_left = Store.append, [2]
+
+    def full(store: Store, rows: list[str]) -> None:
+        rows_left[0] -= len(rows)
+        if rows_left[0] < 0:
+            store.failure = JournalError("the disk is full")
+            raise store.failure
+        append(store, rows)
+
+    monkeypatch.setattr(Store, "append", full)
+    with pytest.raises(JournalError, match="the disk is full"):
+        asyncio.run(tried.live())
+    assert tried.gateway is not None
+    assert not tried.gateway.flies
+    written = tried.journal
+    assert [event["event"] for event in written[:-1]] == tried.kinds
+    assert "the disk is full" in str(written[-1]["text"])
+
+
+def test_a_snapshot_is_taken_now_and_then(tried: Tried, monkeypatch: pytest.MonkeyPatch) -> None:
+    """And the next life goes on from there."""
+    monkeypatch.setattr("plutoc_runtime.fly.SNAPSHOT_EVERY", 5)  # within a life
+    monkeypatch.setattr("plutoc_runtime.fly.SNAPSHOT_AT_END", 0)
+    stops = Stops()
+    tried.on("trip.completed", lambda: stops.stop(Down.LAND))
+    asyncio.run(tried.live(stops))
+    with closing(Store.open(tried.path)) as store:
+        read = store.read()
+        assert read.snapshot is not None
+        assert read.after > 0
+    lived = asyncio.run(tried.live())
+    assert [mission.status for mission in lived.missions] == [Status.COMPLETED]
