@@ -62,7 +62,9 @@ def blow_of(text: str) -> Blow:
 
 
 def blows_of(text: str) -> tuple[Blow, ...]:
-    """Read several, with commas or spaces between them."""
+    """Read several, with commas or spaces between them; `-` is none."""
+    if text.strip() == "-":
+        return ()
     return tuple(blow_of(part) for part in re.split(r"[,\s]+", text.strip()) if part)
 
 

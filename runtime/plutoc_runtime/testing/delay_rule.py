@@ -53,19 +53,25 @@ class DelaysAreWaited:
         attempt = self._tries.get((mission, trip), 1)
         place = mission, event.get("block"), trip, self._round.get(mission, 0), attempt
         until, now = float(str(event["until"])), float(str(event["t"]))
+        over = float(str(event.get("over", until)))
         last = self._delay.get(mission)
         if last is not None and last.place == place:
-            expected = last.until if last.rest is None else now + last.rest
-            if abs(until - expected) > _ROUNDED:
+            expected = last.over if last.rest is None else now + last.rest
+            if abs(over - expected) > _ROUNDED:
                 self._say(
-                    f"{at(event)}: {trip} of {mission} waits until {until:g} s, "
+                    f"{at(event)}: {trip} of {mission} waits until {over:g} s, "
                     f"not until {expected:g} s as before"
+                )
+            if abs(until - over) > _ROUNDED and abs(until - last.until) > _ROUNDED:
+                self._say(
+                    f"{at(event)}: {trip} of {mission} begins at {until:g} s, "
+                    f"not at {last.until:g} s as before"
                 )
         elif place in self._waited:
             self._say(f"{at(event)}: {trip} of {mission} waits for its delay once more")
         elif last is not None:
             self._waited.add(last.place)
-        self._delay[mission] = _Delay(place, until)
+        self._delay[mission] = _Delay(place, over, until)
 
     def _go_on(self, event: Event) -> None:
         delay = self._delay.pop(event["mission"], None)
@@ -73,11 +79,11 @@ class DelaysAreWaited:
             return
         self._waited.add(delay.place)
         now = float(str(event["t"]))
-        until = delay.until if delay.rest is None else now + delay.rest
-        if now < until - _ROUNDED:
+        over = delay.over if delay.rest is None else now + delay.rest
+        if now < max(over, delay.begins) - _ROUNDED:
             self._say(
                 f"{at(event)}: {event['trip']} of {event['mission']} was given {event['drone']}, "
-                f"and its delay is not over before {until:g} s"
+                f"and its delay is not over before {max(over, delay.begins):g} s"
             )
 
     def _reset(self, event: Event) -> None:
@@ -139,10 +145,12 @@ class DelaysAreWaited:
 class _Delay:
     """One that is not over."""
 
-    __slots__ = ("paused", "place", "rest", "until")
+    __slots__ = ("begins", "over", "paused", "place", "rest", "until")
 
-    def __init__(self, place: Place, until: float) -> None:
-        self.place, self.until = place, until
+    def __init__(self, place: Place, over: float, until: float) -> None:
+        self.place, self.over, self.until = place, over, until
+        self.begins = until if until > over else 0.0
+        """A time of day, for which a Stop changes nothing."""
         self.rest: float | None = None
         """What is left of it, while nobody waits."""
         self.paused = False
@@ -150,9 +158,9 @@ class _Delay:
     def stand(self, event: Event) -> None:
         """From now on nobody waits."""
         if self.rest is None:
-            self.rest = self.until - float(str(event["t"]))
+            self.rest = self.over - float(str(event["t"]))
 
     def run(self, event: Event) -> None:
         """From now on it is waited for."""
         if self.rest is not None:
-            self.until, self.rest = float(str(event["t"])) + self.rest, None
+            self.over, self.rest = float(str(event["t"])) + self.rest, None

@@ -1,0 +1,131 @@
+"""`plutoc test`, within the app that was compiled for it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from copy import deepcopy
+from typing import TYPE_CHECKING, Any
+
+from ..cli import output
+from ..cli.as_json import dumped
+from ..cli.progress import on_terminal
+from ..errors import BadInput
+from ..fields import Entity, FieldType
+from ..files.fleet import default_fleet, load_fleet
+from ..files.missions import load_missions
+from ..plan_check import problems
+from .case import FAIR, Case
+from .explore import Finding, Tally, drawn_case, everywhere, explored, small_case
+from .options import Options, parse
+from .report import findings_data, report, shown_again
+from .rig import tried
+from .shrink import shrunk
+
+if TYPE_CHECKING:
+    from ..app import App
+    from ..files.fleet import FleetFile
+    from ..model import Mission
+
+FOUND, BAD_INPUT = 1, 2
+
+STRUCK_EVERYWHERE = 3
+"""Of so many seeds, what can strike does so at every row of the journal."""
+ENOUGH = 5
+"""After so many findings nobody looks for more."""
+
+
+def test(app: App, argv: Sequence[str]) -> int:
+    """Try the app, say what was found, and return the exit code."""
+    try:
+        options = parse(argv)
+    except SystemExit as end:
+        return end.code if isinstance(end.code, int) else BAD_INPUT
+    try:
+        return _tried(app, options)
+    except BadInput as error:
+        output.tell(str(error))
+        return BAD_INPUT
+
+
+def _tried(app: App, options: Options) -> int:
+    fleet = load_fleet(options.fleet, app) if options.fleet else default_fleet(app)
+    missions = _missions(app, fleet, options)
+    if options.single:
+        return _once_more(app, fleet, options, missions)
+    tally = Tally()
+    progress = on_terminal(quiet=options.json)
+
+    def enough(tally: Tally) -> bool:
+        progress.update(len(seen) / options.seeds, f"{tally.runs} runs, {len(seen)} seeds")
+        return len(tally.findings) >= ENOUGH
+
+    seen: list[int] = []
+    try:
+        explored(app, _cases(app, fleet, options, missions, seen), tally, enough)
+        smallest = _smallest(app, tally.findings)
+    finally:
+        progress.clear()
+    if options.json:
+        output.line(dumped(findings_data(app, tally, smallest)))
+    else:
+        for line in report(app, options, tally, smallest):
+            output.line(line)
+    return FOUND if tally.findings else 0
+
+
+def _cases(
+    app: App, fleet: FleetFile, options: Options, missions: Sequence[Mission[Any]], seen: list[int]
+) -> Iterator[Case]:
+    for seed in range(options.seed, options.seed + options.seeds):
+        seen.append(seed)
+        yield drawn_case(app, fleet, seed, missions)
+        if len(seen) <= STRUCK_EVERYWHERE:
+            yield from everywhere(app, small_case(app, fleet, seed, missions))
+
+
+def _smallest(app: App, findings: Sequence[Finding]) -> Finding | None:
+    """Make the first finding small; it must still show the same kind of thing."""
+    if not findings:
+        return None
+    first = findings[0]
+    small = shrunk(first.case, lambda case: bool(tried(app, case).wrong))
+    return Finding(case=small, sentences=tried(app, small).wrong)
+
+
+def _once_more(
+    app: App, fleet: FleetFile, options: Options, missions: Sequence[Mission[Any]]
+) -> int:
+    drawn = small_case(app, fleet, options.seed, missions)
+    case = Case(
+        seed=options.seed,
+        missions=drawn.missions,
+        fleet=fleet,
+        weather=options.weather or FAIR,
+        blows=options.strike or (),
+    )
+    trial = tried(app, case)
+    if options.json:
+        tally = Tally(runs=1, rows=trial.rows, lives=trial.lives, fired=trial.fired)
+        finding = Finding(case=case, sentences=trial.wrong) if trial.wrong else None
+        output.line(dumped(findings_data(app, tally, finding)))
+    else:
+        for line in shown_again(trial):
+            output.line(line)
+    return FOUND if trial.wrong else 0
+
+
+def _missions(app: App, fleet: FleetFile, options: Options) -> list[Mission[Any]]:
+    """Return the missions of the file, if there is one; what repeats for ever repeats once."""
+    if options.missions is None:
+        return []
+    missions = load_missions(options.missions, app, fleet.airspace)
+    found = problems(missions, app, fleet, fleet.airspace)
+    if found:
+        raise BadInput("\n".join(f"{options.missions}: {sentence}" for sentence in found))
+    missions = deepcopy(missions)
+    for field in app.fields:
+        if field.on is Entity.MISSION and field.type is FieldType.ROUNDS:
+            for mission in missions:
+                if getattr(mission, field.name) is True:
+                    setattr(mission, field.name, 1)
+    return missions

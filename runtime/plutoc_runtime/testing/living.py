@@ -1,0 +1,242 @@
+"""One life of an app in a trial: what it writes down, what strikes it, and how it ends."""
+
+from __future__ import annotations
+
+import json
+from collections import deque
+from copy import deepcopy
+from functools import partial
+from typing import TYPE_CHECKING
+
+from ..errors import BadInput
+from ..kernel import Cancelled
+from ..life import Life
+from ..standing import Down
+from .blows import BY_HAND, DEATHS, STOPS, Blow, Kind
+from .brain import BrainTime
+from .invariants import ENDS
+from .survival import Known, forgotten, known_of
+from .wire import Wire
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from ..journal.fold import Records
+    from ..trace import Event
+    from .rig import Rig
+
+THINKS = 20.0
+"""Seconds after which a person looks, and decides."""
+STOPPED = 45.0
+"""Seconds for which an app that was stopped stays so."""
+
+
+class Living:
+    """One life, in the rig."""
+
+    def __init__(self, rig: Rig, records: Records) -> None:
+        self.rig, case = rig, rig.case
+        now = max(rig.world.now + rig.skew, records.time)
+        rig.skew = now - rig.world.now
+        self.kernel = BrainTime(now, case.weather, rig.chance, rig.fired, rig.hook_done)
+        link = rig.gateway.link(rig.lives, self.lost)
+        self.wire = Wire(link, rig.gateway, self.kernel, case.weather.slow, rig.fired)
+        self.added = self.committed = 0
+        self.unwritten: deque[tuple[int, str, list[Event], dict[str, Known]]] = deque()
+        self.full = False
+        fresh = not records.missions
+        self.before = {} if fresh else dict(rig.known)
+        self.life = Life(
+            rig.app,
+            case.fleet,
+            self.kernel,
+            self.wire,
+            self,
+            records,
+            epoch=rig.lives,
+        )
+        self.life.control.stopped.watch(self.stopped)
+        self.task = self.life.go_on(deepcopy(case.missions))
+        self.due: list[Callable[[], object]] = []
+        rig.later(THINKS, self.person)
+
+    def take_turn(self) -> None:
+        """Let it do what is due."""
+        kernel, rig = self.kernel, self.rig
+        kernel.drain()
+        if kernel.settled is not None:
+            kernel.settled()
+        rig.raise_from(kernel)
+        due, self.due = self.due, []
+        for call in due:
+            call()
+        error = self.task.error
+        if rig.brain is not self or not self.task.is_set or isinstance(error, Cancelled):
+            return
+        if error is not None:
+            rig.blame(error)
+        elif self.committed == self.added:  # else what happened last is not durable yet
+            rig.ended(self)
+
+    # The journal
+
+    def add(self, row: str) -> int:
+        """Take the row of an instant."""
+        rig = self.rig
+        self.added += 1
+        rig.count += 1
+        events: list[Event] = json.loads(row)
+        touched = {str(event["mission"]) for event in events if "mission" in event}
+        known = {
+            mission.name: known_of(rig.app, mission)
+            for mission in self.life.recorder.missions.values()
+            if mission.name in touched
+        }
+        self.look_back(events)
+        struck = [blow for blow in rig.case.blows if blow.row == rig.count]
+        kinds = {blow.kind for blow in struck if not blow.after}
+        if Kind.DISK in kinds:
+            self.full = True
+            rig.fired["disk full"] += 1
+            rig.later(0.5, partial(self.die_of, "disk full"))
+        lost = self.full or Kind.LOST in kinds
+        if not lost:
+            self.unwritten.append((self.added, row, events, known))
+            commit = partial(self.commit, self.added, Kind.KEPT not in kinds)
+            if kinds & {Kind.KEPT, Kind.CRASH} or not rig.case.weather.disk:
+                self.due.append(commit)
+            else:
+                rig.fired["slow disk"] += 1
+                rig.later(rig.case.weather.disk, commit)
+        for blow in struck:
+            if blow.kind is not Kind.DISK:
+                self.due.append(partial(self.plan, blow, events))
+        return self.added
+
+    def commit(self, number: int, told: bool) -> None:
+        """All rows up to this one are durable, if the disk was as fast as the brain's death."""
+        if self.rig.brain is not self or self.full or number <= self.committed:
+            return
+        while self.unwritten and self.unwritten[0][0] <= number:
+            self.committed, row, events, known = self.unwritten.popleft()
+            self.rig.commit(row, events, known)
+        if told:
+            self.kernel.post(self.life.recorder.durable, number)
+
+    def look_back(self, events: list[Event]) -> None:
+        """See, once it is known again, what has been forgotten since the last life."""
+        now = {mission.name: mission for mission in self.life.missions}
+        if not now:
+            return
+        before, self.before = self.before, {}
+        for name, known in before.items():
+            if name not in now:
+                self.rig.found.append(f"{name} was forgotten")
+            elif self.rig.ends.get(name) not in ENDS:
+                after = known_of(self.rig.app, now[name])
+                said = forgotten(name, known, after, events)
+                self.rig.found += [f"{self.kernel.now:g} s: {sentence}" for sentence in said]
+
+    # What strikes
+
+    def plan(self, blow: Blow, events: list[Event]) -> None:
+        if blow.after:
+            self.rig.later(blow.after, partial(self.strike, blow, events))
+        else:
+            self.strike(blow, events)
+
+    def strike(self, blow: Blow, events: list[Event]) -> None:
+        """Something strikes: the brain that wrote the row, or whichever lives by now."""
+        rig, kind = self.rig, blow.kind
+        brain = rig.brain
+        if kind is Kind.GATEWAY:
+            rig.fired[kind.value] += 1
+            self.lose_gateway()
+        elif kind is Kind.REBOOT:
+            named = [str(event["drone"]) for event in events if event.get("drone")]
+            rig.fired[kind.value] += 1
+            rig.navigation.reboot((named or [rig.drones[0].id])[-1])
+        elif brain is None:
+            return
+        elif kind in DEATHS:
+            rig.fired[kind.value] += 1
+            rig.lose_brain(rig.case.weather.down)
+        elif kind is Kind.CUT:
+            rig.fired[kind.value] += 1
+            rig.gateway.cut()
+        elif kind in STOPS:
+            rig.fired[kind.value] += 1
+            how = Down.HOME if kind is Kind.RTL else Down.LAND
+            brain.kernel.post(brain.life.control.stop, how)
+        elif kind in BY_HAND:
+            brain.by_hand(kind, events)
+
+    def by_hand(self, kind: Kind, events: list[Event]) -> None:
+        named = [str(event["mission"]) for event in events if event.get("mission")]
+        mission = (named or [mission.name for mission in self.rig.case.missions])[-1]
+        control = self.life.control
+        tell: dict[Kind, Callable[[str], str]] = {
+            Kind.PAUSE: control.pause,
+            Kind.SKIP: control.skip,
+            Kind.CANCEL: control.cancel,
+        }
+        if self.told(partial(tell[kind], mission)):
+            self.rig.fired[kind.value] += 1
+            if kind is Kind.PAUSE:
+                self.rig.later(THINKS, self.person)
+
+    def told(self, command: Callable[[], object]) -> bool:
+        try:
+            command()
+        except BadInput:
+            return False
+        return True
+
+    def person(self) -> None:
+        """Somebody looks, lets go on what is paused, and decides what waits."""
+        rig = self.rig
+        if rig.brain is not self:
+            return
+        if self.told(self.life.control.go_on):
+            rig.fired["go on"] += 1
+        for name, record in list(self.life.recorder.records.missions.items()):
+            if not record["ended"] and (record["question"] or record["held"]):
+                decide = partial(self.life.control.decide, name, rig.answer(self, name))
+                if self.told(decide):
+                    rig.fired["decision"] += 1
+        if any(record["paused"] for record in self.life.recorder.records.missions.values()):
+            rig.later(THINKS, self.person)
+
+    def lost(self) -> None:
+        """Brain and gateway have lost one another: the brain begins anew from its own journal."""
+        if self.rig.brain is self:
+            self.rig.lose_brain(0.5)
+
+    def lose_gateway(self) -> None:
+        rig = self.rig
+        rig.gateway.crash()
+        rig.gateway = rig.new_gateway()
+
+    def die_of(self, _: str) -> None:
+        if self.rig.brain is self:
+            self.rig.lose_brain(self.rig.case.weather.down)
+
+    def stopped(self, _: object) -> None:
+        """Everything is down: somebody goes on later."""
+        self.due.append(self.rest)
+
+    def rest(self) -> None:
+        if self.rig.brain is self:
+            self.rig.brain = None
+            self.wire.alive = False
+            self.rig.gateway.cut()
+            self.die()
+            self.rig.later(STOPPED, self.rig.be_born)
+
+    def corpse(self) -> None:
+        """Nobody has noticed yet: what it was doing in the air goes on to its end."""
+
+    def die(self) -> None:
+        """Nothing of it goes on."""
+        self.kernel.over = True
+        self.kernel.close()

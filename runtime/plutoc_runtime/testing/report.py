@@ -1,0 +1,107 @@
+"""What `plutoc test` says: what struck, what was found, and the smallest case that shows it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from ..cli.events import line_of
+from ..cli.report import table
+from ..words import counted, printable
+from .blows import blows_text
+from .case import weather_text
+from .plan_text import fleet_text, missions_text
+
+if TYPE_CHECKING:
+    from ..app import App
+    from .explore import Finding, Tally
+    from .options import Options
+    from .rig import Trial
+
+_MOST_EVENTS = 200
+
+
+def report(app: App, options: Options, tally: Tally, smallest: Finding | None) -> Iterator[str]:
+    """Yield the lines for a person."""
+    yield from table(
+        ("what struck", "how often"),
+        [(what, str(times)) for what, times in sorted(tally.fired.items())],
+        right=(1,),
+    )
+    yield ""
+    ends = ", ".join(f"{times} {status}" for status, times in sorted(tally.missions.items()))
+    lives = f"{counted(tally.runs, 'run')} in {counted(tally.lives, 'life', 'lives')} of the app"
+    yield f"{lives}: {counted(tally.missions.total(), 'mission')} ended ({ends})"
+    if smallest is None:
+        yield "No run did what no run may do."
+        return
+    seeds = dict.fromkeys(str(finding.case.seed) for finding in tally.findings)
+    yield f"Something is wrong, with seed {', '.join(seeds)}. The smallest case that shows it:"
+    yield ""
+    for sentence in smallest.sentences:
+        yield f"  {printable(sentence)}"
+    yield ""
+    yield "# failing.toml"
+    yield from missions_text(app, smallest.case.missions).rstrip().split("\n")
+    if smallest.case.fleet.world is None:
+        yield ""
+        yield "# failing-fleet.toml"
+        yield from fleet_text(smallest.case.fleet).rstrip().split("\n")
+    yield ""
+    yield "Save that, and see it again:"
+    yield "  " + _again(options, smallest)
+
+
+def _again(options: Options, finding: Finding) -> str:
+    case = finding.case
+    fleet = "failing-fleet.toml" if case.fleet.world is None else str(options.fleet)
+    words = [
+        "plutoc test APP.pluto --missions failing.toml",
+        f"--fleet {fleet} --seed {case.seed}",
+    ]
+    weather = weather_text(case.weather)
+    if case.blows or not weather:
+        words.append(f"--strike {blows_text(case.blows) or '-'}")
+    if weather:
+        words.append(f"--weather {weather}")
+    return " ".join(words)
+
+
+def shown_again(trial: Trial) -> Iterator[str]:
+    """Yield what happened in one case, and what of it may not be."""
+    lines = [line for event in trial.events if (line := line_of(event)) is not None]
+    yield from lines[-_MOST_EVENTS:]
+    yield ""
+    for sentence in trial.wrong:
+        yield printable(sentence)
+    if not trial.wrong:
+        yield "This run did nothing that no run may do."
+
+
+def findings_data(app: App, tally: Tally, smallest: Finding | None) -> dict[str, object]:
+    """Return the object that `--json` prints."""
+    return {
+        "app": app.name,
+        "runs": tally.runs,
+        "lives": tally.lives,
+        "rows": tally.rows,
+        "missions": dict(sorted(tally.missions.items())),
+        "struck": dict(sorted(tally.fired.items())),
+        "findings": [
+            {"seed": finding.case.seed, "what": list(finding.sentences)}
+            for finding in tally.findings
+        ],
+        "smallest": None if smallest is None else _data(app, smallest),
+    }
+
+
+def _data(app: App, finding: Finding) -> dict[str, object]:
+    case = finding.case
+    return {
+        "what": list(finding.sentences),
+        "seed": case.seed,
+        "strike": blows_text(case.blows),
+        "weather": weather_text(case.weather),
+        "missions": missions_text(app, case.missions),
+        "fleet": fleet_text(case.fleet) if case.fleet.world is None else None,
+    }
