@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 from plutoc_runtime.actions import BUILT_IN, Plain
 from plutoc_runtime.airspace import Airspace
+from plutoc_runtime.gateway.file_ledger import FileLedger
 from plutoc_runtime.gateway.gateway import Gateway
 from plutoc_runtime.gateway.ledger import MemoryLedger
 from plutoc_runtime.kernel import FLEET, Kernel
@@ -66,7 +67,7 @@ class Field:
         self.navigation = SimulatedNavigation(
             self.kernel, self.drones, world, faults or Faults(), 1, self.airspace
         )
-        self.ledger = MemoryLedger()
+        self.ledger: MemoryLedger | FileLedger = MemoryLedger()
         self.patience = patience
         self.gateway = self.another()
 

@@ -67,6 +67,8 @@ class Body:
         """What it is doing; one thing at a time."""
         self.over: Signal[None] | None = None
         """Happens when that is done, if it takes time; fails if it is broken off."""
+        self.cut_short = FlightFailed(Failure.REFUSED, "it was broken off")
+        """Why, the last time that this was so."""
         self.boot = 0
         """How often it was switched off and on again."""
         self.done: dict[str, object] = {}
@@ -188,6 +190,11 @@ class Body:
         self.settle(now)
         if self.down is not None:
             raise FlightFailed(self.down.failure, str(self.down))
+
+    def unload(self) -> None:
+        """Take off what it carries."""
+        self.carries = None
+        self._changed()
 
     def befall(self, now: float, what: Failure) -> bool:
         """Let something go wrong at this moment; False: it took no commands before."""

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from ..actions import BUILT_IN, PICK, RELEASE, Plain
 from ..energy import CLIMB_SPEED, flight_seconds
 from ..errors import Failure, FlightFailed
-from ..kernel import Kernel, Kind, Task
+from ..kernel import Cancelled, Kernel, Kind, Task
 from ..navigation import permitted_way
 from ..signals import Signal
 from ..words import place
@@ -50,7 +50,9 @@ class SimulatedNavigation:
         self._faults, self._seed = faults, seed
         self._jobs: dict[str, Task[None]] = {}
         """The jobs under way, by the drones' ids."""
-        self._record = record
+        self._rescues: dict[str, Task[bool]] = {}
+        """The latest rescue of each drone."""
+        self.record = record
         """Told of everything that drones do to the world, right before it is so."""
         self.bodies = {drone.id: Body(drone, kernel.time) for drone in drones}
 
@@ -87,7 +89,7 @@ class SimulatedNavigation:
         """Let what it does end here with an error."""
         over = body.over
         if over is not None:
-            body.over, body.command = None, ""
+            body.over, body.command, body.cut_short = None, "", why
             over.fail(why)
 
     def fly(self, job: Job, report: Callable[[object], None]) -> None:
@@ -98,15 +100,13 @@ class SimulatedNavigation:
 
     def break_off(self, drone: str) -> None:
         """Stop whatever a drone does, and hover."""
-        task = self._jobs.pop(drone, None)
-        if task is not None:
-            task.cancel()
-            return
+        for task in (self._jobs.pop(drone, None), self._rescues.pop(drone, None)):
+            if task is not None:
+                task.cancel()
         body = self.bodies[drone]
         if body.over is not None:
             body.halt(self._kernel.now)
-            why = FlightFailed(Failure.REFUSED, f"{drone} was told to break it off")
-            self._interrupt(body, why)
+            self._interrupt(body, _broken_off(drone))
 
     async def _done(self, job: Job, report: Callable[[object], None]) -> None:
         drone, body = job.drone, self.bodies[job.drone]
@@ -168,7 +168,7 @@ class SimulatedNavigation:
             raise action_failed(body, f"{action} failed", problem)
         value = self._value(body, action, parameters)
         aboard = item if action == PICK else None if action == RELEASE else body.carries
-        if self._record is not None:
+        if self.record is not None:
             deed = Deed(
                 drone=drone,
                 action=action,
@@ -178,7 +178,7 @@ class SimulatedNavigation:
                 value=value,
                 aboard=aboard,
             )
-            self._record(deed)
+            self.record(deed)
         body.carries = aboard
         if job is not None:
             body.done[job] = value
@@ -205,6 +205,17 @@ class SimulatedNavigation:
         Whoever meets it there takes off what it still carries.
         """
         body = self.bodies[drone]
+        rescue = self._kernel.spawn(self._rescue(body), body.key, f"{drone} is brought home")
+        self._rescues[drone] = rescue
+        try:
+            await rescue.ended()
+        finally:
+            rescue.cancel()
+        if isinstance(rescue.error, Cancelled):
+            raise _broken_off(drone)
+        return rescue.result()
+
+    async def _rescue(self, body: Body) -> bool:
         body.settle(self._kernel.now)
         if body.down is not None and body.down.failure is Failure.LINK:
             await self._wait_until(body, max(body.down_since + OUTAGE, body.arrives))
@@ -213,7 +224,7 @@ class SimulatedNavigation:
         if not await self._flies_home(body):
             await self._wait_until(body, self._kernel.now + CARRYING_HOME)
             body.dock(self._kernel.now)
-        body.carries = None
+        body.unload()
         return True
 
     async def roll_call(self, drone: str) -> Standing:
@@ -273,8 +284,11 @@ class SimulatedNavigation:
             raise
         finally:
             timer.cancel()
-            if body.over is over:
+            is_its_own = body.over is over
+            if is_its_own:
                 body.command, body.over = "", None
+        if not is_its_own:  # its time had come, but before its turn did, it was broken off
+            raise body.cut_short
 
     def _in_the_air(self, drone: str) -> Body:
         body = self.bodies[drone]
@@ -292,3 +306,7 @@ class SimulatedNavigation:
             return self._world.photo(body.location, self._kernel.now)
         quantity = parameters.get("quantity", BUILT_IN["measure"].parameters[0].default)
         return self._world.measure(str(quantity), body.location, self._kernel.now)
+
+
+def _broken_off(drone: str) -> FlightFailed:
+    return FlightFailed(Failure.REFUSED, f"{drone} was told to break it off")

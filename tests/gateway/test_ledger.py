@@ -1,0 +1,220 @@
+"""The ledger: whatever is torn, lost or killed, nothing that was done is flown again."""
+
+from __future__ import annotations
+
+import os
+from functools import partial
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from plutoc_runtime.errors import Failure, FlightFailed
+from plutoc_runtime.gateway.file_ledger import FileLedger
+from plutoc_runtime.model import Photo
+from plutoc_runtime.simulation.deeds import Deed
+from plutoc_runtime.standing import Entry, JobState
+from plutoc_runtime.virtual import VirtualTime
+from tests.gateway.flights import Field, Task
+from tests.runtime.simulation.flights import fly
+
+PHOTO = Photo(position=(1.0, 2.0, 3.0), width=1.5, height=1.0, sees=("bloom",), sharpness=0.9)
+
+
+def entry(id: str, state: JobState = JobState.DONE, value: object = None) -> Entry:
+    """Return a job as it is written down."""
+    return Entry(id=id, drone="cf1", state=state, boot=3, value=value)
+
+
+def kept(path: Path) -> dict[str, JobState]:
+    """Return what another process finds."""
+    ledger = FileLedger(path)
+    ledger.close()
+    return {entry.id: entry.state for entry in ledger.entries()}
+
+
+def test_what_was_written_is_there_for_the_next_process(tmp_path: Path) -> None:
+    """The last word on each job counts; photos come back whole."""
+    ledger = FileLedger(tmp_path / "ledger")
+    ledger.write(entry("a", JobState.BEGUN))
+    ledger.write(entry("b"))
+    ledger.write(entry("a", value=PHOTO))
+    ledger.forget("b")
+    ledger.close()
+    assert list(FileLedger(tmp_path / "ledger").entries()) == [entry("a", value=PHOTO)]
+
+
+def test_a_line_that_was_never_finished_is_no_line(tmp_path: Path) -> None:
+    """Cut anywhere, it is as if the last change had not been made; and writing goes on."""
+    path = tmp_path / "ledger"
+    ledger = FileLedger(path)
+    ledger.write(entry("a"))
+    whole = path.stat().st_size
+    ledger.write(entry("b", JobState.BEGUN))
+    ledger.close()
+    told = path.read_bytes()
+    for end in range(whole, len(told)):
+        path.write_bytes(told[:end])
+        ledger = FileLedger(path)
+        assert [entry.id for entry in ledger.entries()] == ["a"]
+        assert ledger.is_whole
+        ledger.write(entry("c"))
+        ledger.close()
+        assert list(kept(path)) == ["a", "c"]
+
+
+def test_a_damaged_line_is_not_believed(tmp_path: Path) -> None:
+    """Whichever byte it is; the ledger knows that something is missing."""
+    path = tmp_path / "ledger"
+    ledger = FileLedger(path)
+    for id in "abc":
+        ledger.write(entry(id))
+    ledger.close()
+    told = path.read_bytes()
+    for place in range(len(told)):
+        path.write_bytes(told[:place] + bytes([told[place] ^ 4]) + told[place + 1 :])
+        damaged = FileLedger(path)
+        damaged.close()
+        assert all(known == entry(known.id) for known in damaged.entries())
+        assert not damaged.is_whole or len(list(damaged.entries())) == 2  # its last end of line
+
+
+def test_where_the_ledger_was_damaged_drones_are_believed() -> None:
+    """They remember what they did since they were switched on."""
+    field, heard = Field(), list[object]()
+    field.gateway.link(1).fly(Task(), heard.append)
+    field.advance(50)
+    field.gateway.crash()
+    field.ledger.forget(Task().id)
+    field.ledger.is_whole = False
+    link = field.another().link(2)
+    assert isinstance(field.kernel, VirtualTime)
+    assert fly(field.kernel, link.call()).jobs[Task().id].state is JobState.DONE
+    link.fly(job := Task(), heard.append)
+    field.advance(50)
+    assert (heard, job.begun) == ([None, None], 0)
+
+
+def test_the_file_does_not_grow_for_ever(tmp_path: Path) -> None:
+    """What was forgotten is left out when the next process begins."""
+    path = tmp_path / "ledger"
+    ledger = FileLedger(path)
+    ledger.write(entry("stays"))
+    for number in range(1002):
+        ledger.forget(str(number))
+    ledger.close()
+    before = path.stat().st_size
+    assert kept(path) == {"stays": JobState.DONE}
+    assert path.stat().st_size < before / 100
+    assert kept(path) == {"stays": JobState.DONE}
+
+
+def test_an_action_that_cannot_be_written_down_is_not_begun(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """On a full disk, the job fails and says why; the drone is well."""
+    field, heard = Field(), list[object]()
+
+    def full(_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(field.ledger, "write", full)
+    field.gateway.link(1).fly(job := Task(), heard.append)
+    field.advance(50)
+    (error,) = heard
+    assert isinstance(error, FlightFailed)
+    assert error.failure is Failure.REFUSED
+    assert "pick_item was not begun: it cannot be written down before" in str(error)
+    assert (job.begun, field.navigation.carrying("cf1")) == (0, None)
+
+
+def test_a_full_disk_leaves_the_ledger_as_it_was(tmp_path: Path) -> None:
+    """Half a line is taken out again, and when there is room, writing goes on."""
+    path = tmp_path / "ledger"
+    ledger = FileLedger(path)
+    ledger.write(entry("a"))
+    before = path.read_bytes()
+    real = os.write
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(os, "write", lambda file, text: real(file, text[:10]))
+        with pytest.raises(OSError, match="no space"):
+            ledger.write(entry("b"))
+        ledger.forget("a")
+    assert path.read_bytes() == before
+    ledger.write(entry("c"))
+    ledger.close()
+    assert list(kept(path)) == ["a", "c"]
+
+
+moments = st.lists(
+    st.tuples(st.sampled_from(["wait", "brain", "gateway", "reboot"]), st.integers(0, 9)),
+    max_size=12,
+)
+
+
+@settings(max_examples=60)
+@given(moments, st.booleans())
+def test_no_sequence_of_crashes_does_anything_twice(
+    crashes: list[tuple[str, int]], in_a_file: bool
+) -> None:
+    """Each brain does as brains do: it calls the roll, attaches, and flies what was not done.
+
+    What nobody knows is left to a person, who is not asked here: it is not flown again.
+    """
+    with TemporaryDirectory() as folder:
+        field = Field()
+        deeds: list[Deed] = []
+        field.navigation.record = deeds.append
+        if in_a_file:
+            field.ledger = FileLedger(Path(folder) / "ledger")
+            field.another()
+        assert isinstance(field.kernel, VirtualTime)
+        jobs = [Task(id=f"{n}", drone=f"cf{n + 1}", stops=((2.0 + n, 3.0, 1.2),)) for n in range(2)]
+        reported: dict[str, object] = {}
+        unknown: set[str] = set()
+        epoch = 0
+
+        def begin() -> None:
+            nonlocal epoch
+            epoch += 1
+            link = field.gateway.link(epoch)
+            assert isinstance(field.kernel, VirtualTime)
+            roll = fly(field.kernel, link.call())
+            for job in jobs:
+                known = roll.jobs.get(job.id)
+                state = None if known is None else known.state
+                if job.id in reported:
+                    assert state is JobState.DONE
+                    continue
+                if known is not None and (known.flies or state is JobState.DONE):
+                    link.attach(job.id, partial(reported.setdefault, job.id))
+                elif state is JobState.BEGUN:
+                    unknown.add(job.id)
+                elif not roll.drones[job.drone].reached:
+                    field.kernel.spawn(link.recover(job.drone), 0, "recover")
+                else:
+                    link.fly(job, partial(reported.setdefault, job.id))
+
+        begin()
+        for what, seconds in crashes:
+            field.advance(seconds)
+            if what == "reboot":
+                field.navigation.reboot("cf1")
+            if what == "gateway":
+                field.gateway.crash()
+                if isinstance(field.ledger, FileLedger):
+                    field.ledger.close()
+                    field.ledger = FileLedger(Path(folder) / "ledger")
+                field.another()
+            if what != "wait":
+                begin()
+        field.advance(500)
+        begin()
+        field.advance(500)
+        done = [deed.job for deed in deeds]
+        assert len(done) == len(set(done))
+        assert not unknown & set(reported)
+        if isinstance(field.ledger, FileLedger):
+            field.ledger.close()
