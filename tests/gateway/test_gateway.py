@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from plutoc_runtime.errors import BadInput, Failure, FlightFailed
+from plutoc_runtime.gateway.link import Busy
 from plutoc_runtime.kernel import FLEET
 from plutoc_runtime.simulation.faults import Faults
 from plutoc_runtime.standing import Down, JobState, RollCall
@@ -253,3 +254,22 @@ def test_without_a_ledger_nothing_is_kept_of_what_is_over() -> None:
     field.advance(100)
     assert isinstance(field.kernel, VirtualTime)
     assert fly(field.kernel, link.call()).jobs == {}
+
+
+def test_who_tells_a_drone_two_things_at_once_is_told_of_the_mistake() -> None:
+    """It is the brain's, and no failed flight."""
+    field = Field()
+    link = field.gateway.link(1)
+    link.fly(Task(), lambda _: None)
+    assert isinstance(field.kernel, VirtualTime)
+    with pytest.raises(Busy, match="cf1 was told to do something while it does something else"):
+        fly(field.kernel, link.land("cf1"))
+    field.kernel.close()
+    field = Field()
+    link = field.gateway.link(1)
+    field.kernel.spawn(link.takeoff("cf1", 1.2), FLEET, "an errand")
+    field.advance(1)
+    with pytest.raises(Busy, match="cf1 was told to fly while it does something for itself"):
+        link.fly(Task(), lambda _: None)
+    assert isinstance(field.kernel, VirtualTime)
+    assert not fly(field.kernel, link.roll_call("cf1")).landed

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Coroutine, Sequence
+from collections.abc import Callable, Coroutine, Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import pairwise
 from math import floor
 from typing import TYPE_CHECKING, Any, Protocol
@@ -19,6 +20,8 @@ if TYPE_CHECKING:
     from ..airspace import Airspace
     from ..model import Category, Point
     from ..navigation import Navigation
+
+_Command = Callable[[], Coroutine[Any, Any, None]]
 
 
 class Craft(Protocol):
@@ -98,7 +101,7 @@ class Descent:
             spot = free_spot(self._airspace, here, taken, self._apart)
             taken.append(spot)
             there = (spot[0], spot[1], here[2])
-            tasks.append(self._send(drone, self._land_at(drone, there)))
+            tasks.append(self._send(drone, partial(self._land_at, drone, there)))
         return tasks
 
     async def _land_at(self, drone: Craft, place: Point) -> None:
@@ -114,14 +117,14 @@ class Descent:
         for first in range(0, len(drones), heights):
             stay, ways = self._ways(drones[first : first + heights], lowest)
             landing = self._landings(stay)
-            climbing = [(way, self._send(way.drone, self._climb(way))) for way in ways]
+            climbing = [(way, self._send(way.drone, partial(self._climb, way))) for way in ways]
             up = [way for way, task in climbing if await task]
             for task in landing:
                 await task
             tasks: dict[_Way, Task[bool]] = {}
             for way in up:
                 below = [(other, tasks[other]) for other in tasks]
-                tasks[way] = self._send(way.drone, self._follow(way, below))
+                tasks[way] = self._send(way.drone, partial(self._follow, way, below))
             for task in tasks.values():
                 await task
 
@@ -159,7 +162,7 @@ class Descent:
                 await task
         await self._navigation.land(way.drone.id)
 
-    def _send(self, drone: Craft, command: Coroutine[Any, Any, None]) -> Task[bool]:
+    def _send(self, drone: Craft, command: _Command) -> Task[bool]:
         key = FLEET + 1 + drone.index
         task = self._kernel.spawn(_well(command), key, f"{drone.id} comes down")
         self._tasks.append(task)
@@ -177,10 +180,10 @@ class Descent:
         return self._navigation.telemetry(drone.id).landed
 
 
-async def _well(command: Coroutine[Any, Any, None]) -> bool:
+async def _well(command: _Command) -> bool:
     """Say whether a drone could do it; whatever keeps it, it keeps no other."""
     try:
-        await command
+        await command()
     except FlightFailed:
         return False
     return True

@@ -98,6 +98,11 @@ class Jobs:
             if self._ledger is None:
                 self._known.pop(job.id, None)
 
+    def is_flown_by(self, drone: str) -> bool:
+        """Say whether a drone flies a job now."""
+        job = self._current.get(drone)
+        return job is not None and job.flies
+
     # What becomes of whoever listens
 
     def mute(self) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Coroutine
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
-from ..errors import FlightFailed
+from ..errors import Failure, FlightFailed
 from ..kernel import FLEET, Kind
 from ..signals import Signal
 
@@ -17,6 +17,15 @@ if TYPE_CHECKING:
     from .given import Report
 
 T = TypeVar("T")
+
+
+class Busy(RuntimeError):
+    """A drone was told to do a second thing at once: a mistake of the brain, not of a flight."""
+
+    @property
+    def as_failure(self) -> FlightFailed:
+        """The same for a brain in another process."""
+        return FlightFailed(Failure.REFUSED, str(self))
 
 
 class Link:
@@ -43,6 +52,8 @@ class Link:
     def fly(self, job: Job, report: Report) -> None:
         """Give a drone its job. One that was done already is not flown, but reported once more."""
         if self._is_heard:
+            if job.drone in self._under_way:
+                raise Busy(f"{job.drone} was told to fly while it does something for itself")
             self._gateway.jobs.fly(job, report if self._line is None else self._line(report))
 
     def break_off(self, drone: str) -> None:
@@ -74,13 +85,19 @@ class Link:
 
     async def roll_call(self, drone: str) -> Standing:
         """Ask a drone where it is and what it has done."""
-        return await self._command(drone, self._navigation.roll_call(drone))
+        standing = await self._navigation.roll_call(drone)
+        if not self._is_heard:
+            await _for_ever()
+        return standing
 
     async def _command(self, drone: str, command: Coroutine[Any, Any, T]) -> T:
         """Let a drone do something, and return when it has; never, once nobody is heard."""
         if not self._is_heard:
             command.close()
             await _for_ever()
+        if drone in self._under_way or self._gateway.jobs.is_flown_by(drone):
+            command.close()
+            raise Busy(f"{drone} was told to do something while it does something else")
         self._under_way[drone] = None
         try:
             result = await command

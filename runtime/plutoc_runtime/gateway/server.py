@@ -16,6 +16,7 @@ from ..errors import BadInput, FlightFailed
 from ..kernel import FLEET, Cancelled, Task
 from ..standing import Down
 from ..words import shown
+from .link import Busy
 from .wire import (
     LONGEST_TOLD,
     Message,
@@ -195,7 +196,11 @@ class Connection:
             case "fly":
                 job = job_of(message["job"], self._begins)
                 self._known(job.drone)
-                link.fly(job, partial(self._report, job.id))
+                try:
+                    link.fly(job, partial(self._report, job.id))
+                except Busy as error:
+                    self._server.say(f"refused: {error}")
+                    self._report(job.id, error.as_failure)
             case "break_off":
                 link.break_off(self._known(message["drone"]))
             case "attach":
@@ -215,7 +220,7 @@ class Connection:
     def _coroutine(self, link: Link, what: str, message: Message) -> Coroutine[Any, Any, object]:
         """Return what takes its time, and is answered when it is done."""
         if what == "call":
-            return _as_data(roll_data, link.call())
+            return _as_data(roll_data, link.call)
         if what == "down":
             return link.bring_down(Down(message["how"]))
         drone = self._known(message["drone"])
@@ -232,7 +237,7 @@ class Connection:
             case "recover":
                 return link.recover(drone)
             case "roll_call":
-                return _as_data(standing_data, link.roll_call(drone))
+                return _as_data(standing_data, partial(link.roll_call, drone))
             case _:
                 raise BadInput(f"this gateway cannot {shown(what)}")
 
@@ -249,8 +254,8 @@ class Connection:
         error = task.error
         if error is None:
             self._tell({"n": number, "value": task.result(), "seen": self._changed()})
-        elif isinstance(error, FlightFailed):
-            failed = result_data(error)
+        elif isinstance(error, (FlightFailed, Busy)):
+            failed = result_data(error.as_failure if isinstance(error, Busy) else error)
             self._tell({"n": number, **failed, "seen": self._changed()})
         elif not isinstance(error, Cancelled):
             self._gateway.kernel.crash(error)
@@ -267,8 +272,10 @@ class Connection:
         self._tell({"report": id, **result_data(result), "seen": self._changed()})
 
 
-async def _as_data(write: Callable[[Any], object], told: Coroutine[Any, Any, object]) -> object:
-    return write(await told)
+async def _as_data(
+    write: Callable[[Any], object], ask: Callable[[], Coroutine[Any, Any, object]]
+) -> object:
+    return write(await ask())
 
 
 def _call_off(task: Task[Any]) -> None:

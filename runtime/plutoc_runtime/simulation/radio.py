@@ -48,12 +48,16 @@ class Radio:
     def _answered(self, drone: str, report: Callable[[object], None], result: object) -> None:
         self._later(drone, ANSWER, partial(report, result))
 
-    def _later(self, drone: str, what: str, call: Callable[[], object]) -> None:
+    def _late(self, what: str) -> float:
         seconds = self._delay(what)
+        self.late += seconds > 0
+        return seconds
+
+    def _later(self, drone: str, what: str, call: Callable[[], object]) -> None:
+        seconds = self._late(what)
         if seconds <= 0:
             call()
             return
-        self.late += 1
         when = self._kernel.now + seconds
         arrives = partial(self._arrives, drone, call)
         self._jobs[drone] = self._kernel.at(when, Kind.FLIGHT, FLEET, arrives)
@@ -93,8 +97,11 @@ class Radio:
         return await self._sent(drone, partial(self._navigation.recover, drone))
 
     async def roll_call(self, drone: str) -> Standing:
-        """Ask a drone where it is and what it has done."""
-        return await self._sent(drone, partial(self._navigation.roll_call, drone))
+        """Ask a drone where it is and what it has done, be it busy or not."""
+        await self._kernel.sleep(self._late(COMMAND), Kind.FLIGHT)
+        standing = await self._navigation.roll_call(drone)
+        await self._kernel.sleep(self._late(ANSWER), Kind.FLIGHT)
+        return standing
 
     async def _sent(self, drone: str, command: Callable[[], Coroutine[Any, Any, T]]) -> T:
         await self._on_its_way(drone, COMMAND)
@@ -103,10 +110,9 @@ class Radio:
         return result
 
     async def _on_its_way(self, drone: str, what: str) -> None:
-        seconds = self._delay(what)
+        seconds = self._late(what)
         if seconds <= 0:
             return
-        self.late += 1
         over: Signal[None] = Signal()
         self._waits[drone] = over
         when = self._kernel.now + seconds
