@@ -1,0 +1,45 @@
+"""Flights of real processes, a folder each."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+from tests.flying import compiled
+from tests.kill.lives import Flight
+from tests.kill.plans import PLANS, Plan
+from tests.kill.trial import end_gateway
+
+NewFlight = Callable[[float], Flight]
+
+
+@pytest.fixture(scope="session")
+def plan() -> Plan:
+    """An app with delays and retries, whose three missions carry things."""
+    return next(plan for plan in PLANS if plan.app == "drugs_distribution_retry")
+
+
+@pytest.fixture(scope="session")
+def source(plan: Plan, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder that the app's package is imported from."""
+    return compiled(plan.app, tmp_path_factory.mktemp("package")) / "src"
+
+
+@pytest.fixture
+def new_flight(plan: Plan, source: Path, tmp_path: Path) -> Iterator[NewFlight]:
+    """Prepare flights at some speed; none of their processes is left behind."""
+    flights: list[Flight] = []
+
+    def new(speed: float) -> Flight:
+        folder = tmp_path / str(len(flights))
+        folder.mkdir()
+        plan.write(folder)
+        flights.append(Flight(app=plan.app, source=source, folder=folder, speed=speed))
+        return flights[-1]
+
+    yield new
+    for flight in flights:
+        flight.end()
+        end_gateway(flight.journal)

@@ -1,0 +1,113 @@
+"""What must hold of a flight whose processes were killed, whatever moment it was.
+
+What was done is counted in the recorder of the simulated world, which only the world writes.
+"""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+from plutoc_runtime.cli.events import line_of
+from plutoc_runtime.journal.fold import Records
+from plutoc_runtime.journal.place import gateway_folder
+
+Event = dict[str, Any]
+
+ONCE = ("pick_item", "release_item")
+"""The actions that must not be done twice."""
+
+ENDS = ("COMPLETED", "FAILED", "UNCERTAIN")
+
+
+def events_of(rows: Sequence[str]) -> Iterator[Event]:
+    """Yield the events of a journal's rows."""
+    for row in rows:
+        yield from json.loads(row)
+
+
+def folded(rows: Sequence[str]) -> Records:
+    """Return how all missions stand after these rows."""
+    records = Records()
+    for event in events_of(rows):
+        records.take(event)
+    return records
+
+
+def phase(journal: Path, rows: Sequence[str]) -> str:
+    """Say in a word what went on: after these rows, and as the gateway's ledger has it."""
+    missions = folded(rows).missions.values()
+    if not missions:
+        return "setting out"
+    if all(record["ended"] for record in missions):
+        return "all missions ended"
+    if "begun" in _states_of_jobs(journal).values():
+        return "during an action"
+    flights = [record["flight"] for record in missions if record["flight"] is not None]
+    if any(flight["outcome"] is None for flight in flights):
+        return "in flight"
+    return "between trips"
+
+
+def _states_of_jobs(journal: Path) -> dict[str, str]:
+    states: dict[str, str] = {}
+    with suppress(FileNotFoundError):
+        for line in (gateway_folder(journal) / "ledger").read_bytes().splitlines():
+            with suppress(ValueError, KeyError):  # the last one may be half there
+                entry = json.loads(line.partition(b" ")[2])
+                states[entry["id"]] = entry["state"]
+    return states
+
+
+def lost(before: Sequence[str], after: Sequence[str]) -> Iterator[str]:
+    """Yield what was in the journal once, and is not any more."""
+    for number, row in enumerate(before):
+        if number >= len(after) or after[number] != row:
+            yield f"row {number} of the journal is not there any more: {row}"
+            return
+
+
+def unkept(printed: Sequence[str], rows: Sequence[str]) -> Iterator[str]:
+    """Yield what a life has told of, and the journal does not know."""
+    known = {line for event in events_of(rows) if (line := line_of(event)) is not None}
+    for text in printed:
+        whole = text.rpartition("\n")[0].split("\n")
+        for line in whole:
+            if " s  " in line[:12] and line not in known:
+                yield f"it was printed, but is not in the journal: {line}"
+
+
+def done_by_the_world(journal: Path) -> Counter[tuple[str, str]]:
+    """Count what was physically done, by the action and the trip's mission, name and round."""
+    file = gateway_folder(journal) / "world.jsonl"
+    counts: Counter[tuple[str, str]] = Counter()
+    for line in file.read_text().splitlines() if file.exists() else ():
+        entry = json.loads(line)
+        if entry["action"] in ONCE:
+            counts[entry["action"], str(entry["job"]).rpartition("/")[0]] += 1
+    return counts
+
+
+def wrong(journal: Path, rows: Sequence[str]) -> Iterator[str]:
+    """Yield what is wrong with how it ended, beside the world's own record."""
+    done = done_by_the_world(journal)
+    for (action, trip), times in done.items():
+        if times > 1:
+            yield f"{action} of {trip} was done {times} times"
+    for name, record in folded(rows).missions.items():
+        if record["question"] is not None:
+            continue  # nobody knows: a person decides
+        if not record["ended"]:
+            yield f"{name} has not ended: {record['status']}"
+        elif record["status"] not in ENDS:
+            yield f"{name} ended as {record['status']}"
+        elif record["status"] == "FAILED" and not record["reason"]:
+            yield f"{name} FAILED without a reason"
+        for trip in record["done"]:
+            key = trip["action"], f"{name}/{trip['name']}/{record['round']}"
+            if trip["action"] in ONCE and done[key] != 1:
+                yield f"{key[1]} is COMPLETED, and the world has done it {done[key]} times"

@@ -1,0 +1,149 @@
+"""One flight of a plan as real processes: started, killed, and resumed until it is over."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+PATIENCE = 120.0
+"""Seconds until a life that does not end is called a failure."""
+
+
+@dataclass(slots=True, kw_only=True)
+class Flight:
+    """A journal, and the lives of the app that write it."""
+
+    app: str
+    source: Path
+    """The folder that the app's package is imported from."""
+    folder: Path
+    """Where its journal and its two files are."""
+    speed: float
+    lives: list[str] = field(default_factory=list)
+    """What each life has printed."""
+    _life: subprocess.Popen[bytes] | None = None
+
+    @property
+    def journal(self) -> Path:
+        """Where it is written down."""
+        return self.folder / "flight.journal"
+
+    def start(self, *more: str) -> None:
+        """Let a life begin: the first, or one that goes on where the last one was killed."""
+        if self.journal.exists():
+            words = ["resume", str(self.journal)]
+        else:
+            files = [self.folder / "missions.toml", "--fleet", self.folder / "fleet.toml"]
+            flags = ["--sim", "--speed", str(self.speed), "--journal", str(self.journal)]
+            words = ["fly", *map(str, files), *flags]
+        with self._printed.open("wb") as out:
+            self._life = subprocess.Popen(
+                self.command(*words, *more),
+                env=self._environment,
+                stdout=out,
+                stderr=subprocess.STDOUT,
+            )
+
+    def kill(self) -> bool:
+        """Kill the life as nothing can be kept from; False: it had ended by itself."""
+        assert self._life is not None
+        if self._life.poll() is None:
+            os.kill(self._life.pid, signal.SIGKILL)
+        killed = self._life.wait() == -signal.SIGKILL
+        self._over()
+        return killed
+
+    @property
+    def pid(self) -> int:
+        """The process of the life that is being lived."""
+        assert self._life is not None
+        return self._life.pid
+
+    def signal(self, number: signal.Signals) -> None:
+        """Send a signal to the life that is being lived."""
+        os.kill(self.pid, number)
+
+    def until_it_says(self, what: str) -> None:
+        """Wait until the life has printed this."""
+        if not eventually(lambda: what in self._printed.read_text(errors="replace")):
+            raise AssertionError(f"{what!r} was not said:\n{self._printed.read_text()}")
+
+    def end(self) -> None:
+        """Leave no life behind."""
+        if self._life is not None:
+            self.kill()
+
+    def wait(self, seconds: float) -> int | None:
+        """Return the exit code if the life ends within so many seconds."""
+        assert self._life is not None
+        try:
+            code = self._life.wait(seconds)
+        except subprocess.TimeoutExpired:
+            return None
+        self._over()
+        return code
+
+    def see_through(self) -> int:
+        """Return the exit code of a life that nobody kills."""
+        code = self.wait(PATIENCE)
+        if code is None:
+            self.kill()
+            raise AssertionError(f"it does not end: {self.folder}")
+        return code
+
+    def run(self, *words: str) -> subprocess.CompletedProcess[str]:
+        """Give another command of the app."""
+        return subprocess.run(
+            self.command(*words),
+            env=self._environment,
+            text=True,
+            capture_output=True,
+            check=False,
+            timeout=PATIENCE,
+        )
+
+    def command(self, *words: str) -> list[str]:
+        """Return what starts a command of the app."""
+        return [sys.executable, "-m", self.app, *words]
+
+    @property
+    def _environment(self) -> dict[str, str]:
+        # Its own place for sockets: nothing of other flights, and nothing is left behind.
+        return {
+            **os.environ,
+            "PYTHONPATH": str(self.source),
+            "XDG_STATE_HOME": str(self.folder / "state"),
+        }
+
+    @property
+    def _printed(self) -> Path:
+        return self.folder / f"life{len(self.lives)}.txt"
+
+    def _over(self) -> None:
+        self._life = None
+        self.lives.append(self._printed.read_text(errors="replace"))
+
+
+def eventually(holds: Callable[[], bool], seconds: float = 20.0) -> bool:
+    """Wait until something holds; False: it does not in that time."""
+    end = time.monotonic() + seconds
+    while not holds():
+        if time.monotonic() > end:
+            return False
+        time.sleep(0.02)
+    return True
+
+
+def alive(pid: int) -> bool:
+    """Say whether a process runs; one that is dead and not yet buried does not."""
+    try:
+        state = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0]
+    except FileNotFoundError:
+        return False
+    return state != "Z"

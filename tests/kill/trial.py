@@ -1,0 +1,132 @@
+"""One flight under kill -9: killed at random moments, resumed each time, and judged at its end."""
+
+from __future__ import annotations
+
+import os
+import signal
+from collections.abc import Iterable
+from contextlib import closing, suppress
+from dataclasses import dataclass, field
+from pathlib import Path
+from random import Random
+
+from plutoc_runtime.journal.place import gateway_folder
+from plutoc_runtime.journal.reader import Reader
+from tests.kill.judge import done_by_the_world, folded, lost, phase, unkept, wrong
+from tests.kill.lives import Flight, alive, eventually
+from tests.kill.plans import Plan
+from tests.kill.tally import Tally
+
+LONGEST = 0.9
+"""Seconds that a life may last before something is killed: a third of it is its start."""
+
+
+@dataclass(slots=True, kw_only=True)
+class Trial:
+    """A flight, and how it shall be killed."""
+
+    plan: Plan
+    flight: Flight
+    random: Random
+    victims: list[str]
+    """What shall be killed, one after the other: brain, gateway."""
+    tally: Tally
+    _seen: list[str] = field(default_factory=list)
+    """What has been read of its journal."""
+
+    def run(self) -> None:
+        """Kill, resume, and judge."""
+        self.plan.write(self.flight.folder)
+        self.flight.start()
+        code: int | None = None
+        for victim in self.victims:
+            code = self.flight.wait(self.random.uniform(0.0, LONGEST))
+            if code is not None:
+                break
+            self._kill(victim)
+        self._end(self.flight.see_through() if code is None else code)
+
+    def _kill(self, victim: str) -> None:
+        if victim == "brain":
+            if self.flight.kill():
+                self.tally.brains[self._now()] += 1
+            self.flight.start()
+            return
+        pid = gateway_of(self.flight.journal)
+        if pid is not None:
+            with suppress(ProcessLookupError):
+                os.kill(pid, signal.SIGKILL)
+                self.tally.gateways[self._now()] += 1
+
+    def _now(self) -> str:
+        """Return what went on; nothing that was on record may have gone."""
+        before, self._seen = self._seen, self._rows()
+        self._problems(lost(before, self._seen))
+        return phase(self.flight.journal, self._seen)
+
+    def _end(self, code: int) -> None:
+        tally, journal = self.tally, self.flight.journal
+        code = self._decide(code)
+        self._now()
+        records = folded(self._seen)
+        self._problems(unkept(self.flight.lives, self._seen))
+        self._problems(wrong(journal, self._seen))
+        if code not in (0, 1):
+            self._problems([f"exit code {code}: {self.flight.lives[-1][-400:]}"])
+        pid = gateway_of(journal)
+        if pid is not None and not eventually(lambda: not alive(pid)):
+            self._problems([f"the gateway, process {pid}, has not ended"])
+        tally.flights += 1
+        tally.actions += done_by_the_world(journal).total()
+        for record in records.missions.values():
+            tally.ends[record["status"]] += 1
+            if record["reason"]:
+                tally.reasons[record["reason"]] += 1
+
+    def _decide(self, code: int) -> int:
+        """Say of every action that nobody knows of what the world has on record, and go on."""
+        while code == 4:
+            for name, record in folded(self._rows()).missions.items():
+                if record["question"] is None:
+                    continue
+                flight = record["flight"]
+                key = f"{name}/{flight['trip']}/{flight['round']}"
+                known = {trip for _, trip in done_by_the_world(self.flight.journal)}
+                answer = "done" if key in known else "not-done"
+                said = self.flight.run("decide", str(self.flight.journal), name, answer)
+                self.tally.decided += 1
+                if said.returncode != 0:
+                    self._problems([f"decide: {said.stderr}"])
+                    return code
+            self.flight.start()
+            code = self.flight.see_through()
+        return code
+
+    def _rows(self) -> list[str]:
+        """Return all that is on record."""
+        if not self.flight.journal.exists():
+            return []
+        with closing(Reader(self.flight.journal)) as reader:
+            rows = [row.text for row in reader.rows()]
+            self._problems([one for one in (reader.damaged, reader.torn) if one is not None])
+        return rows
+
+    def _problems(self, found: Iterable[str]) -> None:
+        self.tally.problems += [f"{self.flight.folder}: {problem}" for problem in found]
+
+
+def end_gateway(journal: Path) -> None:
+    """Leave no gateway of a flight behind."""
+    pid = gateway_of(journal)
+    if pid is not None:
+        with suppress(ProcessLookupError):
+            os.kill(pid, signal.SIGKILL)
+
+
+def gateway_of(journal: Path) -> int | None:
+    """Return the process of a flight's gateway; None: there is none."""
+    with suppress(OSError, ValueError):
+        pid = int((gateway_folder(journal) / "lock").read_text())
+        if alive(pid) and b"gateway" in Path(f"/proc/{pid}/cmdline").read_bytes():
+            return pid
+    return None
