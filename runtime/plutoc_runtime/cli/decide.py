@@ -46,7 +46,7 @@ def decide(app: App, options: Options) -> int:
         _put_down(app, journal, mission, answer, records.time)
         output.line(
             f"mission {quoted(mission)}: {answer}; it is on record, and "
-            f"{app.name} resume {journal} --sim acts on it"
+            f"{app.name} resume {journal} acts on it"
         )
     return 0
 

@@ -57,7 +57,7 @@ class Flight:
     @property
     def how_to_go_on(self) -> str:
         """A sentence for whoever has stopped it."""
-        return f"to go on: {self.app.name} resume {self.journal} --sim"
+        return f"to go on: {self.app.name} resume {self.journal}"
 
 
 def see_through(flight: Flight, store: Store) -> int:
@@ -117,15 +117,15 @@ async def _lives(flight: Flight, store: Store, stops: Stops, interrupts: Interru
 def supervised(app: App, options: Options, journal: Path, first: Sequence[str] | None) -> int:
     """Let another process fly, and start it again when it crashes; `first`: it has not begun."""
     speed = ["--speed", str(options.speed)] if options.speed else []
-    flags = ["--sim", *speed, "--supervised"]
+    flags = [*speed, "--supervised"]
     on = again.command("resume", str(journal), *flags)
     return supervise(
         Supervised(
             name=app.name,
-            first=on if first is None else again.command(*first, *flags),
+            first=on if first is None else again.command(*first, "--sim", *flags),
             again=lambda: on if journal.exists() else None,
             finished=lambda: finished(records_in(journal)) if journal.exists() else 0,
-            how_to_go_on=f"to go on: {app.name} resume {journal} --sim",
+            how_to_go_on=f"to go on: {app.name} resume {journal}",
         )
     )
 

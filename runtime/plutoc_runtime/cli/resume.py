@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from ..errors import BadInput
 from ..fly import recovered
+from ..gateway.process import NOTE
 from ..gateway.starting import speed_in
 from ..journal import place
 from ..journal.header import check, fingerprint
@@ -26,15 +27,16 @@ def resume(app: App, options: Options) -> int:
     store = Store.open(journal)
     try:
         check(journal, store.header, app)
-        if store.header["sim"] and not options.sim:
-            raise BadInput(f"{journal}: its drones are simulated ones: use --sim")
+        if not store.header["sim"]:
+            raise BadInput(f"{journal}: its drones are real ones, and those are not supported yet")
         fleet = fleet_in(app, journal, store.header)
         records, _ = recovered(store, 1.0)
         planned = [] if records.missions else missions_in(app, journal, store.header, fleet)
     except BaseException:
         store.close()
         raise
-    if all_over(records):
+    note = place.gateway_folder(store.path) / NOTE
+    if all_over(records) and not note.exists():  # else drones may still be on their way home
         store.close()
         output.line("nothing to go on with: every mission has ended")
         output.line()

@@ -83,4 +83,4 @@ def _stop(app: App, options: Options, request: dict[str, object]) -> str:
         except Nobody:
             raise Nobody(f"{journal}: {app.name} is not running, and no drone flies") from None
         stop_mark.leave(journal, how)
-        return f"{nobody}: {said} without it; {app.name} resume {journal} --sim goes on"
+        return f"{nobody}: {said} without it; {app.name} resume {journal} goes on"
