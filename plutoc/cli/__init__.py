@@ -140,6 +140,10 @@ def _run(options: Options) -> int:
             from plutoc.cli.run import run
 
             return run(options)
+        case "test":
+            from plutoc.cli.test import test
+
+            return test(options)
         case "fmt":
             from plutoc.cli.fmt import fmt
 

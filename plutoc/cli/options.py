@@ -43,6 +43,9 @@ class Options:
     missions: Path | None = None
     fleet: Path | None = None
     seed: int | None = None
+    seeds: int | None = None
+    strike: str | None = None
+    weather: str | None = None
     json: bool = False
     old: Path = field(default_factory=Path)
     new: Path = field(default_factory=Path)
@@ -84,6 +87,7 @@ def parse(arguments: Sequence[str]) -> Options:
     _check(command("check", "Say what is wrong with apps; with --fix, mend what is certain."))
     _compile(command("compile", "Write the Python package of an app."))
     _run(command("run", "Compile an app and simulate its missions at once."))
+    _test(command("test", "Try an app under everything that can go wrong."))
     _fmt(command("fmt", "Write sources in canonical form; comments and meaning are kept."))
     _graph(command("graph", "Print the picture of an app, with the statuses on every edge."))
     _diff(command("diff", "Say in words what changed in meaning from one app to another."))
@@ -202,6 +206,39 @@ def _run(parser: ArgumentParser) -> None:
     )
     parser.add_argument(
         "--seed", metavar="N", type=_whole, help="what chance depends on (default 0)"
+    )
+    parser.add_argument("--json", action="store_true", help="print one JSON object instead")
+
+
+def _test(parser: ArgumentParser) -> None:
+    _file(parser)
+    parser.add_argument(
+        "--seeds", metavar="N", type=_whole, help="how many times to draw chance anew (default 100)"
+    )
+    parser.add_argument(
+        "--seed", metavar="N", type=_whole, help="what chance depends on the first time (default 0)"
+    )
+    parser.add_argument(
+        "--missions",
+        metavar="M.toml",
+        type=Path,
+        help="try with these missions (default: small ones at random that fit the app)",
+    )
+    parser.add_argument(
+        "--fleet",
+        metavar="F.toml",
+        type=Path,
+        help="the map and the drones (default: fleet.toml beside the app, if it is there)",
+    )
+    parser.add_argument(
+        "--strike",
+        metavar="WHAT@ROW,…",
+        help="one case: what strikes at which row of the journal, such as crash@12,rtl@15",
+    )
+    parser.add_argument(
+        "--weather",
+        metavar="WHAT=HOW,…",
+        help="one case: what goes wrong by itself, such as link=0.1,slow=0.4",
     )
     parser.add_argument("--json", action="store_true", help="print one JSON object instead")
 

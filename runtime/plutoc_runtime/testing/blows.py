@@ -20,7 +20,9 @@ class Kind(Enum):
     LAND = "land"  # everything is stopped, and all drones land where they are
     GATEWAY = "gateway"  # the gateway dies
     CUT = "cut"  # brain and gateway lose one another
-    REBOOT = "reboot"  # a drone is switched off and on again
+    REPORT = "report"  # the next report is not heard, and the line is broken with it
+    REBOOT = "reboot"  # a drone is switched off and on again; in the air it sinks
+    FALL = "fall"  # a drone falls down
     PAUSE = "pause"
     SKIP = "skip"
     CANCEL = "cancel"

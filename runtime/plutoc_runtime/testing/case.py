@@ -32,7 +32,9 @@ class Weather:
     late: float = 0.0
     """Wake-ups that come late."""
     slow: float = 0.0
-    """Seconds that the radio takes, each way."""
+    """Seconds that a message takes between app and gateway, each way."""
+    radio: float = 0.0
+    """Seconds that a message takes between gateway and drone, each way."""
     disk: float = 0.0
     """Seconds until a row of the journal is durable."""
     jump: float = 0.0

@@ -8,7 +8,7 @@ from copy import deepcopy
 from functools import partial
 from typing import TYPE_CHECKING
 
-from ..errors import BadInput
+from ..errors import BadInput, Failure
 from ..kernel import Cancelled
 from ..life import Life
 from ..standing import Down
@@ -152,10 +152,17 @@ class Living:
         if kind is Kind.GATEWAY:
             rig.fired[kind.value] += 1
             self.lose_gateway()
-        elif kind is Kind.REBOOT:
+        elif kind in (Kind.REBOOT, Kind.FALL):
             named = [str(event["drone"]) for event in events if event.get("drone")]
+            drone = (named or [rig.drones[0].id])[-1]
+            if kind is Kind.REBOOT:
+                rig.fired[kind.value] += 1
+                rig.navigation.reboot(drone)
+            elif rig.navigation.strike(drone, Failure.CRASH):
+                rig.fired[kind.value] += 1
+        elif kind is Kind.REPORT:
             rig.fired[kind.value] += 1
-            rig.navigation.reboot((named or [rig.drones[0].id])[-1])
+            rig.loses_report = True
         elif brain is None:
             return
         elif kind in DEATHS:

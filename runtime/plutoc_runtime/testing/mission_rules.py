@@ -98,7 +98,7 @@ class CompletedDidEverything:
             "mission.ended": self._end,
             "mission.changed": self._change,
             "trip.completed": self._complete,
-            "trip.skipped": self._complete,
+            "trip.skipped": self._skip,
         }
 
     def _create(self, event: Event) -> None:
@@ -118,6 +118,11 @@ class CompletedDidEverything:
 
     def _complete(self, event: Event) -> None:
         self._to_do[event["mission"]][event["trip"]] -= 1
+
+    def _skip(self, event: Event) -> None:
+        self._complete(event)  # in further rounds it is left out, too
+        if event["trip"] in self._own[event["mission"]]:
+            self._own[event["mission"]].remove(str(event["trip"]))
 
     def _end(self, event: Event) -> None:
         mission = event["mission"]

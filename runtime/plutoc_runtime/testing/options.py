@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from argparse import ArgumentParser, ArgumentTypeError
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TypeVar
 
@@ -21,6 +21,8 @@ T = TypeVar("T")
 class Options:
     """What was asked for. No slots: argparse keeps what it does not know here, too."""
 
+    file: Path = field(default_factory=Path)
+    """The app, as it was named."""
     missions: Path | None = None
     fleet: Path | None = None
     seeds: int = SEEDS
@@ -35,45 +37,17 @@ class Options:
         return self.strike is not None or self.weather is not None
 
 
-def add_arguments(parser: ArgumentParser) -> None:
-    """Say which arguments there are: `plutoc test` takes the same, and the app's file."""
-    parser.add_argument(
-        "--seeds", metavar="N", type=count, default=SEEDS, help=f"so many seeds (default {SEEDS})"
-    )
-    parser.add_argument(
-        "--seed", metavar="N", type=whole, default=0, help="the first of them (default 0)"
-    )
-    parser.add_argument(
-        "--missions",
-        metavar="M.toml",
-        type=Path,
-        help="try with these missions; default: small ones at random, which fit the app",
-    )
-    parser.add_argument(
-        "--fleet",
-        metavar="F.toml",
-        type=Path,
-        help="the map and the drones (default: fleet.toml beside the app, if it is there)",
-    )
-    parser.add_argument(
-        "--strike",
-        metavar="WHAT@ROW,…",
-        type=_read(blows_of),
-        help="one case: what strikes at which row of the journal, such as crash@12,rtl@15",
-    )
-    parser.add_argument(
-        "--weather",
-        metavar="WHAT=HOW,…",
-        type=_read(weather_of),
-        help="one case: what goes wrong by itself, such as link=0.1,slow=0.4",
-    )
-    parser.add_argument("--json", action="store_true", help="print one JSON object instead")
-
-
 def parse(argv: Sequence[str]) -> Options:
     """Read the command line; raise SystemExit, as argparse does, after an error."""
     parser = ArgumentParser(prog="plutoc test", allow_abbrev=False)
-    add_arguments(parser)
+    parser.add_argument("--file", type=Path)
+    parser.add_argument("--seeds", type=count)
+    parser.add_argument("--seed", type=whole)
+    parser.add_argument("--missions", type=Path)
+    parser.add_argument("--fleet", type=Path)
+    parser.add_argument("--strike", type=_read(blows_of))
+    parser.add_argument("--weather", type=_read(weather_of))
+    parser.add_argument("--json", action="store_true")
     return parser.parse_args(argv, namespace=Options())
 
 

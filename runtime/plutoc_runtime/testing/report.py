@@ -10,6 +10,7 @@ from ..cli.report import table
 from ..words import counted, printable
 from .blows import blows_text
 from .case import weather_text
+from .explore import FAULTS
 from .plan_text import fleet_text, missions_text
 
 if TYPE_CHECKING:
@@ -25,7 +26,7 @@ def report(app: App, options: Options, tally: Tally, smallest: Finding | None) -
     """Yield the lines for a person."""
     yield from table(
         ("what struck", "how often"),
-        [(what, str(times)) for what, times in sorted(tally.fired.items())],
+        [(what, str(tally.fired[what])) for what in FAULTS],
         right=(1,),
     )
     yield ""
@@ -56,7 +57,7 @@ def _again(options: Options, finding: Finding) -> str:
     case = finding.case
     fleet = "failing-fleet.toml" if case.fleet.world is None else str(options.fleet)
     words = [
-        "plutoc test APP.pluto --missions failing.toml",
+        f"plutoc test {options.file} --missions failing.toml",
         f"--fleet {fleet} --seed {case.seed}",
     ]
     weather = weather_text(case.weather)

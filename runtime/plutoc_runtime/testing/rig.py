@@ -15,11 +15,13 @@ from typing import TYPE_CHECKING, Any
 
 from ..gateway.gateway import Gateway
 from ..gateway.ledger import MemoryLedger
+from ..gateway.line import LOST, Line
 from ..journal.fold import Records
 from ..kernel import FLEET
 from ..kernel import Kind as When
 from ..simulation.drones import SimulatedDrone, SimulatedNavigation
 from ..simulation.faults import Faults
+from ..simulation.radio import Radio
 from ..simulation.world import World
 from ..standing import Down
 from ..virtual import VirtualTime
@@ -34,6 +36,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from ..app import App
+    from ..navigation import Navigation
     from ..simulation.deeds import Deed
     from ..trace import Event
     from .case import Case
@@ -110,6 +113,8 @@ class Rig:
             self.done,
         )
         self.ledger = MemoryLedger()
+        self.loses_report = False
+        """Whether the next report is lost, and the line with it."""
         self.gateway = self.new_gateway()
         self.brain: Living | None = None
         self.rows: list[str] = []
@@ -199,15 +204,29 @@ class Rig:
     # Lives
 
     def new_gateway(self) -> Gateway:
-        fleet = self.case.fleet
-        return Gateway(
+        fleet, radio = self.case.fleet, self.case.weather.radio
+        navigation: Navigation = self.navigation
+        if radio:
+            navigation = Radio(self.world, self.navigation, self.radio_delay)
+        gateway = Gateway(
             self.world,
-            self.navigation,
+            navigation,
             self.drones,
             fleet.airspace,
             ledger=self.ledger,
             apart=fleet.apart,
         )
+        gateway.line = Line(gateway, self.fate)
+        return gateway
+
+    def radio_delay(self, _: str) -> float:
+        self.fired["slow radio"] += 1
+        return self.case.weather.radio
+
+    def fate(self) -> float:
+        """Say whether a report is heard."""
+        lost, self.loses_report = self.loses_report, False
+        return LOST if lost else 0.0
 
     def be_born(self) -> None:
         """A brain begins, or goes on."""

@@ -61,7 +61,18 @@ def _fairer(weather: Weather) -> Iterator[Weather]:
     """Yield the weather without one of what goes wrong."""
     yield FAIR
     yield replace(weather, crash=0.0, link=0.0, action=0.0, battery=0.0)
-    for name in ("crash", "link", "action", "battery", "hook", "block", "late", "slow", "disk"):
+    for name in (
+        "crash",
+        "link",
+        "action",
+        "battery",
+        "hook",
+        "block",
+        "late",
+        "slow",
+        "radio",
+        "disk",
+    ):
         yield replace(weather, **{name: 0.0})
     yield replace(weather, jump=0.0)
     yield replace(weather, snapshot=0.0)

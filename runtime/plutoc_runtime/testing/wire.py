@@ -110,7 +110,7 @@ class Wire(Link):
 
     def _send(self, message: Callable[[], object]) -> None:
         if self._slow:
-            self._fired["slow radio"] += 1
+            self._fired["slow line"] += 1
             now = self._world.now
             self._world.schedule(now + self._slow, Kind.FLIGHT, FLEET, partial(self._go, message))
         else:
@@ -124,7 +124,7 @@ class Wire(Link):
         if isinstance(result, FlightFailed):
             self._fired[f"flight: {result.failure.value}"] += 1
         if not self.alive:
-            self._fired["lost report"] += 1
+            self._fired["report to nobody"] += 1
         self._send(partial(self._brain.post, report, result))
 
 

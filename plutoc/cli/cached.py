@@ -1,0 +1,115 @@
+"""An app in the user's cache, compiled and ready to be called."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import replace
+from hashlib import sha256
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from plutoc.cache import cache_folder
+from plutoc.check.model import Checked
+from plutoc.cli.endings import Terminated, Unusable
+from plutoc.cli.files import default_folder, find_hooks, hooks_path, read_module
+from plutoc.cli.say import say
+from plutoc.compile import Compiled, compile_source
+from plutoc.emit.embed import embed
+from plutoc.emit.errors import place_of
+from plutoc.emit.lock import NAME as LOCK
+from plutoc.emit.package import Package
+from plutoc.emit.write import CannotWrite, compare, write
+from plutoc.source import Source
+from plutoc_runtime.cli import output
+from plutoc_runtime.words import printable
+
+FLEET = "fleet.toml"
+
+
+@contextmanager
+def in_cache(file: Path, source: Source, besides: Sequence[str] = ()) -> Iterator[tuple[Path, str]]:
+    """Give the folder of an app's modules, and the app's name; besides, carry these modules along."""
+
+    def hooks(checked: Checked) -> Source | None:
+        return find_hooks(checked, file, default_folder(file, checked))
+
+    compiled = compile_source(source, source_name=file.name, find_hooks=hooks)
+    say(compiled.warnings)
+    package = _with(_with_own_code(compiled, file), besides)
+    with _cache(file, package) as folder:
+        try:
+            write(compare(package, folder, place_of(compiled.checked.graph), force=True))
+        except CannotWrite as error:
+            raise Unusable(f"the cache cannot be written: {printable(str(error))}") from None
+        yield folder / "src", package.name
+
+
+def _with(package: Package, modules: Sequence[str]) -> Package:
+    """Return a package that carries more of the runtime than its app needs."""
+    carried = embed((), modules) if modules else {}
+    more = {f"src/{package.name}/{path}": text for path, text in carried.items()}
+    return replace(package, owned=dict(sorted({**package.owned, **more}.items())))
+
+
+def beside(file: Path, name: str, given: Path | None) -> Path | None:
+    beside = file.parent / name
+    return given or (beside if beside.exists() else None)
+
+
+def _with_own_code(compiled: Compiled, file: Path) -> Package:
+    """Return a package of which every file is ours to write, the developer's code included."""
+    package, path = compiled.package, hooks_path(compiled.checked)
+    texts = {**package.once, **_own_modules(default_folder(file, compiled.checked), package)}
+    if compiled.hooks is not None:
+        texts[path] = compiled.hooks.text
+    return replace(package, owned={**package.owned, **texts}, once={})
+
+
+def _own_modules(folder: Path, package: Package) -> dict[str, str]:
+    """Return the modules that the developer put beside the hooks.py of a generated package."""
+    app = folder / "src" / package.name
+    if not (folder / LOCK).is_file() or not app.is_dir():
+        return {}
+    paths = {path.relative_to(folder).as_posix(): path for path in sorted(app.rglob("*.py"))}
+    return {
+        name: read_module(path).text
+        for name, path in paths.items()
+        if name not in (*package.owned, *package.once) and "_runtime" not in path.parts
+    }
+
+
+@contextmanager
+def _cache(file: Path, package: Package) -> Iterator[Path]:
+    """Give the folder in the user's cache that belongs to an app, else a temporary one."""
+    facts = "\0".join([os.fspath(file.resolve()), *package.owned])
+    name = f"{package.name}-{sha256(os.fsencode(facts)).hexdigest()[:16]}"
+    cache = cache_folder()
+    if cache is not None:
+        yield cache / "run" / name
+    else:
+        with TemporaryDirectory(prefix="pluto-") as temporary:
+            yield Path(temporary) / name
+
+
+def call(path: Path, module: str, arguments: list[str]) -> int:
+    """Call a module of the package as its user would, and return the exit code."""
+    before = os.environ.get("PYTHONPATH")
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, [str(path), before]))}
+    output.flush()
+    # -P: nothing of the folder that we are in counts, the generated package least of all.
+    command = [sys.executable, "-P", "-m", module, *arguments]
+    with subprocess.Popen(command, env=environment) as child:
+        while True:
+            try:
+                code = child.wait()
+                break
+            except KeyboardInterrupt:
+                continue  # the terminal told the child, too: it ends in its own way
+            except Terminated:
+                child.terminate()  # nobody told the child
+                raise
+    return code if code >= 0 else 128 - code
