@@ -106,6 +106,10 @@ def _command(app: App, argv: Sequence[str] | None) -> int:
             from .resume import resume
 
             return resume(app, options)
+        case "journal":
+            from .journal import journal
+
+            return journal(app, options)
         case _:
             from .check import check
 

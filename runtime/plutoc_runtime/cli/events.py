@@ -50,6 +50,8 @@ def _ended(event: Event) -> str:
     return f"{event['status']}: {reason}" if reason else str(event["status"])
 
 
+_HOW = {"rtl": "all fly home", "land": "all land"}
+
 _SENTENCES: Mapping[str, Callable[[Event], str]] = {
     "trip.launched": _launched,
     "trip.completed": _completed,
@@ -57,6 +59,14 @@ _SENTENCES: Mapping[str, Callable[[Event], str]] = {
     "mission.repeated": lambda event: f"round {int(str(event['round'])) + 1} begins",
     "mission.extended": _extended,
     "mission.ended": _ended,
+    "mission.paused": lambda _: "paused",
+    "mission.resumed": lambda _: "goes on",
+    "mission.uncertain": lambda event: f"waits for a person: {event['reason']}",
+    "mission.held": lambda event: f"is held until a person decides: {event['reason']}",
+    "mission.decided": lambda event: f"a person has decided: {event['answer']}",
+    "trip.interrupted": lambda event: f"trip {event['trip']} interrupted; it will be flown again",
+    "trip.skipped": lambda event: f"trip {event['trip']} skipped",
+    "stopped": lambda event: f"everything stops ({_HOW.get(str(event['how']), event['how'])})",
     "drone.recovering": lambda event: f"{event['drone']} recovers",
     "drone.lost": lambda event: f"{event['drone']} is lost",
     "log": lambda event: str(event["text"]),

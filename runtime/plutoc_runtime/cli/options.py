@@ -34,6 +34,7 @@ class Options:
     trace: Path | None = None
     plot: Path | None = None
     json: bool = False
+    follow: bool = False
     sim: bool = False
     speed: float | None = None
     supervise: bool = False
@@ -69,6 +70,7 @@ def parse(app: App, argv: Sequence[str] | None) -> Options:
     fly = command("fly", "Fly the missions in real time.")
     _files(fly)
     how_it_flies(fly)
+    _chance(fly, "with --sim: ")
     fly.add_argument(
         "--journal",
         metavar="J",
@@ -76,6 +78,7 @@ def parse(app: App, argv: Sequence[str] | None) -> Options:
         help="where to write down what happens; default: a new file in the user's own folder",
     )
     add_flights(command)
+    _journal(command("journal", "Print what happened, as it was written down."))
     options = parser.parse_args(argv, namespace=Options())
     if options.trace is not None and options.runs is not None:
         simulate.error("--trace writes down one run: it does not go with --runs")
@@ -99,10 +102,33 @@ def _files(parser: ArgumentParser) -> None:
     )
 
 
-def _simulation(parser: ArgumentParser) -> None:
+def _journal(parser: ArgumentParser) -> None:
     parser.add_argument(
-        "--seed", metavar="N", type=whole, default=0, help="what chance depends on (default 0)"
+        "journal", metavar="J", type=Path, nargs="?", help="the journal; default: the newest"
     )
+    parser.add_argument("--follow", action="store_true", help="go on with what comes, as it comes")
+    parser.add_argument("--json", action="store_true", help="print a JSON object for each event")
+
+
+def _chance(parser: ArgumentParser, only: str = "") -> None:
+    parser.add_argument(
+        "--seed",
+        metavar="N",
+        type=whole,
+        default=0,
+        help=f"{only}what chance depends on (default 0)",
+    )
+    parser.add_argument(
+        "--fail",
+        metavar="WHAT=SHARE,…",
+        type=faults,
+        default={},
+        help=f"{only}let flights go wrong: {', '.join(FAULTS)}; such as crash=2%%,link=1%%",
+    )
+
+
+def _simulation(parser: ArgumentParser) -> None:
+    _chance(parser)
     parser.add_argument(
         "--runs", metavar="N", type=count, help="simulate N times, with N seeds from --seed on"
     )
@@ -114,13 +140,6 @@ def _simulation(parser: ArgumentParser) -> None:
     )
     parser.add_argument(
         "--until", metavar="TIME", type=time, help='stop at this simulated time, such as "2 h"'
-    )
-    parser.add_argument(
-        "--fail",
-        metavar="WHAT=SHARE,…",
-        type=faults,
-        default={},
-        help=f"let flights go wrong: {', '.join(FAULTS)}; such as crash=2%%,link=1%%",
     )
     parser.add_argument(
         "--trace", metavar="FILE", type=Path, help="write every event there, a JSON object a line"

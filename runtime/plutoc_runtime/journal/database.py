@@ -93,10 +93,10 @@ def found(path: Path, database: sqlite3.Connection) -> Found:
         raise errors.damaged(path, errors.no_header())
     rest = wal.rest(path)
     torn = errors.torn_log() if rest is wal.Rest.TORN else None
-    if seq > 0 and not _sound(database, seq) and _sound(database, seq - 1):
-        if newest_snapshot(database)[1] < seq:  # else nobody needs the row
-            torn = errors.torn(seq)
-            seq -= 1
+    last_is_bad = seq > 0 and not _sound(database, seq) and _sound(database, seq - 1)
+    if last_is_bad and newest_snapshot(database)[1] < seq:  # else nobody needs the row
+        torn = errors.torn(seq)
+        seq -= 1
     lost = rest is wal.Rest.LOST
     return Found(header=header, seq=seq, epoch=epoch, torn=torn, lost=lost)
 

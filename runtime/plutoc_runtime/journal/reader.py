@@ -15,6 +15,7 @@ from pathlib import Path
 from . import errors
 from .database import Found, connect, found, last_row, look_at
 from .errors import TROUBLE, Damaged
+from .lock import holder
 from .place import beside
 from .reading import Row, rows_between
 from .salvage import salvage
@@ -23,20 +24,21 @@ from .salvage import salvage
 class Reader:
     """A journal that is open for reading; close it when nothing more is wanted."""
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, *, follows: bool = False) -> None:
         self.damaged: str | None = None
         """What is wrong with it, once all rows that can be read were; None: nothing is."""
         self.torn: str | None = None
         """What is wrong with what was written last and is left out; None: nothing is."""
-        self._path, self._seen = path, -1
+        self._path, self._seen, self._follows = path, -1, follows
         self._copy: tempfile.TemporaryDirectory[str] | None = None
         self._database: sqlite3.Connection | None = None
         try:
             look_at(path)
             self._database, state = self._opened()
-            if state.lost:
-                self.damaged = str(errors.damaged(path, errors.lost_log()))
-            self.torn = state.torn
+            if holder(path) is None:  # a log that grows is not whole at every moment
+                self.torn = state.torn
+                if state.lost:
+                    self.damaged = str(errors.damaged(path, errors.lost_log()))
         except Damaged as error:
             self.damaged = str(error)
 
@@ -78,16 +80,19 @@ class Reader:
 
     def _opened(self) -> tuple[sqlite3.Connection, Found]:
         try:
+            logged = beside(self._path, "-wal").stat().st_size > 0
+        except OSError:
+            logged = False
+        at_rest = not logged and holder(self._path) is None
+        if at_rest and not self._follows:
+            return _opened(self._path, "mode=ro&immutable=1")  # it leaves nothing beside the file
+        try:
             return _opened(self._path, "mode=ro")
         except Damaged:
             raise
         except errors.JournalError:
             # SQLite wants to write beside a database that has a log, if only to read it
-            try:
-                logged = beside(self._path, "-wal").stat().st_size
-            except FileNotFoundError:
-                logged = 0
-            if not logged:
+            if at_rest:
                 return _opened(self._path, "mode=ro&immutable=1")
             return _opened(self._copied(), "mode=ro")
 

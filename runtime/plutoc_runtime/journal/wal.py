@@ -43,10 +43,11 @@ def _rest(log: BinaryIO, taken: int, path: Path) -> Rest:
     if len(header) < _HEADER.size:
         return Rest.NOTHING
     numbers = _HEADER.unpack(header)
-    page, salts = numbers[2], numbers[4:6]
+    page = numbers[2]
+    salts: tuple[int, ...] | None = numbers[4:6]
     if not _is_sound(header, numbers):
         page, salts, taken = _page_size(path), None, 0
-    found, number, commits = Rest.NOTHING, 0, 0
+    number = commits = 0
     while len(start := log.read(_FRAME.size)) == _FRAME.size:
         number += 1
         log.seek(page, 1)
@@ -55,9 +56,8 @@ def _rest(log: BinaryIO, taken: int, path: Path) -> Rest:
             continue  # seen, or of an earlier use of the log: all that is in the database
         if commits:
             return Rest.LOST
-        found = Rest.TORN
-        commits += commit > 0
-    return found
+        commits += commit > 0  # without one it was never acknowledged
+    return Rest.TORN if commits else Rest.NOTHING
 
 
 def _taken(index: Path) -> int | None:
