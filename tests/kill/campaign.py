@@ -15,6 +15,9 @@ from tests.kill.trial import Trial
 SPEEDS = (10.0, 20.0, 40.0)
 """How much faster than the clock time passes."""
 
+MISHAPS = ("crash=0%", "crash=0%", "crash=5%,action=5%", "link=10%,action=10%")
+"""What goes wrong besides."""
+
 KILLS = (2, 7)
 """How many a flight gets at most."""
 
@@ -37,7 +40,11 @@ def campaign(
         place = folder / f"flight{number}"
         place.mkdir()
         flight = Flight(
-            app=plan.app, source=sources[plan.app], folder=place, speed=random.choice(SPEEDS)
+            app=plan.app,
+            source=sources[plan.app],
+            folder=place,
+            speed=random.choice(SPEEDS),
+            chance=["--seed", str(number), "--fail", random.choice(MISHAPS)],
         )
         victims = _victims(random, *left)
         Trial(plan=plan, flight=flight, random=random, victims=victims, tally=tally).run()

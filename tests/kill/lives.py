@@ -25,6 +25,8 @@ class Flight:
     folder: Path
     """Where its journal and its two files are."""
     speed: float
+    chance: list[str] = field(default_factory=list)
+    """What goes wrong besides, as `fly` is told so."""
     lives: list[str] = field(default_factory=list)
     """What each life has printed."""
     _life: subprocess.Popen[bytes] | None = None
@@ -41,7 +43,7 @@ class Flight:
         else:
             files = [self.folder / "missions.toml", "--fleet", self.folder / "fleet.toml"]
             flags = ["--sim", "--speed", str(self.speed), "--journal", str(self.journal)]
-            words = ["fly", *map(str, files), *flags]
+            words = ["fly", *map(str, files), *flags, *self.chance]
         with self._printed.open("wb") as out:
             self._life = subprocess.Popen(
                 self.command(*words, *more),

@@ -28,11 +28,9 @@ if TYPE_CHECKING:
     from ..files.fleet import FleetFile
     from ..journal.fold import Records
     from ..model import Drone, Mission
+    from ..simulation.faults import Faults
     from ..trace import Event
     from .options import Options
-
-SEED = 0
-"""What chance depends on in the simulated world of `fly`."""
 
 STOPPED = 130
 """The exit code after `tell J stop`, as after Ctrl-C."""
@@ -51,6 +49,7 @@ class Flight:
     fleet: FleetFile
     speed: float
     seed: int
+    faults: Faults
     obeys: bool
     """Whether a Stop that went past an earlier life still counts: so it is under `--supervise`."""
 
@@ -84,7 +83,13 @@ def reported(app: App, journal: Path, records: Records, drones: Sequence[Drone] 
 async def _lives(flight: Flight, store: Store, stops: Stops, interrupts: Interrupts) -> Lived:
     """Live once more each time that the gateway dies."""
     interrupts.loop = asyncio.get_running_loop()
-    settings = settings_for(flight.app, flight.fleet, seed=flight.seed, speed=flight.speed)
+    settings = settings_for(
+        flight.app,
+        flight.fleet,
+        seed=flight.seed,
+        faults=flight.faults,
+        speed=flight.speed,
+    )
     folder = gateway_folder(flight.journal)
     setting = Setting(
         app=flight.app,

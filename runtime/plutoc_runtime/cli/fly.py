@@ -11,8 +11,9 @@ from ..journal import place
 from ..journal.errors import exists
 from ..journal.header import header
 from ..journal.store import Store
+from ..simulation.faults import Faults
 from . import output
-from .flights import SEED, Flight, see_through, supervised
+from .flights import Flight, see_through, supervised
 from .plans import load
 
 if TYPE_CHECKING:
@@ -28,7 +29,12 @@ def fly(app: App, options: Options) -> int:
     if journal.is_symlink() or journal.exists():
         raise exists(journal)
     begun = header(
-        app, missions=plan.missions_text, fleet=plan.fleet_text, sim=options.sim, seed=SEED
+        app,
+        missions=plan.missions_text,
+        fleet=plan.fleet_text,
+        sim=options.sim,
+        seed=options.seed,
+        faults=options.fail,
     )
     if not options.supervised:
         output.tell(f"journal: {journal}")
@@ -41,7 +47,8 @@ def fly(app: App, options: Options) -> int:
         missions=plan.missions,
         fleet=plan.fleet,
         speed=options.speed or 1.0,
-        seed=SEED,
+        seed=options.seed,
+        faults=Faults(**options.fail),
         obeys=options.supervised,
     )
     return see_through(flight, store)
@@ -55,4 +62,6 @@ def _only_simulated(app: App, options: Options) -> None:
 def _words(options: Options, journal: Path) -> list[str]:
     """Return the command line of the flight that is supervised."""
     fleet = ["--fleet", str(options.fleet)] if options.fleet else []
-    return ["fly", str(options.missions), *fleet, "--journal", str(journal)]
+    faults = ",".join(f"{what}={share}" for what, share in options.fail.items())
+    chance = ["--seed", str(options.seed), *(["--fail", faults] if faults else [])]
+    return ["fly", str(options.missions), *fleet, *chance, "--journal", str(journal)]

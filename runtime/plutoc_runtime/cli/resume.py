@@ -9,8 +9,9 @@ from ..fly import recovered
 from ..gateway.process import NOTE
 from ..gateway.starting import speed_in
 from ..journal import place
-from ..journal.header import check, fingerprint
+from ..journal.header import Header, check, fingerprint
 from ..journal.store import Store
+from ..simulation.faults import Faults
 from . import output, stop_mark
 from .flights import Flight, reported, see_through, supervised
 from .flown import all_over
@@ -25,13 +26,14 @@ def resume(app: App, options: Options) -> int:
     """Go on with the missions of a journal, which says what was planned."""
     journal = options.journal or place.newest(app.name)
     store = Store.open(journal)
+    header: Header = store.header
     try:
-        check(journal, store.header, app)
-        if not store.header["sim"]:
+        check(journal, header, app)
+        if not header["sim"]:
             raise BadInput(f"{journal}: its drones are real ones, and those are not supported yet")
         fleet = fleet_in(app, journal, store.header)
         records, _ = recovered(store, 1.0)
-        planned = [] if records.missions else missions_in(app, journal, store.header, fleet)
+        planned = [] if records.missions else missions_in(app, journal, header, fleet)
     except BaseException:
         store.close()
         raise
@@ -44,7 +46,7 @@ def resume(app: App, options: Options) -> int:
     if not options.supervised:
         output.tell(f"journal: {journal}")
         stop_mark.remove(store.path)
-        if store.header["app_hash"] != fingerprint(app):
+        if header["app_hash"] != fingerprint(app):
             output.tell("the app has changed since: missions go on by the names of its blocks")
     if store.torn is not None:
         output.tell(f"{journal}: {store.torn}")
@@ -57,7 +59,8 @@ def resume(app: App, options: Options) -> int:
         missions=planned,
         fleet=fleet,
         speed=options.speed or speed_in(place.gateway_folder(store.path)) or 1.0,
-        seed=int(str(store.header["seed"])),
+        seed=header["seed"],
+        faults=Faults(**header["faults"]),
         obeys=options.supervised,
     )
     return see_through(flight, store)

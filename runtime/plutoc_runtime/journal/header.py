@@ -24,7 +24,13 @@ EVENTS = 1
 
 
 def header(
-    app: App, *, missions: str, fleet: str | None, sim: bool, seed: int
+    app: App,
+    *,
+    missions: str,
+    fleet: str | None,
+    sim: bool,
+    seed: int,
+    faults: Mapping[str, float] | None = None,
 ) -> dict[str, object]:
     """Return the header of a new journal; the two files are kept as text, for whoever goes on."""
     return {
@@ -38,6 +44,7 @@ def header(
         "fleet": fleet,
         "sim": sim,
         "seed": seed,
+        "faults": dict(faults or {}),
     }
 
 
