@@ -123,6 +123,8 @@ class Block:
     """Where its hook declares `emits`, it emits exactly those."""
     needs: tuple[Field, ...] = ()
     """Fields that exist because this block is in the graph; its step gets their values by name."""
+    reads: tuple[str, ...] = ()
+    """Those of them that its step asks the mission or the trip for itself, and gets not by name."""
     uses: tuple[str, ...] = ()
     """Fields that its step gets too, where another block brings them in."""
     named: bool = False

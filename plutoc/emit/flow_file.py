@@ -144,7 +144,8 @@ def _app(plan: Plan) -> list[str]:
         functions = "".join(f"{literal(name)}: hooks.{name}," for name in evaluators)
         arguments.append(f"evaluators={{{functions}}}")  # a line each
     if entries:
-        arguments.append(f"resumes={items(map(literal, entries))}")
+        names = "".join(f"{literal(name)}," for name in entries)
+        arguments.append(f"resumes=({names})")
     return arguments
 
 

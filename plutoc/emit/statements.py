@@ -163,7 +163,8 @@ def _keywords(node: Node, scope: Scope) -> Iterator[str]:
 def asked_for(node: Node, scope: Scope) -> tuple[Field, ...]:
     """Return the fields whose values a block gets."""
     used = (scope.fields[name] for name in node.block.uses if name in scope.fields)
-    return (*node.block.needs, *used)
+    own = (field for field in node.block.needs if field.name not in node.block.reads)
+    return (*own, *used)
 
 
 def _hook(node: Node) -> str:
@@ -241,16 +242,17 @@ def _condition(arm: Arm, switch: Switch, scope: Scope) -> str:
 
 
 def _among(name: str, places: tuple[Place, ...], others: tuple[Place, ...]) -> str:
-    """Return the shorter of two questions: is it one of these, or none of the others?"""
-    if places == (None,):
-        return f"{name} is None"
-    if len(places) == 1:
-        return f"{name} == {literal(places[0])}"
-    if len(others) == 1:
-        return f"{name} != {literal(others[0])}"
-    if None in places or len(others) < len(places):
+    """Return the shorter of two questions: is it one of these, or none of the others?
+
+    Of two that are as short it is the first: a further block behind here does not change it.
+    """
+    if len(places) <= len(others) + 1:
+        if len(places) > 1:
+            return f"{name} in {items(map(literal, places))}"
+        return f"{name} is None" if places == (None,) else f"{name} == {literal(places[0])}"
+    if len(others) > 1:
         return f"{name} not in {items(map(literal, others))}"
-    return f"{name} in {items(map(literal, places))}"
+    return f"{name} != {literal(others[0])}"
 
 
 def _any_of(statuses: tuple[Status, ...]) -> str:

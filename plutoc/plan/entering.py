@@ -134,6 +134,7 @@ class _Entering:
             copies = self.copied(region)
             if entry == head:
                 self.turn(head, copies[head], but=own)
+                own |= self.apart(head, region, [spot for spot in loop if spot not in region])
             sites += [
                 _Site(
                     spot=copies[spot],
@@ -196,6 +197,20 @@ class _Entering:
         for spot, copy in copies.items():
             self.ways[copy] = _turned(self.ways[spot], copies)
         return copies
+
+    def apart(self, head: Spot, region: Sequence[Spot], sources: Sequence[Spot]) -> frozenset[Spot]:
+        """Give each way back to what was the head a copy of its own, if there are few.
+
+        So they need not meet anywhere, and what leads to them stays as it is when another one does.
+        """
+        back = [one for one in sources if any(way.target == head for way in self.ways[one])]
+        made: list[Spot] = []
+        if len(back) * len(region) <= LEADING:
+            for source in back[1:]:
+                copies = self.copied(region)
+                self.ways[source] = _turned(self.ways[source], {head: copies[head]})
+                made += copies.values()
+        return frozenset(made)
 
     def asked(
         self, first: Spot, sites: Sequence[_Site], *, looped: bool, around: bool = False

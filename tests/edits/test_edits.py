@@ -35,8 +35,8 @@ def test_comments_and_blank_lines_change_nothing() -> None:
 
 @pytest.mark.parametrize("block", BLOCKS)
 def test_another_name_for_a_block_changes_the_lines_that_say_it(block: str) -> None:
-    """Two of the README and those that quote the declaration or jump there."""
+    """Two of the README, those that quote the declaration or jump there, and where missions go on."""
     after = renamed(ALFALFA, block, f"x{block[1:]}")
     changes = changes_of(Edit(name="rename", before=ALFALFA, after=after))
-    assert changes.count <= 10, str(changes)
+    assert changes.count <= 14, str(changes)
     assert not changes.modules

@@ -1,4 +1,4 @@
-"""Steps of blocks that fail when asked to: `run` is the set of names of those that do."""
+"""Steps of blocks that fail when asked to: `run` is the names of those that do."""
 
 from __future__ import annotations
 
@@ -8,6 +8,13 @@ from typing import Any
 from plutoc_runtime.status import Status
 
 Branch = Callable[[Any, Status], Coroutine[Any, Any, Status]]
+
+
+class Failing(frozenset[str]):
+    """In place of a run, the names of the blocks that fail on it."""
+
+    at = None
+    status = Status.UNEXECUTED
 
 
 def hand_on(run: Any, status: Status, *, block: str) -> Status:

@@ -120,7 +120,7 @@ def _flow(folder: Path, *, optimise: bool) -> Iterator[Flow]:
 def error_of(flow: Flow, *failing_blocks: str) -> Exception:
     """Return what a mission dies of when these blocks fail."""
     with pytest.raises((ZeroDivisionError, AttributeError)) as raised:
-        flow(frozenset(failing_blocks)).send(None)
+        flow(failing.Failing(failing_blocks)).send(None)
     return raised.value
 
 

@@ -120,14 +120,7 @@ def flow(
     async def one_trip(run: Run[Mission], status: Status) -> Status:
         mission, at = run.mission, run.at
         if clock and at != "allocate":
-            status = await wait_for_time(
-                run,
-                status,
-                block="wait",
-                at=mission.at,
-                every=mission.every,
-                delay=mission.current.delay,
-            )
+            status = await wait_for_time(run, status, block="wait", delay=mission.current.delay)
         if prepare is not None and at is None:
             status = await modify_mission(run, status, hook=prepare)
         run.at = None

@@ -38,6 +38,7 @@ CLOCK = Block(
             doc="Time to wait before the trip.",
         ),
     ),
+    reads=("at", "every"),
     named=True,
     holds=True,
 )

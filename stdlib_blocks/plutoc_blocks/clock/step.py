@@ -15,13 +15,7 @@ DAY = 86_400.0
 
 
 async def wait_for_time(
-    run: Run[Any],
-    status: Status,
-    *,
-    block: str,
-    at: float | None,
-    every: float | None,
-    delay: float | None,
+    run: Run[Any], status: Status, *, block: str, delay: float | None
 ) -> Status:
     """Wait until the next trip's delay is over, and until its round may begin."""
     kernel, mission, state = run.core.kernel, run.mission, run.state
@@ -36,7 +30,7 @@ async def wait_for_time(
     else:
         waited = state.waited is not None and place in state.waited
         over = arrival if waited else arrival + (delay or 0.0)
-        begins = _begins(run, at, every)
+        begins = _begins(run)
     until = max(over, begins)
     if until > arrival:
         state.delay = (place, over, begins)
@@ -61,10 +55,12 @@ async def wait_for_time(
     return status
 
 
-def _begins(run: Run[Any], at: float | None, every: float | None) -> float:
+def _begins(run: Run[Any]) -> float:
     """Return when its round may begin: a time of day, or a multiple since the first start."""
     kernel, mission, first_start = run.core.kernel, run.mission, run.state.first_start
     arrival = kernel.now
+    at: float | None = mission.at
+    every: float | None = mission.every
     if mission.completed_trips or mission.current.attempt > 1:
         return 0.0
     if mission.round == 0 and at is not None and first_start is None:

@@ -18,23 +18,25 @@ from ._runtime.blocks.trip_launcher import launch_trip
 from ._runtime.policies.nearest import nearest
 from ._runtime.quantities import Type
 from ._runtime.run import Run
-from ._runtime.status import COMPLETED, FAILED, STANDBY, UNEXECUTED, Status
+from ._runtime.status import COMPLETED, FAILED, STANDBY, Status
 from ._runtime.watching import watch
 from .model import CATEGORIES, FIELDS, Mission, Trip
 
 
 async def flow(run: Run[Mission]) -> Status:
     """Take one mission through the graph, from start to end."""
-    mission, status = run.mission, UNEXECUTED
-    # create = MissionCreator
-    status = create_mission(run, status)
-    # wait = Clock
-    status = await wait_for_time(
-        run, status, block="wait", at=mission.at, every=mission.every, delay=run.trip.delay
-    )
+    mission, status = run.mission, run.status
+    if run.at is None:
+        # create = MissionCreator
+        status = create_mission(run, status)
+    if run.at in (None, "wait"):
+        # wait = Clock
+        status = await wait_for_time(run, status, block="wait", delay=run.trip.delay)
     while True:
         # allocate = DroneAllocator(policy: nearest)
-        status = await allocate_drone(run, status, policy=nearest, priority=run.trip.priority)
+        status = await allocate_drone(
+            run, status, block="allocate", policy=nearest, priority=run.trip.priority
+        )
         # launch = TripLauncher
         status = launch_trip(run, status)
         # launch -> [watch, timer] -> first = GateFIFO
@@ -86,4 +88,8 @@ APP = App(
     evaluators={
         "find_blooms": hooks.find_blooms,
     },
+    resumes=(
+        "wait",
+        "allocate",
+    ),
 )
