@@ -16,7 +16,7 @@ from plutoc_runtime.testing.mission_rules import (
     NothingAfterTheEnd,
 )
 from plutoc_runtime.testing.rule import Rule, Say
-from plutoc_runtime.testing.trip_rules import AttemptsCountUp, TripsDoNotOverlap
+from plutoc_runtime.testing.trip_rules import AttemptsCountUp, LimitsAreKept, TripsDoNotOverlap
 from plutoc_runtime.trace import Event
 
 Trace = Sequence[Event]
@@ -155,6 +155,17 @@ def ends_in_flight(trace: list[dict[str, object]]) -> None:
     del trace[place(trace, "trip.completed", trip="look")]
 
 
+def fails_too_early(trace: list[dict[str, object]]) -> None:
+    """A trip fails for a safe time that it has not flown."""
+    reason = "trip pick took longer than its safe time of 3 min 20 s"
+    trace[place(trace, "trip.failed")]["reason"] = reason
+
+
+def is_free_in_the_air(trace: list[dict[str, object]]) -> None:
+    """A drone is free before it has landed."""
+    trace[place(trace, "drone.free")]["at"] = [1.0, 2.0, 1.2]
+
+
 def gives_a_returning_drone(trace: list[dict[str, object]]) -> None:
     """A drone on its way home is given away."""
     del trace[place(trace, "drone.free")]
@@ -224,6 +235,8 @@ PLANTED: list[tuple[Change, Callable[[Say], Rule] | None, str]] = [
     (lands_another, TripsDoNotOverlap, "look (d2, round 0, attempt 1) of ward ended, not look"),
     (ends_in_flight, TripsDoNotOverlap, "ward ended during look"),
     (is_impatient, DelaysAreWaited, "its delay is not over before 99 s"),
+    (fails_too_early, LimitsAreKept, "failed after 1 s for a safe time of 3 min 20 s"),
+    (is_free_in_the_air, StaysDown, "d1 is free in the air"),
     (gives_a_returning_drone, ServesOneMission, "before it was free again"),
     (gives_a_drone_twice, ServesOneMission, "to other while ward had it"),
     (flies_with_a_stolen_drone, ServesOneMission, "which did not have it"),

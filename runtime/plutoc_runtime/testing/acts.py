@@ -40,6 +40,11 @@ class Once:
         self._completed: dict[object, None] = {}
         """The missions that were."""
 
+    @property
+    def done(self) -> int:
+        """How many actions were done, as far as that is on record."""
+        return len(self._recorded)
+
     def take(self, event: Event) -> None:
         """Something is on record."""
         match event["event"]:

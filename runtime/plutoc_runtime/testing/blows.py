@@ -16,6 +16,7 @@ class Kind(Enum):
         "crash-kept"  # the brain dies: the row is durable, and nothing that waited for it was told
     )
     LOST = "crash-lost"  # the brain dies before the row is durable
+    FREEZE = "freeze"  # the brain stands still, another is started, and then the first goes on
     RTL = "rtl"  # everything is stopped, and all drones fly home
     LAND = "land"  # everything is stopped, and all drones land where they are
     GATEWAY = "gateway"  # the gateway dies

@@ -12,6 +12,9 @@ if TYPE_CHECKING:
 
 UNWELL = ("drone.recovering", "drone.lost", "drone.charging", "drone.offline")
 
+_GROUND = 0.05
+"""Metres. Nobody who stands is higher."""
+
 
 class ServesOneMission:
     """A drone gets a second trip only after its first ended and it was free again.
@@ -67,7 +70,10 @@ class ServesOneMission:
 
 
 class StaysDown:
-    """No drone that recovers, charges or is lost is given to a mission; a lost one stays lost."""
+    """No drone that recovers, charges or is lost is given to a mission; a lost one stays lost.
+
+    Who is free stands on the ground.
+    """
 
     def __init__(self, say: Say) -> None:
         self._say = say
@@ -92,6 +98,10 @@ class StaysDown:
         if self._state.get(drone) == "drone.lost":
             self._say(f"{at(event)}: {drone} was lost before {event['event']}")
         self._state[drone] = event["event"]
+        if event["event"] == "drone.free":
+            where = event.get("at")
+            if isinstance(where, list) and where[2] > _GROUND:
+                self._say(f"{at(event)}: {drone} is free in the air")
 
 
 class ItemsStayAboard:

@@ -16,7 +16,7 @@ from .delay_rule import DelaysAreWaited
 from .drone_rules import ItemsStayAboard, ServesOneMission, StaysDown
 from .mission_rules import ENDS, CompletedDidEverything, EndsOnce, NothingAfterTheEnd
 from .rule import OVER, Hears, Say, at
-from .trip_rules import AttemptsCountUp, TripsDoNotOverlap
+from .trip_rules import AttemptsCountUp, LimitsAreKept, TripsDoNotOverlap
 
 if TYPE_CHECKING:
     from ..model import Mission
@@ -34,6 +34,7 @@ RULES: tuple[Callable[[Say], Rule], ...] = (
     TripsDoNotOverlap,
     AttemptsCountUp,
     DelaysAreWaited,
+    LimitsAreKept,
     CompletedDidEverything,
     ServesOneMission,
     StaysDown,

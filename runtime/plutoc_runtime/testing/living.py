@@ -37,7 +37,7 @@ class Living:
     def __init__(self, rig: Rig, records: Records) -> None:
         self.rig, case = rig, rig.case
         now = max(rig.world.now + rig.skew, records.time)
-        rig.skew = now - rig.world.now
+        self.skew = rig.skew = now - rig.world.now
         self.kernel = BrainTime(now, case.weather, rig.chance, rig.fired, rig.hook_done)
         link = rig.gateway.link(rig.lives, self.lost)
         self.wire = Wire(link, rig.gateway, self.kernel, case.weather.slow, rig.fired)
@@ -78,12 +78,21 @@ class Living:
         elif self.committed == self.added:  # else what happened last is not durable yet
             rig.ended(self)
 
+    def haunt(self) -> None:
+        """Go on although another brain has taken over."""
+        self.kernel.now = max(self.kernel.now, self.rig.world.now + self.skew)
+        self.kernel.drain()
+        if self.kernel.settled is not None:
+            self.kernel.settled()
+
     # The journal
 
     def add(self, row: str) -> int:
         """Take the row of an instant."""
         rig = self.rig
         self.added += 1
+        if rig.brain is not self:  # somebody else has the journal by now
+            return self.added
         rig.count += 1
         events: list[Event] = json.loads(row)
         touched = {str(event["mission"]) for event in events if "mission" in event}
@@ -97,8 +106,8 @@ class Living:
         kinds = {blow.kind for blow in struck if not blow.after}
         if Kind.DISK in kinds:
             self.full = True
-            rig.fired["disk full"] += 1
-            rig.later(0.5, partial(self.die_of, "disk full"))
+            rig.fired[Kind.DISK.value] += 1
+            rig.later(0.5, self.give_up)
         lost = self.full or Kind.LOST in kinds
         if not lost:
             self.unwritten.append((self.added, row, events, known))
@@ -136,6 +145,9 @@ class Living:
                 after = known_of(self.rig.app, now[name])
                 said = forgotten(name, known, after, events)
                 self.rig.found += [f"{self.kernel.now:g} s: {sentence}" for sentence in said]
+        results = len(self.life.session.core.results.so_far())
+        if before and results < self.rig.once.done:
+            self.rig.found.append(f"{self.rig.once.done} results were there, {results} are left")
 
     # What strikes
 
@@ -168,6 +180,9 @@ class Living:
         elif kind in DEATHS:
             rig.fired[kind.value] += 1
             rig.lose_brain(rig.case.weather.down)
+        elif kind is Kind.FREEZE:
+            rig.fired[kind.value] += 1
+            rig.freeze()
         elif kind is Kind.CUT:
             rig.fired[kind.value] += 1
             rig.gateway.cut()
@@ -224,7 +239,8 @@ class Living:
         rig.gateway.crash()
         rig.gateway = rig.new_gateway()
 
-    def die_of(self, _: str) -> None:
+    def give_up(self) -> None:
+        """It has noticed that nothing can be written."""
         if self.rig.brain is self:
             self.rig.lose_brain(self.rig.case.weather.down)
 

@@ -43,6 +43,8 @@ if TYPE_CHECKING:
 
 PATIENCE = 3.0
 """Seconds without a brain after which the gateway lands everything."""
+PULSES = 20
+"""Seconds for which a brain goes on after another has taken over."""
 MOST_LIVES = 40
 LONGEST = 7 * 86_400.0
 """Seconds. A mission that has not ended by then never will."""
@@ -158,13 +160,12 @@ class Rig:
         world, brain = self.world, self.brain
         at = world.next_time()
         due = None if brain is None else brain.kernel.next_time()
-        if due is not None and (at is None or due - self.skew < at):
-            assert brain is not None
-            brain.kernel.now, world.now = due, max(world.now, due - self.skew)
+        if brain is not None and due is not None and (at is None or due - brain.skew < at):
+            brain.kernel.now, world.now = due, max(world.now, due - brain.skew)
         elif at is not None:
             world.now = at
             if brain is not None:
-                brain.kernel.now = max(brain.kernel.now, at + self.skew)
+                brain.kernel.now = max(brain.kernel.now, at + brain.skew)
         else:
             self.found.append(f"nothing will ever happen again; waiting: {self.waiting()}")
             return False
@@ -279,6 +280,15 @@ class Rig:
         if down > PATIENCE:
             self.later(PATIENCE, land)
         self.later(down, self.be_born)
+
+    def freeze(self) -> None:
+        """The brain stands still; another takes over; then the first goes on, none the wiser."""
+        brain, self.brain = self.brain, None
+        if brain is not None:
+            self.later(self.case.weather.down, self.be_born)
+            for pulse in range(PULSES):
+                self.later(self.case.weather.down + 1.0 + pulse, brain.haunt)
+            self.later(self.case.weather.down + 1.0 + PULSES, brain.die)
 
     def ended(self, brain: Living) -> None:
         """A life came to its end by itself: everything has ended, or waits for a person."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
 from .rule import Say, at, flight, named
@@ -81,3 +82,35 @@ class AttemptsCountUp:
         trip = self._newest.get(event["mission"])
         if trip in self._last:
             self._last[trip] -= 1
+
+
+class LimitsAreKept:
+    """Who fails for its safe time has flown so long: a limit is that of one trip and of no other."""
+
+    def __init__(self, say: Say) -> None:
+        self._say = say
+        self._since: dict[object, float] = {}
+        self.hears = {"trip.launched": self._launch, "trip.failed": self._fail}
+
+    def _launch(self, event: Event) -> None:
+        self._since[event["mission"]] = float(str(event["t"]))
+
+    def _fail(self, event: Event) -> None:
+        limit = _LIMIT.search(str(event["reason"]))
+        since = self._since.get(event["mission"])
+        if limit is None or since is None:
+            return
+        parts = [(float(number), unit) for number, unit in _PART.findall(limit[1])]
+        seconds = sum(number * _SECONDS[unit] for number, unit in parts)
+        rounded = 0.1 if len(parts) == 1 and parts[0][1] == "s" else _SECONDS[parts[-1][1]]
+        flown = float(str(event["t"])) - since
+        if flown < seconds - rounded:
+            self._say(
+                f"{at(event)}: {event['trip']} of {event['mission']} failed after {flown:g} s "
+                f"for a safe time of {limit[1]}"
+            )
+
+
+_LIMIT = re.compile(r"safe time of ((?:[0-9.]+ (?:s|min|h) ?)+)")
+_PART = re.compile(r"([0-9.]+) (s|min|h)")
+_SECONDS = {"s": 1.0, "min": 60.0, "h": 3600.0}
