@@ -128,7 +128,11 @@ class Block:
     uses: tuple[str, ...] = ()
     """Fields that its step gets too, where another block brings them in."""
     named: bool = False
-    """Its step gets the block's own name in the graph, as `block`."""
+    """Its step gets the block's own name in the graph, as `block`.
+
+    A block that holds or allocates must be so: an interrupted mission may go on there, and its step
+    begins by saying so, `run.meets(block)`.
+    """
 
     creates: bool = False
     """The mission begins here; exactly one in a graph."""

@@ -99,6 +99,12 @@ def _loaded(package: str, value: str, load: Callable[[], object]) -> Mapping[str
             raise RegistryError(
                 f"{value} of {package} holds something of type {type(block).__name__}, not only blocks"
             )
+        if (block.holds or block.allocates) and not block.named:
+            what = "gives missions their drones" if block.allocates else "holds missions back"
+            raise RegistryError(
+                f"{block.name} of {package} {what} and is not declared with named=True:"
+                " an interrupted mission may go on there, and its step must say so by run.meets(block)"
+            )
         if block.name in found:
             raise RegistryError(f"{package} declares {block.name} twice")
         found[block.name] = block

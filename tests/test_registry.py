@@ -58,6 +58,8 @@ def test_package_is_found_by_its_entry_point(install: Install) -> None:
         ("BLOCKS = 3", "is of type int, not a tuple of blocks"),
         ("BLOCKS = ('Scan',)", "of type str, not only blocks"),
         (GOOD + "BLOCKS *= 2", "declares Scan twice"),
+        (GOOD.replace("doc=", "holds=True, doc="), "holds missions back .* named=True"),
+        (GOOD.replace("doc=", "allocates=True, doc="), "gives missions their drones .* named=True"),
     ],
 )
 def test_broken_package_is_told_when_used(install: Install, code: str, sentence: str) -> None:
