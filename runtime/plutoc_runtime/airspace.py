@@ -18,7 +18,7 @@ MARGIN = 0.1
 """How far from the corner of a no-fly area a route turns, in metres."""
 
 _REMEMBERED = 10_000
-"""Routes kept: plans repeat their pairs of places, but a drone may be asked from anywhere."""
+"""Routes and places kept: plans repeat theirs, but a drone may be asked from anywhere."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -37,6 +37,17 @@ class Airspace:
 
     def problem(self, point: Point) -> str | None:
         """Return why a drone may not be at this point, or None."""
+        permitted = self._ways.permitted
+        if point in permitted:
+            return None
+        problem = self._problem(point)
+        if problem is None:
+            if len(permitted) >= _REMEMBERED:
+                permitted.clear()
+            permitted.add(point)
+        return problem
+
+    def _problem(self, point: Point) -> str | None:
         x, y, z = point
         width, depth = self.size
         e = EPSILON
@@ -74,6 +85,8 @@ class _Ways:
         self._turns: tuple[Corner, ...] | None = None
         self._seen: dict[int, list[tuple[int, float]]] = {}
         self._found: dict[tuple[Point, Point], tuple[Point, ...] | None] = {}
+        self.permitted: set[Point] = set()
+        """Points of which it is known that a drone may be there."""
 
     def between(self, start: Point, end: Point) -> tuple[Point, ...] | None:
         """Return the shortest way with both its ends."""

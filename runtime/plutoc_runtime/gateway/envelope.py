@@ -12,33 +12,24 @@ if TYPE_CHECKING:
     from ..airspace import Airspace
     from ..model import Point
 
-_KNOWN = 10_000
-"""Points kept of which it is known that a drone may be there: plans repeat theirs."""
-
 
 class Envelope:
     """Inside the map, outside the no-fly areas, below the ceiling."""
 
     def __init__(self, airspace: Airspace) -> None:
         self._airspace = airspace
-        self._permitted: set[Point] = set()
 
     def problem(self, points: Iterable[Point]) -> str | None:
         """Return why no drone may be sent to these points, or None."""
-        permitted = self._permitted
         for point in points:
-            if point not in permitted:
-                problem = self._airspace.problem(point)
-                if problem is not None:
-                    return problem
-                if len(permitted) >= _KNOWN:
-                    permitted.clear()
-                permitted.add(point)
+            problem = self._airspace.problem(point)
+            if problem is not None:
+                return problem
         return None
 
     def check(self, target: Point) -> None:
         """Raise `FlightFailed` if no drone may be sent to this point."""
-        problem = self.problem((target,))
+        problem = self._airspace.problem(target)
         if problem is not None:
             raise FlightFailed(Failure.REFUSED, problem)
 
