@@ -164,6 +164,7 @@ class Control:
             doubt(state, flight)
             if flight.trip.item is None:
                 self._core.fleet.recover(flight.flier)
+            self._engine.look_for_the_end()
             return
         if what is Fate.FLIES_ON:  # it has just ended
             state.mission.status = Status.RUNNING

@@ -48,8 +48,11 @@ async def go_on(
             engine.end(state, Status.CANCELLED, "cancelled by hand")
         elif not record["ended"]:
             await revival.revive(mission, record)
+    at_work = {entry.drone for entry in roll.jobs.values() if entry.flies}
     for drone in core.fleet.drones:
         if drone not in revival.engaged:
+            if drone.id in at_work:
+                link.break_off(drone.id)  # the brain that ended its flight could not say so any more
             core.fleet.take_up(drone, roll.drones[drone.id])
     engine.look_for_the_end()
     return missions

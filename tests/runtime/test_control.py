@@ -205,3 +205,9 @@ def test_an_app_lives_on_when_somebody_decides_while_the_last_drone_comes_home()
     living.crash(10.0)
     living.at(60.0, lambda: living.life.control.decide("a", "not-done"))
     assert living.run() == ["COMPLETED", "COMPLETED"]
+
+
+def test_an_app_ends_when_all_that_is_left_waits_for_a_decision() -> None:
+    living = spraying("once")
+    living.at(10.0, lambda: living.life.control.pause("a"))
+    assert living.run() == ["UNCERTAIN"]

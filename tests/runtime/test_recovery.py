@@ -184,3 +184,15 @@ def test_a_time_of_day_is_not_moved_by_a_stop() -> None:
     living.stop(20.0, rest=100.0)
     living.run()
     assert living.times("trip.launched") == [3600.0]
+
+
+def test_a_drone_whose_flight_was_over_for_its_dead_brain_is_called_off() -> None:
+    """The brain gives the trip up, and dies before the gateway hears of it."""
+    living = Living(
+        enterable(watch=apps.timed), apps.mission("a", apps.trip("1", 9), safe_time=5.0)
+    )
+    living.at(4.9, lambda: setattr(living.gateway, "break_off", lambda drone: None))
+    living.at(5.5, lambda: delattr(living.gateway, "break_off"))
+    living.crash(5.2)
+    assert living.run() == ["FAILED"]
+    assert living.done_by_drones == []
