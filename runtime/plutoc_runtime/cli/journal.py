@@ -11,12 +11,15 @@ from contextlib import closing, suppress
 from typing import TYPE_CHECKING, Any
 
 from ..journal import place
+from ..journal.mending import mend
 from ..journal.reader import Reader
+from ..words import counted
 from . import output
 from .told import told
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+    from pathlib import Path
 
     from ..app import App
     from ..journal.reading import Row
@@ -31,6 +34,9 @@ PAUSE = 0.2
 def journal(app: App, options: Options) -> int:
     """Print the journal: all that can be read, and with `--follow` what comes as well."""
     path = options.journal or place.newest(app.name)
+    if options.mend:
+        output.line(_mended(path))
+        return 0
     with closing(Reader(path, follows=options.follow)) as reader:
         printer = _Printer(as_json if options.json else as_text)
         printer.print(reader.rows())
@@ -41,6 +47,20 @@ def journal(app: App, options: Options) -> int:
             output.flush()
             output.tell(trouble if trouble.startswith(str(path)) else f"{path}: {trouble}")
     return DAMAGED if reader.damaged is not None else 0
+
+
+def _mended(path: Path) -> str:
+    done = mend(path)
+    if done is None:
+        return f"{path}: nothing is damaged"
+    kept = f"the damaged journal is kept as {done.kept}"
+    if not done.lost:
+        return f"{path}: mended: {counted(done.rows, 'row')} are there again; {kept}"
+    lost = counted(done.lost, "row")
+    return (
+        f"{path}: mended: {counted(done.rows, 'row')} are there again; {lost} after a gap are left"
+        f" out, and resume asks the drones what they did since; {kept}"
+    )
 
 
 def _follow(reader: Reader, printer: _Printer) -> None:

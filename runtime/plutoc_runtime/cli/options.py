@@ -35,6 +35,7 @@ class Options:
     plot: Path | None = None
     json: bool = False
     follow: bool = False
+    mend: bool = False
     sim: bool = False
     speed: float | None = None
     supervise: bool = False
@@ -106,7 +107,13 @@ def _journal(parser: ArgumentParser) -> None:
     parser.add_argument(
         "journal", metavar="J", type=Path, nargs="?", help="the journal; default: the newest"
     )
-    parser.add_argument("--follow", action="store_true", help="go on with what comes, as it comes")
+    how = parser.add_mutually_exclusive_group()
+    how.add_argument("--follow", action="store_true", help="go on with what comes, as it comes")
+    how.add_argument(
+        "--mend",
+        action="store_true",
+        help="make a whole journal of what can be read of a damaged one",
+    )
     parser.add_argument("--json", action="store_true", help="print a JSON object for each event")
 
 

@@ -126,10 +126,10 @@ def _tip(database: sqlite3.Connection) -> tuple[int, int]:
         raise sqlite3.DatabaseError("database disk image is malformed")
     query = "SELECT seq, epoch FROM journal ORDER BY seq DESC LIMIT 1"
     ((seq, epoch),) = database.execute(query)
-    return seq, epoch + _SURELY_LESS_OPENINGS
+    return seq, epoch + SURELY_LESS_OPENINGS
 
 
-_SURELY_LESS_OPENINGS = 1_000
+SURELY_LESS_OPENINGS = 1_000
 """It is not known how often the journal was opened since its last row; an epoch only has to grow."""
 
 

@@ -105,6 +105,11 @@ def full(seq: int) -> JournalError:
     return cannot_write(Path("the journal in memory"), OSError(ENOSPC, ""), seq)
 
 
+def cannot_mend(path: Path, why_not: str) -> JournalError:
+    """A damaged journal stays as it is."""
+    return JournalError(f"{path}: the journal cannot be mended: {why_not}")
+
+
 def refused(path: Path, error: Exception) -> JournalError:
     """The database reports an error when it is looked at."""
     if code(error) in (sqlite3.SQLITE_CORRUPT, sqlite3.SQLITE_NOTADB, sqlite3.SQLITE_ERROR):
@@ -145,7 +150,7 @@ def damaged(path: Path, what: str) -> Damaged:
     """Bits were flipped, or parts are gone."""
     return Damaged(
         f"{path}: the journal is damaged: {what}. The command journal prints what can be read;"
-        " put back a copy of the file if there is one, or fly what is left as a plan of its own"
+        " with --mend it makes a whole journal of that, or put back a copy of the file"
     )
 
 

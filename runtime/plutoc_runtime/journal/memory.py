@@ -80,7 +80,7 @@ class Memory:
 
     def _chunks(self, after: int) -> Generator[list[Row], None, str | None]:
         rows = islice(self._rows, after, None)
-        yield [Row(seq, wall, text) for seq, (wall, text) in enumerate(rows, after + 1)]
+        yield [Row(seq, wall, text, 0) for seq, (wall, text) in enumerate(rows, after + 1)]
         return None
 
     def close(self) -> None:

@@ -24,7 +24,7 @@ from .salvage import salvage
 class Reader:
     """A journal that is open for reading; close it when nothing more is wanted."""
 
-    def __init__(self, path: Path, *, follows: bool = False) -> None:
+    def __init__(self, path: Path, *, follows: bool = False, locked: bool = False) -> None:
         self.damaged: str | None = None
         """What is wrong with it, once all rows that can be read were; None: nothing is."""
         self.torn: str | None = None
@@ -35,7 +35,7 @@ class Reader:
         try:
             look_at(path)
             self._database, state = self._opened()
-            if holder(path) is None:  # a log that grows is not whole at every moment
+            if locked or holder(path) is None:  # a log that grows is not whole at every moment
                 self.torn = state.torn
                 if state.lost:
                     self.damaged = str(errors.damaged(path, errors.lost_log()))

@@ -22,6 +22,8 @@ class Row(NamedTuple):
     """Seconds since 1970: when it was written."""
     text: str
     """A JSON list of events."""
+    epoch: int
+    """How often the journal had been opened by then."""
 
 
 Chunks = Generator[list[Row], None, str | None]
@@ -89,7 +91,7 @@ def _rows(database: sqlite3.Connection, seq: int, last: int) -> Chunks:
                     missing = row[0] > seq
                     what = errors.missing_rows(seq, row[0] - 1, last) if missing else None
                     return what or errors.unsound_row(seq, last)
-                sound.append(Row(seq, row[2] / 1000, row[3].decode()))
+                sound.append(Row(seq, row[2] / 1000, row[3].decode(), row[1]))
                 seq += 1
             yield sound
             sound = []

@@ -21,7 +21,7 @@ _MOST = 1 << 30
 """Bytes of a row: a larger number is not a row's."""
 
 _Pages = dict[int, bytes]
-_Found = dict[int, tuple[int, Row]]
+_Found = dict[int, Row]
 
 
 def salvage(path: Path, after: int) -> list[Row]:
@@ -41,7 +41,7 @@ def salvage(path: Path, after: int) -> list[Row]:
         for cell in _cells(page):
             with suppress(LookupError, ValueError):
                 _keep(cell, page, newest, found)
-    return [found[seq][1] for seq in sorted(found) if seq > after]
+    return [found[seq] for seq in sorted(found) if seq > after]
 
 
 def _page_size(content: bytes) -> int:
@@ -85,8 +85,8 @@ def _keep(cell: int, page: bytes, pages: _Pages, found: _Found) -> None:
         return
     if row_checksum(seq, epoch, wall, text) != checksum:
         return
-    if seq not in found or found[seq][0] <= epoch:
-        found[seq] = epoch, Row(seq, wall / 1000, text.decode())
+    if seq not in found or found[seq].epoch <= epoch:
+        found[seq] = Row(seq, wall / 1000, text.decode(), epoch)
 
 
 def _payload(page: bytes, place: int, length: int, pages: _Pages) -> bytes:

@@ -15,10 +15,11 @@ from ..trace import Event
 from . import errors
 from .database import connect, found, look_at, sync_folder
 from .errors import TROUBLE, JournalError
-from .format import APPLICATION, TABLES, VERSION, row_checksum, snapshot_checksum, tip_checksum
+from .format import row_checksum, snapshot_checksum, tip_checksum
 from .lock import Lock
+from .making import made
 from .place import beside
-from .reading import Read, since_snapshot
+from .reading import Read, Row, since_snapshot
 
 RESERVE = 256 * 1024
 """Bytes kept back, so that on a full disk the last words can still be written."""
@@ -59,7 +60,7 @@ class Store:
         try:
             lock = Lock.take(path)
             try:
-                _make(path, header, _milliseconds(clock))
+                _make(path, header, clock())
             except BaseException:
                 lock.release()
                 raise
@@ -212,21 +213,13 @@ def _insertion(rows: int) -> str:
     return "INSERT INTO journal VALUES " + ", ".join(["(?, ?, ?, ?, ?)"] * rows)
 
 
-def _make(path: Path, header: Event, wall: int) -> None:
+def _make(path: Path, header: Event, wall: float) -> None:
     """Write a whole journal beside its place, and only then let it be seen."""
     if path.is_dir():
         raise errors.is_folder(path)
-    if path.exists() or path.is_symlink():
+    if os.path.lexists(path):
         raise errors.exists(path)
-    text = json.dumps([header])
-    part = beside(path, f".{os.getpid()}.part")
-    part.unlink(missing_ok=True)
-    try:
-        database = connect(part, "mode=rwc")
-        try:
-            _fill(database, text, wall)
-        finally:
-            database.close()
+    with made(path, [Row(0, wall, json.dumps([header]), 0)], 0) as part:
         try:
             os.link(part, path)  # unlike a change of its name this never takes another's place
         except FileExistsError:
@@ -234,22 +227,6 @@ def _make(path: Path, header: Event, wall: int) -> None:
         except OSError:  # a file system without links
             part.rename(path)
         sync_folder(path)
-    finally:
-        part.unlink(missing_ok=True)
-
-
-def _fill(database: sqlite3.Connection, text: str, wall: int) -> None:
-    database.execute("PRAGMA synchronous = FULL")
-    database.execute(f"PRAGMA application_id = {APPLICATION}")
-    database.execute(f"PRAGMA user_version = {VERSION}")
-    database.execute("BEGIN IMMEDIATE")
-    for table in TABLES.values():
-        database.execute(table)
-    header = (0, 0, wall, text, row_checksum(0, 0, wall, text.encode()))
-    database.execute("INSERT INTO journal VALUES (?, ?, ?, ?, ?)", header)
-    database.execute("INSERT INTO tip VALUES (0, 0, 0, ?)", (tip_checksum(0, 0),))
-    database.execute("COMMIT")
-    database.execute("PRAGMA journal_mode = WAL")
 
 
 def _real(path: Path) -> Path:
