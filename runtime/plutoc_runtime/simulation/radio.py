@@ -32,7 +32,8 @@ class Radio:
     ) -> None:
         self._kernel, self._navigation, self._delay = kernel, navigation, delay
         self._jobs: dict[str, Timer] = {}
-        self._waits: dict[str, Signal[None]] = {}
+        self._orders: dict[str, Signal[None]] = {}
+        """What drones were told to do for themselves: a signal each, that fails if it is broken off."""
         self.late = 0
         """How many messages were late."""
 
@@ -68,13 +69,13 @@ class Radio:
 
     def break_off(self, drone: str) -> None:
         """Stop whatever a drone does, or is about to be told."""
-        timer, wait = self._jobs.pop(drone, None), self._waits.pop(drone, None)
+        timer, order = self._jobs.pop(drone, None), self._orders.pop(drone, None)
         if timer is not None:
             timer.cancel()
         self._navigation.break_off(drone)
-        if wait is not None:
+        if order is not None:
             why = f"{drone} was told to break it off"
-            wait.fail(FlightFailed(Failure.REFUSED, why))
+            order.fail(FlightFailed(Failure.REFUSED, why))
 
     async def hold(self, drone: str) -> None:
         """Hover, for as long as an action of the app's own takes."""
@@ -104,22 +105,20 @@ class Radio:
         return standing
 
     async def _sent(self, drone: str, command: Callable[[], Coroutine[Any, Any, T]]) -> T:
-        await self._on_its_way(drone, COMMAND)
-        result = await command()
-        await self._on_its_way(drone, ANSWER)
+        self._orders[drone] = broken_off = Signal[None]()
+        try:
+            await self._on_its_way(COMMAND, broken_off)
+            result = await command()
+            await self._on_its_way(ANSWER, broken_off)
+        finally:
+            if self._orders.get(drone) is broken_off:
+                del self._orders[drone]
         return result
 
-    async def _on_its_way(self, drone: str, what: str) -> None:
+    async def _on_its_way(self, what: str, broken_off: Signal[None]) -> None:
         seconds = self._late(what)
-        if seconds <= 0:
-            return
-        over: Signal[None] = Signal()
-        self._waits[drone] = over
-        when = self._kernel.now + seconds
-        timer = self._kernel.at(when, Kind.FLIGHT, FLEET, partial(over.set, None))
-        try:
-            await over
-        finally:
-            timer.cancel()
-            if self._waits.get(drone) is over:
-                del self._waits[drone]
+        if seconds > 0:
+            until = self._kernel.now + seconds
+            await self._kernel.within(broken_off, until, Kind.FLIGHT, FLEET)
+        if broken_off.is_set:
+            broken_off.result()
