@@ -23,11 +23,11 @@ from plutoc_runtime.simulation.drones import SimulatedDrone, SimulatedNavigation
 from plutoc_runtime.simulation.faults import Faults
 from plutoc_runtime.simulation.world import World
 from plutoc_runtime.standing import Down
-from plutoc_runtime.testing.mortal import Mortal
 from plutoc_runtime.trace import Event
 from plutoc_runtime.virtual import VirtualTime
 
 from . import apps
+from .mortal import Mortal
 
 FIELDS = (
     Field(name="repeat", on=Entity.MISSION, type=FieldType.ROUNDS, label="Repeat", default=0),

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Coroutine
 from typing import Any, TypeVar
 
-from ..kernel import Call, Kernel, Key, Kind, Task, Timer
-from ..signals import Signal
+from plutoc_runtime.kernel import Call, Kernel, Key, Kind, Task, Timer
+from plutoc_runtime.signals import Signal
 
 T = TypeVar("T")
 
