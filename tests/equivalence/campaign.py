@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from random import Random
 
@@ -20,6 +20,7 @@ from plutoc.plan.verify import verify
 from plutoc.registry import STD, Blocks, blocks_of
 from plutoc.source import Source
 from plutoc.syntax.parse import read
+from plutoc_runtime.status import IN_GRAPH
 from tests.equivalence import coverage, strangers
 from tests.equivalence.flows import NOTHING, Overrides, Package, packaged
 from tests.equivalence.fly import Record, difference, record
@@ -134,7 +135,7 @@ def one_graph(name: str, contender: Contender = OURS) -> Tally:
     if contender is OURS:
         tally.findings += _malformed(name, text, plain)
     package = packaged(other, contender.overrides)
-    for world, plainly_flown in _worlds(packaged(plain), rng):
+    for world, plainly_flown in _worlds(packaged(plain), checked, rng):
         said = difference(plainly_flown, record(package, world))
         if plainly_flown.broken:
             said = f"the plain package broke: {plainly_flown.ends[0]}"
@@ -155,13 +156,18 @@ def _malformed(name: str, text: str, plain: Plan) -> Iterator[Finding]:
             yield Finding(name=name, text=text, world=None, said=f"after the pass {after}: {bad}")
 
 
-def _worlds(plain: Package, rng: Random) -> Iterator[tuple[World, Record]]:
+def _worlds(plain: Package, checked: Checked, rng: Random) -> Iterator[tuple[World, Record]]:
     times: Sequence[float] = TIMES
     for _ in range(WORLDS):
         world = random_world(rng, plain.graph, times)
         flown = record(plain, world)
         times = (*flown.lengths, *flown.lengths, *TIMES) if flown.lengths else TIMES
         yield world, flown
+    for place, statuses in checked.entries.items():
+        for status in IN_GRAPH:
+            if status in statuses:
+                entered = replace(world, entry=(place, status))
+                yield entered, record(plain, entered)
 
 
 def differs(text: str, world: World, contender: Contender = OURS) -> str | None:

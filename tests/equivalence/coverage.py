@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from plutoc.block import Gate
 from plutoc.graph.model import Node
-from plutoc.plan.model import Body, Dispatch, Join, Loop, Plan, Step, Switch
+from plutoc.plan.model import Body, Call, Dispatch, Join, Loop, Plan, Step, Switch
 from plutoc_runtime.trace import Event
 from tests.equivalence import strangers
 from tests.equivalence.fly import Record
@@ -26,6 +26,11 @@ def of_graph(plain: Plan, optimised: Plan) -> Iterator[str]:
     found += [f"optimised: {type(step).__name__}" for step in _steps(optimised.body)]
     if plain.body != optimised.body:
         found.append("the two plans differ")
+    calls = Counter(step.node.name for step in _steps(plain.body) if isinstance(step, Call))
+    if any(calls[name] > 1 for name in plain.checked.entries):
+        found.append("an entry by a copy")
+    if any(isinstance(step, Dispatch) and step.entries for step in plain.body):
+        found.append("an entry by a case")
     yield from dict.fromkeys(found)
 
 
@@ -130,6 +135,8 @@ def of_run(world: World, record: Record) -> Iterator[str]:
         found.append("missions waited for ever")
     if len(world.missions) > 1:
         found.append("several missions")
+    if world.entry is not None:
+        found.append("missions that go on")
     yield from dict.fromkeys(found)
 
 
@@ -161,7 +168,8 @@ WANTED = (
     *EVENTS.values(),
     *REASONS.values(),
     *("two trips ended at one instant", "a trip that ended just in time", "a hook was called"),
-    *("no trip failed", "several missions"),
+    *("no trip failed", "several missions", "missions that go on", "plain: Arrived"),
+    *("an entry by a copy", "an entry by a case"),
 )
 """What must have occurred, or the campaign has shown nothing of it."""
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any, Protocol
 
 from plutoc_runtime.errors import BadInput
@@ -16,9 +17,11 @@ from tests.equivalence.patience import Spins
 from tests.equivalence.worlds import World
 
 if TYPE_CHECKING:
-    from plutoc_runtime.app import App
+    from plutoc_runtime.app import App, Flow
     from plutoc_runtime.files.fleet import FleetFile
+    from plutoc_runtime.run import Run
     from plutoc_runtime.simulation.faults import Faults
+    from plutoc_runtime.status import Status
 
 ANY: tuple[type[Exception], ...] = (Exception,)
 """Whatever ends a run is kept, and compared."""
@@ -66,6 +69,8 @@ def record(package: Package, world: World, *, fly: Fly = simulate, patient: bool
         seed=world.seed, limits=world.limits, patient=patient, clock=lambda: _now(events)
     )
     app = package.app(behaviour.hooks(package.graph))
+    if world.entry is not None and world.entry[0] in app.resumes:
+        app = replace(app, flow=partial(_entered, app.flow, world.entry))
     missions = world.made(app)
     ends: Sequence[str]
     try:
@@ -93,6 +98,13 @@ def record(package: Package, world: World, *, fly: Fly = simulate, patient: bool
         broken=broken,
         spins=spins,
     )
+
+
+async def _entered(flow: Flow, entry: tuple[str, Status], run: Run[Mission[Any]]) -> Status:
+    """Take a mission through its flow from where it was interrupted, though it has flown nothing."""
+    run.core.transitions.create(run.mission)
+    run.at, run.status = entry
+    return await flow(run)
 
 
 def _now(events: Sequence[Event]) -> float:

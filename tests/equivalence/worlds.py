@@ -21,6 +21,7 @@ from plutoc_runtime.fleet import AfterTrip
 from plutoc_runtime.model import Item, Mission, Point, Trip
 from plutoc_runtime.quantities import Type
 from plutoc_runtime.simulation.faults import Faults
+from plutoc_runtime.status import Status
 
 Plain = bool | int | float | str | None
 TIMES = (0.0, 0.5, 2.0, 5.0, 7.0, 9.0, 11.0, 13.0, 15.0, 17.0, 21.0, 25.0, 30.0, 60.0)
@@ -62,6 +63,8 @@ class World:
     max_airborne: int | None
     faults: Faults
     until: float
+    entry: tuple[str, Status] | None = None
+    """The block where the missions go on, as if they had been interrupted, and how they stand."""
 
     @property
     def fleet(self) -> FleetFile:
