@@ -89,11 +89,11 @@ def _module(
     module = ModuleType(f"{PACKAGE}.{name}")
     module.__package__ = PACKAGE
     vars(module)["__builtins__"] = {**vars(builtins), "__import__": importing}
-    _InMemory(code).exec_module(module)
+    InMemory(code).exec_module(module)
     return module
 
 
-class _InMemory(InspectLoader):
+class InMemory(InspectLoader):
     """Runs a module that was compiled already."""
 
     def __init__(self, code: CodeType) -> None:

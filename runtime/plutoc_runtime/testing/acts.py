@@ -45,6 +45,10 @@ class Once:
         """How many actions were done, as far as that is on record."""
         return len(self._recorded)
 
+    def knows(self, job: str) -> bool:
+        """Whether it is on record that a drone was sent to do this."""
+        return job in self._launched
+
     def take(self, event: Event) -> None:
         """Something is on record."""
         match event["event"]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
@@ -44,6 +45,18 @@ FAULTS = (
 _MOMENTS = (0.0, 0.0, 0.4, 1.1, 2.2, 7.0)
 """Seconds after a row at which something strikes: also while an action is under way."""
 _MOST_ROWS = 100
+_MIDST = 0.6
+"""Seconds before an action is done."""
+_IN_THE_MIDST = (
+    (Kind.CRASH,),
+    (Kind.GATEWAY,),
+    (Kind.FREEZE,),
+    (Kind.CUT,),
+    (Kind.PAUSE,),
+    (Kind.GATEWAY, Kind.REBOOT),
+    (Kind.CRASH, Kind.REBOOT),
+    (Kind.CRASH, Kind.GATEWAY),
+)
 _BEYOND = 14
 """Rows among which the next blow of a drawn case falls."""
 
@@ -89,11 +102,12 @@ def explored(
 def everywhere(app: App, case: Case) -> Iterator[Case]:
     """Yield the case with each death and each Stop at every row of its journal, and with both.
 
-    Of a long journal it is every second row, or third, and so on.
+    Of a long journal it is every second row, or third, and so on. In the midst of every action
+    there die brain and gateway, and drones forget.
     """
     yield case
-    rows = tried(app, case).rows
-    for row in range(1, rows + 1, 1 + rows // _MOST_ROWS):
+    trial = tried(app, case)
+    for row in range(1, trial.rows + 1, 1 + trial.rows // _MOST_ROWS):
         for kind in (*DEATHS, *STOPS):
             yield replace(case, blows=(Blow(kind=kind, row=row),))
         for death in DEATHS:
@@ -102,6 +116,14 @@ def everywhere(app: App, case: Case) -> Iterator[Case]:
                 yield replace(case, blows=(first, second))
                 first, second = Blow(kind=stop, row=row), Blow(kind=death, row=row + 1)
                 yield replace(case, blows=(first, second))
+    for act in trial.acts[:: 1 + len(trial.acts) // _MOST_ROWS]:
+        moment = act.time - _MIDST
+        row = bisect_right(trial.times, moment)
+        if row:
+            after = round(moment - trial.times[row - 1], 3)
+            for kinds in _IN_THE_MIDST:
+                blows = tuple(Blow(kind=kind, row=row, after=after) for kind in kinds)
+                yield replace(case, blows=blows)
 
 
 def small_case(

@@ -40,7 +40,7 @@ class Living:
         self.skew = rig.skew = now - rig.world.now
         self.kernel = BrainTime(now, case.weather, rig.chance, rig.fired, rig.hook_done)
         link = rig.gateway.link(rig.lives, self.lost)
-        self.wire = Wire(link, rig.gateway, self.kernel, case.weather.slow, rig.fired)
+        self.wire = Wire(link, rig.gateway, self.kernel, case.weather.slow, rig.fired, self.sent)
         self.added = self.committed = 0
         self.unwritten: deque[tuple[int, str, list[Event], dict[str, Known]]] = deque()
         self.full = False
@@ -85,6 +85,11 @@ class Living:
         if self.kernel.settled is not None:
             self.kernel.settled()
 
+    def sent(self, job: str) -> None:
+        """A drone is sent on its way."""
+        if self.rig.brain is self and not self.rig.once.knows(job):
+            self.rig.found.append(f"{self.kernel.now:g} s: {job} set out before that was on record")
+
     # The journal
 
     def add(self, row: str) -> int:
@@ -94,6 +99,7 @@ class Living:
         if rig.brain is not self:  # somebody else has the journal by now
             return self.added
         rig.count += 1
+        rig.times.append(rig.world.now)
         events: list[Event] = json.loads(row)
         touched = {str(event["mission"]) for event in events if "mission" in event}
         known = {

@@ -73,6 +73,10 @@ class Trial:
     """By mission, how it ended."""
     events: tuple[Event, ...]
     """All that is on record."""
+    times: tuple[float, ...]
+    """When each row was written, by the world's clock."""
+    acts: tuple[Act, ...]
+    """What the world has seen."""
 
     @property
     def wrong(self) -> tuple[str, ...]:
@@ -121,6 +125,8 @@ class Rig:
         self.brain: Living | None = None
         self.rows: list[str] = []
         """What is durable."""
+        self.times: list[float] = []
+        """When each row was written, durable or not."""
         self.count = self.lives = 0
         self.skew = 0.0
         """How far the brain's clock is ahead of the world's."""
@@ -153,6 +159,8 @@ class Rig:
             lives=self.lives,
             ends=self.ends,
             events=tuple(self.events),
+            times=tuple(self.times),
+            acts=tuple(self.acts),
         )
 
     def turn(self) -> bool:

@@ -27,15 +27,22 @@ class Wire(Link):
     """A link whose messages travel for a while, each way, and in order."""
 
     def __init__(
-        self, link: Link, gateway: Gateway, brain: Kernel, slow: float, fired: Counter[str]
+        self,
+        link: Link,
+        gateway: Gateway,
+        brain: Kernel,
+        slow: float,
+        fired: Counter[str],
+        sent: Callable[[str], object],
     ) -> None:
         super().__init__(gateway, None)
         self._real, self._world, self._brain = link, gateway.kernel, brain
-        self._slow, self._fired = slow, fired
+        self._slow, self._fired, self._sent = slow, fired, sent
         self.alive = True
 
     def fly(self, job: Job, report: Report) -> None:
         """Give a drone its job."""
+        self._sent(job.id)
         self._send(partial(self._real.fly, job, partial(self._told, report)))
 
     def break_off(self, drone: str) -> None:

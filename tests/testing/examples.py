@@ -1,0 +1,74 @@
+"""The examples in memory, on the runtime in place: as they are, or with a mistake in them."""
+
+from __future__ import annotations
+
+import builtins
+from collections.abc import Callable, Mapping, Sequence
+from functools import lru_cache
+from importlib import import_module
+from types import ModuleType, SimpleNamespace
+from typing import TYPE_CHECKING
+
+from plutoc.check.model import Checked
+from plutoc.compile import analyse, planned
+from plutoc.emit.exports import EXPORTS
+from plutoc.plan.build import build
+from plutoc.source import Source
+from plutoc_runtime.files.fleet import FleetFile, load_fleet
+from tests.equivalence.flows import InMemory, Package, packaged
+from tests.flying import EXAMPLES
+
+if TYPE_CHECKING:
+    from plutoc_runtime.app import App
+
+Overrides = Mapping[str, Callable[..., object]]
+
+
+@lru_cache
+def checked(name: str) -> Checked:
+    """Return an example's checked graph."""
+    path = EXAMPLES / name / "app.pluto"
+    return analyse(Source(path.name, path.read_text(encoding="utf-8")))[0]
+
+
+def example(name: str, overrides: Overrides | None = None, *, plain: bool = False) -> App:
+    """Return an example's app, optimised or as it was built, with functions in place of others."""
+    plan = build(checked(name)) if plain else planned(checked(name))
+    package = packaged(plan, overrides or {})
+    hooks = SimpleNamespace(**vars(_hooks(name, package)))
+    return package.app(hooks)
+
+
+def fleet_of(name: str, app: App) -> FleetFile:
+    """Return an example's fleet file."""
+    return load_fleet(EXAMPLES / name / "fleet.toml", app)
+
+
+def _hooks(name: str, package: Package) -> ModuleType:
+    """Run an example's hooks.py; what it imports from its package is found where it is at home."""
+
+    def importing(
+        target: str,
+        globals_: Mapping[str, object] | None = None,
+        locals_: Mapping[str, object] | None = None,
+        wanted: Sequence[str] = (),
+        level: int = 0,
+    ) -> object:
+        if level == 0:
+            return builtins.__import__(target, globals_, locals_, wanted, level)
+        return SimpleNamespace(**{one: _exported(one, package) for one in wanted})
+
+    path = EXAMPLES / name / "hooks.py"
+    module = ModuleType(f"{name}.hooks")
+    vars(module)["__builtins__"] = {**vars(builtins), "__import__": importing}
+    if path.exists():
+        code = compile(path.read_text(encoding="utf-8"), str(path), "exec")
+        InMemory(code).exec_module(module)
+    return module
+
+
+def _exported(one: str, package: Package) -> object:
+    home = EXPORTS[one]
+    if home.startswith("._runtime"):
+        return getattr(import_module(home.replace("._runtime", "plutoc_runtime")), one)
+    return getattr(package.model, one)
