@@ -75,12 +75,16 @@ class Example:
 
 def compiled(name: str, into: Path) -> Path:
     """Compile an example as a person would, and return the package's folder."""
-    package = into / name
+    return compiled_file(EXAMPLES / name / "app.pluto", into / name)
+
+
+def compiled_file(source: Path, package: Path) -> Path:
+    """Compile an app as a person would, and return the package's folder."""
     said = StringIO()
     with redirect_stdout(said), redirect_stderr(said):
-        code = main(["compile", str(EXAMPLES / name / "app.pluto"), "-o", str(package)])
+        code = main(["compile", str(source), "-o", str(package)])
     if code != 0:
-        raise AssertionError(f"plutoc compile of {name} ended with {code}:\n{said.getvalue()}")
+        raise AssertionError(f"plutoc compile of {source} ended with {code}:\n{said.getvalue()}")
     return package
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -26,7 +27,7 @@ def fly(app: App, options: Options) -> int:
     _only_simulated(app, options)
     plan = load(app, options)
     journal = options.journal or place.new(app.name, time.time())
-    if journal.is_symlink() or journal.exists():
+    if os.path.lexists(journal):
         raise exists(journal)
     begun = header(
         app,
