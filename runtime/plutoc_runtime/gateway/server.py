@@ -170,6 +170,8 @@ class Connection:
                 self._tell({"ok": True, "said": "the drones come down"})
             case {"do": "link", "epoch": int(epoch)} if self.link is None:
                 self._link(epoch)
+            case {"do": "link"} if self.link is not None:
+                raise BadInput("this connection commands already")
             case {"do": str(what)} if self.link is not None:
                 self._command(self.link, what, message)
             case _:
@@ -184,6 +186,8 @@ class Connection:
         self._server.say(f"a brain commands, number {epoch}")
 
     def _lost(self) -> None:
+        if self.link is None:  # it has hung up
+            return
         self._server.say("the brain that commanded is cut off")
         self.link = None
         self._tell({"lost": True})
