@@ -202,7 +202,9 @@ MUTANTS: Mapping[str, Mutant] = {
         plant=snapshot_forgets_delays, says="waits until|once more"
     ),
     "priority is lost on resume": Mutant(plant=priority_is_lost, says="and went on with"),
-    "an old brain still commands": Mutant(plant=old_brains_are_heard, says=""),
+    "an old brain still commands": Mutant(
+        plant=old_brains_are_heard, says="was told to .* while told to"
+    ),
     "drones count as free before they answer": Mutant(
         plant=nobody_is_asked, says="before it was asked"
     ),

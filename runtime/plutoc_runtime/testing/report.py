@@ -39,18 +39,24 @@ def report(app: App, options: Options, tally: Tally, smallest: Finding | None) -
     seeds = dict.fromkeys(str(finding.case.seed) for finding in tally.findings)
     yield f"Something is wrong, with seed {', '.join(seeds)}. The smallest case that shows it:"
     yield ""
-    for sentence in smallest.sentences:
+    yield from smallest_case(app, options, smallest)
+
+
+def smallest_case(app: App, options: Options, finding: Finding) -> Iterator[str]:
+    """Yield what is wrong, the files that show it, and the command that shows it again."""
+    case = finding.case
+    for sentence in finding.sentences:
         yield f"  {printable(sentence)}"
     yield ""
     yield "# failing.toml"
-    yield from missions_text(app, smallest.case.missions).rstrip().split("\n")
-    if smallest.case.fleet.world is None:
+    yield from missions_text(app, case.missions).rstrip().split("\n")
+    if case.fleet.world is None:
         yield ""
         yield "# failing-fleet.toml"
-        yield from fleet_text(smallest.case.fleet).rstrip().split("\n")
+        yield from fleet_text(case.fleet).rstrip().split("\n")
     yield ""
     yield "Save that, and see it again:"
-    yield "  " + _again(options, smallest)
+    yield "  " + _again(options, finding)
 
 
 def _again(options: Options, finding: Finding) -> str:
