@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import combinations
 from math import dist, hypot
 
@@ -10,8 +11,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from plutoc_runtime.airspace import Airspace
+from plutoc_runtime.errors import Failure
 from plutoc_runtime.kernel import FLEET
 from plutoc_runtime.simulation.faults import Faults
+from plutoc_runtime.simulation.motion import Charge
 from plutoc_runtime.standing import Down, JobState
 from plutoc_runtime.virtual import VirtualTime
 from tests.gateway.flights import Field, Task
@@ -75,6 +78,25 @@ def test_who_goes_home_lands_in_the_dock() -> None:
     brought_down(field, Down.HOME)
     for drone in field.drones:
         assert field.navigation.telemetry(drone.id).location == pytest.approx(drone.home)
+    assert all_landed(field)
+
+
+def test_who_stands_elsewhere_goes_home_too_if_it_can() -> None:
+    """With what it carries; one with too little in its battery, or crashed, stays where it is."""
+    field = Field()
+    link = field.gateway.link(1)
+    for drone in field.drones:
+        link.fly(Task(id=drone.id, drone=drone.id), lambda _: None)
+        field.advance(20)
+        assert isinstance(field.kernel, VirtualTime)
+        fly(field.kernel, link.land(drone.id))
+    low = field.navigation.bodies["cf2"]
+    low.restore(replace(low.snapshot, charge=Charge(0.03, field.kernel.now)))
+    field.navigation.strike("cf3", Failure.CRASH)
+    brought_down(field, Down.HOME)
+    at = [field.navigation.telemetry(drone.id).location for drone in field.drones]
+    assert at == [pytest.approx((1, 1, 0)), pytest.approx((4, 5, 0)), pytest.approx((4, 5, 0))]
+    assert field.navigation.carrying("cf1") is not None
     assert all_landed(field)
 
 

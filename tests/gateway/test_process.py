@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from plutoc_runtime.errors import BadInput, Failure, FlightFailed
+from plutoc_runtime.gateway import remote, starting
 from plutoc_runtime.gateway.starting import speed_in, stop_directly
 from plutoc_runtime.model import Photo
 from plutoc_runtime.standing import Down, JobState
@@ -176,5 +177,24 @@ def test_a_gateway_that_cannot_begin_says_why(tmp_path: Path) -> None:
         (tmp_path / "world.jsonl").mkdir()
         with pytest.raises(BadInput, match=r"the gateway ended before it was ready: .*world.jsonl"):
             await brain.linked()
+
+    played(tmp_path, play)
+
+
+def test_a_gateway_that_hangs_is_replaced(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It says nothing any more: it is killed, and another one takes over the world."""
+    monkeypatch.setattr(remote, "SILENCE", 1.5)  # it says something each second
+
+    async def play(brain: Brain) -> None:
+        link = await brain.linked()
+        await brain.flown(link, Task())
+        hung = pid(tmp_path)
+        assert hung is not None
+        os.kill(hung, signal.SIGSTOP)
+        monkeypatch.setattr(starting, "SILENCE", 0.5)
+        await brain.kernel.run(brain.lost)
+        link = await brain.linked()
+        assert pid(tmp_path) != hung
+        assert (await brain.told(link.call())).drones["cf1"].carrying == "pills"
 
     played(tmp_path, play)

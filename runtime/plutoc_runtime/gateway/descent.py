@@ -1,4 +1,7 @@
-"""How all drones come down at once: where they are, or each at home, apart from one another."""
+"""How all drones come down at once: where they are, or each at home, apart from one another.
+
+Who goes home does so even if it stands somewhere else; what it carries comes along.
+"""
 
 from __future__ import annotations
 
@@ -66,7 +69,7 @@ class _Way:
 
 
 class Descent:
-    """Brings down every drone that flies. One that cannot follow is no reason to leave others up."""
+    """Brings down every drone that flies. One that cannot follow keeps no other up."""
 
     def __init__(
         self,
@@ -111,7 +114,7 @@ class Descent:
 
     async def _fly_home(self) -> None:
         """Let drones fly home, each at a height of its own; as many at once as there are heights."""
-        drones = self._flying()
+        drones = [*self._strays(), *self._flying()]
         lowest = self._airspace.cruise_height
         heights = 1 + max(0, floor((self._airspace.ceiling - lowest) / self._apart + 1e-9))
         for first in range(0, len(drones), heights):
@@ -137,20 +140,22 @@ class Descent:
             x, y, z = self._location(drone)
             route = self._airspace.route((x, y, height), (drone.home[0], drone.home[1], height))
             if docked((x, y, z), drone.home) or route is None:
-                stay.append(drone)
+                if not self._is_landed(drone):
+                    stay.append(drone)
                 continue
             way = _Way(drone, height, ((x, y, height), *route))
-            seconds = abs(height - z) + length(way.points[0], route)
-            seconds = seconds / drone.category.speed + height / CLIMB_SPEED
+            climbs = abs(height - z) + height
+            seconds = climbs / CLIMB_SPEED + length(way.points[0], route) / drone.category.speed
             level = self._navigation.telemetry(drone.id).battery_level
             if share(drone.category, seconds) < level:
                 ways.append(way)
-            else:
+            elif not self._is_landed(drone):
                 stay.append(drone)
         return stay, ways
 
     async def _climb(self, way: _Way) -> None:
         """Rise, or sink, to the way's height: who is above another now, stays so."""
+        await self._navigation.takeoff(way.drone.id, way.height)  # does nothing for one that flies
         await self._navigation.go_to(way.drone.id, way.points[0])
 
     async def _follow(self, way: _Way, below: Sequence[tuple[_Way, Task[bool]]]) -> None:
@@ -167,6 +172,14 @@ class Descent:
         task = self._kernel.spawn(_well(command), key, f"{drone.id} comes down")
         self._tasks.append(task)
         return task
+
+    def _strays(self) -> list[Craft]:
+        """Return who stands on the ground, but not at home."""
+        return [
+            drone
+            for drone in self._drones
+            if self._is_landed(drone) and not docked(self._location(drone), drone.home)
+        ]
 
     def _flying(self) -> list[Craft]:
         """Return who flies, the lowest first."""

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import asyncio
+import fcntl
 import json
 import os
+import signal
 import subprocess
 from collections.abc import Callable, Sequence
 from contextlib import suppress
@@ -16,8 +18,8 @@ from ..asking import ask
 from ..errors import BadInput
 from ..private import address_in
 from ..standing import Down
-from .process import ANOTHER_RUNS, LOG, NOTE, SETTINGS
-from .remote import RemoteLink
+from .process import ANOTHER_RUNS, LOCK, LOG, NOTE, SETTINGS
+from .remote import SILENCE, RemoteLink
 from .settings import Settings, data_of
 from .wire import LONGEST_HEARD
 
@@ -47,8 +49,12 @@ async def connect(
     until = loop.time() + _WITHIN
     process: subprocess.Popen[bytes] | None = None
     while True:
-        with suppress(OSError):
+        try:
             return await _linked(folder, settings, kernel, epoch, lost)
+        except TimeoutError:
+            _end(folder)
+        except OSError:
+            pass  # there is none yet
         if process is None or process.poll() is not None:
             if process is not None and process.returncode not in (0, ANOTHER_RUNS):
                 raise BadInput(_ended(folder))
@@ -65,14 +71,15 @@ async def _linked(
     epoch: int,
     lost: Callable[[], object] | None,
 ) -> RemoteLink:
-    """Link to the gateway that runs; OSError: none does."""
+    """Link to the gateway that runs; OSError: none does; TimeoutError: it does not answer."""
     address = address_in(folder / NOTE)
     if address is None:
         raise FileNotFoundError(folder / NOTE)
     reader, writer = await asyncio.open_unix_connection(address, limit=LONGEST_HEARD)
     link = RemoteLink(kernel, reader, writer, lost)
     try:
-        await link.link(epoch, settings.patience)
+        async with asyncio.timeout(SILENCE):
+            await link.link(epoch, settings.patience)
     except BaseException:
         writer.close()
         raise
@@ -113,6 +120,15 @@ def stop_directly(folder: Path, how: Down, patience: float) -> str:
     Raises `BadInput`, as `ask` does, if there is no gateway, or it says nothing in these seconds.
     """
     return ask(folder / NOTE, {"do": "stop", "how": how.value}, patience)
+
+
+def _end(folder: Path) -> None:
+    """Kill a gateway that hangs: it flies nothing any more, and another one can."""
+    with suppress(OSError), (folder / LOCK).open("rb") as lock:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:  # so the number in it is that of whoever has it
+            os.kill(int(lock.read()), signal.SIGKILL)
 
 
 def _ended(folder: Path) -> str:
