@@ -75,17 +75,15 @@ def resume_points(graph: Graph, points: Sequence[Points]) -> Mapping[str, tuple[
 
 
 def _points(flow: Flow, is_point: IsPoint) -> Points:
+    points = [p for p, step in flow.places.items() if step is None or is_point(flow, p)]
     found: dict[Place, dict[str, None]] = {place: {} for place in flow.places}
-    queue: deque[Place] = deque()
-    for place, step in flow.places.items():
-        if step is None or is_point(flow, place):
-            found[place][place.node] = None
-            queue.append(place)
+    found.update((place, {place.node: None}) for place in points)
+    settled, queue = frozenset(points), deque(points)
     while queue:
         place = queue.popleft()
         for following in flow.after[place]:
             known = len(found[following])
-            if not is_point(flow, following):
+            if following not in settled:
                 found[following].update(found[place])
             if len(found[following]) > known:
                 queue.append(following)

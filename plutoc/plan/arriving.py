@@ -160,9 +160,9 @@ class _Walk:
         bodies = {case.label: case.body for case in step.cases}
         walked: dict[str, Coming] = {}
         frame.gone[step.start] = _statuses(coming)
-        for label in step.entries:
-            some = frozenset(one for one in coming if _place(one) == label)
-            frame.gone[label] = frame.gone.get(label, NOBODY) | some
+        for one in coming:
+            if isinstance(one, Entering):
+                frame.gone[one.place] = frame.gone.get(one.place, NOBODY) | {one}
         while fresh := [label for label, came in frame.gone.items() if walked.get(label) != came]:
             for label in fresh:
                 walked[label] = frame.gone[label]

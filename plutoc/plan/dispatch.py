@@ -15,13 +15,13 @@ from plutoc.plan.structure import Around, Writer
 
 def dispatch(found: Shape, steps: Mapping[Spot, Body], entries: tuple[str, ...] = ()) -> Body:
     """Return a chart as one dispatch over the spots that several arrows, or missions, lead to."""
-    first = found.chart.entry
+    first, entered = found.chart.entry, frozenset(entries)
     places = tuple(
         spot
         for spot in found.order
         if spot in found.shared
         or spot == first
-        or (spot.kind is Kind.BLOCK and spot.name in entries)
+        or (spot.kind is Kind.BLOCK and spot.name in entered)
     )
     around = Around(elsewhere=frozenset(places), labels=frozenset(places))
     cases = tuple(

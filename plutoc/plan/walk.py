@@ -190,9 +190,10 @@ class _Walk:
 
     def dispatch(self, step: Dispatch, left: Left, frame: _Frame) -> None:
         frame.gone[step.start] = {pair: None for pair in left if _place(pair[0]) is None}
-        for label in step.entries:
-            some = {pair: None for pair in left if _place(pair[0]) == label}
-            frame.gone.setdefault(label, {}).update(some)
+        for pair in left:
+            place = _place(pair[0])
+            if place in step.entries:
+                frame.gone.setdefault(place, {})[pair] = None
         known: dict[str, Left] = {case.label: {} for case in step.cases}
         while any(known[label].keys() != gone.keys() for label, gone in frame.gone.items()):
             for case in step.cases:
