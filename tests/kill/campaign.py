@@ -8,6 +8,7 @@ from random import Random
 
 from tests.flying import compiled
 from tests.kill.lives import Flight
+from tests.kill.painter import HOUSE, painter_in
 from tests.kill.plans import PLANS
 from tests.kill.tally import Tally
 from tests.kill.trial import Trial
@@ -31,14 +32,17 @@ def campaign(
     """Fly, kill and resume until so many brains and gateways were killed."""
     tally, number, idle = Tally(), 0, 0
     sources = {plan.app: compiled(plan.app, folder / "packages") / "src" for plan in PLANS}
+    sources[HOUSE.app] = painter_in(folder / "painter") / "src"
+    plans = (*PLANS, HOUSE)
     while idle < HOPELESS:
         left = (brains - tally.brains.total(), gateways - tally.gateways.total())
         if left[0] <= 0 and left[1] <= 0:
             break
         random = Random(f"{seed}/{number}")
-        plan = PLANS[number % len(PLANS)]
+        plan = plans[number % len(plans)]
         place = folder / f"flight{number}"
         place.mkdir()
+        (place / "go").touch()  # for the painter
         flight = Flight(
             app=plan.app,
             source=sources[plan.app],

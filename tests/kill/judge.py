@@ -15,10 +15,11 @@ from typing import Any
 from plutoc_runtime.cli.events import line_of
 from plutoc_runtime.journal.fold import Records
 from plutoc_runtime.journal.place import gateway_folder
+from tests.kill.painter import painted
 
 Event = dict[str, Any]
 
-ONCE = ("pick_item", "release_item")
+ONCE = ("pick_item", "release_item", "spray")
 """The actions that must not be done twice."""
 
 ENDS = ("COMPLETED", "FAILED", "UNCERTAIN")
@@ -45,10 +46,11 @@ def phase(journal: Path, rows: Sequence[str]) -> str:
         return "setting out"
     if all(record["ended"] for record in missions):
         return "all missions ended"
-    if "begun" in _states_of_jobs(journal).values():
-        return "during an action"
     flights = [record["flight"] for record in missions if record["flight"] is not None]
-    if any(flight["outcome"] is None for flight in flights):
+    flying = [flight for flight in flights if flight["outcome"] is None]
+    if "begun" in _states_of_jobs(journal).values() or any(one["begun"] for one in flying):
+        return "during an action"
+    if flying:
         return "in flight"
     return "between trips"
 
@@ -82,13 +84,18 @@ def unkept(printed: Sequence[str], rows: Sequence[str]) -> Iterator[str]:
 
 
 def done_by_the_world(journal: Path) -> Counter[tuple[str, str]]:
-    """Count what was physically done, by the action and the trip's mission, name and round."""
+    """Count what was physically done, by the action and the trip's mission, name and round.
+
+    The painter's own action is none of the drones': it is counted where that writes it down.
+    """
     file = gateway_folder(journal) / "world.jsonl"
     counts: Counter[tuple[str, str]] = Counter()
     for line in file.read_text().splitlines() if file.exists() else ():
         entry = json.loads(line)
         if entry["action"] in ONCE:
             counts[entry["action"], str(entry["job"]).rpartition("/")[0]] += 1
+    for trip in painted(journal.parent):
+        counts["spray", f"{trip.partition('-')[0]}/{trip}/0"] += 1
     return counts
 
 

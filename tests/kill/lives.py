@@ -8,8 +8,11 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
+
+from plutoc_runtime.asking import note_of
 
 PATIENCE = 120.0
 """Seconds until a life that does not end is called a failure."""
@@ -29,6 +32,7 @@ class Flight:
     """What goes wrong besides, as `fly` is told so."""
     lives: list[str] = field(default_factory=list)
     """What each life has printed."""
+    _heard: str = ""
     _life: subprocess.Popen[bytes] | None = None
 
     @property
@@ -44,6 +48,7 @@ class Flight:
             files = [self.folder / "missions.toml", "--fleet", self.folder / "fleet.toml"]
             flags = ["--sim", "--speed", str(self.speed), "--journal", str(self.journal)]
             words = ["fly", *map(str, files), *flags, *self.chance]
+        self._heard = self._hears()
         with self._printed.open("wb") as out:
             self._life = subprocess.Popen(
                 self.command(*words, *more),
@@ -70,6 +75,19 @@ class Flight:
     def signal(self, number: signal.Signals) -> None:
         """Send a signal to the life that is being lived."""
         os.kill(self.pid, number)
+
+    def until_it_flies(self) -> None:
+        """Wait until the life commands drones, or has ended."""
+        life = self._life
+        assert life is not None
+        eventually(lambda: self._hears() != self._heard or life.poll() is not None)
+
+    def _hears(self) -> str:
+        """Return how commands reach the life; it is otherwise for each, and stays when it is killed."""
+        note = note_of(self.journal)
+        with suppress(OSError):
+            return note.read_text()
+        return ""
 
     def until_it_says(self, what: str) -> None:
         """Wait until the life has printed this."""
@@ -116,11 +134,11 @@ class Flight:
 
     @property
     def _environment(self) -> dict[str, str]:
-        # Its own place for sockets: nothing of other flights, and nothing is left behind.
         return {
             **os.environ,
             "PYTHONPATH": str(self.source),
             "XDG_STATE_HOME": str(self.folder / "state"),
+            "FLIGHT": str(self.folder),
         }
 
     @property

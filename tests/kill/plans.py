@@ -42,12 +42,14 @@ target = [{end}]
 """
 
 
-def _trip(name: str, action: str, target: str, more: str = "") -> str:
+def trip(name: str, action: str, target: str, more: str = "") -> str:
+    """Return a trip of a missions file."""
     head = f'[[mission.trip]]\nname = "{name}"\naction = "{action}"\n'
     return f"{head}target = [{target}]\n{more}\n"
 
 
-def _fleet(categories: str, *, after_trip: str = "home") -> str:
+def fleet(categories: str, *, after_trip: str = "home") -> str:
+    """Return a fleet file with a drone for each of these categories."""
     drones = [
         f'[[drone]]\nid = "d{i}"\ncategory = "{category}"\nhome = [{0.5 + i}, 0.5]\n'
         for i, category in enumerate(categories.split())
@@ -60,20 +62,20 @@ PLANS = (
     Plan(
         app="drugs_distribution",
         missions=_errand("north", "pills", "1.0, 1.5", "4.0, 1.5")
-        + _trip("look", "take_photo", "4.0, 2.0")
+        + trip("look", "take_photo", "4.0, 2.0")
         + _errand("south", "drops", "2.0, 1.0", "3.0, 2.5")
         + '[[mission]]\nname = "warm"\n'
-        + _trip("here", "measure", "2.5, 3.0")
-        + _trip("there", "measure", "1.0, 3.0"),
-        fleet=_fleet("nurse nurse"),
+        + trip("here", "measure", "2.5, 3.0")
+        + trip("there", "measure", "1.0, 3.0"),
+        fleet=fleet("nurse nurse"),
     ),
     Plan(
         app="drugs_distribution_retry",
         missions=_errand("north", "pills", "1.0, 1.5", "4.0, 1.5")
-        + _trip("look", "take_photo", "4.0, 2.0", 'delay = "4 s"')
+        + trip("look", "take_photo", "4.0, 2.0", 'delay = "4 s"')
         + _errand("south", "drops", "2.0, 1.0", "3.0, 2.5")
         + _errand("east", "salve", "4.0, 1.0", "1.0, 2.5"),
-        fleet=_fleet("nurse nurse nurse", after_trip="next"),
+        fleet=fleet("nurse nurse nurse", after_trip="next"),
     ),
     Plan(
         app="warehouse_item_finder",
@@ -86,6 +88,6 @@ PLANS = (
                 ("screw", "4.0, 3.0", "1.0, 1.0"),
             )
         ),
-        fleet=_fleet("light light lifter", after_trip="stay"),
+        fleet=fleet("light light lifter", after_trip="stay"),
     ),
 )

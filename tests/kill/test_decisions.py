@@ -11,17 +11,13 @@ import pytest
 from plutoc_runtime.journal.reader import Reader
 from tests.kill.judge import folded
 from tests.kill.lives import Flight, eventually
+from tests.kill.painter import painted
 
 
 def statuses(flight: Flight) -> list[str]:
     with closing(Reader(flight.journal)) as reader:
         records = folded([row.text for row in reader.rows()])
     return [record["status"] for record in records.missions.values()]
-
-
-def painted(flight: Flight) -> list[str]:
-    file = flight.folder / "painted"
-    return file.read_text().split() if file.exists() else []
 
 
 def cut_short(flight: Flight) -> None:
@@ -56,7 +52,7 @@ def test_what_nobody_saw_a_person_decides(
     assert (said.returncode, said.stderr) == (0, "")
     painting.start()
     assert painting.see_through() == code
-    assert painted(painting) == expected
+    assert painted(painting.folder) == expected
 
 
 def test_a_stop_waits_for_no_hook(painting: Flight) -> None:

@@ -17,8 +17,11 @@ from tests.kill.lives import Flight, alive, eventually
 from tests.kill.plans import Plan
 from tests.kill.tally import Tally
 
-LONGEST = 0.9
-"""Seconds that a life may last before something is killed: a third of it is its start."""
+EARLY = 0.2
+"""How often a life is killed before it need have come to its drones."""
+
+LONGEST = 0.7
+"""Seconds until something is killed."""
 
 
 @dataclass(slots=True, kw_only=True)
@@ -40,6 +43,8 @@ class Trial:
         self.flight.start()
         code: int | None = None
         for victim in self.victims:
+            if self.random.random() > EARLY:
+                self.flight.until_it_flies()
             code = self.flight.wait(self.random.uniform(0.0, LONGEST))
             if code is not None:
                 break
