@@ -56,12 +56,17 @@ async def connect(
         except OSError:
             pass  # there is none yet
         if process is None or process.poll() is not None:
-            if process is not None and process.returncode not in (0, ANOTHER_RUNS):
+            if process is not None and _broke(process.returncode):
                 raise BadInput(_ended(folder))
             process = start(folder, settings, command)
         if loop.time() > until:
             raise BadInput(f"the gateway does not answer; what it said is in {folder / LOG}")
         await asyncio.sleep(_EACH)
+
+
+def _broke(code: int) -> bool:
+    """Whether a gateway could not begin; one that was killed, or that others are before, could."""
+    return code > 0 and code != ANOTHER_RUNS
 
 
 async def _linked(
