@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from .errors import BadInput
 from .journal import errors
-from .journal.fold import Records
+from .journal.replay import replayed
 from .journal.store import Store
 from .journal.writer import Writer
 from .kernel import Cancelled
@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from .files.fleet import FleetFile
     from .gateway.commanding import Reached
     from .journal.errors import JournalError
+    from .journal.fold import Records
     from .kernel import Task
     from .model import Drone, Mission
     from .trace import Event
@@ -100,9 +101,7 @@ class Stops:
 def recovered(store: Store, speed: float) -> tuple[Records, float]:
     """Return what a journal says, and what time it is in the life that goes on from there."""
     read = store.read()
-    records = Records(None if read.snapshot is None else json.loads(read.snapshot))
-    for event in read.events:
-        records.take(event)
+    records = replayed(read)
     if read.damaged is not None:
         raise errors.damaged(store.path, read.damaged)
     if not records.missions or read.written is None:

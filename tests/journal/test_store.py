@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import json
 import os
 from collections.abc import Iterator
@@ -11,6 +12,7 @@ import pytest
 
 from plutoc_runtime.journal.errors import JournalError
 from plutoc_runtime.journal.lock import holder
+from plutoc_runtime.journal.replay import replayed
 from plutoc_runtime.journal.store import Store
 
 HEADER = {"event": "journal.begun", "app": "alfalfa", "missions": '[[mission]]\nname = "Ä"'}
@@ -96,3 +98,32 @@ def test_nothing_but_the_journal_is_left_when_it_is_closed(store: Store, place: 
     store.append([row(1)])
     store.close()
     assert os.listdir(place.parent) == [place.name]
+
+
+def test_it_is_known_when_the_last_thing_that_is_read_was_written(place: Path) -> None:
+    now = [10.0]
+    store = Store.create(place, HEADER, clock=lambda: now[0])
+    assert store.read().written is None
+    now[0] = 20.0
+    store.append([row(1)])
+    now[0] = 30.0
+    store.snapshot("state")
+    assert store.read().written == 30.0
+    now[0] = 40.0
+    store.append([row(2)])
+    read = store.read()
+    assert len(list(read.events)) == 1
+    assert read.written == 40.0
+    store.close()
+
+
+def test_records_are_what_a_snapshot_and_the_events_since_come_to(store: Store) -> None:
+    ended = {"event": "mission.ended", "mission": "A", "status": "FAILED", "reason": "rain"}
+    store.append([json.dumps([{"t": 1.0, **ended}])])
+    whole = replayed(store.read())
+    store.snapshot(json.dumps(whole.data))
+    store.append([json.dumps([{"t": 2.0, **ended, "mission": "B"}])])
+    records = replayed(store.read())
+    assert sorted(records.missions) == ["A", "B"]
+    assert (whole.time, records.time) == (1.0, 2.0)
+    assert gc.isenabled()

@@ -9,11 +9,19 @@ import stat
 import struct
 from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 from ..trace import Event
 from . import errors, wal
 from .errors import TROUBLE
-from .format import APPLICATION, TABLES, VERSION, row_checksum, snapshot_checksum, tip_checksum
+from .format import (
+    APPLICATION,
+    TABLES,
+    VERSION,
+    row_checksum,
+    snapshot_checksum,
+    tip_checksum,
+)
 
 PATIENCE = 5.0
 """Seconds that a commit waits for somebody who looks at the file with a tool of his own."""
@@ -36,6 +44,18 @@ class Found:
     """What is wrong with what was written last, if something is: it is left out."""
     lost: bool
     """Whether what was written after that row cannot be read."""
+
+
+class Snapshot(NamedTuple):
+    """What the rows up to one come to."""
+
+    text: str | None
+    """None: there is none."""
+    seq: int
+    wall: float | None
+    """When it was made."""
+    damaged: tuple[str, ...]
+    """What is wrong with newer ones."""
 
 
 def connect(path: Path, how: str) -> sqlite3.Connection:
@@ -94,7 +114,7 @@ def found(path: Path, database: sqlite3.Connection) -> Found:
     rest = wal.rest(path)
     torn = errors.torn_log() if rest is wal.Rest.TORN else None
     last_is_bad = seq > 0 and not _sound(database, seq) and _sound(database, seq - 1)
-    if last_is_bad and newest_snapshot(database)[1] < seq:  # else nobody needs the row
+    if last_is_bad and newest_snapshot(database).seq < seq:  # else nobody needs the row
         torn = errors.torn(seq)
         seq -= 1
     lost = rest is wal.Rest.LOST
@@ -153,18 +173,18 @@ def is_sound(row: tuple[object, ...]) -> bool:
     return isinstance(text, bytes) and row_checksum(seq, epoch, wall, text) == checksum
 
 
-def newest_snapshot(database: sqlite3.Connection) -> tuple[str | None, int, list[str]]:
-    """Return the newest sound snapshot, the row it stands for (0: none), and what is damaged."""
+def newest_snapshot(database: sqlite3.Connection) -> Snapshot:
+    """Return the newest sound snapshot."""
     damaged: list[str] = []
     try:
         query = "SELECT seq, epoch, wall, text, checksum FROM snapshot ORDER BY seq DESC"
         for seq, epoch, wall, text, checksum in database.execute(query):
             if isinstance(text, bytes) and checksum == snapshot_checksum(seq, epoch, wall, text):
-                return text.decode(), seq, damaged
+                return Snapshot(text.decode(), seq, wall / 1000, tuple(damaged))
             damaged.append(errors.bad_snapshot(seq))
     except TROUBLE:
         damaged.append(errors.unreadable_snapshots())
-    return None, 0, damaged
+    return Snapshot(None, 0, None, tuple(damaged))
 
 
 def sync_folder(path: Path) -> None:

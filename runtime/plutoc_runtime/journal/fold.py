@@ -52,12 +52,13 @@ class Records:
         """Something happened."""
         kind = event["event"]
         self.data["t"] = event["t"]
-        name = event.get("mission")
-        if name is not None and kind in _MISSION:
+        change = _MISSION.get(kind)
+        if change is not None:
+            name = event["mission"]
             record = self.missions.get(name)
             if record is None:
                 record = self.missions[name] = _new()
-            _MISSION[kind](self, record, event)
+            change(self, record, event)
         elif kind in _WHOLE:
             _WHOLE[kind](self, event)
 
@@ -285,11 +286,13 @@ def _goes_on(record: Record) -> None:
 
 
 def _trip(record: Record, event: Fact) -> Record:
-    for trip in (*record["todo"], *record["done"], *record["gone"]):
-        if trip["name"] == event["trip"]:
-            found: Record = trip
-            return found
-    raise KeyError(event["trip"])
+    name = event["trip"]
+    for trips in record["todo"], record["done"], record["gone"]:
+        for trip in trips:
+            if trip["name"] == name:
+                found: Record = trip
+                return found
+    raise KeyError(name)
 
 
 def _waits(trip: Record) -> None:

@@ -34,7 +34,13 @@ class Read:
     """A snapshot and the rows after it; iterate over `rows` or `events`, one of them and once."""
 
     def __init__(
-        self, chunks: Chunks, snapshot: str | None, after: int, warnings: Sequence[str] = ()
+        self,
+        chunks: Chunks,
+        snapshot: str | None,
+        after: int,
+        *,
+        written: float | None = None,
+        warnings: Sequence[str] = (),
     ) -> None:
         self.snapshot, self.after = snapshot, after
         """The state after the row of this number, which is the last that is not read."""
@@ -42,8 +48,8 @@ class Read:
         """What is damaged and does not matter."""
         self.damaged: str | None = None
         """Why nothing more can be read, once all that can be was; None: that was everything."""
-        self.written: float | None = None
-        """When the last row that was read was written, in seconds since 1970."""
+        self.written = written
+        """When what was read last was written, in seconds since 1970."""
         self._chunks = chunks
 
     @property
@@ -56,19 +62,26 @@ class Read:
     def events(self) -> Iterator[dict[str, Any]]:
         """The events of all rows, in order."""
         for chunk in self._sound():
-            if chunk:
-                self.written = chunk[-1].wall
             for events in json.loads("[" + ",".join([row.text for row in chunk]) + "]"):
                 yield from events
 
     def _sound(self) -> Iterator[list[Row]]:
-        self.damaged = yield from self._chunks
+        while True:
+            try:
+                chunk = next(self._chunks)
+            except StopIteration as end:
+                self.damaged = end.value
+                return
+            if chunk:
+                self.written = chunk[-1].wall
+                yield chunk
 
 
 def since_snapshot(database: sqlite3.Connection, last: int) -> Read:
     """Read what is needed to go on: the newest sound snapshot, and the rows after it."""
-    snapshot, after, warnings = newest_snapshot(database)
-    return Read(_rows(database, after + 1, last), snapshot, after, warnings)
+    newest = newest_snapshot(database)
+    rows = _rows(database, newest.seq + 1, last)
+    return Read(rows, newest.text, newest.seq, written=newest.wall, warnings=newest.damaged)
 
 
 def rows_between(database: sqlite3.Connection, first: int, last: int) -> Read:

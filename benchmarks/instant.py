@@ -1,0 +1,180 @@
+"""An app whose drones are there at once: what is left is what the app itself costs."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from plutoc_blocks.clock.step import wait_for_time
+from plutoc_blocks.drone_allocator.step import allocate_drone
+from plutoc_blocks.mission_creator.step import create_mission
+from plutoc_blocks.trip_launcher.step import launch_trip
+from plutoc_blocks.trip_monitor.step import watch_trip
+from plutoc_runtime import model
+from plutoc_runtime.actions import BUILT_IN
+from plutoc_runtime.airspace import Airspace
+from plutoc_runtime.app import App
+from plutoc_runtime.fields import Entity, Field, FieldType
+from plutoc_runtime.files.fleet import DroneEntry, FleetFile
+from plutoc_runtime.kernel import FLEET, Kernel, Kind
+from plutoc_runtime.model import Category, Point
+from plutoc_runtime.navigation import Job
+from plutoc_runtime.policies.first import first
+from plutoc_runtime.realtime import RealTime
+from plutoc_runtime.run import Run
+from plutoc_runtime.standing import Down, RollCall, Standing
+from plutoc_runtime.status import Status
+
+HOME: Point = (1.0, 1.0, 0.0)
+SECONDS = 10.0
+"""What a trip takes in virtual time."""
+
+
+@dataclass(slots=True, kw_only=True, eq=False)
+class Trip(model.Trip):
+    """A trip of an app with a Clock."""
+
+    delay: float | None = None
+    priority: int = 0
+
+
+@dataclass(slots=True, kw_only=True, eq=False)
+class Mission(model.Mission[Trip]):
+    """A mission of such trips."""
+
+    at: float | None = None
+    every: float | None = None
+
+
+async def flow(run: Run[Mission]) -> Status:
+    """Take a mission through create → wait → allocate → launch → watch, trip by trip."""
+    mission, status = run.mission, create_mission(run, run.status)
+    while True:
+        delay, priority = mission.current.delay, mission.current.priority
+        status = await wait_for_time(run, status, block="wait", delay=delay)
+        status = await allocate_drone(
+            run, status, block="allocate", policy=first, priority=priority
+        )
+        status = await watch_trip(run, launch_trip(run, status))
+        if status is not Status.STANDBY:
+            return status
+
+
+APP = App(
+    name="instant",
+    title="Drones that are there at once",
+    flow=flow,
+    mission=Mission,
+    trip=Trip,
+    fields=(
+        Field(name="delay", on=Entity.TRIP, type=FieldType.TIME, label="Delay"),
+        Field(name="priority", on=Entity.TRIP, type=FieldType.INT, label="Priority", default=0),
+    ),
+    categories=(Category(name="quick"),),
+    actions=BUILT_IN,
+)
+
+
+def plan(missions: int, trips: int) -> list[Mission]:
+    """Return so many missions, each of so many trips."""
+    return [
+        Mission(
+            name=f"Mission {number}",
+            index=number,
+            trips=[
+                Trip(
+                    name=f"Trip {n}",
+                    index=n,
+                    action="measure",
+                    target=(1.0 + n, 2.0, 1.2),
+                    priority=n % 3,
+                )
+                for n in range(trips)
+            ],
+        )
+        for number in range(missions)
+    ]
+
+
+def ground(drones: int) -> FleetFile:
+    """Return a fleet that stands in one place."""
+    entries = (DroneEntry(id=f"cf{n}", category="quick", home=HOME) for n in range(drones))
+    return FleetFile(airspace=Airspace(), drones=tuple(entries))
+
+
+@dataclass(frozen=True, slots=True)
+class Docked:
+    """What is known of a drone that never is anywhere else."""
+
+    location: Point = HOME
+    battery_level: float = 1.0
+    landed: bool = True
+
+
+class Instant:
+    """A gateway whose drones are there, and back, as soon as they are told to go."""
+
+    def __init__(self, kernel: Kernel, drones: int) -> None:
+        self._kernel, self._docked = kernel, Docked()
+        self._drones = {f"cf{n}": n for n in range(drones)}
+
+    def telemetry(self, drone: str) -> Docked:
+        """Return what is known of a drone."""
+        return self._docked
+
+    def fly(self, job: Job, report: Callable[[object], None]) -> None:
+        """Report what was measured: in real time at once, and as something that comes by itself."""
+        kernel = self._kernel
+        if isinstance(kernel, RealTime):
+            asyncio.get_running_loop().call_soon(kernel.post, report, 21.5)
+        else:
+            when = kernel.now + SECONDS + self._drones[job.drone] / 1000  # each at an instant of its own
+            kernel.schedule(when, Kind.FLIGHT, FLEET, lambda: report(21.5))
+
+    def break_off(self, drone: str) -> None:
+        """There is nothing to break off."""
+
+    async def hold(self, drone: str) -> None:
+        """Hover."""
+
+    async def takeoff(self, drone: str, height: float) -> None:
+        """Rise."""
+
+    async def go_to(self, drone: str, target: Point) -> None:
+        """Fly."""
+
+    async def land(self, drone: str) -> None:
+        """Land."""
+
+    async def recover(self, drone: str) -> bool:
+        """Come home."""
+        return True
+
+    async def roll_call(self, drone: str) -> Standing:
+        """Say that nothing has happened."""
+        return Standing(
+            drone=drone,
+            reached=True,
+            location=HOME,
+            landed=True,
+            battery_level=1.0,
+            boot=1,
+            carrying=None,
+            done={},
+        )
+
+    async def call(self) -> RollCall:
+        """Ask every drone."""
+        drones: Mapping[str, Any] = {name: await self.roll_call(name) for name in self._drones}
+        return RollCall(drones=drones, jobs={})
+
+    def attach(self, id: str, report: Callable[[object], None]) -> None:
+        """Nothing was given before."""
+
+    def forget(self, id: str) -> None:
+        """Nothing is remembered."""
+
+    async def bring_down(self, how: Down) -> None:
+        """All are down."""

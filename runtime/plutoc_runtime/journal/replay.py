@@ -1,0 +1,39 @@
+"""From a journal to its records: what another life of the app begins with."""
+
+from __future__ import annotations
+
+import gc
+import json
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+from .fold import Records
+
+if TYPE_CHECKING:
+    from .reading import Read
+
+
+def replayed(read: Read) -> Records:
+    """Return what a journal comes to: its snapshot, and what has happened since.
+
+    Ask afterwards whether `read` was damaged: then it is what was so far.
+    """
+    with _without_collections():
+        records = Records(None if read.snapshot is None else json.loads(read.snapshot))
+        take = records.take
+        for event in read.events:
+            take(event)
+    return records
+
+
+@contextmanager
+def _without_collections() -> Iterator[None]:
+    """Let the garbage collector rest: plain data has no cycles, and it would look at all of it."""
+    was_on = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was_on:
+            gc.enable()
