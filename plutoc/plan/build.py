@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from plutoc.check.model import Checked
-from plutoc.graph.model import START, Edge
+from plutoc.graph.model import START, Edge, Graph
 from plutoc.plan.chart import Chart, Charts, Kind, Spot
 from plutoc.plan.dispatch import dispatch
 from plutoc.plan.entering import entrances
@@ -30,15 +30,19 @@ def _body(
 ) -> Body:
     found = shape(chart)
     steps = {spot: _steps(charts, chart, spot, names) for spot in found.order}
-    return _structured(found, steps, entries) or dispatch(found, steps, entries)
+    return _structured(found, steps, entries, charts.checked.graph) or dispatch(
+        found, steps, entries
+    )
 
 
-def _structured(found: Shape, steps: Mapping[Spot, Body], entries: tuple[str, ...]) -> Body | None:
+def _structured(
+    found: Shape, steps: Mapping[Spot, Body], entries: tuple[str, ...], graph: Graph
+) -> Body | None:
     """Write the body by loops and switches, if that is possible."""
     one_entry = untangled(found)
     if one_entry is None:
         return None
-    for entered in entrances(one_entry, entries):
+    for entered in entrances(one_entry, entries, graph):
         written = {spot: _at(spot, steps) for spot in entered.order}
         for copies in (False, True):
             writer = Writer(entered, written, copies=copies)

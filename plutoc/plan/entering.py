@@ -22,6 +22,7 @@ from dataclasses import replace
 
 from plutoc.check.components import trimmed
 from plutoc.frozen import frozen
+from plutoc.graph.model import Graph
 from plutoc.plan.chart import Chart, Kind, Spot, Way
 from plutoc.plan.model import Place
 from plutoc.plan.shape import Shape, round_of, shape
@@ -61,13 +62,13 @@ class _Heading:
     copied: Mapping[Spot, tuple[Spot, ...]]
 
 
-def entrances(found: Shape, points: Sequence[str]) -> Iterator[Shape]:
+def entrances(found: Shape, points: Sequence[str], graph: Graph) -> Iterator[Shape]:
     """Yield shapes that can be entered at these blocks, the one to be preferred first."""
     if not points:
         yield found
         return
     for other_heads in (True, False) if len(points) <= MOST else ():
-        after = shape(_Entering(found, points, other_heads=other_heads).chart())
+        after = shape(_Entering(found, points, graph, other_heads=other_heads).chart())
         if not after.entering:
             yield after
 
@@ -75,8 +76,11 @@ def entrances(found: Shape, points: Sequence[str]) -> Iterator[Shape]:
 class _Entering:
     """The chart while it gets its entries."""
 
-    def __init__(self, found: Shape, points: Sequence[str], *, other_heads: bool) -> None:
+    def __init__(
+        self, found: Shape, points: Sequence[str], graph: Graph, *, other_heads: bool
+    ) -> None:
         self.found = found
+        self.graph = graph
         self.other_heads = other_heads
         """May a loop begin at another block than before?"""
         self.rounds = {head: round_of(found, head) for head in found.loops}
@@ -185,10 +189,16 @@ class _Entering:
             found[spot] = tuple(one for one in targets if one is not None and one != head)
             fresh = [one for one in found[spot] if one not in queue]
             queue += fresh
-            # the branches of a fork are functions, and a function is written once
-            if len(queue) > most or spot.kind is Kind.FORK or any(f not in loop for f in fresh):
+            if len(queue) > most or self.once(spot) or any(f not in loop for f in fresh):
                 return None
         return None if trimmed(found) else tuple(found)
+
+    def once(self, spot: Spot) -> bool:
+        """Is this never to be written twice? A flight is not, as people look for it in one place.
+
+        Neither is a fork: its branches are functions.
+        """
+        return spot.kind is not Kind.BLOCK or self.graph.node[spot.name].block.launches
 
     def copied(self, region: Sequence[Spot]) -> Mapping[Spot, Spot]:
         """Write some spots once more."""
