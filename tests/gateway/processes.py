@@ -59,7 +59,7 @@ class Brain:
     """What commands the gateway of a folder, and may hang up at any time."""
 
     def __init__(self, kernel: RealTime, folder: Path, **other: Any) -> None:
-        self.kernel, self._folder, self._settings = kernel, folder, settings(**other)
+        self.kernel, self.folder, self._settings = kernel, folder, settings(**other)
         self.lost: Signal[None] = Signal()
         self.epoch = 0
         self.links: list[RemoteLink] = []
@@ -69,7 +69,7 @@ class Brain:
         self.epoch += 1
         self.lost = lost = Signal[None]()
         link = await connect(
-            self._folder,
+            self.folder,
             self._settings,
             self.kernel,
             self.epoch,
@@ -116,8 +116,8 @@ def played(folder: Path, play: Callable[[Brain], Awaitable[None]], **other: Any)
 
 def pid(folder: Path) -> int | None:
     """Return the number of the gateway's process, if it runs."""
-    number = int((folder / LOCK).read_text())
     try:
+        number = int((folder / LOCK).read_text())
         os.kill(number, 0)
         stat = Path(f"/proc/{number}/stat").read_text().rpartition(")")[2].split()
     except (OSError, ValueError):

@@ -273,3 +273,23 @@ def test_who_tells_a_drone_two_things_at_once_is_told_of_the_mistake() -> None:
         link.fly(Task(), lambda _: None)
     assert isinstance(field.kernel, VirtualTime)
     assert not fly(field.kernel, link.roll_call("cf1")).landed
+
+
+def test_a_drone_that_was_sent_elsewhere_does_not_hover_there_any_more() -> None:
+    """Its job, to be there for an action of the app's own, is open again; holding is no leaving."""
+    field, heard = Field(), list[object]()
+    link = field.gateway.link(1)
+    job = Task(action=None, item=None)
+    link.fly(job, heard.append)
+    field.advance(20)
+    holding = field.kernel.spawn(link.hold("cf1"), FLEET, "hold")
+    field.advance(1)
+    holding.cancel()
+    assert isinstance(field.kernel, VirtualTime)
+    assert states(fly(field.kernel, link.call())) == {job.id: JobState.DONE}
+    fly(field.kernel, link.land("cf1"))
+    assert states(fly(field.kernel, link.call())) == {job.id: JobState.BROKEN_OFF}
+    link.fly(job, heard.append)
+    field.advance(20)
+    assert heard == [None, None]
+    assert not field.navigation.telemetry("cf1").landed

@@ -198,3 +198,15 @@ def test_a_gateway_that_hangs_is_replaced(tmp_path: Path, monkeypatch: pytest.Mo
         assert (await brain.told(link.call())).drones["cf1"].carrying == "pills"
 
     played(tmp_path, play)
+
+
+def test_a_folder_that_cannot_be_written_is_said_so(tmp_path: Path) -> None:
+    """Before any process is started."""
+    (tmp_path / "file").touch()
+
+    async def play(brain: Brain) -> None:
+        brain.folder = tmp_path / "file"
+        with pytest.raises(BadInput, match=r"the gateway cannot be started: .*File exists"):
+            await brain.linked()
+
+    played(tmp_path, play)

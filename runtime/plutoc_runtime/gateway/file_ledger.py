@@ -26,14 +26,16 @@ class FileLedger:
         self.is_whole = True
         """Whether every line could be read, but for one at the end that was never finished."""
         self._lines = self._end = 0
-        with suppress(FileNotFoundError):
+        is_new = not path.exists()
+        if not is_new:
             self._read(path.read_bytes())
         self._file = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_CLOEXEC, 0o600)
         os.ftruncate(self._file, self._end)
         os.lseek(self._file, 0, os.SEEK_END)
         if self.is_whole and self._lines > 2 * len(self._entries) + _SPARE:
             self._write_anew()
-        _sync_folder(path.parent)
+        if is_new:
+            _sync_folder(path.parent)
 
     def entries(self) -> Iterator[Entry]:
         """Yield what is kept, in the order in which the jobs were given."""

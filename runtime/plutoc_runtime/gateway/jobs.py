@@ -103,6 +103,13 @@ class Jobs:
         job = self._current.get(drone)
         return job is not None and job.flies
 
+    def moves_on(self, drone: str) -> None:
+        """A drone is told to leave where it hovered for an action of the app's own."""
+        job = self._current.get(drone)
+        if job is not None and job.hovers:
+            del self._current[drone]
+            job.break_off()
+
     # What becomes of whoever listens
 
     def mute(self) -> None:

@@ -63,7 +63,7 @@ class Link:
 
     async def hold(self, drone: str) -> None:
         """Hover, for as long as an action of the app's own takes."""
-        await self._command(drone, self._navigation.hold(drone))
+        await self._command(drone, self._navigation.hold(drone), stays=True)
 
     async def takeoff(self, drone: str, height: float) -> None:
         """Rise to a height."""
@@ -90,7 +90,9 @@ class Link:
             await _for_ever()
         return standing
 
-    async def _command(self, drone: str, command: Coroutine[Any, Any, T]) -> T:
+    async def _command(
+        self, drone: str, command: Coroutine[Any, Any, T], *, stays: bool = False
+    ) -> T:
         """Let a drone do something, and return when it has; never, once nobody is heard."""
         if not self._is_heard:
             command.close()
@@ -99,6 +101,8 @@ class Link:
             command.close()
             raise Busy(f"{drone} was told to do something while it does something else")
         self._under_way[drone] = None
+        if not stays:
+            self._gateway.jobs.moves_on(drone)
         try:
             result = await command
         except FlightFailed:

@@ -28,6 +28,8 @@ if TYPE_CHECKING:
 
 _WITHIN, _EACH = 10.0, 0.01
 """Seconds that a gateway may take to begin, and between two looks."""
+_LONG = 1_000_000
+"""Bytes of a log after which another one is begun."""
 
 _STARTED: list[subprocess.Popen[bytes]] = []
 """The gateways that this process has started: one that has ended is noticed when the next begins."""
@@ -58,7 +60,10 @@ async def connect(
         if process is None or process.poll() is not None:
             if process is not None and _broke(process.returncode):
                 raise BadInput(_ended(folder))
-            process = start(folder, settings, command)
+            try:
+                process = start(folder, settings, command)
+            except OSError as error:
+                raise BadInput(f"{folder}: the gateway cannot be started: {error}") from error
         if loop.time() > until:
             raise BadInput(f"the gateway does not answer; what it said is in {folder / LOG}")
         await asyncio.sleep(_EACH)
@@ -100,6 +105,8 @@ def start(
     part.write_text(json.dumps(data_of(settings)), encoding="utf-8")
     part.replace(folder / SETTINGS)
     _STARTED[:] = [process for process in _STARTED if process.poll() is None]
+    if (folder / LOG).exists() and (folder / LOG).stat().st_size > _LONG:
+        (folder / LOG).replace(folder / f"{LOG}.old")
     with (folder / LOG).open("ab") as log:
         process = subprocess.Popen(
             [*(command or again.command("gateway")), str(folder)],
