@@ -8,6 +8,28 @@ from plutoc.plan.show import show
 from tests.check.graphs import BASIC, checked
 from tests.plan.graphs import NESTED_LOOPS
 
+LOOP_THAT_ASKS = f"""{BASIC}
+    second = DroneAllocator
+    again = TripLauncher
+    see = TripMonitor
+    start -> create -> allocate -> launch -> watch
+    watch -> second when STANDBY
+    watch -> end otherwise
+    second -> again -> see
+    see -> allocate when STANDBY
+    see -> end otherwise"""
+CLOCKS = [f"wait{n}" for n in range(50)]
+CHAIN = "\n".join(
+    [
+        BASIC,
+        *(f"{name} = Clock" for name in CLOCKS),
+        f"start -> create -> {' -> '.join(CLOCKS)} -> allocate -> launch -> watch",
+        "watch -> wait0 when STANDBY",
+        "watch -> end",
+    ]
+)
+"""More blocks where missions go on than anybody would ask for one by one."""
+
 
 def shown(text: str) -> str:
     """Return the optimised plan without its first line."""
@@ -100,17 +122,7 @@ def test_who_goes_on_before_a_loops_head_finds_a_copy_there() -> None:
 
 def test_a_loop_asks_where_much_lies_before_its_head() -> None:
     """And who has come to the block is asked no more."""
-    text = f"""{BASIC}
-    second = DroneAllocator
-    again = TripLauncher
-    see = TripMonitor
-    start -> create -> allocate -> launch -> watch
-    watch -> second when STANDBY
-    watch -> end otherwise
-    second -> again -> see
-    see -> allocate when STANDBY
-    see -> end otherwise"""
-    assert shown(text) == """
+    assert shown(LOOP_THAT_ASKS) == """
   enter
     begin -> create:
       call create
@@ -165,14 +177,7 @@ def test_nothing_is_asked_whose_answer_is_certain() -> None:
 
 
 def test_without_structure_missions_go_on_at_a_case() -> None:
-    clocks = "\n".join(f"    wait{n} = Clock" for n in range(50))
-    chain = " -> ".join(f"wait{n}" for n in range(50))
-    text = f"""{BASIC}
-{clocks}
-    start -> create -> {chain} -> allocate -> launch -> watch
-    watch -> wait0 when STANDBY
-    watch -> end"""
-    first, *rest = shown(text).strip().splitlines()
+    first, *rest = shown(CHAIN).strip().splitlines()
     assert first.startswith("dispatch from create, allocate, wait0, wait1, ")
     assert [line.strip() for line in rest if line.startswith("    case wait")] == [
         f"case wait{n}" for n in range(50)
