@@ -98,21 +98,39 @@ class Stops:
             self.stop_now(how)
 
 
-def recovered(store: Store, speed: float) -> tuple[Records, float]:
-    """Return what a journal says, and what time it is in the life that goes on from there."""
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Recovered:
+    """What a journal says."""
+
+    records: Records
+    written: float | None
+    """When its last row was written, in seconds since 1970."""
+
+    def time(self, speed: float) -> float:
+        """Return what time it is now in the life that goes on from there."""
+        if not self.records.missions or self.written is None:
+            return self.records.time
+        return self.records.time + max(0.0, time.time() - self.written) * speed
+
+
+def recovered(store: Store) -> Recovered:
+    """Return what a journal says; raise `BadInput` where it is damaged."""
     read = store.read()
     records = replayed(read)
     if read.damaged is not None:
         raise errors.damaged(store.path, read.damaged)
-    if not records.missions or read.written is None:
-        return records, records.time
-    return records, records.time + max(0.0, time.time() - read.written) * speed
+    return Recovered(records=records, written=read.written)
 
 
-async def live(setting: Setting, store: Store, stops: Stops) -> Lived:
-    """Let the app live until all is over, until it is stopped, or until its gateway dies."""
-    records, begin = recovered(store, setting.speed)
-    one = _Living(setting, store, records, begin)
+async def live(
+    setting: Setting, store: Store, stops: Stops, known: Recovered | None = None
+) -> Lived:
+    """Let the app live until all is over, until it is stopped, or until its gateway dies.
+
+    `known` is what the journal says, if it has been read already.
+    """
+    known = known or recovered(store)
+    one = _Living(setting, store, known.records, known.time(setting.speed))
     try:
         return await one.live(stops)
     finally:

@@ -19,6 +19,8 @@ from tests.kill.trial import gateway_of
 
 
 def rows_of(flight: Flight) -> list[str]:
+    if not flight.journal.exists():
+        return []
     with closing(Reader(flight.journal)) as reader:
         return [row.text for row in reader.rows()]
 
@@ -58,6 +60,25 @@ def test_a_flight_stopped_on_its_way_home_goes_on_where_it_was(new_flight: NewFl
     assert completed(flight)
     assert {event["attempt"] for event in events(flight, "trip.launched")} == {1}
     assert set(done_by_the_world(flight.journal).values()) == {1}
+
+
+def test_a_delay_keeps_its_rest_over_a_stop(new_flight: NewFlight) -> None:
+    """Whoever has waited for a part of it waits for the rest."""
+    flight = new_flight(20.0)
+    plan = flight.folder / "missions.toml"
+    plan.write_text(plan.read_text().replace('delay = "4 s"', 'delay = "60 s"'))
+    flight.start()
+    assert eventually(lambda: bool(events(flight, "trip.delayed")))
+    assert flight.run("tell", str(flight.journal), "stop").returncode == 0
+    assert flight.see_through() == 130
+    flight.start()
+    assert flight.see_through() == 0
+    delayed, _ = events(flight, "trip.delayed")  # and again, when it goes on
+    (stopped,) = events(flight, "stopped")
+    began = events(flight, "brain.began")[-1]
+    allocated = next(e for e in events(flight, "trip.allocated") if e["trip"] == "look")
+    assert allocated["t"] - began["t"] == pytest.approx(delayed["until"] - stopped["t"], abs=0.5)
+    assert stopped["t"] < delayed["until"]
 
 
 @pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from .. import again
 from ..asking import note_of
 from ..errors import BadInput
-from ..fly import End, Lived, Setting, Stops, live
+from ..fly import End, Lived, Recovered, Setting, Stops, live
 from ..gateway.settings import settings_for
 from ..gateway.starting import connect
 from ..journal.place import gateway_folder
@@ -59,12 +59,15 @@ class Flight:
         return f"to go on: {self.app.name} resume {self.journal}"
 
 
-def see_through(flight: Flight, store: Store) -> int:
-    """Fly until all is over or somebody stops it; say what came of it, and return the exit code."""
+def see_through(flight: Flight, store: Store, known: Recovered | None = None) -> int:
+    """Fly until all is over or somebody stops it; say what came of it, and return the exit code.
+
+    `known` is what the journal says, if it has been read already.
+    """
     stops = Stops()
     interrupts = Interrupts(stops, flight.journal, flight.how_to_go_on)
     with interrupts.listening():
-        lived = asyncio.run(_lives(flight, store, stops, interrupts))
+        lived = asyncio.run(_lives(flight, store, stops, interrupts, known))
     if lived.end is End.STOPPED:
         output.tell(f"all drones are down; {flight.how_to_go_on}")
         return interrupts.code or STOPPED
@@ -80,7 +83,13 @@ def reported(app: App, journal: Path, records: Records, drones: Sequence[Drone] 
     return code
 
 
-async def _lives(flight: Flight, store: Store, stops: Stops, interrupts: Interrupts) -> Lived:
+async def _lives(
+    flight: Flight,
+    store: Store,
+    stops: Stops,
+    interrupts: Interrupts,
+    known: Recovered | None,
+) -> Lived:
     """Live once more each time that the gateway dies."""
     interrupts.loop = asyncio.get_running_loop()
     settings = settings_for(
@@ -104,7 +113,8 @@ async def _lives(flight: Flight, store: Store, stops: Stops, interrupts: Interru
     stops.asked = stops.asked or (stop_mark.found(flight.journal) if flight.obeys else None)
     while True:
         with closing(store):
-            lived = await live(setting, store, stops)
+            lived = await live(setting, store, stops, known)
+        known = None
         if lived.end is not End.LOST:
             return lived
         stops.asked = stops.asked or stop_mark.found(flight.journal)

@@ -32,7 +32,8 @@ def resume(app: App, options: Options) -> int:
         if not header["sim"]:
             raise BadInput(f"{journal}: its drones are real ones, and those are not supported yet")
         fleet = fleet_in(app, journal, store.header)
-        records, _ = recovered(store, 1.0)
+        known = recovered(store)
+        records = known.records
         planned = [] if records.missions else missions_in(app, journal, header, fleet)
     except BaseException:
         store.close()
@@ -63,4 +64,4 @@ def resume(app: App, options: Options) -> int:
         faults=Faults(**header["faults"]),
         obeys=options.supervised,
     )
-    return see_through(flight, store)
+    return see_through(flight, store, known)
