@@ -54,8 +54,12 @@ class RemoteLink:
     ) -> None:
         self._kernel, self._reader, self._writer, self._lost = kernel, reader, writer, lost
         self._drones: dict[str, Seen] = {}
-        self._jobs: dict[str, tuple[Callable[[], object] | None, Report]] = {}
-        """Who is told when a job's action begins, and how it ends."""
+        self._jobs: dict[str, Job] = {}
+        """What was given, by the jobs' ids: it is told when its action begins."""
+        self._reports: dict[int, tuple[str, Report]] = {}
+        """Who hears how a job ends, by the number of whatever asked for that."""
+        self._asks: dict[str, int] = {}
+        """The number under which each job was asked for last: no other is heard."""
         self._asked: dict[int, Signal[Any]] = {}
         self._count = 0
         self._is_lost = False
@@ -82,7 +86,7 @@ class RemoteLink:
         """Take what the gateway tells, until it tells nothing more."""
         loop = asyncio.get_running_loop()
         self._heard = loop.time()
-        with suppress(OSError, ValueError):
+        with suppress(Exception):  # whatever it is that cannot be read: the line is broken
             while told := await self._reader.readline():
                 self._heard = loop.time()
                 message = message_in(told)
@@ -118,14 +122,10 @@ class RemoteLink:
 
     def _hear(self, message: Message) -> None:
         match message:
-            case {"report": id}:
-                _, report = self._jobs.pop(id, (None, None))
-                if report is not None:
-                    report(result_of(message))
-            case {"begins": id}:
-                begins, _ = self._jobs.get(id, (None, None))
-                if begins is not None:
-                    begins()
+            case {"report": number}:
+                self._report(number, result_of(message))
+            case {"begins": id} if id in self._jobs:
+                self._jobs[id].begins()
             case {"n": number, "failure": _}:
                 error = result_of(message)
                 asked = self._asked.get(number)
@@ -134,14 +134,35 @@ class RemoteLink:
             case {"n": number, "value": value} if number in self._asked:
                 self._asked[number].set(value)
 
+    def _report(self, number: int, result: object) -> None:
+        """Tell whoever asked for it, unless the job was asked for again since."""
+        if number in self._reports:
+            id, report = self._reports[number]
+            self._drop(id)
+            report(result)
+
     def _say(self, message: Message) -> None:
         if not self._is_lost and not self._writer.transport.is_closing():
             self._writer.write(line(message))
 
+    def _number(self) -> int:
+        self._count += 1
+        return self._count
+
+    def _expect(self, id: str, report: Report) -> int:
+        """Let somebody hear how a job ends, and nobody else; return the number to ask with."""
+        self._drop(id)
+        self._asks[id] = number = self._number()
+        self._reports[number] = id, report
+        return number
+
+    def _drop(self, id: str) -> None:
+        self._jobs.pop(id, None)
+        self._reports.pop(self._asks.pop(id, 0), None)
+
     async def _ask(self, **message: Any) -> Any:
         """Ask for what takes its time; whoever cancels this calls it off over there, too."""
-        self._count += 1
-        number = self._count
+        number = self._number()
         answer: Signal[Any] = Signal()
         self._asked[number] = answer
         self._say({"n": number, **message})
@@ -160,8 +181,9 @@ class RemoteLink:
 
     def fly(self, job: Job, report: Report) -> None:
         """Give a drone its job. One that was done already is not flown, but reported once more."""
-        self._jobs[job.id] = job.begins, report
-        self._say({"do": "fly", "job": job_data(job)})
+        number = self._expect(job.id, report)
+        self._jobs[job.id] = job
+        self._say({"do": "fly", "n": number, "job": job_data(job)})
 
     def break_off(self, drone: str) -> None:
         """Stop whatever a drone does, and hover."""
@@ -199,12 +221,11 @@ class RemoteLink:
 
     def attach(self, id: str, report: Report) -> None:
         """Hear of a job that was given before: when it ends, or now if it has."""
-        self._jobs[id] = None, report
-        self._say({"do": "attach", "id": id})
+        self._say({"do": "attach", "n": self._expect(id, report), "id": id})
 
     def forget(self, id: str) -> None:
         """Nobody will ask for a job any more: its id may be given again."""
-        self._jobs.pop(id, None)
+        self._drop(id)
         self._say({"do": "forget", "id": id})
 
     async def bring_down(self, how: Down) -> None:

@@ -200,16 +200,16 @@ class Connection:
             case "fly":
                 job = job_of(message["job"], self._begins)
                 self._known(job.drone)
+                report = partial(self._report, int(message["n"]))
                 try:
-                    link.fly(job, partial(self._report, job.id))
+                    link.fly(job, report)
                 except Busy as error:
                     self._server.say(f"refused: {error}")
-                    self._report(job.id, error.as_failure)
+                    report(error.as_failure)
             case "break_off":
                 link.break_off(self._known(message["drone"]))
             case "attach":
-                id = str(message["id"])
-                link.attach(id, partial(self._report, id))
+                link.attach(str(message["id"]), partial(self._report, int(message["n"])))
             case "forget":
                 link.forget(str(message["id"]))
             case "cancel":
@@ -272,8 +272,8 @@ class Connection:
     def _begins(self, id: str) -> None:
         self._tell({"begins": id})
 
-    def _report(self, id: str, result: object) -> None:
-        self._tell({"report": id, **result_data(result), "seen": self._changed()})
+    def _report(self, number: int, result: object) -> None:
+        self._tell({"report": number, **result_data(result), "seen": self._changed()})
 
 
 async def _as_data(
