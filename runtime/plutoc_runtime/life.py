@@ -46,13 +46,20 @@ class Life:
         self._kernel, self._link, self._epoch = kernel, link, epoch
         self.recorder = Recorder(app, kernel, sink, records)
         navigation = Careful(link, self.recorder)
-        heard = [self.recorder.take, *listeners]
+        heard: list[Listener] = [self.recorder.take, self._forget, *listeners]
         if watcher is not None:
             heard.append(partial(self._when_durable, watcher))
         self.session = Session(app, fleet, kernel, navigation, heard, self.recorder)
         self.control = Control(self.session, link)
         self.missions: tuple[Mission[Any], ...] = ()
         """All missions, those of earlier lives that have ended included."""
+
+    def _forget(self, event: Event) -> None:
+        """What is on record need not stand in the gateway's ledger any more."""
+        if event["event"] in ("trip.completed", "trip.failed"):
+            mission, trip = event["mission"], event["trip"]
+            id = f"{mission}/{trip}/{event['round']}/{event['attempt']}"
+            self.recorder.when_durable(partial(self._link.forget, id))
 
     def _when_durable(self, watcher: Listener, event: Event) -> None:
         self.recorder.when_durable(partial(watcher, event))
