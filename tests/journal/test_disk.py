@@ -94,16 +94,18 @@ def test_on_a_full_disk_nothing_is_acknowledged_and_the_last_words_still_fit(
     assert "the disk is full" in why
     assert words == "last words: True"
     assert rows_of(path)[-1] == WHY
-    with pytest.raises(JournalError, match="the journal cannot be made: the disk is full"):
-        (small_disk / "filled").write_bytes(b"x" * free(small_disk))
-        Store.create(small_disk / "another", {})
-    (small_disk / "filled").unlink()
-    assert not [file for file in os.listdir(small_disk) if "another" in file]
 
 
-def free(disk: Path) -> int:
-    facts = os.statvfs(disk)
-    return facts.f_bavail * facts.f_frsize
+def test_on_a_disk_that_is_almost_full_no_part_of_a_journal_is_made(small_disk: Path) -> None:
+    filler = small_disk / "filler"
+    for left in (0, 8_192, 100_000, 280_000, 310_000):
+        facts = os.statvfs(small_disk)
+        filler.write_bytes(b"x" * (facts.f_bavail * facts.f_frsize - left))
+        with pytest.raises(JournalError, match=r"the journal cannot be (made|opened): the disk"):
+            Store.create(small_disk / "J", {})
+        assert os.listdir(small_disk) == ["filler"]
+        filler.unlink()
+    Store.create(small_disk / "J", {}).close()
 
 
 def test_where_files_may_not_grow_nothing_is_acknowledged_either(tmp_path: Path) -> None:

@@ -23,6 +23,8 @@ class Damaged(JournalError):
 
 def exists(path: Path) -> JournalError:
     """A new journal would take the place of another."""
+    if path.is_dir():
+        return is_folder(path)
     return JournalError(
         f"{path}: there is a journal already, and it is never overwritten: go on with it by"
         " resume, or name another place with --journal"

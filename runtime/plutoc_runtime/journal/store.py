@@ -7,7 +7,7 @@ import os
 import sqlite3
 import time
 from collections.abc import Callable, Sequence
-from contextlib import suppress
+from contextlib import closing, suppress
 from functools import cache
 from pathlib import Path
 
@@ -20,9 +20,7 @@ from .lock import Lock
 from .making import made
 from .place import beside
 from .reading import Read, Row, since_snapshot
-
-RESERVE = 256 * 1024
-"""Bytes kept back, so that on a full disk the last words can still be written."""
+from .reserve import give_back, keep_back
 
 SNAPSHOTS = 2
 """How many are kept: should the newest be damaged, there is the one before."""
@@ -49,7 +47,7 @@ class Store:
         self.failure: JournalError | None = None
         """Why nothing more is taken; None: all is well."""
         self._lock, self._database, self._clock = lock, database, clock
-        self._reserve, self._closed = beside(path, ".reserve"), False
+        self._closed = False
         most = database.getlimit(sqlite3.SQLITE_LIMIT_VARIABLE_NUMBER)
         self._at_once = min(_AT_ONCE, most // _COLUMNS)
 
@@ -60,13 +58,18 @@ class Store:
         try:
             lock = Lock.take(path)
             try:
+                keep_back(path)
                 _make(path, header, clock())
+                try:
+                    return cls._opened(path, lock, clock)
+                except BaseException:
+                    _unmake(path)
+                    raise
             except BaseException:
-                lock.release()
+                _let_go(path, lock)
                 raise
         except (OSError, ValueError, *TROUBLE) as error:  # ValueError: a NUL in the name
             raise errors.cannot_make(path, error) from None
-        return cls._opened(path, lock, clock)
 
     @classmethod
     def open(cls, path: Path, clock: Clock = time.time) -> Store:
@@ -75,31 +78,27 @@ class Store:
         look_at(path)
         try:
             lock = Lock.take(path)
-        except OSError as error:
+            try:
+                keep_back(path)
+                return cls._opened(path, lock, clock)
+            except BaseException:
+                _let_go(path, lock)
+                raise
+        except (OSError, *TROUBLE) as error:
             raise errors.cannot_open(path, error) from None
-        return cls._opened(path, lock, clock)
 
     @classmethod
     def _opened(cls, path: Path, lock: Lock, clock: Clock) -> Store:
+        with closing(connect(path, "mode=ro")) as database:  # to look at it must not change it
+            state = found(path, database)
+        if state.lost:
+            raise errors.damaged(path, errors.lost_log())
+        database = connect(path, "mode=rw")
+        store = cls(path, lock, database, state.header, clock)
         try:
-            database = connect(path, "mode=ro")  # to look at it must not change it
-            try:
-                state = found(path, database)
-            finally:
-                database.close()
-            if state.lost:
-                raise errors.damaged(path, errors.lost_log())
-            database = connect(path, "mode=rw")
-            store = cls(path, lock, database, state.header, clock)
-            try:
-                store._begin(state.seq, state.epoch + 1, state.torn)
-            except BaseException:
-                database.close()
-                raise
-        except BaseException as error:
-            lock.release()
-            if isinstance(error, (OSError, *TROUBLE)):
-                raise errors.cannot_open(path, error) from None
+            store._begin(state.seq, state.epoch + 1, state.torn)
+        except BaseException:
+            database.close()
             raise
         return store
 
@@ -116,12 +115,6 @@ class Store:
         )
         database.execute("COMMIT")
         database.execute("PRAGMA wal_checkpoint(TRUNCATE)")
-        self._keep_back()
-
-    def _keep_back(self) -> None:
-        with self._reserve.open("wb") as file:
-            file.write(os.urandom(RESERVE))  # no file system makes less of it
-            os.fsync(file.fileno())
 
     def append(self, rows: Sequence[str]) -> None:
         """Write rows, each the events of one instant; when this returns they are durable."""
@@ -175,9 +168,7 @@ class Store:
             self._database.execute("PRAGMA wal_checkpoint(TRUNCATE)")  # even beside a reader
         with suppress(*TROUBLE):
             self._database.close()
-        with suppress(OSError):
-            self._reserve.unlink()
-        self._lock.release()
+        _let_go(self.path, self._lock)
 
     def _commit(self, rows: Sequence[str]) -> None:
         wall, epoch, seq = _milliseconds(self._clock), self.epoch, self.seq
@@ -197,8 +188,7 @@ class Store:
     def _failed(self, error: Exception) -> JournalError:
         """Stop for good: nothing later is acknowledged."""
         self._roll_back()
-        with suppress(OSError):
-            self._reserve.unlink()
+        give_back(self.path)
         self.failure = errors.cannot_write(self.path, error, self.seq)
         return self.failure
 
@@ -227,6 +217,18 @@ def _make(path: Path, header: Event, wall: float) -> None:
         except OSError:  # a file system without links
             part.rename(path)
         sync_folder(path)
+
+
+def _unmake(path: Path) -> None:
+    """Nothing can be written into it: as if it had never been."""
+    for suffix in ("-wal", "-shm", ""):
+        with suppress(OSError):
+            beside(path, suffix).unlink()
+
+
+def _let_go(path: Path, lock: Lock) -> None:
+    give_back(path)
+    lock.release()
 
 
 def _real(path: Path) -> Path:
