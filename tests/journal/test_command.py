@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -13,10 +14,15 @@ from pathlib import Path
 
 import pytest
 
-from plutoc_runtime.cli import main
+from plutoc_runtime.cli import events, main, told
 from plutoc_runtime.journal import place
 from plutoc_runtime.journal.store import Store
+from plutoc_runtime.status import DroneStatus
 from tests.runtime.files.an_app import APP
+
+ROOT = Path(__file__).parents[2]
+KIND = r'"((?:trip|mission|drone|action|brain)\.[a-z]+|stopped|log)"'
+"""How the kinds of events are written where they are noted."""
 
 HEADER = {"t": 0.0, "event": "journal.begun", "app": "alfalfa", "sim": True, "seed": 3}
 EVENTS: list[dict[str, object]] = [
@@ -144,6 +150,22 @@ def test_of_a_damaged_journal_the_rest_is_printed_and_it_ends_with_1(
         f"{path}: the journal is damaged: row 2 of 6 is not what was written; 1 row before it can"
         " be read"
     )
+
+
+def noted() -> Iterator[str]:
+    """Yield every kind of event that anything in the runtime or in a block can note."""
+    for folder in ("runtime/plutoc_runtime", "stdlib_blocks/plutoc_blocks"):
+        for file in sorted((ROOT / folder).rglob("*.py")):
+            if file.parent.name not in ("testing", "files"):
+                yield from re.findall(KIND, file.read_text())
+    yield from (f"drone.{status.value.lower()}" for status in DroneStatus)
+
+
+def test_every_event_has_a_sentence_of_its_own() -> None:
+    kinds = set(noted())
+    assert {"trip.launched", "drone.busy", "mission.held", "stopped"} <= kinds
+    known = {"journal.begun", *events._SENTENCES, *told._SENTENCES}
+    assert sorted(kinds - known) == []
 
 
 FOLLOW = (

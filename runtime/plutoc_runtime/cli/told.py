@@ -73,7 +73,7 @@ def _drone(what: str) -> Callable[[Fact], str]:
 
 
 _SENTENCES: Mapping[str, Callable[[Fact], str]] = {
-    "brain.began": lambda event: f"the app begins, or goes on (for time number {event['epoch']})",
+    "brain.began": lambda event: "the app begins" if event["epoch"] == 1 else "the app goes on",
     "mission.created": _created,
     "mission.changed": _changed,
     "mission.modified": _modified,
@@ -83,6 +83,7 @@ _SENTENCES: Mapping[str, Callable[[Fact], str]] = {
     "trip.reset": lambda event: f"trip {event['trip']} waits for attempt {event['attempt']}",
     "action.begun": lambda event: f"the action of trip {event['trip']} begins ({event['drone']})",
     "drone.free": _drone("is free"),
+    "drone.busy": _drone("flies on for its mission"),
     "drone.returning": _drone("returns home"),
     "drone.charging": _drone("charges"),
     "drone.offline": _drone("does not answer"),
