@@ -56,6 +56,7 @@ class Field:
         faults: Faults | None = None,
         homes: tuple[tuple[float, float], ...] = ((1, 1), (2, 1), (3, 1)),
         patience: float | None = None,
+        ledger: MemoryLedger | FileLedger | None = None,
     ) -> None:
         self.airspace = airspace or Airspace()
         self.kernel = kernel or VirtualTime()
@@ -67,7 +68,7 @@ class Field:
         self.navigation = SimulatedNavigation(
             self.kernel, self.drones, world, faults or Faults(), 1, self.airspace
         )
-        self.ledger: MemoryLedger | FileLedger = MemoryLedger()
+        self.ledger = ledger or MemoryLedger()
         self.patience = patience
         self.gateway = self.another()
 
@@ -83,7 +84,12 @@ class Field:
         )
         return self.gateway
 
+    @property
+    def virtual(self) -> VirtualTime:
+        """The kernel, in simulations."""
+        assert isinstance(self.kernel, VirtualTime)
+        return self.kernel
+
     def advance(self, seconds: float) -> None:
         """Let virtual time pass."""
-        assert isinstance(self.kernel, VirtualTime)
-        self.kernel.run(self.kernel.spawn(self.kernel.sleep(seconds), FLEET, "time passes"))
+        self.virtual.run(self.kernel.spawn(self.kernel.sleep(seconds), FLEET, "time passes"))

@@ -12,7 +12,6 @@ from plutoc_runtime.errors import Failure, FlightFailed
 from plutoc_runtime.kernel import FLEET
 from plutoc_runtime.simulation.faults import Faults
 from plutoc_runtime.simulation.keeping import DEEDS, DRONES, Keeper
-from plutoc_runtime.virtual import VirtualTime
 from tests.gateway.flights import PILLS, THERE, Field, Task
 from tests.runtime.simulation.flights import failure, fly
 
@@ -23,8 +22,6 @@ class Kept(Field):
     def __init__(self, folder: Path, wall: float = 1000.0, faults: Faults | None = None) -> None:
         super().__init__(faults=faults)
         kernel = self.kernel
-        assert isinstance(kernel, VirtualTime)
-        self.virtual = kernel
         self._begun = wall
         self.keeper = Keeper(folder, kernel.time, 1.0, self.wall)
         self.navigation.record = self.keeper.record

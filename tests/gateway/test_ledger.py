@@ -3,18 +3,13 @@
 from __future__ import annotations
 
 import os
-from functools import partial
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from plutoc_runtime.errors import Failure, FlightFailed
 from plutoc_runtime.gateway.file_ledger import FileLedger
 from plutoc_runtime.model import Photo
-from plutoc_runtime.simulation.deeds import Deed
 from plutoc_runtime.standing import Entry, JobState
 from plutoc_runtime.virtual import VirtualTime
 from tests.gateway.flights import Field, Task
@@ -146,75 +141,3 @@ def test_a_full_disk_leaves_the_ledger_as_it_was(tmp_path: Path) -> None:
     ledger.write(entry("c"))
     ledger.close()
     assert list(kept(path)) == ["a", "c"]
-
-
-moments = st.lists(
-    st.tuples(st.sampled_from(["wait", "brain", "gateway", "reboot"]), st.integers(0, 9)),
-    max_size=12,
-)
-
-
-@settings(max_examples=60)
-@given(moments, st.booleans())
-def test_no_sequence_of_crashes_does_anything_twice(
-    crashes: list[tuple[str, int]], in_a_file: bool
-) -> None:
-    """Each brain does as brains do: it calls the roll, attaches, and flies what was not done.
-
-    What nobody knows is left to a person, who is not asked here: it is not flown again.
-    """
-    with TemporaryDirectory() as folder:
-        field = Field()
-        deeds: list[Deed] = []
-        field.navigation.record = deeds.append
-        if in_a_file:
-            field.ledger = FileLedger(Path(folder) / "ledger")
-            field.another()
-        assert isinstance(field.kernel, VirtualTime)
-        jobs = [Task(id=f"{n}", drone=f"cf{n + 1}", stops=((2.0 + n, 3.0, 1.2),)) for n in range(2)]
-        reported: dict[str, object] = {}
-        unknown: set[str] = set()
-        epoch = 0
-
-        def begin() -> None:
-            nonlocal epoch
-            epoch += 1
-            link = field.gateway.link(epoch)
-            assert isinstance(field.kernel, VirtualTime)
-            roll = fly(field.kernel, link.call())
-            for job in jobs:
-                known = roll.jobs.get(job.id)
-                state = None if known is None else known.state
-                if job.id in reported:
-                    assert state is JobState.DONE
-                    continue
-                if known is not None and (known.flies or state is JobState.DONE):
-                    link.attach(job.id, partial(reported.setdefault, job.id))
-                elif state is JobState.BEGUN:
-                    unknown.add(job.id)
-                elif not roll.drones[job.drone].reached:
-                    field.kernel.spawn(link.recover(job.drone), 0, "recover")
-                else:
-                    link.fly(job, partial(reported.setdefault, job.id))
-
-        begin()
-        for what, seconds in crashes:
-            field.advance(seconds)
-            if what == "reboot":
-                field.navigation.reboot("cf1")
-            if what == "gateway":
-                field.gateway.crash()
-                if isinstance(field.ledger, FileLedger):
-                    field.ledger.close()
-                    field.ledger = FileLedger(Path(folder) / "ledger")
-                field.another()
-            if what != "wait":
-                begin()
-        field.advance(500)
-        begin()
-        field.advance(500)
-        done = [deed.job for deed in deeds]
-        assert len(done) == len(set(done))
-        assert not unknown & set(reported)
-        if isinstance(field.ledger, FileLedger):
-            field.ledger.close()
