@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from pathlib import Path
 from zlib import crc32
@@ -15,6 +15,8 @@ from .ledger import Written
 
 _SPARE = 1000
 """Lines that may be of no use any more before the file is written anew."""
+
+_sync: Callable[[int], None] = getattr(os, "fdatasync", os.fsync)  # not every system has the former
 
 
 class FileLedger:
@@ -61,7 +63,7 @@ class FileLedger:
             if os.write(self._file, line) < len(line):
                 raise OSError("no space is left")
             if sync:
-                os.fdatasync(self._file)
+                _sync(self._file)
         except OSError:
             with suppress(OSError):
                 os.ftruncate(self._file, self._end)
