@@ -239,6 +239,17 @@ def endless(graph: Graph, head: Node, way: Way, round_: Sequence[str]) -> Diagno
     )
 
 
+def spins(graph: Graph, head: Node, way: Way, round_: Sequence[str]) -> Diagnostic:
+    return error(
+        "P2025",
+        (graph, head.name_span),
+        f"a mission whose rounds are all flown goes round at `{head.name}` for ever",
+        label="it comes back COMPLETED, and no time passes",
+        help=f"it goes round {arrows((*round_, round_[0]))} when COMPLETED, and nothing there waits, "
+        f"flies or calls a hook: lead COMPLETED elsewhere{there(way)}",
+    )
+
+
 # Drones and launches
 
 

@@ -102,7 +102,7 @@ def _in_flight(flow: Flow, parallels: Branches, *, lacking: bool) -> list[Diagno
     idle = gates.idle(flow, parallels, lacking=lacking)
     return [
         *stuck.stuck(flow, parallels, tuple(idle)),
-        *ending.endless(flow),
+        *(ending.endless(flow) or ending.spinning(flow)),
         *idle.values(),
         *flights.undrawn(flow),
         *flights.unlaunched(flow),

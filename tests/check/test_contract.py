@@ -25,7 +25,7 @@ ERRORS = {
     "a reachable block that never gets a status it accepts": ("P2007",),
     "an edge that no status can ever take": ("P2008",),
     "a stuck mission": ("P2009",),
-    "a graph or loop from which no end can be reached": ("P2010",),
+    "a graph or loop from which no end can be reached": ("P2010", "P2025"),
     "a branch that reaches the end, or ends, before its gate": ("P2011",),
     "a branch that is flown twice": ("P2012",),
     "a branch that does not close at its fork's gate": ("P2013", "P2014", "P2018"),

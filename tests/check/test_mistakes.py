@@ -79,6 +79,16 @@ MISTAKES = {
             "    watch -> end when COMPLETED\n    watch -> one when FAILED\n    one -> two -> one"
         ),
     ),
+    "a repeater that leads back to itself": (
+        "P2025",
+        "again",
+        (
+            f"{BASIC}    again = MissionRepeater\n"
+            "    start -> create -> allocate -> launch -> watch -> allocate when STANDBY\n"
+            "    watch -> end when FAILED\n    watch -> again when COMPLETED\n"
+            "    again -> again when COMPLETED\n    again -> allocate when STANDBY"
+        ),
+    ),
     "a graph without an end": (
         "P2010",
         "watch",

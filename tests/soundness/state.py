@@ -47,6 +47,8 @@ class State(NamedTuple):
     """Allocated since the previous launch."""
     flight: Status | None
     """RUNNING, or how the last flight ended; None before the first launch."""
+    over: bool = False
+    """A repeater has found no round left, and no hook has been asked since."""
 
 
 class Verdict(StrEnum):

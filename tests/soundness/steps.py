@@ -34,9 +34,11 @@ def outcomes(
             if state.flight != R:
                 yield state.flight, state
         case "MissionRepeater":
-            yield from ((S, with_trips(state, trips)) for trips in (1, MOST_TRIPS))
-            yield C, state
+            if not state.over:
+                yield from ((S, with_trips(state, trips)) for trips in (1, MOST_TRIPS))
+            yield C, state._replace(over=True)
         case "MissionEvaluator":
+            state = state._replace(over=False)
             yield from ((S, with_trips(state, trips)) for trips in (1, MOST_TRIPS))
             yield from ((C, state), (F, state))
         case "PriorityManager":
@@ -44,10 +46,13 @@ def outcomes(
                 (status, state) for status in retried(state, block, by_count=strict or not unlike)
             )
         case "MissionModifier" if block.emits:
+            state = state._replace(over=False)
             for status, after in modified(state, token, block, strict):
                 early = status == F != token.status and state.flight == F
                 # a trip that fails again before it is launched again was tried once more
                 yield status, after._replace(flown=tried(after, most_flights)) if early else after
+        case "MissionModifier":
+            yield token.status, state._replace(over=False)
         case _:
             yield token.status, state
 

@@ -81,3 +81,36 @@ def test_what_a_branch_has_used_up_is_used_up_behind_its_gate() -> None:
 def test_branch_that_always_fails_fails_its_funnel() -> None:
     """Only FAILED passes such a funnel, so what takes COMPLETED behind it is no way to an end."""
     assert "P2010" in refused(ALWAYS_WORST)
+
+
+SPINNING = """pluto 1
+app spinning {
+  create = MissionCreator
+  allocate = DroneAllocator
+  launch = TripLauncher
+  watch = TripMonitor
+  again = MissionRepeater
+  more = MissionRepeater
+  start -> create -> allocate -> launch -> watch
+  [watch, again, more] -> allocate when STANDBY
+  watch -> end when FAILED
+  watch -> again when COMPLETED
+  again -> more when COMPLETED
+  more -> again when COMPLETED
+}
+"""
+
+
+def test_rounds_that_are_flown_stay_flown() -> None:
+    """Two repeaters that lead to each other: no time passes between them."""
+    assert judge(read(SPINNING)).runs.keys() == {Verdict.ENDLESS}
+    assert "P2025" in refused(SPINNING)
+
+
+def test_a_hook_between_may_ask_for_another_round() -> None:
+    """It gets the mission, and may change how often it repeats."""
+    noted = SPINNING.replace("more = MissionRepeater", "more = MissionModifier(hook: note)")
+    noted = noted.replace("app spinning {", "app spinning {\n  modifier note")
+    noted = noted.replace("[watch, again, more]", "[watch, again]")
+    assert not judge(read(noted)).runs
+    assert not refused(noted)
