@@ -15,6 +15,9 @@ from typing import BinaryIO
 from .place import beside
 
 _HEADER, _FRAME = struct.Struct(">8I"), struct.Struct(">IIII8x")
+_ANY, _USES = 0xFFFFFFFF, 1 << 20
+"""At each use of a log the first of its two salts is one more."""
+
 _TAKEN = struct.Struct("=16xI")  # of the shared index, which is in the machine's own order
 
 
@@ -47,17 +50,18 @@ def _rest(log: BinaryIO, taken: int, path: Path) -> Rest:
     salts: tuple[int, ...] | None = numbers[4:6]
     if not _is_sound(header, numbers):
         page, salts, taken = _page_size(path), None, 0
-    number = commits = 0
+    number = commits = strange = 0
     while len(start := log.read(_FRAME.size)) == _FRAME.size:
         number += 1
         log.seek(page, 1)
         _, commit, *frames = _FRAME.unpack(start)
-        if number <= taken or (salts and frames[0] != salts[0] and frames[1] != salts[1]):
+        if number <= taken or (salts and 0 < salts[0] - frames[0] & _ANY < _USES):
             continue  # seen, or of an earlier use of the log: all that is in the database
         if commits:
             return Rest.LOST
         commits += commit > 0  # without one it was never acknowledged
-    return Rest.TORN if commits else Rest.NOTHING
+        strange += salts is not None and salts[0] != frames[0] and salts[1] != frames[1]
+    return Rest.TORN if commits or strange else Rest.NOTHING
 
 
 def _taken(index: Path) -> int | None:
