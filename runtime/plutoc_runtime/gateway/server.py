@@ -17,6 +17,7 @@ from ..kernel import FLEET, Cancelled, Task
 from ..standing import Down
 from ..words import shown
 from .link import Busy
+from .requests import asked
 from .wire import (
     LONGEST_TOLD,
     Message,
@@ -24,9 +25,7 @@ from .wire import (
     line,
     message_in,
     result_data,
-    roll_data,
     seen,
-    standing_data,
 )
 
 if TYPE_CHECKING:
@@ -219,31 +218,7 @@ class Connection:
             case "goodbye":
                 self._server.on_goodbye()
             case _:
-                self._begin(int(message["n"]), what, self._coroutine(link, what, message))
-
-    def _coroutine(self, link: Link, what: str, message: Message) -> Coroutine[Any, Any, object]:
-        """Return what takes its time, and is answered when it is done."""
-        if what == "call":
-            return _as_data(roll_data, link.call)
-        if what == "down":
-            return link.bring_down(Down(message["how"]))
-        drone = self._known(message["drone"])
-        match what:
-            case "hold":
-                return link.hold(drone)
-            case "takeoff":
-                return link.takeoff(drone, float(message["height"]))
-            case "go_to":
-                x, y, z = map(float, message["target"])
-                return link.go_to(drone, (x, y, z))
-            case "land":
-                return link.land(drone)
-            case "recover":
-                return link.recover(drone)
-            case "roll_call":
-                return _as_data(standing_data, partial(link.roll_call, drone))
-            case _:
-                raise BadInput(f"this gateway cannot {shown(what)}")
+                self._begin(int(message["n"]), what, asked(link, what, message, self._known))
 
     def _begin(self, number: int, what: str, command: Coroutine[Any, Any, object]) -> None:
         if number in self._under_way or len(self._under_way) >= _PENDING:
@@ -274,12 +249,6 @@ class Connection:
 
     def _report(self, number: int, result: object) -> None:
         self._tell({"report": number, **result_data(result), "seen": self._changed()})
-
-
-async def _as_data(
-    write: Callable[[Any], object], ask: Callable[[], Coroutine[Any, Any, object]]
-) -> object:
-    return write(await ask())
 
 
 def _call_off(task: Task[Any]) -> None:

@@ -1,0 +1,55 @@
+"""When the gateway's process is not needed any more."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ..kernel import FLEET, Kind
+from ..standing import Down
+
+if TYPE_CHECKING:
+    from ..signals import Signal
+    from .gateway import Gateway
+    from .server import Server
+    from .settings import Settings
+
+
+class Ending:
+    """Sees to it that the process ends, and only when all drones are down."""
+
+    def __init__(self, gateway: Gateway, over: Signal[None], settings: Settings) -> None:
+        self._gateway, self._over = gateway, over
+        self._second = settings.speed
+        self._idle, self._patience = settings.idle, settings.patience
+        self.server: Server | None = None
+        self._alone = -1.0
+        """Seconds without a brain and without a drone in the air."""
+        self._told: float | None = None
+        """Seconds since somebody wants it to end."""
+
+    def goodbye(self) -> None:
+        """End, once all drones are down."""
+        gateway = self._gateway
+        if gateway.flies:
+            gateway.fail_safe(Down.LAND).watch(lambda _: self._over.set(None))
+        else:
+            self._over.set(None)
+
+    def told_to_end(self) -> None:
+        """End as if told goodbye, but give a brain that was told the same the time to stop."""
+        if self._told is None:
+            self._told = 0.0
+
+    def look(self) -> None:
+        """End when nobody has come for a while; look again a second later."""
+        gateway, kernel = self._gateway, self._gateway.kernel
+        brain = self.server is not None and self.server.has_a_brain
+        busy = brain or gateway.flies or gateway.descent is not None
+        self._alone = -1.0 if busy else self._alone + 1.0
+        if self._told is not None:
+            self._told += 1.0
+            if self._told > self._patience and gateway.descent is None:
+                self.goodbye()
+        if self._alone > (self._idle if self._told is None else 0.0):
+            self._over.set(None)
+        kernel.schedule(kernel.now + self._second, Kind.CLOCK, FLEET, self.look)
