@@ -12,6 +12,7 @@ from plutoc_runtime.errors import Failure, FlightFailed
 from plutoc_runtime.kernel import FLEET
 from plutoc_runtime.simulation.faults import Faults
 from plutoc_runtime.simulation.keeping import DEEDS, DRONES, Keeper
+from plutoc_runtime.simulation.moments import Moment, this_moment
 from tests.gateway.flights import PILLS, THERE, Field, Task
 from tests.runtime.simulation.flights import failure, fly
 
@@ -23,13 +24,17 @@ class Kept(Field):
         super().__init__(faults=faults)
         kernel = self.kernel
         self._begun = wall
-        self.keeper = Keeper(folder, kernel.time, 1.0, self.wall)
+        self.keeper = Keeper(folder, kernel.time, 1.0, self.moment)
         self.navigation.record = self.keeper.record
         self.keeper.take_over(self.navigation.bodies)
 
     def wall(self) -> float:
         """Return what the clock on the wall shows."""
         return self._begun + self.kernel.now
+
+    def moment(self) -> Moment:
+        """Return a moment of a machine that cannot say how long it has been on."""
+        return Moment(wall=self.wall(), boot="", up=0.0)
 
     def later(self, folder: Path, seconds: float, faults: Faults | None = None) -> Kept:
         """Let the process be killed, and return the world of another that begins later."""
@@ -161,3 +166,16 @@ def test_what_was_drawn_to_go_wrong_goes_wrong_all_the_same(tmp_path: Path) -> N
     field = field.later(tmp_path, 30)
     assert field.navigation.telemetry("cf1").landed
     assert failure(field.virtual, field.navigation.takeoff("cf1", 1)).failure is Failure.CRASH
+
+
+def test_how_long_ago_it_was_depends_on_no_clock_that_can_be_set() -> None:
+    """As long as the machine was not started again; then there is only the clock on the wall."""
+    was = Moment(wall=1000.0, boot="a", up=50.0).data
+    assert Moment(wall=9000.0, boot="a", up=53.0).since(was) == 3
+    assert Moment(wall=500.0, boot="a", up=53.0).since(was) == 3
+    assert Moment(wall=1100.0, boot="b", up=4.0).since(was) == 100
+    assert Moment(wall=900.0, boot="b", up=4.0).since(was) == 0
+    assert Moment(wall=1001.0, boot="", up=0.0).since({**was, "boot": ""}) == 1
+    before = this_moment()
+    assert this_moment().since(before.data) >= 0
+    assert before.since(this_moment().data) == 0

@@ -18,6 +18,7 @@ from ..realtime import RealTime
 from ..signals import Signal
 from ..simulation.drones import SimulatedNavigation
 from ..simulation.keeping import Keeper
+from ..simulation.moments import this_moment
 from ..simulation.world import World
 from .ending import Ending
 from .file_ledger import FileLedger
@@ -63,7 +64,7 @@ async def run(folder: Path, settings: Settings) -> None:
     """Let the simulated world go on where it was, and let brains command until all is over."""
     kernel = RealTime(settings.speed)
     airspace = settings.airspace
-    keeper = Keeper(folder, kernel.time, settings.speed, time.time)
+    keeper = Keeper(folder, kernel.time, settings.speed, this_moment)
     navigation = SimulatedNavigation(
         kernel,
         settings.drones,

@@ -19,6 +19,7 @@ from ..journal.values import item_data, item_of, point_of, value_data, value_of
 from .body import Body, Snapshot
 from .deeds import Deed
 from .faults import Drawn
+from .moments import Moment
 from .motion import Charge, Leg
 
 DEEDS, DRONES = "world.jsonl", "drones.json"
@@ -29,9 +30,10 @@ class Keeper:
     """The files of one simulated world. Nothing is ever taken out of the one with the deeds."""
 
     def __init__(
-        self, folder: Path, clock: Callable[[], float], speed: float, wall: Callable[[], float]
+        self, folder: Path, clock: Callable[[], float], speed: float, moment: Callable[[], Moment]
     ) -> None:
-        self._drones, self._clock, self._speed, self._wall = folder / DRONES, clock, speed, wall
+        self._drones, self._clock, self._speed = folder / DRONES, clock, speed
+        self._moment = moment
         self._bodies: Mapping[str, Body] = {}
         self._counts: dict[str, int] = {}
         """How many of its deeds are known of each drone."""
@@ -50,9 +52,10 @@ class Keeper:
         saved: Mapping[str, Any] = {}
         with suppress(OSError, ValueError):
             saved = json.loads(self._drones.read_bytes())
+        now = self._moment()
         for id, data in saved.get("drones", {}).items():
             if id in bodies:
-                passed = max(0.0, self._wall() - saved["wall"]) * self._speed
+                passed = now.since(saved["moment"]) * self._speed
                 shift = self._clock() - saved["time"] - passed
                 bodies[id].restore(_snapshot(data, shift))
                 self._counts[id] = data["deeds"]
@@ -82,7 +85,7 @@ class Keeper:
         """Write down what a drone does, or let it fail to do so."""
         body = self._bodies[deed.drone]
         data = {
-            "time": self._wall(),
+            "time": self._moment().wall,
             "drone": deed.drone,
             "action": deed.action,
             "item": None if deed.item is None else deed.item.name,
@@ -116,7 +119,7 @@ class Keeper:
             id: {**_data(body.snapshot), "deeds": self._counts[id]}
             for id, body in self._bodies.items()
         }
-        text = json.dumps({"wall": self._wall(), "time": self._clock(), "drones": drones})
+        text = json.dumps({"moment": self._moment().data, "time": self._clock(), "drones": drones})
         part = self._drones.with_name(f"{DRONES}.part")
         with suppress(OSError):  # the next change is another chance
             part.write_text(text, encoding="utf-8")
