@@ -84,6 +84,7 @@ class Connection:
     def __init__(self, server: Server, writer: StreamWriter) -> None:
         self._server, self._writer, self._gateway = server, writer, server.gateway
         self.link: Link | None = None
+        self._was_cut = False
         self._under_way: dict[int, Task[Any]] = {}
         """Commands that are not answered yet, by their numbers."""
         self._seen: dict[str, tuple[object, ...]] = {}
@@ -173,6 +174,8 @@ class Connection:
                 raise BadInput("this connection commands already")
             case {"do": str(what)} if self.link is not None:
                 self._command(self.link, what, message)
+            case {"do": str()} if self._was_cut:
+                pass  # it was on its way
             case _:
                 raise BadInput("this gateway does not know that message")
 
@@ -188,7 +191,7 @@ class Connection:
         if self.link is None:  # it has hung up
             return
         self._server.say("the brain that commanded is cut off")
-        self.link = None
+        self.link, self._was_cut = None, True
         self._tell({"lost": True})
 
     def _command(self, link: Link, what: str, message: Message) -> None:
