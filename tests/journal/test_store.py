@@ -12,6 +12,7 @@ import pytest
 
 from plutoc_runtime.journal.errors import JournalError
 from plutoc_runtime.journal.lock import holder
+from plutoc_runtime.journal.reader import Reader
 from plutoc_runtime.journal.replay import replayed
 from plutoc_runtime.journal.store import Store
 
@@ -127,3 +128,18 @@ def test_records_are_what_a_snapshot_and_the_events_since_come_to(store: Store) 
     assert sorted(records.missions) == ["A", "B"]
     assert (whole.time, records.time) == (1.0, 2.0)
     assert gc.isenabled()
+
+
+def test_a_reader_that_stops_in_the_middle_keeps_nobody_from_tidying_up(
+    store: Store, place: Path
+) -> None:
+    store.append([row(number) for number in range(3_000)])
+    reader = Reader(place)
+    rows = reader.rows()
+    next(rows)
+    store.append([row(3_000)])
+    store.close()
+    assert place.with_name(f"{place.name}-wal").stat().st_size == 0
+    assert sum(1 for _ in rows) == 3_000  # what was there when it began
+    assert sum(1 for _ in reader.more()) == 1
+    reader.close()

@@ -90,25 +90,38 @@ def rows_between(database: sqlite3.Connection, first: int, last: int) -> Read:
 
 
 def _rows(database: sqlite3.Connection, seq: int, last: int) -> Chunks:
-    query = (
-        "SELECT seq, epoch, wall, text, checksum FROM journal"
-        " WHERE seq BETWEEN ? AND ? ORDER BY seq"
-    )
-    sound: list[Row] = []
-    try:
-        found = database.execute(query, (seq, last))
-        while rows := found.fetchmany(_AT_ONCE):
-            for row in rows:
-                if row[0] != seq or not is_sound(row):
-                    yield sound
-                    missing = row[0] > seq
-                    what = errors.missing_rows(seq, row[0] - 1, last) if missing else None
-                    return what or errors.unsound_row(seq, last)
-                sound.append(Row(seq, row[2] / 1000, row[3].decode(), row[1]))
-                seq += 1
-            yield sound
-            sound = []
-    except TROUBLE as error:
+    while seq <= last:
+        # each chunk is a query of its own: who waits in between keeps no writer from tidying up
+        until = min(last, seq + _AT_ONCE - 1)
+        rows, trouble = _fetched(database, seq, until)
+        sound: list[Row] = []
+        for row in rows:
+            if row[0] != seq or not is_sound(row):
+                yield sound
+                missing = errors.missing_rows(seq, row[0] - 1, last) if row[0] > seq else None
+                return missing or errors.unsound_row(seq, last)
+            sound.append(Row(seq, row[2] / 1000, row[3].decode(), row[1]))
+            seq += 1
         yield sound
-        return errors.unreadable_from(seq, last, errors.why(error))
-    return errors.missing_rows(seq, last, last) if seq <= last else None
+        if trouble is not None:
+            return errors.unreadable_from(seq, last, errors.why(trouble))
+        if seq <= until:
+            return errors.missing_rows(seq, until, last)
+    return None
+
+
+def _fetched(
+    database: sqlite3.Connection, first: int, last: int
+) -> tuple[list[tuple[Any, ...]], Exception | None]:
+    """Return rows as they are, and what keeps the database from giving more."""
+    rows: list[tuple[Any, ...]] = []
+    try:
+        rows.extend(database.execute(_QUERY, (first, last)))
+    except TROUBLE as error:
+        return rows, error
+    return rows, None
+
+
+_QUERY = (
+    "SELECT seq, epoch, wall, text, checksum FROM journal WHERE seq BETWEEN ? AND ? ORDER BY seq"
+)
