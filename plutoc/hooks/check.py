@@ -9,7 +9,7 @@ from plutoc.check.model import Checked
 from plutoc.diagnostic import Diagnostic, Rejected
 from plutoc.graph.names import near
 from plutoc.hooks import errors
-from plutoc.hooks.expected import Expected, expected
+from plutoc.hooks.expected import Expected, expected, probes
 from plutoc.hooks.module import Function, Module, arg_span, name_span, read, waits, yields
 from plutoc.hooks.python import Unreadable, check_compiles
 from plutoc.hooks.types import of_types
@@ -56,6 +56,9 @@ def _found(checked: Checked, hooks: Source) -> Iterator[Diagnostic]:
             yield errors.missing(app, hook, hooks.path, meant)
         else:
             yield from _of_definition(checked, hooks, hook, module)
+    for probe in probes(checked):
+        if probe.name in module.defined:
+            yield from _of_definition(checked, hooks, probe, module)
 
 
 def _left(hooks: Source) -> Iterator[Diagnostic]:

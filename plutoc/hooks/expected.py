@@ -54,6 +54,28 @@ def expected(checked: Checked) -> tuple[Expected, ...]:
     return tuple(sorted(hooks, key=lambda hook: hook.span.start))
 
 
+def probes(checked: Checked) -> tuple[Expected, ...]:
+    """Return what may stand in hooks.py besides: `pollinate_done`, asked after a crash in `pollinate`."""
+    declared = {hook.name for hook in expected(checked)}
+    names = ((action, f"{action.name}_done") for action in checked.graph.actions)
+    return tuple(_probe(action, name) for action, name in names if name not in declared)
+
+
+def _probe(action: Action, name: str) -> Expected:
+    first_line = f"def {name}(drone: Drone, trip: Trip) -> bool | None:"
+    return Expected(
+        kind=HookKind.ACTION,
+        name=name,
+        passed=("drone", "trip"),
+        own=(),
+        returns="bool",
+        may_wait=True,
+        span=action.span,
+        first_line=first_line,
+        stub=f"{first_line}\n    return None",
+    )
+
+
 def _expected(hook: Action | Hook, draft: Stub) -> Expected:
     kind = HookKind.ACTION if isinstance(hook, Action) else hook.kind
     first_line = f"{draft.coroutine}def {draft.name}{draft.signature}:"

@@ -150,3 +150,23 @@ def test_nothing_is_added_to_what_is_not_python(crop: Checked) -> None:
     """First it has to be mended."""
     source = Source("hooks.py", "def (")
     assert with_stubs(crop, source) == source.text
+
+
+@pytest.mark.parametrize(
+    ("probe", "wanted"),
+    [
+        ("async def pollinate_done(drone: Drone, trip: Trip) -> bool | None: return None", []),
+        ("def pollinate_done(drone, trip): return True", []),
+        ("pollinate_done = None", []),
+        ("def pollinate_done(drone): return True", ["P3005"]),
+        ("def pollinate_done(trip, drone): return True", ["P3006"]),
+        ("def pollinate_done(drone, trip, dose): return True", ["P3008"]),
+        ("def pollinate_done(drone, trip) -> str: return 'yes'", ["P3014"]),
+    ],
+)
+def test_what_tells_whether_an_action_was_done_is_looked_at(
+    crop: Checked, probe: str, wanted: list[str]
+) -> None:
+    """It need not be there; where it is, the app can call it after a crash."""
+    text = GOOD.replace("import Verdict", "import Drone, Trip, Verdict") + probe
+    assert codes(crop, text) == wanted
