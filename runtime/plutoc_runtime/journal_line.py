@@ -60,6 +60,10 @@ def _list(values: list[Any]) -> str:
     return "[" + ", ".join([_WRITE[type(value)](value) for value in values]) + "]"
 
 
+def _exact_list(values: list[Any]) -> str:
+    return "[" + ", ".join([_EXACT[type(value)](value) for value in values]) + "]"
+
+
 _TEMPLATES: dict[tuple[str, ...], str] = {}
 
 _WRITE = _Writers(
@@ -73,5 +77,11 @@ _WRITE = _Writers(
 )
 
 _EXACT = _ExactWriters(
-    {str: encode_basestring_ascii, int: repr, float: _exact, type(None): lambda _: "null"}
+    {
+        str: encode_basestring_ascii,
+        int: repr,
+        float: _exact,
+        list: _exact_list,
+        type(None): lambda _: "null",
+    }
 )
