@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import itertools
 import pkgutil
+import re
 from importlib import import_module
 from pathlib import Path
 
@@ -196,13 +197,21 @@ LEFT_OUT = {
 a modifier's status, what both ask, and other policies. Blocks' steps are looked at above."""
 
 
+FOR_TESTS = ("gateway.line", "journal.memory", "simulation.radio")
+"""What only the simulation of crashes needs, beside all of `testing` but the invariants."""
+INVARIANTS = re.compile(r"testing\.(invariants|.*_rules?)")
+
+
 @pytest.mark.parametrize("example", sorted(path.name for path in EXAMPLES.iterdir()))
 def test_modules_that_nothing_needs_stay_behind(example: str) -> None:
     """They are named for every example, and there are no others."""
     text = (EXAMPLES / example / "app.pluto").read_text(encoding="utf-8")
     carried = {path.partition("/_runtime/")[2] for path in package_of(text).owned}
     left_out = [name for name in modules() if f"{name.replace('.', '/')}.py" not in carried]
-    assert left_out == LEFT_OUT[example].split()
+    of_tests = [name for name in left_out if name.startswith("testing.") or name in FOR_TESTS]
+    assert [name for name in left_out if name not in of_tests] == LEFT_OUT[example].split()
+    assert all(name in of_tests for name in FOR_TESTS)
+    assert not any(INVARIANTS.fullmatch(name) for name in of_tests)
 
 
 def modules() -> list[str]:
