@@ -16,7 +16,9 @@ def test_a_journal_is_measured(capsys: pytest.CaptureFixture[str]) -> None:
         *(f"rows a second, in groups of {group}" for group in journal.GROUPS),
         "transitions a second",
         "seconds by all rows",
-        "seconds for a snapshot",
+        "of CPU, by all rows",
+        "of CPU, to make a snapshot",
         "seconds from a snapshot",
+        "of CPU, from a snapshot",
     ]
     assert all(number > 0 for number in told.values())
