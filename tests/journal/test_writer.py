@@ -74,3 +74,17 @@ def test_after_a_failure_no_row_is_ever_called_durable(store: Store) -> None:
     assert told == [1]
     assert failures == [store.failure]
     store.close()
+
+
+def test_a_row_that_cannot_be_written_stops_everything_instead_of_waiting_for_ever(
+    store: Store,
+) -> None:
+    failures: list[JournalError] = []
+    writer = Writer(store, lambda _: None, failures.append)
+    writer.add("half of a letter: \ud800")
+    with pytest.raises(JournalError, match="cannot be written"):
+        writer.flush()
+    writer.close()
+    assert len(failures) == 1
+    assert store.last_words(row(1))
+    store.close()

@@ -122,7 +122,7 @@ class Store:
             raise self.failure
         try:
             self._commit(rows)
-        except TROUBLE as error:
+        except (ValueError, *TROUBLE) as error:  # ValueError: a text that is none
             raise self._failed(error) from None
 
     def last_words(self, row: str) -> bool:
