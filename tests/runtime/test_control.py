@@ -198,6 +198,7 @@ def test_after_a_stop_nothing_else_is_done() -> None:
     for command in (living.life.control.pause, living.life.control.cancel):
         with pytest.raises(BadInput, match="everything was stopped: resume the journal first"):
             command("a")
+    assert living.kernel.run(living.life.control.stopped)
 
 
 def test_an_app_lives_on_when_somebody_decides_while_the_last_drone_comes_home() -> None:
