@@ -169,7 +169,7 @@ class _Living:
             watcher=setting.tell,
         )
         life.control.stopped.watch(lambda _: self._end.set(End.STOPPED))
-        stops.stop_now = partial(kernel.post, life.control.stop)
+        stops.stop_now = self._stop
         async with listening(setting.note, self._answer):
             over = life.go_on(setting.missions)
             over.watch(self._over)
@@ -204,6 +204,11 @@ class _Living:
         self._writer.close()
         if self._link is not None:
             await self._link.close()
+
+    def _stop(self, how: Down) -> None:
+        """Stop, unless it is all over anyway."""
+        if self._life is not None and not self._end.is_set:
+            self._kernel.post(self._life.control.stop, how)
 
     def _over(self, over: Task[float]) -> None:
         if not isinstance(over.error, Cancelled):  # as it is by a stop
