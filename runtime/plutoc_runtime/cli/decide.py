@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 
 from ..asking import Nobody, ask, note_of
 from ..errors import BadInput
-from ..journal.header import check
 from ..journal.store import Store
 from ..words import printable, quoted
 from . import output
@@ -24,7 +23,7 @@ if TYPE_CHECKING:
 def decide(app: App, options: Options) -> int:
     """Settle what a mission waits for, in the running app or in its journal."""
     journal, mission, answer = options.the_journal, options.mission, options.answer
-    records = records_in(journal)
+    records = records_in(app, journal)
     if mission is None:
         listed = [*waiting_lines(app, journal, records)]
         for line in listed or ["no mission waits for a person"]:
@@ -43,7 +42,7 @@ def decide(app: App, options: Options) -> int:
     try:
         output.line(ask(note_of(journal), request, PATIENCE))
     except Nobody:
-        _put_down(app, journal, mission, answer, records.time)
+        _put_down(journal, mission, answer, records.time)
         output.line(
             f"mission {quoted(mission)}: {answer}; it is on record, and "
             f"{app.name} resume {journal} acts on it"
@@ -51,9 +50,8 @@ def decide(app: App, options: Options) -> int:
     return 0
 
 
-def _put_down(app: App, journal: Path, mission: str, answer: str, now: float) -> None:
+def _put_down(journal: Path, mission: str, answer: str, now: float) -> None:
     """Write an answer into a journal that nobody is writing."""
     event = {"t": now, "event": "mission.decided", "mission": mission, "answer": answer}
     with closing(Store.open(journal)) as store:
-        check(journal, store.header, app)
         store.append([json.dumps([event])])

@@ -125,7 +125,9 @@ async def _lives(
                 f"{flight.journal}: the gateway ended {deaths} times in a row with nothing finished"
                 f" in between; what it said is in {folder / 'log'}; {flight.how_to_go_on}"
             )
-        output.tell("the gateway has ended: another one is started, and all drones are asked")
+        output.tell(
+            "the gateway has ended, or cut this app off: it is reached anew, and all drones are asked"
+        )
         store = Store.open(flight.journal)
 
 
@@ -139,7 +141,7 @@ def supervised(app: App, options: Options, journal: Path, first: Sequence[str] |
             name=app.name,
             first=on if first is None else again.command(*first, "--sim", *flags),
             again=lambda: on if journal.exists() else None,
-            finished=lambda: finished(records_in(journal)) if journal.exists() else 0,
+            finished=lambda: finished(records_in(app, journal)) if journal.exists() else 0,
             how_to_go_on=f"to go on: {app.name} resume {journal}",
         )
     )

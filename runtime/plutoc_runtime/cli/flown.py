@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..journal.fold import Record, Records
+from ..journal.header import check
 from ..journal.reader import Reader
 from ..status import Status
 from ..words import printable, quoted
@@ -73,12 +74,14 @@ def waiting_lines(app: App, journal: Path, records: Records) -> Iterator[str]:
             yield f"  {app.name} decide {journal} {quoted(name)} {answer}"
 
 
-def records_in(journal: Path) -> Records:
-    """Return what a journal says, while somebody else may write it."""
+def records_in(app: App, journal: Path) -> Records:
+    """Return what a journal says, while somebody else may write it; refuse that of another app."""
     records = Records()
     with closing(Reader(journal)) as reader:
         for row in reader.rows():
             for event in json.loads(row.text):
+                if row.seq == 0:
+                    check(journal, event, app)
                 records.take(event)
     return records
 

@@ -111,6 +111,14 @@ def test_a_journal_that_this_app_cannot_go_on_with_is_refused(
     assert events_of(path) == before
 
 
+def test_what_is_asked_in_another_apps_journal_is_not_told(
+    journal: Write, command: Command
+) -> None:
+    code, out, err = command("decide", journal(created("North", 0), app="wards"))
+    assert (code, out) == (2, "")
+    assert "this is a journal of wards" in err
+
+
 def test_a_flight_of_real_drones_is_not_resumed_with_simulated_ones(
     journal: Write, command: Command
 ) -> None:
