@@ -37,10 +37,11 @@ class Package:
     flow: CodeType
     overrides: Overrides
 
-    def app(self, hooks: SimpleNamespace) -> App:
-        """Return the app with these hooks."""
+    def app(self, hooks: SimpleNamespace, *, patient: bool = False) -> App:
+        """Return the app with these hooks; who is patient lets it do as much at once as it likes."""
         siblings: Siblings = {"hooks": hooks, "model": self.model}
-        app = _module("flow", self.flow, siblings, self.overrides, Patience()).APP
+        patience = None if patient else Patience()
+        app = _module("flow", self.flow, siblings, self.overrides, patience).APP
         assert isinstance(app, App)
         return app
 

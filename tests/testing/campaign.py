@@ -39,7 +39,7 @@ from tests.flying import NAMES
 from tests.testing.examples import example, fleet_of
 
 HEADER = ("example", "runs", "rows", "lives", "completed", "failed", "cancelled", "found", "s")
-CHANCES = 10
+CHANCES = 20
 """Cases by chance for each seed."""
 ENOUGH = 5
 """After so many findings in an example nobody looks for more."""
@@ -63,7 +63,8 @@ def struck(name: str, seeds: range) -> tuple[Tally, float, list[str]]:
     if tally.findings:
         small = shrunk(tally.findings[0].case, lambda case: bool(tried(app, case).violations))
         finding = Finding(case=small, sentences=tried(app, small).violations)
-        options = Options(file=Path(f"examples/{name}/app.pluto"))
+        folder = Path("examples") / name
+        options = Options(file=folder / "app.pluto", fleet=folder / "fleet.toml")
         said = [f"--- {name}", *smallest_case(app, options, finding)]
         tally.findings = [Finding(case=small, sentences=f.sentences) for f in tally.findings]
     return tally, process_time() - began, said

@@ -36,7 +36,13 @@ def example(name: str, overrides: Overrides | None = None, *, plain: bool = Fals
     plan = build(checked(name)) if plain else planned(checked(name))
     package = packaged(plan, overrides or {})
     hooks = SimpleNamespace(**vars(_hooks(name, package)))
-    return package.app(hooks)
+    return package.app(hooks, patient=True)
+
+
+def app_of(text: str) -> App:
+    """Return the app of a source that needs no hooks."""
+    package = packaged(planned(analyse(Source("app.pluto", text))[0]))
+    return package.app(SimpleNamespace(), patient=True)
 
 
 def fleet_of(name: str, app: App) -> FleetFile:

@@ -42,10 +42,12 @@ class Living:
         link = rig.gateway.link(rig.lives, self.lost)
         self.wire = Wire(link, rig.gateway, self.kernel, case.weather.slow, rig.fired, self.sent)
         self.added = self.committed = 0
-        self.unwritten: deque[tuple[int, str, list[Event], dict[str, Known]]] = deque()
+        self.unwritten: deque[tuple[int, str, list[Event]]] = deque()
+        self.unknown: dict[str, None] = {}
+        """The missions of which something is not on record."""
         self.full = False
-        fresh = not records.missions
-        self.before = {} if fresh else dict(rig.known)
+        planned = () if records.missions else deepcopy(case.missions)
+        self.before: dict[str, Known] = {} if planned else dict(rig.known)
         self.life = Life(
             rig.app,
             case.fleet,
@@ -56,7 +58,7 @@ class Living:
             epoch=rig.lives,
         )
         self.life.control.stopped.watch(self.stopped)
-        self.task = self.life.go_on(deepcopy(case.missions))
+        self.task = self.life.go_on(planned)
         self.due: list[Callable[[], object]] = []
         rig.later(THINKS, self.person)
 
@@ -101,13 +103,8 @@ class Living:
         rig.count += 1
         rig.times.append(rig.world.now)
         events: list[Event] = json.loads(row)
-        touched = {str(event["mission"]) for event in events if "mission" in event}
-        known = {
-            mission.name: known_of(rig.app, mission)
-            for mission in self.life.recorder.missions.values()
-            if mission.name in touched
-        }
-        self.look_back(events)
+        if self.before:
+            self.look_back(events)
         struck = [blow for blow in rig.case.blows if blow.row == rig.count]
         kinds = {blow.kind for blow in struck if not blow.after}
         if Kind.DISK in kinds:
@@ -115,8 +112,10 @@ class Living:
             rig.fired[Kind.DISK.value] += 1
             rig.later(0.5, self.give_up)
         lost = self.full or Kind.LOST in kinds
-        if not lost:
-            self.unwritten.append((self.added, row, events, known))
+        if lost:
+            self.forget(events)
+        else:
+            self.unwritten.append((self.added, row, events))
             commit = partial(self.commit, self.added, Kind.KEPT not in kinds)
             if kinds & {Kind.KEPT, Kind.CRASH} or not rig.case.weather.disk:
                 self.due.append(commit)
@@ -133,10 +132,24 @@ class Living:
         if self.rig.brain is not self or self.full or number <= self.committed:
             return
         while self.unwritten and self.unwritten[0][0] <= number:
-            self.committed, row, events, known = self.unwritten.popleft()
-            self.rig.commit(row, events, known)
+            self.committed, row, events = self.unwritten.popleft()
+            self.rig.commit(row, events)
         if told:
             self.kernel.post(self.life.recorder.durable, number)
+
+    def forget(self, events: list[Event]) -> None:
+        """What is not on record need not be known again."""
+        self.unknown.update((str(event["mission"]), None) for event in events if "mission" in event)
+
+    def remember(self) -> None:
+        """This life is over: what is on record of it must be known in the next."""
+        for _, _, events in self.unwritten:
+            self.forget(events)
+        for name, mission in self.life.recorder.missions.items():
+            if name in self.unknown:
+                self.rig.known.pop(name, None)
+            else:
+                self.rig.known[name] = known_of(self.rig.app, mission)
 
     def look_back(self, events: list[Event]) -> None:
         """See, once it is known again, what has been forgotten since the last life."""
@@ -144,16 +157,20 @@ class Living:
         if not now:
             return
         before, self.before = self.before, {}
+        since: dict[str, list[Event]] = {}
+        for event in events:
+            since.setdefault(str(event.get("mission")), []).append(event)
+        found = self.rig.found
         for name, known in before.items():
             if name not in now:
-                self.rig.found.append(f"{name} was forgotten")
+                found.append(f"{name} was forgotten")
             elif self.rig.ends.get(name) not in ENDS:
                 after = known_of(self.rig.app, now[name])
-                said = forgotten(name, known, after, events)
-                self.rig.found += [f"{self.kernel.now:g} s: {sentence}" for sentence in said]
+                said = forgotten(name, known, after, since.get(name, ()))
+                found += [f"{self.kernel.now:g} s: {sentence}" for sentence in said]
         results = len(self.life.session.core.results.so_far())
-        if before and results < self.rig.once.done:
-            self.rig.found.append(f"{self.rig.once.done} results were there, {results} are left")
+        if results < self.rig.once.done:
+            found.append(f"{self.rig.once.done} results were there, {results} are left")
 
     # What strikes
 
@@ -257,6 +274,7 @@ class Living:
     def rest(self) -> None:
         if self.rig.brain is self:
             self.rig.brain = None
+            self.remember()
             self.wire.alive = False
             self.rig.gateway.cut()
             self.die()

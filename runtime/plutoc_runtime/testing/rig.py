@@ -26,6 +26,7 @@ from ..simulation.world import World
 from ..standing import Down
 from ..virtual import VirtualTime
 from .acts import Act, Once
+from .blows import Kind
 from .brain import BrokenHook
 from .invariants import ENDS, Invariants, items_of
 from .living import THINKS, Living
@@ -225,7 +226,8 @@ class Rig:
             ledger=self.ledger,
             apart=fleet.apart,
         )
-        gateway.line = Line(gateway, self.fate)
+        if any(blow.kind is Kind.REPORT for blow in self.case.blows):
+            gateway.line = Line(gateway, self.fate)
         return gateway
 
     def radio_delay(self, _: str) -> float:
@@ -270,6 +272,7 @@ class Rig:
         brain, self.brain = self.brain, None
         if brain is None:
             return
+        brain.remember()
         if self.lives > 1 and brain.added <= 1:
             self.fired["death in recovery"] += 1
         gateway = self.gateway
@@ -293,6 +296,7 @@ class Rig:
         """The brain stands still; another takes over; then the first goes on, none the wiser."""
         brain, self.brain = self.brain, None
         if brain is not None:
+            brain.remember()
             self.later(self.case.weather.down, self.be_born)
             for pulse in range(PULSES):
                 self.later(self.case.weather.down + 1.0 + pulse, brain.haunt)
@@ -301,6 +305,7 @@ class Rig:
     def ended(self, brain: Living) -> None:
         """A life came to its end by itself: everything has ended, or waits for a person."""
         self.brain = None
+        brain.remember()
         brain.wire.alive = False
         self.gateway.cut()
         brain.die()
@@ -316,10 +321,9 @@ class Rig:
 
     # On record
 
-    def commit(self, row: str, events: list[Event], known: dict[str, Known]) -> None:
+    def commit(self, row: str, events: list[Event]) -> None:
         """A row is durable."""
         self.rows.append(row)
-        self.known.update(known)
         for event in events:
             self.events.append(event)
             self.invariants.take(event)
@@ -344,7 +348,7 @@ class Rig:
                 "answer": answer,
             }
             self.fired["decision at rest"] += 1
-            self.commit(json.dumps([event]), [event], {})
+            self.commit(json.dumps([event]), [event])
             decided = True
         return decided
 

@@ -42,9 +42,8 @@ def known_of(app: App, mission: Mission[Any]) -> Known:
 
 def forgotten(name: str, before: Known, after: Known, since: Sequence[Event]) -> Iterable[str]:
     """Yield what an app has forgotten of a mission, but for what has happened to it since."""
-    mine = [event for event in since if event.get("mission") == name]
-    launched = sum(event["event"] == "trip.launched" for event in mine)
-    if any(event["event"] in _CHANGES for event in mine):
+    launched = sum(event["event"] == "trip.launched" for event in since)
+    if any(event["event"] in _CHANGES for event in since):
         return
     if before.round != after.round:
         yield f"{name} was in round {before.round}, and went on in round {after.round}"

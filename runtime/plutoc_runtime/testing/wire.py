@@ -57,42 +57,44 @@ class Wire(Link):
         """Nobody will ask for a job any more."""
         self._send(partial(self._real.forget, id))
 
-    async def hold(self, drone: str) -> None:
+    def hold(self, drone: str) -> Coroutine[Any, Any, None]:
         """Hover."""
-        await self._far(partial(self._real.hold, drone))
+        return self._far(partial(self._real.hold, drone))
 
-    async def takeoff(self, drone: str, height: float) -> None:
+    def takeoff(self, drone: str, height: float) -> Coroutine[Any, Any, None]:
         """Rise to a height."""
-        await self._far(partial(self._real.takeoff, drone, height))
+        return self._far(partial(self._real.takeoff, drone, height))
 
-    async def go_to(self, drone: str, target: Point) -> None:
+    def go_to(self, drone: str, target: Point) -> Coroutine[Any, Any, None]:
         """Fly straight to a point."""
-        await self._far(partial(self._real.go_to, drone, target))
+        return self._far(partial(self._real.go_to, drone, target))
 
-    async def land(self, drone: str) -> None:
+    def land(self, drone: str) -> Coroutine[Any, Any, None]:
         """Land here."""
-        await self._far(partial(self._real.land, drone))
+        return self._far(partial(self._real.land, drone))
 
-    async def recover(self, drone: str) -> bool:
+    def recover(self, drone: str) -> Coroutine[Any, Any, bool]:
         """Bring a drone home after a failed flight."""
-        return await self._far(partial(self._real.recover, drone))
+        return self._far(partial(self._real.recover, drone))
 
-    async def roll_call(self, drone: str) -> Standing:
+    def roll_call(self, drone: str) -> Coroutine[Any, Any, Standing]:
         """Ask a drone where it is and what it has done."""
-        return await self._far(partial(self._real.roll_call, drone))
+        return self._far(partial(self._real.roll_call, drone))
 
-    async def call(self) -> RollCall:
+    def call(self) -> Coroutine[Any, Any, RollCall]:
         """Ask all drones and the ledger how everything stands."""
-        return await self._far(partial(self._real.call))
+        return self._far(partial(self._real.call))
 
-    async def bring_down(self, how: Down) -> None:
+    def bring_down(self, how: Down) -> Coroutine[Any, Any, None]:
         """Bring all drones down."""
-        await self._far(partial(self._real.bring_down, how))
+        return self._far(partial(self._real.bring_down, how))
 
-    async def _far(self, command: Callable[[], Coroutine[Any, Any, T]]) -> T:
-        """Let the gateway do something, and hear of it; whoever does not want it any more, says so."""
-        if not self._slow:
-            return await command()
+    def _far(self, command: Callable[[], Coroutine[Any, Any, T]]) -> Coroutine[Any, Any, T]:
+        """Let the gateway do something, and hear of it."""
+        return self._sent_and_answered(command) if self._slow else command()
+
+    async def _sent_and_answered(self, command: Callable[[], Coroutine[Any, Any, T]]) -> T:
+        """Let messages travel; whoever does not want it any more, says so."""
         over: Signal[T] = Signal()
         under_way: list[Task[T]] = []
 

@@ -1,0 +1,143 @@
+"""How many missions a second are tried: with a journal, with faults, and held against all rules.
+
+    python benchmarks/invariants.py
+
+A thousand missions of three trips fly in virtual time. Every instant is a row of a journal, flights
+fail and are flown again, the brain crashes once and goes on, and every event is held against
+what no run may do. Times are those of the CPU, the best of some runs. The trace has the same hash
+whatever the seed of Python's own hashes: `--hash` prints it.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import subprocess
+import sys
+import time
+from hashlib import sha256
+from pathlib import Path
+from random import Random
+
+sys.path[:0] = [str(Path(__file__).parents[1])]
+
+from plutoc_runtime.airspace import Airspace
+from plutoc_runtime.app import App
+from plutoc_runtime.files.fleet import DroneEntry, FleetFile
+from plutoc_runtime.fleet import AfterTrip
+from plutoc_runtime.journal_line import line
+from plutoc_runtime.simulation.world import WorldData
+from plutoc_runtime.testing.blows import blows_of
+from plutoc_runtime.testing.case import Case, Weather
+from plutoc_runtime.testing.rig import Trial, tried
+from tests.testing.examples import app_of
+
+APP = """pluto 1
+
+app many {
+  category scout(flight_time: 30 min) can take_photo
+
+  create = MissionCreator
+  wait = Clock
+  allocate = DroneAllocator
+  launch = TripLauncher
+  watch = TripMonitor
+  timer = TimerMonitor(default: 5 min)
+  first = GateFIFO
+  retry = PriorityManager(max_attempts: 5)
+
+  start -> create -> wait -> allocate -> launch -> [watch, timer] -> first
+  first -> wait when STANDBY
+  first -> end when COMPLETED
+  first -> retry when FAILED
+  retry -> wait when STANDBY
+  retry -> end otherwise
+}
+"""
+SIDE = 60.0
+BLOWS = "crash@400"
+
+
+def case_of(app: App, missions: int, trips: int, drones: int) -> Case:
+    """Return the missions, somewhere on a large field."""
+    chance = Random(1)
+
+    def spot() -> tuple[float, float, float]:
+        return round(chance.uniform(1, SIDE - 1), 1), round(chance.uniform(1, SIDE - 1), 1), 1.2
+
+    flown = [
+        app.mission(
+            name=f"m{number}",
+            index=number,
+            trips=[
+                app.trip(name=str(place), action="take_photo", target=spot(), index=place)
+                for place in range(trips)
+            ],
+        )
+        for number in range(missions)
+    ]
+    homes = [(1 + number % 57, 1.0 + number // 57, 0.0) for number in range(drones)]
+    fleet = FleetFile(
+        airspace=Airspace(size=(SIDE, SIDE)),
+        drones=tuple(
+            DroneEntry(id=f"d{number}", category="scout", home=home)
+            for number, home in enumerate(homes)
+        ),
+        after_trip=AfterTrip.STAY,
+        world=WorldData(),  # nothing to see: it is not photos that are measured
+    )
+    weather = Weather(link=0.01, action=0.01, battery=0.01)
+    return Case(seed=1, missions=tuple(flown), fleet=fleet, weather=weather, blows=blows_of(BLOWS))
+
+
+def hash_of(trial: Trial) -> str:
+    """Return the hash of everything that is on record."""
+    digest = sha256()
+    for event in trial.events:
+        digest.update(line(event).encode())
+    return digest.hexdigest()[:16]
+
+
+def hashes() -> list[str]:
+    """Return the hash under three seeds of Python's own hashes."""
+    found = []
+    for seed in ("0", "1", "4711"):
+        command = [sys.executable, __file__, "--hash"]
+        environment = {**os.environ, "PYTHONHASHSEED": seed}
+        done = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
+        found.append(done.stdout.strip())
+    return found
+
+
+def main() -> int:
+    """Fly, measure and print."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    parser.add_argument("--missions", type=int, default=1000)
+    parser.add_argument("--trips", type=int, default=3)
+    parser.add_argument("--drones", type=int, default=1000)
+    parser.add_argument("--runs", type=int, default=5)
+    parser.add_argument("--hash", action="store_true", help="print the trace's hash, and no more")
+    options = parser.parse_args()
+    app = app_of(APP)
+    case = case_of(app, options.missions, options.trips, options.drones)
+    if options.hash:
+        print(hash_of(tried(app, case)))
+        return 0
+    best = float("inf")
+    for _ in range(options.runs):
+        began = time.process_time()
+        trial = tried(app, case)
+        best = min(best, time.process_time() - began)
+    print(
+        f"{options.missions} missions × {options.trips} trips, {len(trial.events)} events in "
+        f"{trial.rows} rows, {trial.lives} lives, {dict(sorted(trial.fired.items()))}"
+    )
+    print(f"{len(trial.violations)} violations")
+    print(f"{options.missions / best:.0f} missions a second of CPU ({best:.2f} s)")
+    found = hashes()
+    print(f"trace hash under three PYTHONHASHSEEDs: {', '.join(found)}")
+    return 1 if trial.violations or len(set(found)) > 1 else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
