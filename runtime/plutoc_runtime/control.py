@@ -49,6 +49,8 @@ class Control:
     def stop(self, how: Down) -> str:
         """Take every mission out of its graph and bring all drones down; all can go on later."""
         core = self._core
+        if self._stops is None and self.whole is not None and self.whole.is_set:
+            return "all missions have ended, and all drones are down"
         if self._stops is None:
             self._engine.halt()
             core.fleet.halt()

@@ -18,6 +18,7 @@ from .status import STANDBY, UNEXECUTED, Status
 
 if TYPE_CHECKING:
     from .actions import Action
+    from .app import App
     from .engine import Engine
     from .gateway.commanding import Commanding
     from .state import State
@@ -45,10 +46,12 @@ def fate(entry: Entry | None, action: Action, begun: bool) -> Fate:
     return Fate.FLIES_ON
 
 
-def probe_of(hook: Callable[..., object]) -> Callable[..., Any] | None:
+def probe_of(app: App, action: Action) -> Callable[..., Any] | None:
     """Return the hook that can tell whether an action was done: `pollinate` has `pollinate_done`."""
-    module = sys.modules.get(hook.__module__)
-    return getattr(module, f"{hook.__name__}_done", None)
+    name, hook = f"{action.name}_done", action.hook
+    if hook is None or name in app.actions or name in app.evaluators:
+        return None  # what has this name is something else
+    return getattr(sys.modules.get(hook.__module__), name, None)
 
 
 def fly_on(state: State, flight: Flight, link: Commanding) -> None:

@@ -193,8 +193,8 @@ class _Revival:
 
     async def _probed(self, flight: Flight) -> bool | None:
         """Ask the app's own probe, if its action has one, whether the action was done."""
-        hook = self._core.app.actions[flight.trip.action].hook
-        probe = None if hook is None else probe_of(hook)
+        app = self._core.app
+        probe = probe_of(app, app.actions[flight.trip.action])
         if probe is None:
             return None
         answer = await self._core.kernel.call_hook(probe, flight.flier, flight.trip)

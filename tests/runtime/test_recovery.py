@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sys
 from dataclasses import replace
 
 import pytest
@@ -196,3 +197,25 @@ def test_a_drone_whose_flight_was_over_for_its_dead_brain_is_called_off() -> Non
     living.crash(5.2)
     assert living.run() == ["FAILED"]
     assert living.done_by_drones == []
+
+
+@pytest.mark.parametrize(
+    ("seen", "end", "flights"),
+    [(True, "COMPLETED", 1), (False, "COMPLETED", 2), (None, "UNCERTAIN", 1)],
+)
+def test_the_apps_own_probe_may_know_what_nobody_else_does(
+    seen: bool | None, end: str, flights: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    spray = Action(name="spray", hook=_spray)
+    monkeypatch.setattr(
+        sys.modules[__name__], "spray_done", lambda drone, trip: seen, raising=False
+    )
+    app = enterable(actions=(spray,))
+    living = Living(app, apps.mission("a", apps.trip("1", 3, action="spray")))
+    living.crash(10.0)
+    assert living.run() == [end]
+    assert len(living.named("trip.launched")) == flights
+
+
+async def _spray(drone: Drone, trip: Trip, context: Context) -> None:
+    await context.sleep(10.0)
