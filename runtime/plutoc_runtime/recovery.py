@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from .flight import Flight, keep_carrier
+from .hooks import trace_of
 from .interruption import (
     Fate,
     doubt,
@@ -17,6 +18,7 @@ from .interruption import (
     standing,
 )
 from .journal.values import item_of, trip_of, value_of
+from .kernel import WHATEVER, Cancelled
 from .status import Status, TripStatus
 
 if TYPE_CHECKING:
@@ -52,7 +54,9 @@ async def go_on(
     for drone in core.fleet.drones:
         if drone not in revival.engaged:
             if drone.id in at_work:
-                link.break_off(drone.id)  # the brain that ended its flight could not say so any more
+                link.break_off(
+                    drone.id
+                )  # the brain that ended its flight could not say so any more
             core.fleet.take_up(drone, roll.drones[drone.id])
     engine.look_for_the_end()
     return missions
@@ -197,7 +201,14 @@ class _Revival:
         probe = probe_of(app, app.actions[flight.trip.action])
         if probe is None:
             return None
-        answer = await self._core.kernel.call_hook(probe, flight.flier, flight.trip)
+        core = self._core
+        try:
+            answer = await core.kernel.call_hook(probe, flight.flier, flight.trip)
+        except (Cancelled, GeneratorExit, KeyboardInterrupt):
+            raise
+        except WHATEVER as error:  # then it cannot tell: a person must
+            core.log(trace_of(error), flight.state.mission.name)
+            return None
         return answer if isinstance(answer, bool) else None
 
     def _engage(self, flight: Flight) -> None:

@@ -201,10 +201,15 @@ def test_a_drone_whose_flight_was_over_for_its_dead_brain_is_called_off() -> Non
 
 @pytest.mark.parametrize(
     ("seen", "end", "flights"),
-    [(True, "COMPLETED", 1), (False, "COMPLETED", 2), (None, "UNCERTAIN", 1)],
+    [
+        (True, "COMPLETED", 1),
+        (False, "COMPLETED", 2),
+        (None, "UNCERTAIN", 1),
+        ("x", "UNCERTAIN", 1),
+    ],
 )
 def test_the_apps_own_probe_may_know_what_nobody_else_does(
-    seen: bool | None, end: str, flights: int, monkeypatch: pytest.MonkeyPatch
+    seen: object, end: str, flights: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     spray = Action(name="spray", hook=_spray)
     monkeypatch.setattr(
@@ -219,3 +224,15 @@ def test_the_apps_own_probe_may_know_what_nobody_else_does(
 
 async def _spray(drone: Drone, trip: Trip, context: Context) -> None:
     await context.sleep(10.0)
+
+
+def test_a_probe_that_fails_leaves_it_to_a_person(monkeypatch: pytest.MonkeyPatch) -> None:
+    def broken(drone: Drone, trip: Trip) -> bool:
+        raise OSError("no camera")
+
+    monkeypatch.setattr(sys.modules[__name__], "spray_done", broken, raising=False)
+    app = enterable(actions=(Action(name="spray", hook=_spray),))
+    living = Living(app, apps.mission("a", apps.trip("1", 3, action="spray")))
+    living.crash(10.0)
+    assert living.run() == ["UNCERTAIN"]
+    assert "OSError: no camera" in str(living.named("log")[-1]["text"])
