@@ -137,9 +137,10 @@ def _launched(records: Records, record: Record, event: Fact) -> None:
         "outcome": None,
         "heard": False,
     }
-    record.update(status="RUNNING", reason="", attempts=record["attempts"] + 1)
+    record["status"], record["reason"] = "RUNNING", ""
+    record["attempts"] += 1
     trip = _trip(record, event)
-    trip.update(status="EXECUTING", start_time=event["t"])
+    trip["status"], trip["start_time"] = "EXECUTING", event["t"]
     trip.pop("end_time", None)
     records.flown[drone] = records.flown.get(drone, 0) + 1
 
@@ -169,7 +170,8 @@ def _failed(_: Records, record: Record, event: Fact) -> None:
 
 
 def _outcome(record: Record, status: str, reason: str) -> None:
-    record.update(status=status, reason=reason, question=None, answer=None)
+    record["status"], record["reason"] = status, reason
+    record["question"] = record["answer"] = None
     if record["flight"] is not None:
         record["flight"]["outcome"] = status
 

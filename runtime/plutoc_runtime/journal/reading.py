@@ -11,7 +11,8 @@ from . import errors
 from .database import is_sound, newest_snapshot
 from .errors import TROUBLE
 
-_AT_ONCE = 1_000
+_AT_ONCE = 100
+"""Rows that are read together: more would no longer fit into the processor's cache."""
 
 
 class Row(NamedTuple):
