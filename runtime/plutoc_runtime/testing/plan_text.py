@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 from ..fields import Entity, FieldType
 from ..model import Mission, Trip
-from ..words import number
 
 if TYPE_CHECKING:
     from ..app import App
     from ..files.fleet import FleetFile
     from ..model import Point
+    from ..simulation.world import WorldData
 
 
 def missions_text(app: App, missions: Sequence[Mission[Any]]) -> str:
@@ -22,7 +22,7 @@ def missions_text(app: App, missions: Sequence[Mission[Any]]) -> str:
 
 
 def fleet_text(fleet: FleetFile) -> str:
-    """Return the fleet file; what a simulation sees on the ground is left out."""
+    """Return the fleet file."""
     return "\n".join(_fleet(fleet)) + "\n"
 
 
@@ -62,14 +62,15 @@ def _fleet(fleet: FleetFile) -> Iterator[str]:
     airspace = fleet.airspace
     yield "[map]"
     yield f"size = {_list(airspace.size)}"
-    yield f"cruise_height = {number(airspace.cruise_height)}"
+    yield f"cruise_height = {float(airspace.cruise_height)!r}"
+    yield f"ceiling = {float(airspace.ceiling)!r}"
     if airspace.no_fly:
         areas = ", ".join(f"[{', '.join(map(_list, area))}]" for area in airspace.no_fly)
         yield f"no_fly = [{areas}]"
     yield ""
     yield "[fleet]"
     yield f"after_trip = {_text(fleet.after_trip.value)}"
-    yield f"apart = {number(fleet.apart)}"
+    yield f"apart = {float(fleet.apart)!r}"
     if fleet.max_airborne is not None:
         yield f"max_airborne = {fleet.max_airborne}"
     for drone in fleet.drones:
@@ -78,6 +79,28 @@ def _fleet(fleet: FleetFile) -> Iterator[str]:
         yield f"id = {_text(drone.id)}"
         yield f"category = {_text(drone.category)}"
         yield f"home = {_list(drone.home[:2])}"
+    if fleet.world is not None:
+        yield from _world(fleet.world)
+
+
+def _world(world: WorldData) -> Iterator[str]:
+    yield ""
+    yield "[world.background]"
+    for quantity, value in world.background.items():
+        yield f"{_text(quantity)} = {value!r}"
+    for source in world.sources:
+        yield ""
+        yield "[[world.source]]"
+        yield f"quantity = {_text(source.quantity)}"
+        yield f"at = {_list(source.at)}"
+        yield f"peak = {float(source.peak)!r}"
+        yield f"radius = {float(source.radius)!r}"
+    for feature in world.features:
+        yield ""
+        yield "[[world.feature]]"
+        yield f"kind = {_text(feature.kind)}"
+        yield f"at = {_list(feature.at)}"
+        yield f"radius = {float(feature.radius)!r}"
 
 
 def _value(value: object) -> str:

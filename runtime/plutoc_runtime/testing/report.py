@@ -50,10 +50,9 @@ def smallest_case(app: App, options: Options, finding: Finding) -> Iterator[str]
     yield ""
     yield "# failing.toml"
     yield from missions_text(app, case.missions).rstrip().split("\n")
-    if case.fleet.world is None:
-        yield ""
-        yield "# failing-fleet.toml"
-        yield from fleet_text(case.fleet).rstrip().split("\n")
+    yield ""
+    yield "# failing-fleet.toml"
+    yield from fleet_text(case.fleet).rstrip().split("\n")
     yield ""
     yield "Save that, and see it again:"
     yield "  " + _again(options, finding)
@@ -61,10 +60,9 @@ def smallest_case(app: App, options: Options, finding: Finding) -> Iterator[str]
 
 def _again(options: Options, finding: Finding) -> str:
     case = finding.case
-    fleet = "failing-fleet.toml" if case.fleet.world is None else str(options.fleet)
     words = [
         f"plutoc test {options.file} --missions failing.toml",
-        f"--fleet {fleet} --seed {case.seed}",
+        f"--fleet failing-fleet.toml --seed {case.seed}",
     ]
     weather = weather_text(case.weather)
     if case.blows or not weather:
@@ -110,5 +108,5 @@ def _data(app: App, finding: Finding) -> dict[str, object]:
         "strike": blows_text(case.blows),
         "weather": weather_text(case.weather),
         "missions": missions_text(app, case.missions),
-        "fleet": fleet_text(case.fleet) if case.fleet.world is None else None,
+        "fleet": fleet_text(case.fleet),
     }

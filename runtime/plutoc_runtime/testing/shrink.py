@@ -48,7 +48,9 @@ def _smaller(case: Case) -> Iterator[Case]:
         smaller = replace(case, missions=missions)
         yield smaller
         yield from _moved(smaller)
-    if case.fleet.world is None and len(case.fleet.drones) > 1:
+    if case.fleet.world is not None:
+        yield replace(case, fleet=replace(case.fleet, world=None))
+    if len(case.fleet.drones) > 1:
         for place in range(len(case.fleet.drones)):
             drones = _without(case.fleet.drones, place)
             yield replace(case, fleet=replace(case.fleet, drones=drones))

@@ -1,0 +1,108 @@
+"""What a trial is: cases as text, files that show one again, and how one is made smaller."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from plutoc_runtime.files.fleet import load_fleet
+from plutoc_runtime.files.missions import load_missions
+from plutoc_runtime.testing.blows import Blow, Kind, blows_of, blows_text
+from plutoc_runtime.testing.case import FAIR, Case, Weather, weather_of, weather_text
+from plutoc_runtime.testing.drawing import drawn_missions
+from plutoc_runtime.testing.explore import drawn_case, small_case
+from plutoc_runtime.testing.plan_text import fleet_text, missions_text
+from plutoc_runtime.testing.rig import tried
+from plutoc_runtime.testing.shrink import shrunk
+from tests.testing.examples import example, fleet_of
+
+APP = example("drugs_distribution_retry")
+FLEET = fleet_of("drugs_distribution_retry", APP)
+
+BLOWS = st.builds(
+    Blow,
+    kind=st.sampled_from(Kind),
+    row=st.integers(1, 10**6),
+    after=st.sampled_from((0.0, 0.4, 1.125, 7.0)),
+)
+
+
+@given(st.lists(BLOWS, max_size=5).map(tuple))
+def test_what_strikes_can_be_written_and_read(blows: tuple[Blow, ...]) -> None:
+    """As a word of a command line."""
+    assert blows_of(blows_text(blows)) == blows
+
+
+@pytest.mark.parametrize("text", ["crash", "crash@", "crash@x", "fire@3", "crash@1+", "crash@-1"])
+def test_what_cannot_strike_is_refused(text: str) -> None:
+    """It says how it is written."""
+    with pytest.raises(ValueError, match=r"is not written like|nothing that can strike"):
+        blows_of(text)
+
+
+@given(
+    st.builds(
+        Weather,
+        crash=st.sampled_from((0.0, 0.1)),
+        slow=st.sampled_from((0.0, 0.4)),
+        down=st.sampled_from((1.0, 60.0)),
+    )
+)
+def test_weather_can_be_written_and_read(weather: Weather) -> None:
+    """What is fair of it is left out."""
+    assert weather == FAIR or weather_of(weather_text(weather)) == weather
+
+
+@pytest.mark.parametrize("text", ["rain=1", "slow", "slow=much"])
+def test_what_is_no_weather_is_refused(text: str) -> None:
+    """It says what there is."""
+    with pytest.raises(ValueError, match=r"is no weather|is not written like"):
+        weather_of(text)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_drawn_missions_are_what_a_person_could_write(seed: int, tmp_path: Path) -> None:
+    """Written down and read again they fly the same, row by row."""
+    missions, fleet = tmp_path / "m.toml", tmp_path / "f.toml"
+    drawn = drawn_missions(APP, FLEET, seed)
+    missions.write_text(missions_text(APP, drawn), encoding="utf-8")
+    fleet.write_text(fleet_text(FLEET), encoding="utf-8")
+    there = load_fleet(fleet, APP)
+    again = load_missions(missions, APP, there.airspace)
+    first = tried(APP, Case(seed=seed, missions=tuple(drawn), fleet=FLEET))
+    second = tried(APP, Case(seed=seed, missions=tuple(again), fleet=there))
+    assert first.events == second.events
+    assert first.ends == second.ends
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_the_same_case_is_the_same_trial(seed: int) -> None:
+    """Event by event, whatever strikes it."""
+    one, two = (tried(APP, drawn_case(APP, FLEET, seed)) for _ in range(2))
+    assert one == two
+
+
+def test_a_case_is_made_as_small_as_it_can_be() -> None:
+    """What does not matter is left out: here all but one mission, one trip and one crash."""
+    case = drawn_case(APP, FLEET, 1)
+    blows = (Blow(kind=Kind.PAUSE, row=2), Blow(kind=Kind.CRASH, row=5, after=2.2))
+    case = Case(seed=1, missions=case.missions, fleet=FLEET, weather=case.weather, blows=blows)
+
+    def fails(case: Case) -> bool:
+        return tried(APP, case).fired["crash"] > 0
+
+    assert fails(case)
+    small = shrunk(case, fails)
+    assert small.weather == FAIR
+    assert [str(blow) for blow in small.blows] == ["crash@1"]
+    assert [len(mission.trips) for mission in small.missions] in ([1], [2])  # 2: pick and release
+    assert len(small.fleet.drones) == 1
+
+
+def test_small_cases_have_fair_weather_every_other_time() -> None:
+    """So a mistake that needs none shows without it."""
+    weathers = [small_case(APP, FLEET, seed).weather == FAIR for seed in range(6)]
+    assert weathers == [True, False] * 3
