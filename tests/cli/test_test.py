@@ -1,0 +1,117 @@
+"""`plutoc test`: an app under everything that can go wrong."""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+from pathlib import Path
+
+import pytest
+
+from plutoc.cli import main
+from tests.flying import EXAMPLES
+
+Said = pytest.CaptureFixture[str]
+
+
+@pytest.fixture
+def app(tmp_path: Path) -> Path:
+    """An example with hooks, in a folder of its own, and without missions of its own."""
+    folder = tmp_path / "alfalfa"
+    shutil.copytree(EXAMPLES / "alfalfa", folder, ignore=shutil.ignore_patterns("missions.toml"))
+    return folder / "app.pluto"
+
+
+@pytest.fixture
+def broken(app: Path) -> Path:
+    """The same app, whose evaluator does not expect what its own action gives."""
+    hooks = app.with_name("hooks.py")
+    text = hooks.read_text(encoding="utf-8")
+    guard = "if not isinstance(result.value, Photo):"
+    assert guard in text
+    hooks.write_text(text.replace(guard, "if result.value.sees is None:"), encoding="utf-8")
+    return app
+
+
+def test_a_sound_app_is_sound(app: Path, capfd: Said) -> None:
+    """It says how often what has struck, and what came of all runs."""
+    assert main(["test", str(app), "--seeds", "1"]) == 0
+    out = capfd.readouterr().out
+    assert re.search(r"^crash-lost +\d+$", out, re.MULTILINE)
+    assert out.endswith("No run did what no run may do.\n")
+
+
+def test_a_mistake_in_a_hook_is_found_and_shown_small(
+    broken: Path, capfd: Said, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """With the files and the command that show it again; they do."""
+    monkeypatch.chdir(broken.parent)
+    assert main(["test", "app.pluto", "--seeds", "3"]) == 1
+    out = capfd.readouterr().out
+    sentence = "hook find_blooms raised AttributeError: 'float' object has no attribute 'sees'"
+    assert sentence in out
+    files, _, command = out.partition("# failing.toml\n")[2].partition("\nSave that")
+    missions, fleet = files.split("# failing-fleet.toml\n")
+    assert missions.count("[[mission.trip]]") == 1
+    assert fleet.count("[[drone]]") == 1
+    Path("failing.toml").write_text(missions, encoding="utf-8")
+    Path("failing-fleet.toml").write_text(fleet, encoding="utf-8")
+    words = command.splitlines()[-1].split()
+    assert words[:2] == ["plutoc", "test"]
+    assert main(words[1:]) == 1
+    again = capfd.readouterr().out
+    assert "trip" in again and " launched" in again
+    assert sentence in again
+
+
+def test_a_program_gets_one_object(broken: Path, capfd: Said) -> None:
+    """With every finding, and the smallest case as text."""
+    assert main(["test", str(broken), "--seeds", "1", "--json"]) == 1
+    data = json.loads(capfd.readouterr().out)
+    assert list(data) == [
+        "app",
+        "runs",
+        "lives",
+        "rows",
+        "missions",
+        "struck",
+        "findings",
+        "smallest",
+    ]
+    assert data["findings"][0]["seed"] == 0
+    assert list(data["smallest"]) == ["what", "seed", "strike", "weather", "missions", "fleet"]
+
+
+def test_its_own_missions_are_tried_when_asked_for(app: Path, capfd: Said) -> None:
+    """What would repeat for ever repeats once."""
+    missions = app.with_name("mine.toml")
+    missions.write_text(
+        "[[mission]]\nrepeat = true\n[[mission.trip]]\n" 'action = "take_photo"\ntarget = [3, 3]\n'
+    )
+    code = main(["test", str(app), "--missions", str(missions), "--seeds", "1", "--json"])
+    data = json.loads(capfd.readouterr().out)
+    assert (code, data["findings"]) == (0, [])
+    assert data["missions"]["COMPLETED"] > 20
+
+
+@pytest.mark.parametrize(
+    ("words", "why"),
+    [
+        (["--strike", "fire@3"], "fire is nothing that can strike"),
+        (["--weather", "rain=1"], "rain is no weather"),
+        (["--seeds", "0"], "less than 1"),
+        (["--missions", "none.toml"], "there is no such file"),
+    ],
+)
+def test_what_cannot_be_tried_is_exit_2(app: Path, capfd: Said, words: list[str], why: str) -> None:
+    """And says why."""
+    assert main(["test", str(app), *words]) == 2
+    assert why in capfd.readouterr().err
+
+
+def test_a_broken_source_is_exit_1(app: Path, capfd: Said) -> None:
+    """As with every command; nothing is tried."""
+    app.write_text("pluto 1\napp x {\n", encoding="utf-8")
+    assert main(["test", str(app)]) == 1
+    assert "error" in capfd.readouterr().err
