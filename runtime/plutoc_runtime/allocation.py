@@ -103,7 +103,7 @@ class Queue:
             self._airborne -= 1
         if after in _IN_THE_AIR:
             self._airborne += 1
-        elif after in _GONE or before in _GONE:
+        if after in _GONE or before in _GONE:
             self._gone += (after in _GONE) - (before in _GONE)
             self._sure = None
         if self._waiting:

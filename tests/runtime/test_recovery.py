@@ -236,3 +236,17 @@ def test_a_probe_that_fails_leaves_it_to_a_person(monkeypatch: pytest.MonkeyPatc
     living.crash(10.0)
     assert living.run() == ["UNCERTAIN"]
     assert "OSError: no camera" in str(living.named("log")[-1]["text"])
+
+
+def test_a_drone_that_is_lost_in_every_life_is_counted_once() -> None:
+    living = Living(
+        enterable(),
+        apps.mission("a", apps.trip("1", 5)),
+        apps.mission("b", apps.trip("1", 5)),
+        apps.mission("c", apps.trip("1", 5, delay=60.0)),
+        on=apps.fleet(*HOMES),
+        faults=Faults(crash=1.0),
+    )
+    living.crash(30.0)
+    living.run()
+    assert living.life.missions[2].reason.endswith(": 2 of 2 drones are lost")
