@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from .errors import BadInput
 from .flight import keep_carrier
-from .interruption import Fate, doubt, fate, fly_again, settle_doubt, standing
+from .interruption import Fate, doubt, fly_again, settle_doubt, standing, was_done, what_became
 from .kernel import FLEET, Task, mission_key
 from .signals import Signal
 from .standing import Down
@@ -126,6 +126,14 @@ class Control:
             settle_doubt(state, self._engine, self._link, answer == "done")
         return f"mission {quoted(mission)}: {answer}"
 
+    async def carried_out(self) -> None:
+        """Wait until what was asked for has been done and is on record: then it will not be lost."""
+        for work in list(self._steps_out.values()):
+            await work.ended()
+        recorder = self._core.recorder
+        if recorder is not None:
+            await recorder.on_record()
+
     # One mission leaves its graph, or comes back
 
     def _step_out(self, state: State, then: Then) -> None:
@@ -158,10 +166,9 @@ class Control:
     async def _broken_off(self, state: State, flight: Flight, then: Then) -> None:
         """Ask the ledger what became of a flight, and its drone."""
         roll = await self._link.call()
-        del self._steps_out[state.mission.name]
-        action = self._core.app.actions[flight.trip.action]
         begun = bool(self._record(state)["flight"]["begun"])
-        what = fate(roll.jobs.get(flight.id), action, begun)
+        what = await what_became(self._core, flight, roll.jobs.get(flight.id), begun)
+        del self._steps_out[state.mission.name]
         if what is Fate.UNKNOWN:
             doubt(state, flight)
             if flight.trip.item is None:
@@ -174,7 +181,10 @@ class Control:
             await flight
             state.goes_on = True
         else:
-            fly_again(state, flight)
+            if what is Fate.DONE:
+                was_done(state, flight)
+            else:
+                fly_again(state, flight, self._link)
             if flight.flier is state.carrier:
                 keep_carrier(state, flight.flier)
             else:

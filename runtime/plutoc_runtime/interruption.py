@@ -13,12 +13,15 @@ from typing import TYPE_CHECKING, Any
 
 from .actions import PICK, RELEASE
 from .flight import Flight, keep_carrier, record_done
+from .hooks import trace_of
+from .kernel import WHATEVER, Cancelled
 from .standing import Entry, JobState
 from .status import STANDBY, UNEXECUTED, Status
 
 if TYPE_CHECKING:
     from .actions import Action
     from .app import App
+    from .core import Core
     from .engine import Engine
     from .gateway.commanding import Commanding
     from .state import State
@@ -29,6 +32,7 @@ class Fate(Enum):
 
     FLIES_ON = "flies on"  # or has ended, and its end can still be heard
     AGAIN = "again"  # its action was not done: it counts as no attempt
+    DONE = "done"  # its action was done, as the app's own probe could see
     UNKNOWN = "unknown"
 
 
@@ -44,6 +48,26 @@ def fate(entry: Entry | None, action: Action, begun: bool) -> Fate:
     if entry.state is JobState.BEGUN:
         return Fate.AGAIN if repeatable else Fate.UNKNOWN
     return Fate.FLIES_ON
+
+
+async def what_became(core: Core, flight: Flight, entry: Entry | None, begun: bool) -> Fate:
+    """Return what becomes of a flight; what the ledger cannot tell, the app's own probe may."""
+    action = core.app.actions[flight.trip.action]
+    what = fate(entry, action, begun)
+    probe = probe_of(core.app, action) if what is Fate.UNKNOWN else None
+    if probe is None:
+        return what
+    try:
+        answer = await core.kernel.call_hook(probe, flight.flier, flight.trip)
+    except (Cancelled, GeneratorExit, KeyboardInterrupt):
+        raise
+    except WHATEVER as error:  # then it cannot tell: a person must
+        core.log(trace_of(error), flight.state.mission.name)
+        return what
+    return _PROBED.get(answer, what) if isinstance(answer, bool) else what
+
+
+_PROBED = {True: Fate.DONE, False: Fate.AGAIN}
 
 
 def probe_of(app: App, action: Action) -> Callable[..., Any] | None:
@@ -63,10 +87,18 @@ def fly_on(state: State, flight: Flight, link: Commanding) -> None:
     link.attach(flight.id, flight.report)
 
 
-def fly_again(state: State, flight: Flight) -> None:
+def fly_again(state: State, flight: Flight, link: Commanding) -> None:
     """Put an interrupted trip back: it has not been flown."""
+    link.forget(flight.id)  # it shall be flown, whatever was known of it
     state.flight, state.goes_on = None, False
     state.core.transitions.interrupt(state.mission, flight.trip)
+
+
+def was_done(state: State, flight: Flight) -> None:
+    """An interrupted trip's action was done after all; nobody knows what it gave."""
+    record_done(state, flight, None)
+    flight.set(state.mission.status)
+    state.goes_on = True
 
 
 def doubt(state: State, flight: Flight) -> None:
@@ -87,14 +119,11 @@ def settle_doubt(state: State, engine: Engine, link: Commanding, done: bool) -> 
     flight = state.flight
     if flight is None:
         raise RuntimeError(f"nothing is in doubt about mission {state.mission.name}")
-    link.forget(flight.id)
     kept = flight.trip.action in (PICK, RELEASE)
     if done:
-        record_done(state, flight, None)
-        flight.set(state.mission.status)
-        state.goes_on = True
+        was_done(state, flight)
     else:
-        fly_again(state, flight)
+        fly_again(state, flight, link)
     if kept and state.carrier is None:
         state.core.fleet.recover(flight.flier)
     engine.resume(state, standing(state))

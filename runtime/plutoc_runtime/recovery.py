@@ -6,19 +6,17 @@ from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from .flight import Flight, keep_carrier
-from .hooks import trace_of
 from .interruption import (
     Fate,
     doubt,
-    fate,
     fly_again,
     fly_on,
-    probe_of,
     settle_doubt,
     standing,
+    was_done,
+    what_became,
 )
 from .journal.values import item_of, trip_of, value_of
-from .kernel import WHATEVER, Cancelled
 from .status import Status, TripStatus
 
 if TYPE_CHECKING:
@@ -168,48 +166,31 @@ class _Revival:
 
     async def _settled(self, state: State, flight: Flight, record: Record) -> bool:
         """Find out what became of a flight that had not ended; False: a person must say."""
-        known, answer = record["flight"], record["answer"]
-        begun = bool(known["begun"])
-        entry = self._roll.jobs.get(flight.id)
-        what = fate(entry, self._core.app.actions[flight.trip.action], begun)
-        if what is Fate.UNKNOWN:
-            done = await self._probed(flight)
-            if done is None and answer in ("done", "not-done") and record["question"]:
-                done = answer == "done"
-            if done is None:
-                self._engage(flight)
-                self._engine.set_aside(state)
-                doubt(state, flight)
-                return False
+        entry, answer = self._roll.jobs.get(flight.id), record["answer"]
+        what = await what_became(self._core, flight, entry, bool(record["flight"]["begun"]))
+        if what is Fate.UNKNOWN and answer in _ANSWERED and record["question"]:
+            what = _ANSWERED[answer]
             self._engage(flight)
-            settle_doubt(state, self._engine, self._link, done)
+            settle_doubt(state, self._engine, self._link, what is Fate.DONE)
             return False
-        if what is Fate.AGAIN:
-            self._link.break_off(flight.drone)
-            fly_again(state, flight)
-            if state.carrier is not None:
-                self.engaged.add(state.carrier)
-                keep_carrier(state, state.carrier)
-        else:
+        if what is Fate.UNKNOWN:
+            self._engage(flight)
+            self._engine.set_aside(state)
+            doubt(state, flight)
+            return False
+        if what is Fate.FLIES_ON:
             self.engaged.add(flight.flier)
             fly_on(state, flight, self._link)
+            return True
+        self._link.break_off(flight.drone)
+        if what is Fate.DONE:
+            was_done(state, flight)
+        else:
+            fly_again(state, flight, self._link)
+        if state.carrier is not None:
+            self.engaged.add(state.carrier)
+            keep_carrier(state, state.carrier)
         return True
-
-    async def _probed(self, flight: Flight) -> bool | None:
-        """Ask the app's own probe, if its action has one, whether the action was done."""
-        app = self._core.app
-        probe = probe_of(app, app.actions[flight.trip.action])
-        if probe is None:
-            return None
-        core = self._core
-        try:
-            answer = await core.kernel.call_hook(probe, flight.flier, flight.trip)
-        except (Cancelled, GeneratorExit, KeyboardInterrupt):
-            raise
-        except WHATEVER as error:  # then it cannot tell: a person must
-            core.log(trace_of(error), flight.state.mission.name)
-            return None
-        return answer if isinstance(answer, bool) else None
 
     def _engage(self, flight: Flight) -> None:
         if flight.trip.item is not None:
@@ -275,3 +256,6 @@ _LISTS = {
     "gone": TripStatus.SKIPPED,
 }
 """The lists of a record, and how the trips in them stand if it does not say."""
+
+_ANSWERED = {"done": Fate.DONE, "not-done": Fate.AGAIN}
+"""What a person's answers say of a flight's fate."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sys
+
 import pytest
 
 from plutoc_runtime.actions import Action
@@ -212,3 +214,16 @@ def test_an_app_ends_when_all_that_is_left_waits_for_a_decision() -> None:
     living = spraying("once")
     living.at(10.0, lambda: living.life.control.pause("a"))
     assert living.run() == ["UNCERTAIN"]
+
+
+def test_a_probe_is_asked_when_a_mission_is_paused_during_its_own_action(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(
+        sys.modules[__name__], "spray_done", lambda drone, trip: True, raising=False
+    )
+    living = spraying("once")
+    living.at(10.0, lambda: living.life.control.pause("a"))
+    living.at(60.0, lambda: living.life.control.go_on("a"))
+    assert living.run() == ["COMPLETED"]
+    assert names(living.named("trip.launched"), "trip") == ["1", "2"]
