@@ -243,10 +243,10 @@ def test_a_drone_that_is_lost_in_every_life_is_counted_once() -> None:
         enterable(),
         apps.mission("a", apps.trip("1", 5)),
         apps.mission("b", apps.trip("1", 5)),
-        apps.mission("c", apps.trip("1", 5, delay=60.0)),
+        apps.mission("c", apps.trip("1", 5)),
         on=apps.fleet(*HOMES),
         faults=Faults(crash=1.0),
     )
-    living.crash(30.0)
+    living.crash(3.0)
     living.run()
     assert living.life.missions[2].reason.endswith(": 2 of 2 drones are lost")
