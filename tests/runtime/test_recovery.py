@@ -250,3 +250,17 @@ def test_a_drone_that_is_lost_in_every_life_is_counted_once() -> None:
     living.crash(3.0)
     living.run()
     assert living.life.missions[2].reason.endswith(": 2 of 2 drones are lost")
+
+
+def test_a_held_mission_that_is_let_go_on_may_still_be_uncertain() -> None:
+    """Its action was under way when the app died, and the block it came from is gone."""
+    app = enterable(clock=True, actions=(Action(name="spray", hook=_spray),))
+    living = Living(app, apps.mission("a", apps.trip("1", 3, action="spray", delay=1.0)))
+    changed = replace(app, resumes=("somewhere",))
+    living.crash(12.0, app=changed)
+    assert living.run() == ["HELD"]
+    living.decide_at_rest("a", "go-on")
+    assert living.run() == ["UNCERTAIN"]
+    assert living.life.recorder.records.missions["a"]["answer"] is None
+    living.decide_at_rest("a", "done")
+    assert living.run() == ["COMPLETED"]

@@ -88,6 +88,7 @@ def _new() -> Record:
         "question": None,
         "held": None,
         "answer": None,
+        "accepted": None,
     }
 
 
@@ -249,7 +250,7 @@ def _resumed(_: Records, record: Record, event: Fact) -> None:
 
 
 def _uncertain(_: Records, record: Record, event: Fact) -> None:
-    record["question"] = event["reason"]
+    record.update(question=event["reason"], held=None, answer=None)
 
 
 def _held(_: Records, record: Record, event: Fact) -> None:
@@ -258,6 +259,8 @@ def _held(_: Records, record: Record, event: Fact) -> None:
 
 def _decided(_: Records, record: Record, event: Fact) -> None:
     record["answer"] = event["answer"]
+    if event["answer"] == "go-on":
+        record["accepted"] = record["at"]  # this block need not be there any more
 
 
 def _began(records: Records, event: Fact) -> None:
