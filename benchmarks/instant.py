@@ -130,7 +130,9 @@ class Instant:
         if isinstance(kernel, RealTime):
             asyncio.get_running_loop().call_soon(kernel.post, report, 21.5)
         else:
-            when = kernel.now + SECONDS + self._drones[job.drone] / 1000  # each at an instant of its own
+            when = (
+                kernel.now + SECONDS + self._drones[job.drone] / 1000
+            )  # each at an instant of its own
             kernel.schedule(when, Kind.FLIGHT, FLEET, lambda: report(21.5))
 
     def break_off(self, drone: str) -> None:

@@ -24,8 +24,8 @@ sys.path[:0] = [str(Path(__file__).parents[1])]
 from plutoc_runtime.airspace import Airspace
 from plutoc_runtime.app import App
 from plutoc_runtime.files.fleet import DroneEntry, FleetFile
-from plutoc_runtime.fleet import AfterTrip
 from plutoc_runtime.journal_line import line
+from plutoc_runtime.model import AfterTrip
 from plutoc_runtime.simulation.world import WorldData
 from plutoc_runtime.testing.blows import blows_of
 from plutoc_runtime.testing.case import Case, Weather

@@ -6,13 +6,13 @@ The one place where a drone changes its status, but for the moment of its alloca
 from __future__ import annotations
 
 from collections.abc import Callable, Coroutine, Sequence
-from enum import Enum
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from .energy import docked
 from .errors import FlightFailed
 from .kernel import FLEET, Kernel, Key, Kind, Task
+from .model import AfterTrip
 from .navigation import permitted_way
 from .signals import Signal
 from .status import DroneStatus
@@ -24,14 +24,6 @@ if TYPE_CHECKING:
     from .navigation import Navigation
     from .standing import Standing
     from .trace import Trace
-
-
-class AfterTrip(Enum):
-    """Where a drone goes when its trip is over."""
-
-    HOME = "home"
-    STAY = "stay"
-    NEXT = "next"
 
 
 class Fleet:
@@ -133,18 +125,6 @@ class Fleet:
         """Wait until every drone has done what it does for itself: return, land, recover."""
         while under_way := [task for task in self.errands.values() if not task.is_set]:
             await under_way[0].ended()
-
-    async def land_all(self) -> None:
-        """Land every drone that flies, where it is, all at once."""
-        for drone in self.drones:
-            self.engage(drone)
-        tasks = [
-            self._kernel.spawn(self._land(drone), self._key(drone), f"{drone.id} lands")
-            for drone in self.drones
-            if not drone.telemetry.landed
-        ]
-        for task in tasks:
-            await task
 
     def _send(
         self,

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from enum import Enum
 from math import dist
 from typing import TYPE_CHECKING, Generic, Protocol, TypeVar
 
@@ -60,6 +61,14 @@ class Photo:
     """What can be made out on it, such as `bloom` or `pest`."""
     sharpness: float = 1.0
     """From 0, useless, to 1."""
+
+
+class AfterTrip(Enum):
+    """Where a drone goes when its trip is over."""
+
+    HOME = "home"
+    STAY = "stay"
+    NEXT = "next"
 
 
 class Telemetry(Protocol):

@@ -17,8 +17,7 @@ from plutoc_runtime.airspace import Airspace
 from plutoc_runtime.app import App
 from plutoc_runtime.fields import Entity, Field, FieldType
 from plutoc_runtime.files.fleet import DroneEntry, FleetFile
-from plutoc_runtime.fleet import AfterTrip
-from plutoc_runtime.model import Item, Mission, Point, Trip
+from plutoc_runtime.model import AfterTrip, Item, Mission, Point, Trip
 from plutoc_runtime.quantities import Type
 from plutoc_runtime.simulation.faults import Faults
 from plutoc_runtime.status import Status

@@ -23,8 +23,7 @@ from plutoc_runtime.actions import BUILT_IN, Action
 from plutoc_runtime.airspace import Airspace
 from plutoc_runtime.app import App
 from plutoc_runtime.files.fleet import DroneEntry, FleetFile
-from plutoc_runtime.fleet import AfterTrip
-from plutoc_runtime.model import Category, Item, Point
+from plutoc_runtime.model import AfterTrip, Category, Item, Point
 from plutoc_runtime.policies.nearest import nearest
 from plutoc_runtime.policy import Policy
 from plutoc_runtime.run import Run

@@ -5,6 +5,8 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Callable, Sequence
 
+from plutoc_runtime.app import App
+from plutoc_runtime.files.fleet import FleetFile
 from plutoc_runtime.realtime import RealTime
 from plutoc_runtime.session import Outcome, Simulation
 from plutoc_runtime.simulation.faults import Faults
@@ -13,9 +15,9 @@ from tests.runtime import apps
 
 
 def fly(
-    app: apps.App,
+    app: App,
     missions: Sequence[apps.Mission],
-    fleet: apps.FleetFile,
+    fleet: FleetFile,
     listener: Callable[[Event], object],
 ) -> Outcome:
     """Return what came of the missions."""

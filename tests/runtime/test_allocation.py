@@ -8,8 +8,7 @@ from typing import Any
 import pytest
 
 from plutoc_runtime.errors import BadInput
-from plutoc_runtime.fleet import AfterTrip
-from plutoc_runtime.model import Category, Drone, Trip
+from plutoc_runtime.model import AfterTrip, Category, Drone, Trip
 from plutoc_runtime.policies.batch_optimal import batch_optimal
 from plutoc_runtime.policies.first import first
 from plutoc_runtime.policies.least_used import least_used

@@ -7,8 +7,7 @@ import json
 from hypothesis import given
 from hypothesis import strategies as st
 
-from plutoc_runtime.cli.as_json import dumped
-from plutoc_runtime.journal_line import exact, line
+from plutoc_runtime.journal_line import dumped, exact, line
 
 FACTS = (
     st.none()

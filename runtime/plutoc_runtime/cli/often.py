@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
+from ..journal_line import dumped
 from ..testing.invariants import items_of
 from ..words import counted, duration, number, percent, printable
 from . import output
-from .as_json import dumped, outcome_data
+from .as_json import outcome_data
 from .plot import drawing, kind_of, plot
 from .report import last_line, table
 from .summary import ENOUGH, Run, run_of, spread, summary

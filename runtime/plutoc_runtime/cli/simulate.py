@@ -7,13 +7,14 @@ from copy import deepcopy
 from typing import TYPE_CHECKING
 
 from ..errors import BadInput
+from ..journal_line import dumped
 from ..session import Outcome
 from ..session import simulate as simulated
 from ..simulation.faults import Faults
 from ..trace import Event
 from ..words import duration
 from . import output
-from .as_json import dumped, outcome_data
+from .as_json import outcome_data
 from .events import line_of
 from .plans import Plan, load
 from .progress import Progress, on_terminal

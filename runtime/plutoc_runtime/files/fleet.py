@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..airspace import Airspace
-from ..fleet import AfterTrip
+from ..model import AfterTrip
 from ..quantities import Type
 from ..words import quoted
 from . import errors, values

@@ -7,12 +7,12 @@ from copy import deepcopy
 from typing import TYPE_CHECKING, Any
 
 from ..cli import output
-from ..cli.as_json import dumped
 from ..cli.progress import on_terminal
 from ..errors import BadInput
 from ..fields import Entity, FieldType
 from ..files.fleet import default_fleet, load_fleet
 from ..files.missions import load_missions
+from ..journal_line import dumped
 from ..plan_check import problems
 from .case import FAIR, Case
 from .explore import Finding, Tally, drawn_case, everywhere, explored, small_case

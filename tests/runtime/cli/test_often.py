@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from plutoc_runtime.cli import often
-from plutoc_runtime.cli.summary import percentile
+from plutoc_runtime.cli.summary import percentile, run_of
 from plutoc_runtime.session import Outcome
 from plutoc_runtime.testing.invariants import Items
 from plutoc_runtime.trace import Event
@@ -74,9 +74,6 @@ def twice(seed: int, outcome: Outcome, items: Items) -> Any:
         event for event in reversed(outcome.events) if event["event"] == "mission.ended"
     )
     return run_of(seed, replace(outcome, events=(*outcome.events, end)), items)
-
-
-run_of = often.run_of
 
 
 def test_a_run_that_does_what_no_run_may_do_is_exit_70(

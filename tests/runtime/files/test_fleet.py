@@ -13,7 +13,7 @@ from plutoc_runtime.airspace import Airspace
 from plutoc_runtime.app import App
 from plutoc_runtime.errors import BadInput
 from plutoc_runtime.files.fleet import DroneEntry, FleetFile, default_fleet, load_fleet
-from plutoc_runtime.fleet import AfterTrip
+from plutoc_runtime.model import AfterTrip
 from plutoc_runtime.simulation.world import Feature, Source, WorldData
 from tests.runtime.files.an_app import APP, PLAIN
 
