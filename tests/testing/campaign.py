@@ -14,6 +14,7 @@ from argparse import ArgumentParser
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from time import perf_counter, process_time
@@ -53,41 +54,60 @@ def cases(app: App, fleet: FleetFile, seeds: range) -> Iterator[Case]:
         yield from everywhere(app, small_case(app, fleet, seed))
 
 
-def struck(name: str, seeds: range) -> tuple[Tally, float, list[str]]:
-    """Try one example; return what came of it, the seconds it took, and what to print of it."""
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Struck:
+    """What came of one example."""
+
+    name: str
+    tally: Tally
+    found: int
+    """In how many cases something was that may not be."""
+    said: tuple[str, ...]
+    """The smallest of them, in words."""
+    seconds: float
+
+    @property
+    def row(self) -> tuple[str, ...]:
+        """A line of the table."""
+        tally = self.tally
+        ends = [tally.missions[status] for status in ("COMPLETED", "FAILED", "CANCELLED")]
+        numbers = (tally.runs, tally.rows, tally.lives, *ends, self.found, round(self.seconds))
+        return (self.name, *map(str, numbers))
+
+
+def struck(name: str, seeds: range) -> Struck:
+    """Try one example."""
     began = process_time()
     app = example(name)
     fleet, tally = fleet_of(name, app), Tally()
     explored(app, cases(app, fleet, seeds), tally, lambda tally: len(tally.findings) >= ENOUGH)
+    findings, tally.findings = tally.findings, []  # they are of classes that no other process has
     said: list[str] = []
-    if tally.findings:
-        small = shrunk(tally.findings[0].case, lambda case: bool(tried(app, case).violations))
+    if findings:
+        small = shrunk(findings[0].case, lambda case: bool(tried(app, case).violations))
         finding = Finding(case=small, sentences=tried(app, small).violations)
-        folder = Path("examples") / name
-        options = Options(file=folder / "app.pluto", fleet=folder / "fleet.toml")
+        options = Options(file=Path("examples") / name / "app.pluto")
         said = [f"--- {name}", *smallest_case(app, options, finding)]
-        tally.findings = [Finding(case=small, sentences=f.sentences) for f in tally.findings]
-    return tally, process_time() - began, said
+    seconds = process_time() - began
+    return Struck(name=name, tally=tally, found=len(findings), said=tuple(said), seconds=seconds)
 
 
-def report(tallies: Sequence[tuple[str, Tally, float]]) -> Iterator[str]:
-    """Yield the lines of both tables."""
-    yield from table(HEADER, [_row(*each) for each in tallies], right=range(1, len(HEADER)))
+def report(results: Sequence[Struck]) -> Iterator[str]:
+    """Yield the lines of both tables, and what was found."""
+    yield from table(HEADER, [result.row for result in results], right=range(1, len(HEADER)))
     yield ""
-    fired = _sum(tallies)
+    fired = fired_in(results)
     yield from table(
         ("what struck", "how often"), [(what, str(fired[what])) for what in FAULTS], right=(1,)
     )
+    yield ""
+    for result in results:
+        yield from result.said
 
 
-def _row(name: str, tally: Tally, seconds: float) -> tuple[str, ...]:
-    ends = [tally.missions[status] for status in ("COMPLETED", "FAILED", "CANCELLED")]
-    numbers = (tally.runs, tally.rows, tally.lives, *ends, len(tally.findings), round(seconds))
-    return (name, *map(str, numbers))
-
-
-def _sum(tallies: Sequence[tuple[str, Tally, float]]) -> Counter[str]:
-    return sum((tally.fired for _, tally, _ in tallies), Counter[str]())
+def fired_in(results: Sequence[Struck]) -> Counter[str]:
+    """Return how often everything has struck."""
+    return sum((result.tally.fired for result in results), Counter[str]())
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -110,14 +130,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
             results = list(pool.map(try_one, names))
     else:
         results = [try_one(name) for name in names]
-    tallies = [(name, tally, s) for name, (tally, s, _) in zip(names, results, strict=True)]
-    for line in report(tallies):
+    for line in report(results):
         print(line)
-    for line in (line for _, _, said in results for line in said):
-        print(line)
-    found = sum(len(tally.findings) for _, tally, _ in tallies)
-    runs = sum(tally.runs for _, tally, _ in tallies)
-    never = [what for what in FAULTS if not _sum(tallies)[what]]
+    found, runs = sum(each.found for each in results), sum(each.tally.runs for each in results)
+    never = [what for what in FAULTS if not fired_in(results)[what]]
     print(f"{runs} runs in {perf_counter() - began:.0f} s, {found} violations")
     if never:
         print(f"never struck: {', '.join(never)}")

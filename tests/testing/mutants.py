@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from plutoc_runtime import control, interruption, recovery
+from plutoc_runtime import interruption, rebuilding, recovery
 from plutoc_runtime.engine import Engine
 from plutoc_runtime.fleet import Fleet
 from plutoc_runtime.gateway.gateway import Gateway
@@ -99,7 +99,7 @@ def priority_is_lost(patch: pytest.MonkeyPatch) -> None:
         trip.priority = 0
         return trip
 
-    patch.setattr(recovery, "trip_of", trip_of)
+    patch.setattr(rebuilding, "trip_of", trip_of)
 
 
 def old_brains_are_heard(patch: pytest.MonkeyPatch) -> None:
@@ -127,16 +127,15 @@ def doubt_is_flown_again(patch: pytest.MonkeyPatch) -> None:
         found = really(*args)
         return Fate.AGAIN if found is Fate.UNKNOWN else found
 
-    patch.setattr(recovery, "fate", fate)
-    patch.setattr(control, "fate", fate)
+    patch.setattr(interruption, "fate", fate)
 
 
 def stops_count(patch: pytest.MonkeyPatch) -> None:
     """A flight that was interrupted counts as an attempt."""
     really = interruption.fly_again
 
-    def fly_again(state: Any, flight: Any) -> None:
-        really(state, flight)
+    def fly_again(state: Any, flight: Any, link: Any) -> None:
+        really(state, flight, link)
         flight.trip.attempt += 1
 
     patch.setattr(recovery, "fly_again", fly_again)
@@ -144,7 +143,7 @@ def stops_count(patch: pytest.MonkeyPatch) -> None:
 
 def results_are_lost(patch: pytest.MonkeyPatch) -> None:
     """Who goes on knows nothing of what was found before."""
-    patch.setattr(recovery, "_restore_results", lambda *_: None)
+    patch.setattr(recovery, "restore_results", lambda *_: None)
 
 
 def carriers_are_given_away(patch: pytest.MonkeyPatch) -> None:
