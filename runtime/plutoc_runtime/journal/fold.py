@@ -33,6 +33,8 @@ class Records:
             "stopped": None,
         }
         self.missions: dict[str, Record] = self.data["missions"]
+        for name, record in self.missions.items():  # an older snapshot may know fewer facts
+            self.missions[name] = {**_new(), **record}
         self.results: list[list[Any]] = self.data["results"]
         """[mission, trip, round, attempt, value] of every action that was done."""
         self.flown: dict[str, int] = self.data["flown"]
