@@ -67,4 +67,4 @@ def _answer(told: bytes) -> str:
                 return said
             case {"ok": False, "said": str(said)}:
                 raise BadInput(said)
-    raise Silent("the app runs, but ended before it had answered")
+    raise Silent("the app ended before it could say whether that was done: look, once it goes on")

@@ -14,10 +14,11 @@ from typing import TYPE_CHECKING, Any
 
 from .errors import BadInput
 from .journal import errors
+from .journal.errors import JournalError
 from .journal.replay import replayed
 from .journal.store import Store
 from .journal.writer import Writer
-from .kernel import Cancelled
+from .kernel import FLEET, Cancelled
 from .life import Life
 from .realtime import RealTime
 from .remote_control import listening, perform
@@ -30,7 +31,6 @@ if TYPE_CHECKING:
     from .app import App
     from .files.fleet import FleetFile
     from .gateway.commanding import Reached
-    from .journal.errors import JournalError
     from .journal.fold import Records
     from .kernel import Task
     from .model import Drone, Mission
@@ -152,6 +152,8 @@ class _Living:
         self._end: Signal[End] = Signal()
         self._failure: JournalError | None = None
         self._since_snapshot = 0
+        self._kept: asyncio.Future[bool] = self._loop.create_future()
+        """Whether all that was asked for has been done and is on record, once the life has ended."""
 
     async def live(self, stops: Stops) -> Lived:
         setting, kernel = self._setting, self._kernel
@@ -171,14 +173,14 @@ class _Living:
         life.control.stopped.watch(lambda _: self._end.set(End.STOPPED))
         stops.stop_now = self._stop
         async with listening(setting.note, self._answer):
-            over = life.go_on(setting.missions)
-            over.watch(self._over)
-            if stops.asked is not None:
-                stops.stop(stops.asked)
-            end = await kernel.run(self._end)
-            if end is End.OVER:
-                over.result()  # raises what it could not see through
-        await self._take_leave(link, end)
+            try:
+                end = await self._lived(life, stops)
+            finally:  # whoever still waits for an answer need not any longer
+                self._kept.set_result(self._end.is_set and self._end.result() is End.OVER)
+        if end is not End.LOST:
+            await link.goodbye()
+        if self._failure is not None:
+            raise self._failure
         return Lived(
             end=end,
             missions=life.missions,
@@ -186,17 +188,24 @@ class _Living:
             records=self._records,
         )
 
-    async def _take_leave(self, link: Reached, end: End) -> None:
-        """See to it that all is on record, and only then let the gateway go."""
+    async def _lived(self, life: Life, stops: Stops) -> End:
+        """Let everything go on to some end, and see to it that all is on record."""
+        over = life.go_on(self._setting.missions)
+        over.watch(self._over)
+        if stops.asked is not None:
+            stops.stop(stops.asked)
+        end = await self._kernel.run(self._end)
+        if end is End.OVER:
+            over.result()  # raises what it could not see through
         if self._failure is None:
             if self._since_snapshot > SNAPSHOT_AT_END:
                 self._keep()
-            self._writer.flush()
+            try:
+                self._writer.flush()
+            except JournalError as failure:
+                self._failure = failure
             self._kernel.post(self._durable, self._store.seq)
-        if end is not End.LOST:
-            await link.goodbye()
-        if self._failure is not None:
-            raise self._failure
+        return end
 
     async def close(self) -> None:
         """Let nothing of this life go on; the drones hover, or what was asked of them goes on."""
@@ -252,21 +261,38 @@ class _Living:
 
     # What others ask for
 
-    def _answer(self, request: Mapping[str, object]) -> str:
-        """Do what somebody asks for, at once."""
+    async def _answer(self, request: Mapping[str, object]) -> str:
+        """Do what somebody asks for, at once; say so when it cannot be lost any more."""
         said: list[str] = []
         refused: list[BadInput] = []
+        done: list[Task[None]] = []
 
         def carry_out() -> None:
             assert self._life is not None
+            control = self._life.control
             try:
-                said.append(perform(self._life.control, request))
+                said.append(perform(control, request))
             except BadInput as error:
                 refused.append(error)
+            else:
+                done.append(self._kernel.spawn(control.carried_out(), FLEET, "an answer"))
 
         self._kernel.post(carry_out)
         if refused:
             raise refused[0]
-        if not said:
-            raise BadInput("the app has just crashed")
+        if request.get("command") != "stop":
+            await self._on_record(done)
         return said[0]
+
+    async def _on_record(self, done: Sequence[Task[None]]) -> None:
+        """Wait until what was asked for was done and is durable; raise `BadInput` if it is not."""
+        answers = [asyncio.ensure_future(self._kernel.offer(task)) for task in done]
+        waits: list[asyncio.Future[Any]] = [*answers, self._kept]
+        await asyncio.wait(waits, return_when=asyncio.FIRST_COMPLETED)
+        for one in answers:
+            one.cancel()
+        is_known = self._kept.result() if self._kept.done() else all(task.is_set for task in done)
+        if self._failure is not None or not is_known:
+            raise BadInput(
+                "the app ended before it could say whether that was done: look, once it goes on"
+            )

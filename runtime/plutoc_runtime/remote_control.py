@@ -1,14 +1,14 @@
 """The socket through which commands reach a running app.
 
-Nothing stands between a command and what it does: a request is read, carried out within the kernel
-and answered in one go, whatever else the app waits for.
+Nothing stands between a command and what it does: a request is read and carried out within the
+kernel in one go, whatever else the app waits for. Only the answer may have to wait.
 """
 
 from __future__ import annotations
 
 import asyncio
 import json
-from collections.abc import AsyncIterator, Callable, Mapping
+from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
 from contextlib import asynccontextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
@@ -30,7 +30,7 @@ _PATIENCE = 5.0
 _LAST_WORDS = 0.5
 """Seconds for answers that are on their way when the app ends."""
 
-Answer = Callable[[Mapping[str, object]], str]
+Answer = Callable[[Mapping[str, object]], Awaitable[str]]
 
 
 class Control(Protocol):
@@ -82,7 +82,7 @@ def perform(control: Control, request: Mapping[str, object]) -> str:
 
 @asynccontextmanager
 async def listening(note: Path, answer: Answer) -> AsyncIterator[None]:
-    """Answer whoever finds the note; `answer` is called in the loop's thread, and must not wait."""
+    """Answer whoever finds the note; `answer` does what is asked before it waits for anything."""
     address = new_address(note)
     served: set[asyncio.Task[None]] = set()
 
@@ -114,13 +114,14 @@ async def _serve(reader: StreamReader, writer: StreamWriter, answer: Answer) -> 
                 line = await reader.readline()
             except ValueError:  # it is too long
                 line = b""
-            writer.write(_said(line, answer))
+        writer.write(await _said(line, answer))
+        async with asyncio.timeout(_PATIENCE):
             await writer.drain()
     with suppress(OSError):
         writer.close()
 
 
-def _said(line: bytes, answer: Answer) -> bytes:
+async def _said(line: bytes, answer: Answer) -> bytes:
     try:
         request = json.loads(line)
     except (ValueError, RecursionError):
@@ -128,7 +129,7 @@ def _said(line: bytes, answer: Answer) -> bytes:
     if not isinstance(request, dict):
         return _reply(ok=False, said="that is not a line of JSON with an object")
     try:
-        return _reply(ok=True, said=answer(request))
+        return _reply(ok=True, said=await answer(request))
     except BadInput as error:
         return _reply(ok=False, said=str(error))
 

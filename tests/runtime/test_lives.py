@@ -228,6 +228,33 @@ def test_commands_reach_a_living_app(tried: Tried) -> None:
         ask(note_of(tried.path), {"command": "pause", "mission": None}, 5.0)
 
 
+def test_what_an_app_has_answered_is_on_record(
+    tried: Tried, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Nothing that somebody was told is lost by whatever happens a moment later."""
+    durable: list[str] = []
+    append = Store.append
+
+    def noted(store: Store, rows: list[str]) -> None:
+        append(store, rows)
+        durable.extend(event["event"] for row in rows for event in json.loads(row))
+
+    async def client() -> None:
+        request = {"command": "cancel", "mission": "m"}
+        await asyncio.to_thread(ask, note_of(tried.path), request, 5.0)
+        assert "mission.ended" in durable
+
+    async def whole() -> Lived:
+        talks: list[Awaitable[None]] = []
+        tried.on("trip.launched", lambda: talks.append(asyncio.ensure_future(client())))
+        lived = await tried.live()
+        await talks[0]
+        return lived
+
+    monkeypatch.setattr(Store, "append", noted)
+    assert [mission.status for mission in asyncio.run(whole()).missions] == [Status.CANCELLED]
+
+
 def test_on_a_full_disk_all_drones_land_and_nothing_more_is_told(
     tried: Tried, monkeypatch: pytest.MonkeyPatch
 ) -> None:

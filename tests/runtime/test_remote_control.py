@@ -54,8 +54,11 @@ def talk(
 ) -> object:
     """Let an app listen while somebody else talks to it."""
 
+    async def answered(request: Mapping[str, object]) -> str:
+        return answer(request)
+
     async def scenario() -> object:
-        async with listening(note, answer):
+        async with listening(note, answered):
             return await asyncio.to_thread(client)
 
     return asyncio.run(scenario())

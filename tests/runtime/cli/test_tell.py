@@ -21,8 +21,11 @@ def running(journal: Path, answer: Callable[[Mapping[str, object]], str]) -> Ite
     """Let an app listen in a thread of its own."""
     ready, over = Event(), Event()
 
+    async def answered(request: Mapping[str, object]) -> str:
+        return answer(request)
+
     async def listen() -> None:
-        async with listening(note_of(journal), answer):
+        async with listening(note_of(journal), answered):
             ready.set()
             await asyncio.to_thread(over.wait)
 
