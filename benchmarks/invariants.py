@@ -98,11 +98,12 @@ def hash_of(trial: Trial) -> str:
     return digest.hexdigest()[:16]
 
 
-def hashes() -> list[str]:
+def hashes(missions: int, trips: int, drones: int) -> list[str]:
     """Return the hash under three seeds of Python's own hashes."""
     found = []
+    sizes = ("--missions", str(missions), "--trips", str(trips), "--drones", str(drones))
     for seed in ("0", "1", "4711"):
-        command = [sys.executable, __file__, "--hash"]
+        command = [sys.executable, __file__, "--hash", *sizes]
         environment = {**os.environ, "PYTHONHASHSEED": seed}
         done = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
         found.append(done.stdout.strip())
@@ -134,7 +135,7 @@ def main() -> int:
     )
     print(f"{len(trial.violations)} violations")
     print(f"{options.missions / best:.0f} missions a second of CPU ({best:.2f} s)")
-    found = hashes()
+    found = hashes(options.missions, options.trips, options.drones)
     print(f"trace hash under three PYTHONHASHSEEDs: {', '.join(found)}")
     return 1 if trial.violations or len(set(found)) > 1 else 0
 

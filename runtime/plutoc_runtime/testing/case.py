@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from copy import copy
 from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING, Any
 
@@ -57,6 +58,13 @@ class Case:
     fleet: FleetFile
     weather: Weather = FAIR
     blows: tuple[Blow, ...] = ()
+
+
+def fresh(mission: Mission[Any]) -> Mission[Any]:
+    """Return a mission to fly: what changes in flight is a copy."""
+    flown = copy(mission)
+    flown.trips, flown.completed_trips = [copy(trip) for trip in mission.trips], []
+    return flown
 
 
 def weather_of(text: str) -> Weather:

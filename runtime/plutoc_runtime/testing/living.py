@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections import deque
-from copy import deepcopy
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -14,6 +13,7 @@ from ..life import Life
 from ..standing import Down
 from .blows import BY_HAND, DEATHS, STOPS, Blow, Kind
 from .brain import BrainTime
+from .case import fresh
 from .invariants import ENDS
 from .survival import Known, forgotten, known_of
 from .wire import Wire
@@ -29,6 +29,8 @@ THINKS = 20.0
 """Seconds after which a person looks, and decides."""
 STOPPED = 45.0
 """Seconds for which an app that was stopped stays so."""
+
+_NONE: frozenset[Kind] = frozenset()
 
 
 class Living:
@@ -46,7 +48,7 @@ class Living:
         self.unknown: dict[str, None] = {}
         """The missions of which something is not on record."""
         self.full = False
-        planned = () if records.missions else deepcopy(case.missions)
+        planned = () if records.missions else tuple(map(fresh, case.missions))
         self.before: dict[str, Known] = {} if planned else dict(rig.known)
         self.life = Life(
             rig.app,
@@ -68,12 +70,16 @@ class Living:
         kernel.drain()
         if kernel.settled is not None:
             kernel.settled()
-        rig.raise_from(kernel)
-        due, self.due = self.due, []
-        for call in due:
-            call()
+        if kernel.crashed is not None:
+            rig.raise_from(kernel)
+        if self.due:
+            due, self.due = self.due, []
+            for call in due:
+                call()
+        if not self.task.is_set:
+            return
         error = self.task.error
-        if rig.brain is not self or not self.task.is_set or isinstance(error, Cancelled):
+        if rig.brain is not self or isinstance(error, Cancelled):
             return
         if error is not None:
             rig.blame(error)
@@ -105,14 +111,13 @@ class Living:
         events: list[Event] = json.loads(row)
         if self.before:
             self.look_back(events)
-        struck = [blow for blow in rig.case.blows if blow.row == rig.count]
-        kinds = {blow.kind for blow in struck if not blow.after}
+        struck = rig.strikes.get(rig.count)
+        kinds = {blow.kind for blow in struck if not blow.after} if struck else _NONE
         if Kind.DISK in kinds:
             self.full = True
             rig.fired[Kind.DISK.value] += 1
             rig.later(0.5, self.give_up)
-        lost = self.full or Kind.LOST in kinds
-        if lost:
+        if self.full or Kind.LOST in kinds:
             self.forget(events)
         else:
             self.unwritten.append((self.added, row, events))
@@ -122,7 +127,7 @@ class Living:
             else:
                 rig.fired["slow disk"] += 1
                 rig.later(rig.case.weather.disk, commit)
-        for blow in struck:
+        for blow in struck or ():
             if blow.kind is not Kind.DISK:
                 self.due.append(partial(self.plan, blow, events))
         return self.added
@@ -135,7 +140,7 @@ class Living:
             self.committed, row, events = self.unwritten.popleft()
             self.rig.commit(row, events)
         if told:
-            self.kernel.post(self.life.recorder.durable, number)
+            self.life.recorder.durable(number)
 
     def forget(self, events: list[Event]) -> None:
         """What is not on record need not be known again."""

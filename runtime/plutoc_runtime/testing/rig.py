@@ -26,7 +26,7 @@ from ..simulation.world import World
 from ..standing import Down
 from ..virtual import VirtualTime
 from .acts import Act, Once
-from .blows import Kind
+from .blows import Blow, Kind
 from .brain import BrokenHook
 from .invariants import ENDS, Invariants, items_of
 from .living import THINKS, Living
@@ -137,6 +137,10 @@ class Rig:
         items = items_of(case.missions)
         self.invariants = Invariants(items)
         self.once = Once({name: action.repeat for name, action in app.actions.items()})
+        self.strikes: dict[int, list[Blow]] = {}
+        """By row, what strikes there."""
+        for blow in case.blows:
+            self.strikes.setdefault(blow.row, []).append(blow)
         self.found: list[str] = []
         self.faults: list[str] = []
         self.over = False
@@ -168,23 +172,30 @@ class Rig:
         """Take whatever is due next; False: nothing ever will be."""
         world, brain = self.world, self.brain
         at = world.next_time()
-        due = None if brain is None else brain.kernel.next_time()
-        if brain is not None and due is not None and (at is None or due - brain.skew < at):
-            brain.kernel.now, world.now = due, max(world.now, due - brain.skew)
-        elif at is not None:
-            world.now = at
-            if brain is not None:
+        if brain is not None:
+            due = brain.kernel.next_time()
+            if due is not None and (at is None or due - brain.skew < at):
+                brain.kernel.now, world.now = due, max(world.now, due - brain.skew)
+                brain.take_turn()
+                return self.has_time()
+            if at is not None:
                 brain.kernel.now = max(brain.kernel.now, at + brain.skew)
-        else:
+        if at is None:
             self.found.append(f"nothing will ever happen again; waiting: {self.waiting()}")
             return False
-        if world.now > LONGEST:
-            self.found.append(f"it goes on for ever; waiting: {self.waiting()}")
-            return False
+        world.now = at
         world.drain()
-        self.raise_from(world)
+        if world.crashed is not None:
+            self.raise_from(world)
         if brain is not None and brain is self.brain:
             brain.take_turn()
+        return self.has_time()
+
+    def has_time(self) -> bool:
+        """Whether a mission that has not ended may still do so."""
+        if self.world.now > LONGEST:
+            self.found.append(f"it goes on for ever; waiting: {self.waiting()}")
+            return False
         return True
 
     def waiting(self) -> str:
