@@ -104,7 +104,8 @@ def hashes(missions: int, trips: int, drones: int) -> list[str]:
     sizes = ("--missions", str(missions), "--trips", str(trips), "--drones", str(drones))
     for seed in ("0", "1", "4711"):
         command = [sys.executable, __file__, "--hash", *sizes]
-        environment = {**os.environ, "PYTHONHASHSEED": seed}
+        paths = os.pathsep.join(sys.path)
+        environment = {**os.environ, "PYTHONHASHSEED": seed, "PYTHONPATH": paths}
         done = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
         found.append(done.stdout.strip())
     return found

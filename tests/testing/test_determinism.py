@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from benchmarks.invariants import hashes
+from invariants import hashes
 
 
 def test_a_trial_does_not_depend_on_hashes() -> None:
