@@ -15,7 +15,7 @@ import pytest
 from plutoc_runtime.airspace import Airspace
 from plutoc_runtime.asking import Nobody, ask, note_of
 from plutoc_runtime.errors import BadInput
-from plutoc_runtime.fly import End, Lived, Setting, Stops, live
+from plutoc_runtime.fly import live
 from plutoc_runtime.gateway.gateway import Gateway
 from plutoc_runtime.gateway.ledger import MemoryLedger
 from plutoc_runtime.gateway.link import Link
@@ -24,6 +24,7 @@ from plutoc_runtime.journal.errors import JournalError
 from plutoc_runtime.journal.store import Store
 from plutoc_runtime.model import Category
 from plutoc_runtime.realtime import RealTime
+from plutoc_runtime.setting import End, Lived, Setting, Stops
 from plutoc_runtime.simulation.drones import SimulatedDrone, SimulatedNavigation
 from plutoc_runtime.simulation.faults import Faults
 from plutoc_runtime.simulation.world import World
@@ -279,8 +280,8 @@ def test_on_a_full_disk_all_drones_land_and_nothing_more_is_told(
 
 def test_a_snapshot_is_taken_now_and_then(tried: Tried, monkeypatch: pytest.MonkeyPatch) -> None:
     """And the next life goes on from there."""
-    monkeypatch.setattr("plutoc_runtime.fly.SNAPSHOT_EVERY", 5)  # within a life
-    monkeypatch.setattr("plutoc_runtime.fly.SNAPSHOT_AT_END", 0)
+    monkeypatch.setattr("plutoc_runtime.one_life.SNAPSHOT_EVERY", 5)  # within a life
+    monkeypatch.setattr("plutoc_runtime.one_life.SNAPSHOT_AT_END", 0)
     stops = Stops()
     tried.on("trip.completed", lambda: stops.stop(Down.LAND))
     asyncio.run(tried.live(stops))

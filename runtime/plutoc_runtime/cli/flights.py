@@ -12,11 +12,12 @@ from typing import TYPE_CHECKING, Any
 from .. import again
 from ..asking import note_of
 from ..errors import BadInput
-from ..fly import End, Lived, Recovered, Setting, Stops, live
+from ..fly import Recovered, live
 from ..gateway.settings import settings_for
 from ..gateway.starting import connect
 from ..journal.place import gateway_folder
 from ..journal.store import Store
+from ..setting import End, Lived, Setting, Stops
 from . import output, stop_mark
 from .events import line_of
 from .flown import finished, records_in, report_of, waiting_lines

@@ -19,7 +19,7 @@ from ..standing import Down
 from . import output
 
 if TYPE_CHECKING:
-    from ..fly import Stops
+    from ..setting import Stops
 
 AT_ONCE = 1.0
 """Seconds that the app may take to stop its drones, before they are told without it."""
