@@ -19,7 +19,7 @@ from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from pathlib import Path
 
-from instant import APP, Instant, ground, plan
+from measuring.instant import APP, Instant, ground, plan
 from measuring.options import at_least_one
 from plutoc_runtime.journal.fold import Records
 from plutoc_runtime.journal.replay import replayed
