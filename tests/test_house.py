@@ -18,6 +18,7 @@ TOOLS = Path(sys.executable).parent
         ("mypy",),
         ("mypy", "tests", "benchmarks"),
         ("ruff", "check", "."),
+        ("ruff", "check", "--isolated", "runtime"),  # as in a package that carries it
         ("black", "--check", "--quiet", "."),
         ("lint-imports",),
     ],

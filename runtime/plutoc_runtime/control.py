@@ -12,7 +12,15 @@ from typing import TYPE_CHECKING
 
 from .errors import BadInput
 from .flight import keep_carrier
-from .interruption import Fate, doubt, fly_again, settle_doubt, standing, was_done, what_became
+from .interruption import (
+    Fate,
+    doubt,
+    fly_again,
+    settle_doubt,
+    standing,
+    was_done,
+    what_became,
+)
 from .kernel import FLEET, Task, mission_key
 from .signals import Signal
 from .standing import Down

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from .core import Core
     from .engine import Engine
     from .gateway.commanding import Commanding
-    from .journal.fold import Record, Records
+    from .journal.fold import Records
     from .model import Drone, Mission
     from .standing import RollCall
     from .state import State
