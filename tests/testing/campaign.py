@@ -2,9 +2,10 @@
 
     python -m tests.testing.campaign --seeds 20
 
-For each seed: a crash, a Stop and both at every row of the journal, deaths in the midst of every
-action, and cases in which anything may strike. Where something is that may not be, the smallest case
-is printed, and the exit code is 1; so it is where one of the faults has never struck.
+For each seed: small missions, with a crash, a Stop and both at every row of the journal and deaths in
+the midst of every action, and cases in which anything may strike; with `--own` the example's own
+missions instead. Where something is that may not be, the smallest case is printed, and the exit code
+is 1; so it is where one of the faults has never struck.
 """
 
 from __future__ import annotations
@@ -18,10 +19,12 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from time import perf_counter, process_time
+from typing import Any
 
 from plutoc_runtime.app import App
 from plutoc_runtime.cli.report import table
 from plutoc_runtime.files.fleet import FleetFile
+from plutoc_runtime.model import Mission
 from plutoc_runtime.testing.case import Case
 from plutoc_runtime.testing.explore import (
     FAULTS,
@@ -37,7 +40,7 @@ from plutoc_runtime.testing.report import smallest_case
 from plutoc_runtime.testing.rig import tried
 from plutoc_runtime.testing.shrink import shrunk
 from tests.flying import NAMES
-from tests.testing.examples import example, fleet_of
+from tests.testing.examples import example, fleet_of, missions_of
 
 HEADER = ("example", "runs", "rows", "lives", "completed", "failed", "cancelled", "found", "s")
 CHANCES = 20
@@ -46,9 +49,14 @@ ENOUGH = 5
 """After so many findings in an example nobody looks for more."""
 
 
-def cases(app: App, fleet: FleetFile, seeds: range) -> Iterator[Case]:
-    """Yield everything that is tried of one example."""
+def cases(
+    app: App, fleet: FleetFile, seeds: range, own: Sequence[Mission[Any]] = ()
+) -> Iterator[Case]:
+    """Yield everything that is tried of one example; its own missions only, if they are given."""
     for seed in seeds:
+        if own:
+            yield from everywhere(app, small_case(app, fleet, seed, own))
+            continue
         for number in range(CHANCES):
             yield drawn_case(app, fleet, seed * CHANCES + number)
         yield from everywhere(app, small_case(app, fleet, seed))
@@ -75,12 +83,15 @@ class Struck:
         return (self.name, *map(str, numbers))
 
 
-def struck(name: str, seeds: range) -> Struck:
+def struck(name: str, seeds: range, own: bool = False) -> Struck:
     """Try one example."""
     began = process_time()
     app = example(name)
     fleet, tally = fleet_of(name, app), Tally()
-    explored(app, cases(app, fleet, seeds), tally, lambda tally: len(tally.findings) >= ENOUGH)
+    missions = missions_of(name, app, fleet) if own else ()
+    explored(
+        app, cases(app, fleet, seeds, missions), tally, lambda tally: len(tally.findings) >= ENOUGH
+    )
     findings, tally.findings = tally.findings, []  # they are of classes that no other process has
     said: list[str] = []
     if findings:
@@ -118,13 +129,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("examples", nargs="*", metavar="EXAMPLE", help="default: all")
     parser.add_argument("--seeds", type=int, default=20, metavar="N", help="default: 20")
     parser.add_argument("--first", type=int, default=0, metavar="SEED", help="the first seed")
+    parser.add_argument("--own", action="store_true", help="its own missions, everywhere")
     parser.add_argument("--jobs", type=int, default=1, metavar="N", help="processes")
     options = parser.parse_args(arguments)
     unknown = sorted(set(options.examples) - set(NAMES))
     if unknown:
         parser.error(f"no such example: {', '.join(unknown)} (there are {', '.join(NAMES)})")
     names, began = options.examples or NAMES, perf_counter()
-    try_one = partial(struck, seeds=range(options.first, options.first + options.seeds))
+    seeds = range(options.first, options.first + options.seeds)
+    try_one = partial(struck, seeds=seeds, own=options.own)
     if options.jobs > 1:
         with ProcessPoolExecutor(options.jobs) as pool:
             results = list(pool.map(try_one, names))
@@ -135,9 +148,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     found, runs = sum(each.found for each in results), sum(each.tally.runs for each in results)
     never = [what for what in FAULTS if not fired_in(results)[what]]
     print(f"{runs} runs in {perf_counter() - began:.0f} s, {found} violations")
-    if never:
+    if never and not options.own:
         print(f"never struck: {', '.join(never)}")
-    return 1 if found or never else 0
+    return 1 if found or (never and not options.own) else 0
 
 
 if __name__ == "__main__":

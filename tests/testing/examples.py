@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import lru_cache
 from importlib import import_module
 from types import ModuleType, SimpleNamespace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from plutoc.check.model import Checked
 from plutoc.compile import analyse, planned
@@ -15,6 +15,8 @@ from plutoc.emit.exports import EXPORTS
 from plutoc.plan.build import build
 from plutoc.source import Source
 from plutoc_runtime.files.fleet import FleetFile, load_fleet
+from plutoc_runtime.files.missions import load_missions
+from plutoc_runtime.model import Mission
 from tests.equivalence.flows import InMemory, Package, packaged
 from tests.flying import EXAMPLES
 
@@ -48,6 +50,11 @@ def app_of(text: str) -> App:
 def fleet_of(name: str, app: App) -> FleetFile:
     """Return an example's fleet file."""
     return load_fleet(EXAMPLES / name / "fleet.toml", app)
+
+
+def missions_of(name: str, app: App, fleet: FleetFile) -> list[Mission[Any]]:
+    """Return an example's own missions."""
+    return load_missions(EXAMPLES / name / "missions.toml", app, fleet.airspace)
 
 
 def _hooks(name: str, package: Package) -> ModuleType:
