@@ -41,11 +41,11 @@ class Control(Protocol):
         ...
 
     def pause(self, mission: str | None) -> str:
-        """Let a mission, or all, launch no further trip."""
+        """Take a mission, or all, out of its graph until it is told to go on."""
         ...
 
     def go_on(self, mission: str | None) -> str:
-        """Let a paused mission, or all that are, go on."""
+        """Let a paused mission, or all that are, go on where it was."""
         ...
 
     def skip(self, mission: str, trip: str | None) -> str:
