@@ -11,6 +11,7 @@ import shutil
 import stat
 import tempfile
 from contextlib import suppress
+from hashlib import sha256
 from pathlib import Path
 
 _LONGEST = 90
@@ -22,10 +23,17 @@ _PREFIX, _NAME = "pluto-", "s"
 def new_address(note: Path) -> Path:
     """Make a private folder, and return where in it a socket may stand; `publish` tells others.
 
-    What a process that was killed has left there goes.
+    It is the same folder each time, so that processes that are killed leave one at most.
     """
     withdraw(note)
-    return Path(tempfile.mkdtemp(prefix=_PREFIX, dir=_short_folder())) / _NAME
+    place = Path(_short_folder())
+    folder = place / f"{_PREFIX}{sha256(os.fsencode(os.path.realpath(note))).hexdigest()[:12]}"
+    try:
+        folder.mkdir(mode=0o700)
+    except FileExistsError:
+        if not _is_ours(folder):  # somebody else was there first
+            folder = Path(tempfile.mkdtemp(prefix=_PREFIX, dir=place))
+    return folder / _NAME
 
 
 def publish(note: Path, address: Path) -> None:
@@ -40,11 +48,19 @@ def address_in(note: Path) -> Path | None:
     """Return the socket that a note leads to; None: there is none, or it is not ours."""
     try:
         address = Path(note.read_text(encoding="utf-8").strip())
-        folder = address.parent.lstat()
     except (OSError, ValueError):
         return None
-    private = stat.S_ISDIR(folder.st_mode) and not folder.st_mode & 0o077
-    return address if private and folder.st_uid == os.geteuid() else None
+    return address if _is_ours(address.parent) else None
+
+
+def _is_ours(folder: Path) -> bool:
+    """Whether nobody but us may enter a folder."""
+    try:
+        found = folder.lstat()
+    except (OSError, ValueError):
+        return False
+    private = stat.S_ISDIR(found.st_mode) and not found.st_mode & 0o077
+    return private and found.st_uid == os.geteuid()
 
 
 def withdraw(note: Path) -> None:
@@ -56,10 +72,10 @@ def withdraw(note: Path) -> None:
         note.unlink(missing_ok=True)
 
 
-def _short_folder() -> str | None:
-    """Return the first folder for such things whose name is short; None: the system's choice."""
+def _short_folder() -> str:
+    """Return the first folder for such things whose name is short."""
     for folder in (os.environ.get("XDG_RUNTIME_DIR", ""), tempfile.gettempdir(), "/tmp"):
         usable = os.path.isabs(folder) and os.access(folder, os.W_OK | os.X_OK)
         if usable and len(os.fsencode(folder)) < _LONGEST - 20:
             return folder
-    return None
+    return tempfile.gettempdir()

@@ -32,7 +32,7 @@ class Flight:
     """What goes wrong besides, as `fly` is told so."""
     lives: list[str] = field(default_factory=list)
     """What each life has printed."""
-    _heard: str = ""
+    _heard: int = 0
     _life: subprocess.Popen[bytes] | None = None
 
     @property
@@ -82,12 +82,12 @@ class Flight:
         assert life is not None
         eventually(lambda: self._hears() != self._heard or life.poll() is not None)
 
-    def _hears(self) -> str:
-        """Return how commands reach the life; it is otherwise for each, and stays when it is killed."""
+    def _hears(self) -> int:
+        """Return when the life, or the one before, has said how commands reach it; 0: none has."""
         note = note_of(self.journal)
         with suppress(OSError):
-            return note.read_text()
-        return ""
+            return note.stat().st_mtime_ns
+        return 0
 
     def until_it_says(self, what: str) -> None:
         """Wait until the life has printed this."""

@@ -214,6 +214,25 @@ def test_what_a_killed_app_left_behind_goes(note: Path) -> None:
     assert not left.parent.exists()
 
 
+def test_who_is_killed_again_and_again_leaves_one_folder(note: Path) -> None:
+    first = new_address(note)
+    assert new_address(note) == first
+    publish(note, first)
+    withdraw(note)
+    assert not first.parent.exists()
+
+
+def test_a_folder_that_somebody_else_has_made_is_not_used(note: Path) -> None:
+    first = new_address(note)
+    first.parent.chmod(0o755)
+    second = new_address(note)
+    first.parent.rmdir()
+    assert second.parent != first.parent
+    publish(note, second)
+    withdraw(note)
+    assert not second.parent.exists()
+
+
 def test_a_note_cannot_make_anything_else_go(note: Path, tmp_path: Path) -> None:
     (tmp_path / "dear").mkdir(mode=0o700)
     publish(note, tmp_path / "dear" / "s")
