@@ -28,8 +28,9 @@ from plutoc_runtime.journal_line import line
 from plutoc_runtime.model import AfterTrip
 from plutoc_runtime.simulation.world import WorldData
 from plutoc_runtime.testing.blows import blows_of
+from plutoc_runtime.testing.book import Trial
 from plutoc_runtime.testing.case import Case, Weather
-from plutoc_runtime.testing.rig import Trial, tried
+from plutoc_runtime.testing.rig import tried
 from tests.testing.examples import app_of
 
 APP = """pluto 1

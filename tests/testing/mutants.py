@@ -20,6 +20,7 @@ from plutoc_runtime.journal.careful import Careful
 from plutoc_runtime.journal.fold import Records
 from plutoc_runtime.standing import JobState
 from plutoc_runtime.status import DroneStatus
+from plutoc_runtime.testing.book import Book
 from tests.equivalence import mistakes
 
 Plant = Callable[[pytest.MonkeyPatch], None]
@@ -169,17 +170,15 @@ def ends_are_forgotten(patch: pytest.MonkeyPatch) -> None:
         if event["event"] != "trip.completed":
             really(self, event)
 
-    def read(self: Any) -> Records:
+    def read(self: Book, *given: Any) -> Records:
         patch.setattr(Records, "take", take)
         try:
-            return really_read(self)
+            return really_read(self, *given)
         finally:
             patch.setattr(Records, "take", really)
 
-    from plutoc_runtime.testing.rig import Rig
-
-    really_read = Rig.records
-    patch.setattr(Rig, "records", read)
+    really_read = Book.records
+    patch.setattr(Book, "records", read)
 
 
 MUTANTS: Mapping[str, Mutant] = {

@@ -40,7 +40,7 @@ class Living:
         self.rig, case = rig, rig.case
         now = max(rig.world.now + rig.skew, records.time)
         self.skew = rig.skew = now - rig.world.now
-        self.kernel = BrainTime(now, case.weather, rig.chance, rig.fired, rig.hook_done)
+        self.kernel = BrainTime(now, case.weather, rig.chance, rig.fired, self.hook_returned)
         link = rig.gateway.link(rig.lives, self.lost)
         self.wire = Wire(link, rig.gateway, self.kernel, case.weather.slow, rig.fired, self.sent)
         self.added = self.committed = 0
@@ -49,7 +49,7 @@ class Living:
         """The missions of which something is not on record."""
         self.full = False
         planned = () if records.missions else tuple(map(fresh, case.missions))
-        self.before: dict[str, Known] = {} if planned else dict(rig.known)
+        self.before: dict[str, Known] = {} if planned else dict(rig.book.known)
         self.life = Life(
             rig.app,
             case.fleet,
@@ -86,6 +86,10 @@ class Living:
         elif self.committed == self.added:  # else what happened last is not durable yet
             rig.ended(self)
 
+    def hook_returned(self, hook: Callable[..., object], args: tuple[object, ...]) -> None:
+        """What an action of the app's own does, is done to the world."""
+        self.rig.book.hook_did(hook, args, self.rig.world.now)
+
     def haunt(self) -> None:
         """Go on although another brain has taken over."""
         self.kernel.now = max(self.kernel.now, self.rig.world.now + self.skew)
@@ -95,7 +99,7 @@ class Living:
 
     def sent(self, job: str) -> None:
         """A drone is sent on its way."""
-        if self.rig.brain is self and not self.rig.once.knows(job):
+        if self.rig.brain is self and not self.rig.book.once.knows(job):
             self.rig.found.append(f"{self.kernel.now:g} s: {job} set out before that was on record")
 
     # The journal
@@ -106,12 +110,11 @@ class Living:
         self.added += 1
         if rig.brain is not self:  # somebody else has the journal by now
             return self.added
-        rig.count += 1
-        rig.times.append(rig.world.now)
+        rig.book.times.append(rig.world.now)
         events: list[Event] = json.loads(row)
         if self.before:
             self.look_back(events)
-        struck = rig.strikes.get(rig.count)
+        struck = rig.strikes.get(len(rig.book.times))
         kinds = {blow.kind for blow in struck if not blow.after} if struck else _NONE
         if Kind.DISK in kinds:
             self.full = True
@@ -138,7 +141,7 @@ class Living:
             return
         while self.unwritten and self.unwritten[0][0] <= number:
             self.committed, row, events = self.unwritten.popleft()
-            self.rig.commit(row, events)
+            self.rig.book.commit(row, events)
         if told:
             self.life.recorder.durable(number)
 
@@ -152,9 +155,9 @@ class Living:
             self.forget(events)
         for name, mission in self.life.recorder.missions.items():
             if name in self.unknown:
-                self.rig.known.pop(name, None)
+                self.rig.book.known.pop(name, None)
             else:
-                self.rig.known[name] = known_of(self.rig.app, mission)
+                self.rig.book.known[name] = known_of(self.rig.app, mission)
 
     def look_back(self, events: list[Event]) -> None:
         """See, once it is known again, what has been forgotten since the last life."""
@@ -169,13 +172,13 @@ class Living:
         for name, known in before.items():
             if name not in now:
                 found.append(f"{name} was forgotten")
-            elif self.rig.ends.get(name) not in ENDS:
+            elif self.rig.book.ends.get(name) not in ENDS:
                 after = known_of(self.rig.app, now[name])
                 said = forgotten(name, known, after, since.get(name, ()))
                 found += [f"{self.kernel.now:g} s: {sentence}" for sentence in said]
         results = len(self.life.session.core.results.so_far())
-        if results < self.rig.once.done:
-            found.append(f"{self.rig.once.done} results were there, {results} are left")
+        if results < self.rig.book.once.done:
+            found.append(f"{self.rig.book.once.done} results were there, {results} are left")
 
     # What strikes
 
@@ -251,7 +254,11 @@ class Living:
             rig.fired["go on"] += 1
         for name, record in list(self.life.recorder.records.missions.items()):
             if not record["ended"] and (record["question"] or record["held"]):
-                decide = partial(self.life.control.decide, name, rig.answer(self, name))
+                decide = partial(
+                    self.life.control.decide,
+                    name,
+                    rig.book.answer(name, self.life.recorder.records),
+                )
                 if self.told(decide):
                     rig.fired["decision"] += 1
         if any(record["paused"] for record in self.life.recorder.records.missions.values()):
@@ -284,9 +291,6 @@ class Living:
             self.rig.gateway.cut()
             self.die()
             self.rig.later(STOPPED, self.rig.be_born)
-
-    def corpse(self) -> None:
-        """Nobody has noticed yet: what it was doing in the air goes on to its end."""
 
     def die(self) -> None:
         """Nothing of it goes on."""

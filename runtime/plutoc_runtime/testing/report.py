@@ -15,9 +15,9 @@ from .plan_text import fleet_text, missions_text
 
 if TYPE_CHECKING:
     from ..app import App
+    from .book import Trial
     from .explore import Finding, Tally
     from .options import Options
-    from .rig import Trial
 
 _MOST_EVENTS = 200
 

@@ -47,7 +47,9 @@ def forgotten(name: str, before: Known, after: Known, since: Sequence[Event]) ->
         return
     if before.round != after.round:
         yield f"{name} was in round {before.round}, and went on in round {after.round}"
-    if before.attempts + launched != after.attempts:
+    flown = before.attempts + launched
+    interrupted = sum(event["event"] == "trip.interrupted" for event in since)
+    if not flown - interrupted <= after.attempts <= flown:
         yield f"{name} had had {before.attempts} flights, and went on with {after.attempts - launched}"
     if before.fields != after.fields:
         yield f"{name} had {_shown(before.fields)}, and went on with {_shown(after.fields)}"
