@@ -51,8 +51,6 @@ class Flight:
     speed: float
     seed: int
     faults: Faults
-    obeys: bool
-    """Whether a Stop that went past an earlier life still counts: so it is under `--supervise`."""
 
     @property
     def how_to_go_on(self) -> str:
@@ -111,14 +109,13 @@ async def _lives(
         speed=flight.speed,
     )
     deaths, done = 0, -1
-    stops.asked = stops.asked or (stop_mark.found(flight.journal) if flight.obeys else None)
     while True:
+        stops.asked = stops.asked or stop_mark.found(flight.journal)
         with closing(store):
             lived = await live(setting, store, stops, known)
         known = None
         if lived.end is not End.LOST:
             return lived
-        stops.asked = stops.asked or stop_mark.found(flight.journal)
         before, done = done, finished(lived.records)
         deaths = 1 if done > before else deaths + 1
         if deaths > MOST_GATEWAYS:

@@ -29,6 +29,12 @@ def fly(app: App, options: Options) -> int:
     journal = options.journal or place.new(app.name, time.time())
     if os.path.lexists(journal):
         raise exists(journal)
+    left = place.gateway_folder(Path(os.path.realpath(journal)))
+    if os.path.lexists(left):
+        raise BadInput(
+            f"{left}: it is of an earlier flight, whose journal is gone, and says what that did:"
+            " move it away, or name another place with --journal"
+        )
     begun = header(
         app,
         missions=plan.missions_text,
@@ -50,7 +56,6 @@ def fly(app: App, options: Options) -> int:
         speed=options.speed or 1.0,
         seed=options.seed,
         faults=Faults(**options.fail),
-        obeys=options.supervised,
     )
     return see_through(flight, store)
 

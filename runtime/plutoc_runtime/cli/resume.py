@@ -62,6 +62,5 @@ def resume(app: App, options: Options) -> int:
         speed=options.speed or speed_in(place.gateway_folder(store.path)) or 1.0,
         seed=header["seed"],
         faults=Faults(**header["faults"]),
-        obeys=options.supervised,
     )
     return see_through(flight, store, known)

@@ -11,8 +11,10 @@ from ..standing import Down
 
 def leave(journal: Path, how: Down) -> None:
     """Say that everything was stopped; `journal` is its real path."""
+    file = _file(journal)
     with suppress(OSError):
-        _file(journal).write_text(how.value, encoding="utf-8")
+        file.parent.mkdir(mode=0o700, exist_ok=True)
+        file.write_text(how.value, encoding="utf-8")
 
 
 def found(journal: Path) -> Down | None:

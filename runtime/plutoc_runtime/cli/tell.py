@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import os
+import time
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..asking import Nobody, Silent, ask, note_of
 from ..errors import BadInput
 from ..gateway.starting import stop_directly
+from ..journal.lock import holder
 from ..journal.place import gateway_folder
 from ..standing import Down
 from . import output, stop_mark
@@ -73,14 +76,19 @@ def _request(app: App, options: Options) -> dict[str, object]:
 
 def _stop(app: App, options: Options, request: dict[str, object]) -> str:
     """Stop the app; if it says nothing, bring the drones down without it."""
-    journal = Path(os.path.realpath(options.the_journal))
-    try:
-        return ask(note_of(journal), request, AT_ONCE)
-    except (Nobody, Silent) as nobody:
-        how = Down(request["how"])
+    journal, how = Path(os.path.realpath(options.the_journal)), Down(request["how"])
+    until = time.monotonic() + PATIENCE
+    while True:
         try:
-            said = stop_directly(gateway_folder(journal), how, PATIENCE)
-        except Nobody:
-            raise Nobody(f"{journal}: {app.name} is not running, and no drone flies") from None
-        stop_mark.leave(journal, how)
-        return f"{nobody}: {said} without it; {app.name} resume {journal} goes on"
+            return ask(note_of(journal), request, AT_ONCE)
+        except (Nobody, Silent) as nobody:
+            with suppress(Nobody):
+                said = stop_directly(gateway_folder(journal), how, PATIENCE)
+                stop_mark.leave(journal, how)
+                return f"{nobody}: {said} without it; {app.name} resume {journal} goes on"
+        if holder(journal) is None:
+            raise Nobody(f"{journal}: {app.name} is not running, and no drone flies")
+        if time.monotonic() > until:
+            raise Silent(f"{journal}: {app.name} runs, but has come to no drones: end it")
+        stop_mark.leave(journal, how)  # it has only just begun: it shall not fly
+        time.sleep(0.1)

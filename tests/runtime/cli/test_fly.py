@@ -67,6 +67,18 @@ def test_a_journal_that_is_there_is_never_overwritten(
     assert "resume" in err
 
 
+def test_what_an_earlier_flight_has_left_is_not_taken_for_this_ones(
+    missions: Path, tmp_path: Path, command: Command
+) -> None:
+    """Its ledger says of trips of the same names that they were done."""
+    left = tmp_path / "a.journal.gateway"
+    left.mkdir()
+    code, out, err = command("fly", missions, "--sim", "--journal", tmp_path / "a.journal")
+    assert (code, out) == (2, "")
+    assert err.startswith(f"{left}: it is of an earlier flight")
+    assert not (tmp_path / "a.journal").exists()
+
+
 def test_a_plan_that_nobody_can_fly_leaves_no_journal(tmp_path: Path, command: Command) -> None:
     path = tmp_path / "new.journal"
     assert command("fly", tmp_path / "none.toml", "--sim", "--journal", path)[0] == 2

@@ -11,8 +11,11 @@ from threading import Event, Thread
 import pytest
 
 from plutoc_runtime.asking import note_of
+from plutoc_runtime.cli import stop_mark
 from plutoc_runtime.errors import BadInput
+from plutoc_runtime.journal.lock import Lock
 from plutoc_runtime.remote_control import listening
+from plutoc_runtime.standing import Down
 from tests.runtime.cli.conftest import Command
 
 
@@ -106,3 +109,39 @@ def test_where_no_app_runs_one_is_told_how_to_go_on(journal: Path, command: Comm
         f"{journal}: alfalfa is not running, so there is nobody to tell; "
         f"alfalfa resume {journal} goes on\n"
     )
+
+
+def test_where_nothing_runs_there_is_nothing_to_stop(journal: Path, command: Command) -> None:
+    said = f"{journal}: alfalfa is not running, and no drone flies\n"
+    assert command("tell", journal, "stop") == (2, "", said)
+
+
+def test_an_app_that_has_only_just_begun_is_stopped_before_it_flies(
+    journal: Path, command: Command, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It reads its journal, and hears nothing yet: what it shall do is left where it will look."""
+    lock, leave = Lock.take(journal), stop_mark.leave
+    left, over = Event(), Event()
+
+    def leave_and_tell(journal: Path, how: Down) -> None:
+        leave(journal, how)
+        left.set()
+
+    def answer(request: Mapping[str, object]) -> str:
+        return "stopping"
+
+    def begin() -> None:
+        left.wait()
+        with running(journal, answer):
+            over.wait()
+
+    monkeypatch.setattr(stop_mark, "leave", leave_and_tell)
+    app = Thread(target=begin)
+    app.start()
+    try:
+        assert command("tell", journal, "stop", "--rtl") == (0, "stopping\n", "")
+        assert stop_mark.found(journal) is Down.HOME
+    finally:
+        over.set()
+        app.join()
+        lock.release()
