@@ -15,16 +15,17 @@ from argparse import ArgumentParser
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
+from random import Random
 from time import perf_counter, process_time
 from typing import Any
 
 from plutoc_runtime.app import App
 from plutoc_runtime.cli.report import table
 from plutoc_runtime.files.fleet import FleetFile
-from plutoc_runtime.model import Mission
+from plutoc_runtime.model import AfterTrip, Mission
 from plutoc_runtime.testing.case import Case
 from plutoc_runtime.testing.explore import (
     FAULTS,
@@ -58,8 +59,19 @@ def cases(
             yield from everywhere(app, small_case(app, fleet, seed, own))
             continue
         for number in range(CHANCES):
-            yield drawn_case(app, fleet, seed * CHANCES + number)
+            chance = seed * CHANCES + number
+            yield drawn_case(app, varied(fleet, Random(chance)), chance)
         yield from everywhere(app, small_case(app, fleet, seed))
+
+
+def varied(fleet: FleetFile, rng: Random) -> FleetFile:
+    """Return a fleet with as many drones as may be, and other habits."""
+    drones = fleet.drones[: rng.randrange(1, len(fleet.drones) + 1)]
+    if rng.random() < 0.5:
+        drones = fleet.drones
+    after_trip = rng.choice((AfterTrip.HOME, AfterTrip.STAY, AfterTrip.NEXT))
+    airborne = rng.choice((None, None, 1, 2))
+    return replace(fleet, drones=drones, after_trip=after_trip, max_airborne=airborne)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Coroutine
 from random import Random
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, TypeVar
 
-from ..kernel import Key, Timer
+from ..kernel import Key, Task, Timer
 from ..kernel import Kind as When
 from ..virtual import VirtualTime
 
 if TYPE_CHECKING:
     from .case import Weather
+
+T = TypeVar("T")
 
 _LONG = 30.0
 """Seconds that a hook takes that blocks."""
@@ -35,7 +37,15 @@ class BrainTime(VirtualTime):
     ) -> None:
         super().__init__()
         self.now = now
+        self.dead = False
         self._weather, self._chance, self._fired, self._done = weather, chance, fired, done
+
+    def spawn(self, coroutine: Coroutine[Any, Any, T], key: Key, name: str) -> Task[T]:
+        """Set a coroutine on its way; in a dead brain none sets out."""
+        task = super().spawn(coroutine, key, name)
+        if self.dead:
+            task.drop()
+        return task
 
     def at(self, when: float, kind: When, key: Key, call: Callable[[], object]) -> Timer:
         """Call this at a time, or a little later."""

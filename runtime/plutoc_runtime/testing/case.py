@@ -39,7 +39,7 @@ class Weather:
     disk: float = 0.0
     """Seconds until a row of the journal is durable."""
     jump: float = 0.0
-    """Seconds by which the clock of the machine is set on while the app is down."""
+    """Seconds by which the clock of the machine is set on while the app is down; less than 0: back."""
     down: float = 1.0
     """Seconds until a crashed app is started again."""
     snapshot: float = 0.0

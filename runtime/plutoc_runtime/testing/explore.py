@@ -170,7 +170,7 @@ def drawn_weather(rng: Random) -> Weather:
         slow=rng.choice((0.0, 0.0, 0.05, 0.4)),
         radio=rng.choice((0.0, 0.0, 0.1, 0.5)),
         disk=rng.choice((0.0, 0.0, 0.02, 0.3)),
-        jump=rng.choice((0.0, 0.0, 5.0, 100.0)),
+        jump=rng.choice((0.0, 0.0, 5.0, 100.0, -50.0)),
         down=rng.choice((0.2, 1.0, 5.0, 60.0)),
         snapshot=rng.choice((0.0, 1.0)),
     )

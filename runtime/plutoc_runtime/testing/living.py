@@ -87,8 +87,9 @@ class Living:
             rig.ended(self)
 
     def hook_returned(self, hook: Callable[..., object], args: tuple[object, ...]) -> None:
-        """What an action of the app's own does, is done to the world."""
-        self.rig.book.hook_did(hook, args, self.rig.world.now)
+        """What an action of the app's own does is done to the world, if its drone is still there."""
+        if self.rig.brain is self:
+            self.rig.book.hook_did(hook, args, self.rig.world.now)
 
     def haunt(self) -> None:
         """Go on although another brain has taken over."""
@@ -294,5 +295,5 @@ class Living:
 
     def die(self) -> None:
         """Nothing of it goes on."""
-        self.kernel.over = True
+        self.kernel.over = self.kernel.dead = True
         self.kernel.close()
