@@ -13,6 +13,8 @@ from .errors import BadInput
 from .journal.place import gateway_folder
 from .private import address_in
 
+_ENDED = "the app ended before it could say whether that was done: look, once it goes on"
+
 LONGEST = 64 * 1024
 """Bytes of a request or of an answer."""
 
@@ -23,6 +25,10 @@ class Nobody(BadInput):
 
 class Silent(BadInput):
     """An app runs, but it does not answer."""
+
+
+class Ended(Silent):
+    """The app has ended before it could answer: nobody knows whether it has done what was asked."""
 
 
 def note_of(journal: Path) -> Path:
@@ -46,6 +52,8 @@ def ask(note: Path, request: Mapping[str, object], patience: float) -> str:
             return _answer(_first_line(line))
     except (ConnectionRefusedError, FileNotFoundError):
         raise Nobody("the app is not running") from None
+    except (ConnectionResetError, BrokenPipeError):
+        raise Ended(_ENDED) from None
     except OSError as error:  # a timeout is one, too
         raise Silent("the app runs, but does not answer") from error
 
@@ -67,4 +75,4 @@ def _answer(told: bytes) -> str:
                 return said
             case {"ok": False, "said": str(said)}:
                 raise BadInput(said)
-    raise Silent("the app ended before it could say whether that was done: look, once it goes on")
+    raise Ended(_ENDED)

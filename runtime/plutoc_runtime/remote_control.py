@@ -105,20 +105,23 @@ async def listening(note: Path, answer: Answer) -> AsyncIterator[None]:
             _, idle = await asyncio.wait(list(served), timeout=_LAST_WORDS)
             for task in idle:
                 task.cancel()
+            await asyncio.gather(*idle, return_exceptions=True)
 
 
 async def _serve(reader: StreamReader, writer: StreamWriter, answer: Answer) -> None:
-    with suppress(OSError, TimeoutError):
-        async with asyncio.timeout(_PATIENCE):
-            try:
-                line = await reader.readline()
-            except ValueError:  # it is too long
-                line = b""
-        writer.write(await _said(line, answer))
-        async with asyncio.timeout(_PATIENCE):
-            await writer.drain()
-    with suppress(OSError):
-        writer.close()
+    try:
+        with suppress(OSError, TimeoutError):
+            async with asyncio.timeout(_PATIENCE):
+                try:
+                    line = await reader.readline()
+                except ValueError:  # it is too long
+                    line = b""
+            writer.write(await _said(line, answer))
+            async with asyncio.timeout(_PATIENCE):
+                await writer.drain()
+    finally:
+        with suppress(OSError):
+            writer.close()
 
 
 async def _said(line: bytes, answer: Answer) -> bytes:

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from plutoc_runtime.asking import LONGEST, Nobody, Silent, ask, note_of
+from plutoc_runtime.asking import LONGEST, Ended, Nobody, Silent, ask, note_of
 from plutoc_runtime.errors import BadInput
 from plutoc_runtime.private import address_in, new_address, publish, withdraw
 from plutoc_runtime.remote_control import listening, perform
@@ -186,6 +186,25 @@ def test_an_app_that_says_nothing_is_not_waited_for(note: Path, tmp_path: Path) 
         publish(note, tmp_path / "f" / "s")
         with pytest.raises(Silent):
             ask(note, {"command": "pause", "mission": None}, 0.01)
+
+
+def test_an_app_that_ends_first_leaves_one_in_doubt(note: Path) -> None:
+    """That is told, and not that all went well."""
+    asked, over = asyncio.Event(), asyncio.Event()
+
+    async def never(request: Mapping[str, object]) -> str:
+        asked.set()
+        await over.wait()
+        return "done"
+
+    async def scenario() -> None:
+        async with listening(note, never):
+            doubt = asyncio.create_task(asyncio.to_thread(ask, note, {"command": "pause"}, 5.0))
+            await asked.wait()
+        with pytest.raises(Ended, match="before it could say whether that was done"):
+            await doubt
+
+    asyncio.run(scenario())
 
 
 def test_only_the_owner_may_enter_the_folder(note: Path) -> None:

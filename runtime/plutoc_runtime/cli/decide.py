@@ -7,13 +7,13 @@ from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..asking import Nobody, ask, note_of
+from ..asking import Nobody
 from ..errors import BadInput
 from ..journal.store import Store
 from ..words import printable, quoted
 from . import output
 from .flown import ANSWERS, records_in, waiting, waiting_lines
-from .tell import PATIENCE
+from .tell import asked as asked_of_app
 
 if TYPE_CHECKING:
     from ..app import App
@@ -38,9 +38,9 @@ def decide(app: App, options: Options) -> int:
         raise BadInput(
             f"{journal}: mission {quoted(mission)}: {printable(question)}; say one of: {fitting}"
         )
-    request = {"command": "decide", "mission": mission, "answer": answer}
     try:
-        output.line(ask(note_of(journal), request, PATIENCE))
+        request = {"command": "decide", "mission": mission, "answer": answer}
+        output.line(asked_of_app(app, options, request))
     except Nobody:
         _put_down(journal, mission, answer, records.time)
         output.line(

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import os
 import time
+from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..asking import Nobody, Silent, ask, note_of
+from ..asking import Ended, Nobody, Silent, ask, note_of
 from ..errors import BadInput
 from ..gateway.starting import stop_directly
 from ..journal.lock import holder
@@ -37,7 +38,7 @@ def tell(app: App, options: Options) -> int:
     return 0
 
 
-def asked(app: App, options: Options, request: dict[str, object]) -> str:
+def asked(app: App, options: Options, request: Mapping[str, object]) -> str:
     """Return what the running app says to a request."""
     journal = options.the_journal
     try:
@@ -47,6 +48,8 @@ def asked(app: App, options: Options, request: dict[str, object]) -> str:
             f"{journal}: {app.name} is not running, so there is nobody to tell; "
             f"{app.name} resume {journal} goes on"
         ) from None
+    except Ended as error:
+        raise Ended(f"{journal}: {error}; {app.name} resume {journal} does that") from None
     except Silent as error:
         raise Silent(
             f"{journal}: {error}; a hook may keep it busy. "
