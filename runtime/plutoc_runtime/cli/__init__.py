@@ -24,7 +24,7 @@ def start(name: str, load: Callable[[], App]) -> int:
 
         return gateway(sys.argv[2:])
     app: App | None = None
-    ending = _Ending(name)
+    ending = Ending(name)
     with ending:
         from .loading import loaded
 
@@ -35,14 +35,14 @@ def start(name: str, load: Callable[[], App]) -> int:
 def main(app: App, argv: Sequence[str] | None = None) -> int:
     """Run one command of the app and return its exit code; `argv` is without the program."""
     output.prepare()
-    ending = _Ending(app.name)
+    ending = Ending(app.name)
     with ending:
         ending.code = _command(app, argv)
         output.flush()
     return ending.code
 
 
-class _Ending:
+class Ending:
     """Turns whatever a command ends with into an exit code, and into a message."""
 
     def __init__(self, name: str) -> None:

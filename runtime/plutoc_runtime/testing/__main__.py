@@ -5,18 +5,15 @@ from __future__ import annotations
 import sys
 from importlib import import_module
 
-from ..cli import output
+from ..cli import Ending, output
 from ..cli.loading import loaded
-from ..errors import BadInput
 from .command import test
 
 if __name__ == "__main__":
     output.prepare()
     home = (__package__ or "").partition("._runtime")[0]
-    try:
-        code = test(loaded(lambda: import_module(f"{home}.flow").APP), sys.argv[1:])
+    ending = Ending(home)
+    with ending:
+        ending.code = test(loaded(lambda: import_module(f"{home}.flow").APP), sys.argv[1:])
         output.flush()
-    except BadInput as error:
-        output.tell(str(error))
-        code = 2
-    sys.exit(code)
+    sys.exit(ending.code)

@@ -40,11 +40,7 @@ def test(app: App, argv: Sequence[str]) -> int:
         options = parse(argv)
     except SystemExit as end:
         return end.code if isinstance(end.code, int) else BAD_INPUT
-    try:
-        return _tried(app, options)
-    except BadInput as error:
-        output.tell(str(error))
-        return BAD_INPUT
+    return _tried(app, options)
 
 
 def _tried(app: App, options: Options) -> int:
