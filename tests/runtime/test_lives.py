@@ -139,21 +139,26 @@ def test_what_is_told_is_on_record(tried: Tried) -> None:
     assert [(event["t"], event["event"]) for event in tried.told] == written
 
 
-def test_nothing_is_told_before_it_is_on_record(
-    tried: Tried, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """So what somebody has read on a screen is there after a crash."""
-    durable: list[str] = []
+@pytest.fixture
+def durable(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """The kinds of the events that are on record, as soon as they are."""
+    kinds: list[str] = []
     append = Store.append
 
     def noted(store: Store, rows: list[str]) -> None:
         append(store, rows)
-        durable.extend(event["event"] for row in rows for event in json.loads(row))
+        kinds.extend(event["event"] for row in rows for event in json.loads(row))
+
+    monkeypatch.setattr(Store, "append", noted)
+    return kinds
+
+
+def test_nothing_is_told_before_it_is_on_record(tried: Tried, durable: list[str]) -> None:
+    """So what somebody has read on a screen is there after a crash."""
 
     def watch(event: Event) -> None:
         assert len(tried.told) <= len(durable)
 
-    monkeypatch.setattr(Store, "append", noted)
     tried.watch = watch
     asyncio.run(tried.live())
     assert tried.kinds == durable
@@ -229,16 +234,8 @@ def test_commands_reach_a_living_app(tried: Tried) -> None:
         ask(note_of(tried.path), {"command": "pause", "mission": None}, 5.0)
 
 
-def test_what_an_app_has_answered_is_on_record(
-    tried: Tried, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_what_an_app_has_answered_is_on_record(tried: Tried, durable: list[str]) -> None:
     """Nothing that somebody was told is lost by whatever happens a moment later."""
-    durable: list[str] = []
-    append = Store.append
-
-    def noted(store: Store, rows: list[str]) -> None:
-        append(store, rows)
-        durable.extend(event["event"] for row in rows for event in json.loads(row))
 
     async def client() -> None:
         request = {"command": "cancel", "mission": "m"}
@@ -252,7 +249,6 @@ def test_what_an_app_has_answered_is_on_record(
         await talks[0]
         return lived
 
-    monkeypatch.setattr(Store, "append", noted)
     assert [mission.status for mission in asyncio.run(whole()).missions] == [Status.CANCELLED]
 
 
