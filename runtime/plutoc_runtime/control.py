@@ -16,6 +16,7 @@ from .interruption import (
     Fate,
     doubt,
     fly_again,
+    fly_on,
     settle_doubt,
     standing,
     was_done,
@@ -174,20 +175,26 @@ class Control:
     async def _broken_off(self, state: State, flight: Flight, then: Then) -> None:
         """Ask the ledger what became of a flight, and its drone."""
         roll = await self._link.call()
+        entry = roll.jobs.get(flight.id)
         begun = bool(self._record(state)["flight"]["begun"])
-        what = await what_became(self._core, flight, roll.jobs.get(flight.id), begun)
+        what = await what_became(self._core, flight, entry, begun)
         del self._steps_out[state.mission.name]
+        if not self._engine.is_aside(state):
+            return  # it has ended meanwhile
+        if flight.is_set:
+            state.goes_on = True
+            then(state)
+            return
         if what is Fate.UNKNOWN:
             doubt(state, flight)
             if flight.trip.item is None:
                 self._core.fleet.recover(flight.flier)
             self._engine.look_for_the_end()
             return
-        if what is Fate.FLIES_ON:  # it has just ended
-            state.mission.status = Status.RUNNING
-            self._link.attach(flight.id, flight.report)
-            await flight
-            state.goes_on = True
+        if what is Fate.FLIES_ON and entry is not None:  # it has just ended
+            fly_on(state, flight, self._link, entry)
+            if state.doom is not None:
+                return  # for good
         else:
             if what is Fate.DONE:
                 was_done(state, flight)

@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from .allocation import Queue
     from .app import App
     from .fleet import Fleet
+    from .gateway.commanding import Commanding
     from .journal.recorder import Recorder
     from .kernel import Kernel
     from .navigation import Navigation
@@ -33,6 +34,8 @@ class Core:
     queue: Queue
     fleet: Fleet
     deadlines: Deadlines
+    link: Commanding | None = None
+    """What the gateway can be asked through; None: it is in this process, and answers at once."""
     recorder: Recorder | None = None
     """Writes down what happens; None: nobody will ever go on from here."""
 

@@ -6,8 +6,8 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from .blame import blame, blamed
+from .calling_off import abort_now
 from .errors import HookFault, MissionFailed
-from .flight import abort
 from .kernel import Cancelled, Task, mission_key
 from .run import Run
 from .signals import Signal
@@ -49,7 +49,8 @@ class Engine:
         for mission in missions:
             if recorder is not None:
                 recorder.missions[mission.name] = mission
-            state, key = State(core, mission, doomed), mission_key(mission.index)
+            state = State(core, mission, doomed, self._waits)
+            key = mission_key(mission.index)
             run = Run(mission, state, key)
             run.task = state.task = task = kernel.spawn(core.app.flow(run), key, mission.name)
             task.over = ended
@@ -59,7 +60,7 @@ class Engine:
         """Return the state of a mission that was interrupted in an earlier life of the app."""
         if self._core.recorder is not None:
             self._core.recorder.missions[mission.name] = mission
-        return State(self._core, mission, self._doomed)
+        return State(self._core, mission, self._doomed, self._waits)
 
     def resume(self, state: State, status: Status) -> None:
         """Let a mission that was interrupted go on at the block where it can, with this status."""
@@ -77,6 +78,19 @@ class Engine:
         """Take a mission out of its graph, if it is in it, until a person says how it goes on."""
         self._aside[state.mission.name] = state
         self._take_out(state)
+
+    def is_aside(self, state: State) -> bool:
+        """Say whether a mission waits for a person."""
+        return self._aside.get(state.mission.name) is state
+
+    def _waits(self, state: State) -> None:
+        self.set_aside(state)
+        self._core.kernel.spawn(
+            self._look(), mission_key(state.mission.index), f"{state.mission.name} waits"
+        )
+
+    async def _look(self) -> None:
+        self.look_for_the_end()
 
     def _take_out(self, state: State) -> None:
         task, state.task = state.task, None
@@ -154,7 +168,7 @@ class Engine:
     def _end(self, state: State, status: Status, reason: str) -> None:
         mission, fleet = state.mission, self._core.fleet
         if state.in_flight is not None:
-            abort(state, f"its mission ended: {reason or status.value}")
+            abort_now(state, f"its mission ended: {reason or status.value}")
         if state.allocated is not None:
             fleet.never_flew(state.allocated)
         if state.carrier is not None:

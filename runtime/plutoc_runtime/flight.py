@@ -27,7 +27,7 @@ class Flight(Signal[Status]):
     It is set when the trip is over, to how the mission stands then.
     """
 
-    __slots__ = ("_hook", "_work", "flier", "launched_at", "retry", "state", "trip")
+    __slots__ = ("_hook", "_work", "called_off", "flier", "launched_at", "retry", "state", "trip")
 
     def __init__(self, state: State, trip: Trip, flier: Drone, retry: bool) -> None:
         self.is_set = False
@@ -39,6 +39,8 @@ class Flight(Signal[Status]):
         self._hook = state.core.app.actions[trip.action].hook
         """The app's own action, if it is one."""
         self._work: Task[None] | None = None
+        self.called_off = False
+        """It was broken off, and its drone is asked what it has done."""
 
     # What navigation may ask
 
@@ -221,14 +223,6 @@ def fail(state: State, flight: Flight, reason: str, *, mends: bool = True) -> No
         flight.set(state.mission.status)
     else:
         state.end(reason)
-
-
-def abort(state: State, reason: str) -> None:
-    """Fail the trip that flies now; its drone breaks off and comes home."""
-    flight = state.in_flight
-    if flight is not None:
-        flight.break_off()
-        fail(state, flight, reason)
 
 
 _EXECUTING = TripStatus.EXECUTING

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from .actions import PICK, RELEASE
 from .flight import Flight, keep_carrier, record_done
+from .gateway.given import outcome
 from .hooks import trace_of
 from .kernel import WHATEVER, Cancelled
 from .standing import Entry, JobState
@@ -78,19 +79,26 @@ def probe_of(app: App, action: Action) -> Callable[..., Any] | None:
     return getattr(sys.modules.get(hook.__module__), name, None)
 
 
-def fly_on(state: State, flight: Flight, link: Commanding) -> None:
-    """Hear of a flight that was not interrupted after all, or has ended meanwhile."""
-    mission = state.mission
+def fly_on(state: State, flight: Flight, link: Commanding, entry: Entry) -> None:
+    """Hear of a flight that was not interrupted after all; of one that has ended, hear now."""
     state.goes_on = True
-    mission.status = Status.RUNNING
+    state.mission.status = Status.RUNNING
     state.core.fleet.flies_on(flight.flier)
-    link.attach(flight.id, flight.report)
+    hear_end(flight, link, entry)
+
+
+def hear_end(flight: Flight, link: Commanding, entry: Entry) -> None:
+    """Hear how a flight ends; if it has ended, at once: before any limit can be over."""
+    if entry.flies:
+        link.attach(flight.id, flight.report)
+    else:
+        flight.report(outcome(entry))
 
 
 def fly_again(state: State, flight: Flight, link: Commanding) -> None:
     """Put an interrupted trip back: it has not been flown."""
     link.forget(flight.id)  # it shall be flown, whatever was known of it
-    state.flight, state.goes_on = None, False
+    state.flight, state.goes_on, state.interrupted = None, False, True
     state.core.transitions.interrupt(state.mission, flight.trip)
 
 
@@ -131,4 +139,4 @@ def settle_doubt(state: State, engine: Engine, link: Commanding, done: bool) -> 
 
 def standing(state: State) -> Status:
     """Return the status with which a mission goes on where it was interrupted."""
-    return STANDBY if state.mission.attempts else UNEXECUTED
+    return STANDBY if state.mission.attempts or state.interrupted else UNEXECUTED

@@ -49,7 +49,7 @@ class Life:
         heard: list[Listener] = [self.recorder.take, self._forget, *listeners]
         if watcher is not None:
             heard.append(partial(self._when_durable, watcher))
-        self.session = Session(app, fleet, kernel, navigation, heard, self.recorder)
+        self.session = Session(app, fleet, kernel, navigation, heard, self.recorder, link)
         self.control = Control(self.session, link)
         self.missions: tuple[Mission[Any], ...] = ()
         """All missions, those of earlier lives that have ended included."""

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
+from .calling_off import abort
 from .errors import HookFault
-from .flight import abort
 from .hooks import hook_name
 from .soundness import unsound
 from .status import Status, TripStatus
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from .state import State
 
 
-def settle(
+async def settle(
     run: Run[Any],
     hook: Callable[..., object],
     status: Status,
@@ -38,8 +38,12 @@ def settle(
     lie = _contradiction(run.state, returned)
     if lie is not None:
         raise HookFault(f"modifier {name} returned {returned.value}, but {lie}")
-    if returned is Status.FAILED:
+    flight = run.state.in_flight
+    if returned is Status.FAILED and flight is not None:
         abort(run.state, f"modifier {name} failed the trip")
+        ended = await flight  # which may have been done just before
+        if ended in emits:
+            return ended
     if returned is not run.mission.status:
         reason = f"modifier {name} failed the mission" if returned is Status.FAILED else ""
         run.core.transitions.modify(run.mission, returned, reason)

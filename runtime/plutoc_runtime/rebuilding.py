@@ -56,7 +56,7 @@ def rebuilt(core: Core, name: str, record: Record) -> Rebuilt:
 
 def remember(state: State, record: Record, drones: Mapping[str, Drone]) -> None:
     """Let a mission's state be what was remembered of it."""
-    state.at = record["at"]
+    state.at, state.interrupted = record["at"], record["interrupted"]
     state.first_start = record["first_start"]
     state.last_action_end = record["last_action_end"]
     state.waited = {_place(place) for place in record["waited"]} or None

@@ -112,9 +112,10 @@ class _Revival:
         """Deal with a flight that had not ended, and go on."""
         state, flight, link = self._state, self._flight, self._link
         assert flight is not None
-        if what is Fate.FLIES_ON:
+        entry = self._roll.jobs.get(flight.id)
+        if what is Fate.FLIES_ON and entry is not None:
             engaged.add(flight.flier)
-            fly_on(state, flight, link)
+            fly_on(state, flight, link, entry)
             self._resume()
             return
         if what is Fate.UNKNOWN:

@@ -29,6 +29,7 @@ from .words import duration
 if TYPE_CHECKING:
     from .app import App
     from .files.fleet import FleetFile
+    from .gateway.commanding import Commanding
     from .journal.recorder import Recorder
     from .navigation import Navigation
     from .simulation.faults import Faults
@@ -74,6 +75,7 @@ class Session:
         navigation: Navigation,
         listeners: Sequence[Listener],
         recorder: Recorder | None = None,
+        link: Commanding | None = None,
     ) -> None:
         self._kernel = kernel
         known = DroneStatus.FREE if recorder is None else DroneStatus.OFFLINE
@@ -105,6 +107,7 @@ class Session:
             ),
             deadlines=Deadlines(kernel),
             recorder=recorder,
+            link=link,
         )
         if recorder is not None:
             recorder.trace, recorder.results = trace, results

@@ -34,16 +34,28 @@ class State:
         "goes_on",
         "hooked_at",
         "hooks",
+        "interrupted",
         "last_action_end",
         "mission",
         "task",
         "waited",
+        "waiting",
     )
 
-    def __init__(self, core: Core, mission: Mission[Any], ending: Callable[[State], None]) -> None:
+    def __init__(
+        self,
+        core: Core,
+        mission: Mission[Any],
+        ending: Callable[[State], None],
+        waiting: Callable[[State], None],
+    ) -> None:
         self.core, self.mission = core, mission
         self.ending = ending
         """Told once when the mission is doomed."""
+        self.waiting = waiting
+        """Told when it must leave its graph, until a person says how it goes on."""
+        self.interrupted = False
+        """A flight of it was interrupted and does not count."""
         self.task: Task[Status] | None = None
         """The coroutine that takes it through its graph."""
         self.at: str | None = None
@@ -72,6 +84,10 @@ class State:
         """When its last hook was called."""
         self.hooks = 0
         """How many were called at that instant."""
+
+    def wait_for_a_person(self) -> None:
+        """Take it out of its graph until a person has said how it goes on."""
+        self.waiting(self)
 
     def end(self, reason: str) -> None:
         """Take it out of its graph, FAILED; only the first reason counts."""

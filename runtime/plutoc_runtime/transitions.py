@@ -148,6 +148,7 @@ class Transitions:
     def interrupt(self, mission: Mission[Any], trip: Trip) -> None:
         """A flight was interrupted before its action was done: it counts as no attempt."""
         trip.status, trip.drone, trip.start_time, trip.end_time = _WAITING, None, None, None
+        mission.attempts -= 1
         self._note(mission, "trip.interrupted", trip=trip.name)
 
     def skip(self, mission: Mission[Any], trip: Trip) -> None:

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from .flight import abort
+from .calling_off import abort
 from .kernel import Kernel, Key, Kind
 
 if TYPE_CHECKING:

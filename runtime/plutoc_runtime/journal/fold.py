@@ -85,6 +85,7 @@ def _new() -> Record:
         "carrier": None,
         "carries": None,
         "judged": 0,
+        "interrupted": False,
         "ended": False,
         "paused": None,
         "question": None,
@@ -190,6 +191,8 @@ def _reset(_: Records, record: Record, event: Fact) -> None:
 def _interrupted(_: Records, record: Record, event: Fact) -> None:
     _goes_on(record)
     _waits(_trip(record, event))
+    record["attempts"] -= 1
+    record["interrupted"] = True
     record.update(status="STANDBY", reason="", question=None, answer=None)
 
 

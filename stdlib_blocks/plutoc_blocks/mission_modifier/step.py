@@ -21,4 +21,4 @@ async def modify_mission(
 ) -> Status:
     """Call the hook, and go on with the status that it returns."""
     returned = await run.hook(hook, run.mission, run.context)
-    return settle(run, hook, status, emits, returned)
+    return await settle(run, hook, status, emits, returned)
