@@ -1,0 +1,109 @@
+"""Each thing that can strike does strike, and the missions bear it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from plutoc_runtime.testing.blows import BY_HAND, DEATHS, STOPS, Blow, Kind
+from plutoc_runtime.testing.book import Trial
+from plutoc_runtime.testing.case import FAIR, Case, Weather
+from plutoc_runtime.testing.rig import tried
+from tests.testing.examples import example, fleet_of, missions_of
+
+APP = example("alfalfa")
+FLEET = fleet_of("alfalfa", APP)
+CASE = Case(seed=3, missions=tuple(missions_of("alfalfa", APP, FLEET)[:1]), fleet=FLEET)
+ROW = 4
+"""A drone is on its way."""
+
+
+def struck(kind: Kind, after: float = 0.0) -> Trial:
+    """Return what comes of the example when something strikes it."""
+    return tried(APP, replace(CASE, blows=(Blow(kind=kind, row=ROW, after=after),)))
+
+
+@pytest.mark.parametrize("kind", Kind)
+def test_what_strikes_is_borne(kind: Kind) -> None:
+    """It strikes once, nothing is that may not be, and the mission ends."""
+    trial = struck(kind)
+    assert trial.fired[kind.value] == 1
+    assert trial.wrong == ()
+    (end,) = trial.ends.values()
+    assert end == ("CANCELLED" if kind is Kind.CANCEL else "COMPLETED")
+
+
+@pytest.mark.parametrize("kind", [*DEATHS, *STOPS, Kind.FREEZE, Kind.GATEWAY, Kind.CUT, Kind.DISK])
+def test_after_these_the_app_lives_again(kind: Kind) -> None:
+    """Once more, and no oftener."""
+    assert struck(kind).lives == 2
+
+
+@pytest.mark.parametrize("kind", [*BY_HAND, Kind.REBOOT, Kind.FALL])
+def test_these_the_app_outlives(kind: Kind) -> None:
+    """Nobody need start it again."""
+    assert struck(kind).lives == 1
+
+
+def test_a_lost_row_is_not_on_record_and_a_kept_one_is() -> None:
+    """That is what tells two deaths apart."""
+    plain = tried(APP, CASE)
+    row = next(place for place, time in enumerate(plain.times, start=1) if time > 0)
+    kept, lost = (
+        tried(APP, replace(CASE, blows=(Blow(kind=kind, row=row),)))
+        for kind in (Kind.KEPT, Kind.LOST)
+    )
+    before = [trial.events.index(_second_life(trial)) for trial in (kept, lost)]
+    assert before[0] > before[1]
+    assert kept.wrong == lost.wrong == ()
+
+
+def _second_life(trial: Trial) -> object:
+    return [event for event in trial.events if event["event"] == "brain.began"][1]
+
+
+@pytest.mark.parametrize(
+    ("weather", "what"),
+    [
+        (Weather(hook=0.5), "hook raising"),
+        (Weather(block=1.0), "hook blocking"),
+        (Weather(late=1.0), "late wake-up"),
+        (Weather(slow=0.4), "slow line"),
+        (Weather(radio=0.3), "slow radio"),
+        (Weather(disk=0.2), "slow disk"),
+        (Weather(link=0.5), "flight: link"),
+        (Weather(crash=0.6), "flight: crash"),
+        (Weather(action=0.5), "flight: action"),
+        (Weather(battery=0.5), "flight: battery"),
+    ],
+)
+def test_bad_weather_is_borne(weather: Weather, what: str) -> None:
+    """It is bad, and nothing is that may not be."""
+    trial = tried(APP, replace(CASE, weather=weather))
+    assert trial.fired[what] > 0
+    assert trial.wrong == ()
+
+
+@pytest.mark.parametrize(
+    ("weather", "what"),
+    [
+        (Weather(jump=100.0), "clock jump"),
+        (Weather(jump=-50.0), "clock jump"),
+        (Weather(snapshot=1.0), "snapshot"),
+        (Weather(down=60.0), "failsafe"),
+    ],
+)
+def test_bad_weather_between_two_lives_is_borne(weather: Weather, what: str) -> None:
+    """It needs a death to show."""
+    blows = (Blow(kind=Kind.CRASH, row=ROW, after=1.0),)
+    trial = tried(APP, replace(CASE, weather=weather, blows=blows))
+    assert trial.fired[what] > 0
+    assert trial.wrong == ()
+
+
+def test_fair_weather_brings_nothing() -> None:
+    """Nothing strikes, and there is one life."""
+    trial = tried(APP, CASE)
+    assert CASE.weather == FAIR
+    assert (dict(trial.fired), trial.lives, trial.wrong) == ({}, 1, ())
