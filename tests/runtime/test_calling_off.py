@@ -1,0 +1,70 @@
+"""A limit that is over while the trip's own end is on its way: what was done stays done."""
+
+from __future__ import annotations
+
+import pytest
+
+from plutoc_runtime.context import Context
+from plutoc_runtime.gateway.line import Line
+from plutoc_runtime.status import Status
+
+from . import apps
+from .living import Living, enterable, names
+
+
+def picking(*, safe_time: float, late: float) -> Living:
+    mission = apps.mission("a", apps.pick("p", 3), apps.release("r", 5), safe_time=safe_time)
+    living = Living(enterable(watch=apps.timed, attempts=3), mission)
+    living.gateway.line = Line(living.gateway, lambda: late)
+    return living
+
+
+def when_picked() -> float:
+    living = picking(safe_time=100.0, late=0.0)
+    living.run()
+    return living.times("trip.completed", "p")[0]
+
+
+def test_what_was_done_before_its_limit_was_heard_of_is_not_done_again() -> None:
+    moment = when_picked()
+    living = picking(safe_time=moment + 0.5, late=1.0)
+    assert living.run() == ["COMPLETED"]
+    assert living.done_by_drones == [("pick_item", "pills"), ("release_item", "pills")]
+    assert names(living.named("trip.failed"), "trip") == []
+
+
+def test_what_was_not_done_at_its_limit_fails() -> None:
+    living = picking(safe_time=when_picked() - 0.5, late=0.0)
+    assert living.run() == ["FAILED"]
+    assert living.done_by_drones == []
+    assert names(living.named("trip.launched"), "attempt") == [1, 2, 3]
+
+
+def test_a_photo_is_simply_taken_again() -> None:
+    mission = apps.mission("a", apps.trip("1", 3), safe_time=8.0)
+    living = Living(enterable(watch=apps.timed, attempts=2), mission)
+    assert living.run() == ["FAILED"]
+    assert len(living.named("trip.launched")) == 2
+
+
+@pytest.mark.parametrize("later", [0.2, 0.7, 1.5])
+def test_a_crash_after_the_limit_finds_it_done_as_well(later: float) -> None:
+    moment = when_picked()
+    living = picking(safe_time=moment + 0.5, late=1.0)
+    living.crash(moment + later)
+    assert living.run() == ["COMPLETED"]
+    assert living.done_by_drones == [("pick_item", "pills"), ("release_item", "pills")]
+
+
+def test_a_modifier_that_fails_what_was_done_fails_nothing() -> None:
+    moment = when_picked()
+
+    async def limit(mission: apps.Mission, context: Context) -> Status:
+        await context.sleep(moment + 0.5)
+        return Status.FAILED
+
+    mission = apps.mission("a", apps.pick("p", 3), apps.release("r", 4))
+    every = (Status.STANDBY, Status.COMPLETED, Status.FAILED)
+    living = Living(enterable(watch=apps.modified(limit, *every)), mission)
+    living.gateway.line = Line(living.gateway, lambda: 1.0)
+    assert living.run() == ["COMPLETED"]
