@@ -102,7 +102,11 @@ def struck(name: str, seeds: range, own: bool = False) -> Struck:
     fleet, tally = fleet_of(name, app), Tally()
     missions = missions_of(name, app, fleet) if own else ()
     explored(
-        app, cases(app, fleet, seeds, missions), tally, lambda tally: len(tally.findings) >= ENOUGH
+        app,
+        cases(app, fleet, seeds, missions),
+        tally,
+        lambda tally: len(tally.findings) >= ENOUGH,
+        lambda trial: trial.violations,  # an evaluator may well ask too much of half a fleet
     )
     findings, tally.findings = tally.findings, []  # they are of classes that no other process has
     said: list[str] = []

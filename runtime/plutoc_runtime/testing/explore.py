@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from ..app import App
     from ..files.fleet import FleetFile
     from ..model import Mission
+    from .book import Trial
 
 FAULTS = (
     *(kind.value for kind in Kind),
@@ -83,9 +84,13 @@ class Tally:
 
 
 def explored(
-    app: App, cases: Iterable[Case], tally: Tally, enough: Callable[[Tally], bool]
+    app: App,
+    cases: Iterable[Case],
+    tally: Tally,
+    enough: Callable[[Tally], bool],
+    wrong: Callable[[Trial], tuple[str, ...]] = lambda trial: trial.wrong,
 ) -> None:
-    """Try one case after the other, until all are tried or it is enough."""
+    """Try one case after the other, until all are tried or it is enough; `wrong` says what to find."""
     for case in cases:
         if enough(tally):
             return
@@ -95,8 +100,9 @@ def explored(
         tally.lives += trial.lives
         tally.fired.update(trial.fired)
         tally.missions.update(trial.ends.values())
-        if trial.wrong:
-            tally.findings.append(Finding(case=case, sentences=trial.wrong))
+        sentences = wrong(trial)
+        if sentences:
+            tally.findings.append(Finding(case=case, sentences=sentences))
 
 
 def everywhere(app: App, case: Case) -> Iterator[Case]:

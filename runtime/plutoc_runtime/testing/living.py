@@ -295,5 +295,7 @@ class Living:
 
     def die(self) -> None:
         """Nothing of it goes on."""
+        if self.kernel.dead:
+            return
         self.kernel.over = self.kernel.dead = True
         self.kernel.close()

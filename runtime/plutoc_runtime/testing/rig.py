@@ -82,6 +82,8 @@ class Rig:
         """Whether the next report is lost, and the line with it."""
         self.gateway = self.new_gateway()
         self.brain: Living | None = None
+        self.brains: list[Living] = []
+        """All there ever were: of some nobody has noticed yet that they are dead."""
         self.lives = 0
         self.skew = 0.0
         """How far the brain's clock is ahead of the world's."""
@@ -100,8 +102,8 @@ class Rig:
             if not self.turn():
                 break
         trial = self.book.closed(self.lives)
-        if self.brain is not None:
-            self.brain.die()
+        for brain in self.brains:
+            brain.die()
         self.world.close()
         return trial
 
@@ -205,6 +207,7 @@ class Rig:
             self.skew += self.case.weather.jump
         records = self.book.records(self.case.weather.snapshot, self.chance)
         self.brain = Living(self, records)
+        self.brains.append(self.brain)
 
     def lose_brain(self, down: float) -> None:
         """The brain is dead; the gateway notices at once, or when the heartbeat is missing."""
