@@ -19,7 +19,7 @@ from .journal.writer import Writer
 from .kernel import FLEET, Cancelled
 from .life import Life
 from .realtime import RealTime
-from .remote_control import listening, perform
+from .remote_control import listening, perform, stop_in
 from .setting import End, Lived
 from .signals import Signal
 from .standing import Down
@@ -38,6 +38,8 @@ SNAPSHOT_EVERY = 50_000
 SNAPSHOT_AT_END = 1_000
 """Events that are worth one at the end of a life."""
 
+_ENDED = "the app ended before it could say whether that was done: look, once it goes on"
+
 
 class OneLife:
     """From its roll call to its last word."""
@@ -48,6 +50,7 @@ class OneLife:
         self._kernel = RealTime(setting.speed, begin)
         self._records = records
         self._writer = Writer(store, partial(self._post, self._durable), self._unwritable)
+        self._stops: Stops | None = None
         self._link: Reached | None = None
         self._life: Life | None = None
         self._end: Signal[End] = Signal()
@@ -58,7 +61,7 @@ class OneLife:
 
     async def live(self, stops: Stops) -> Lived:
         """Let everything go on until all is over, it is stopped, or the gateway dies."""
-        setting, kernel = self._setting, self._kernel
+        setting, kernel, self._stops = self._setting, self._kernel, stops
         lost = partial(self._end.set, End.LOST)
         self._link = link = await setting.connect(kernel, self._store.epoch, lost)
         self._life = life = Life(
@@ -165,6 +168,11 @@ class OneLife:
 
     async def _answer(self, request: Mapping[str, object]) -> str:
         """Do what somebody asks for, at once; say so when it cannot be lost any more."""
+        how = stop_in(request)
+        if how is not None and self._stops is not None:
+            self._stops.asked = how  # if the gateway dies meanwhile, the next life stops, too
+        if self._end.is_set:
+            return self._too_late(how)
         said: list[str] = []
         refused: list[BadInput] = []
         done: list[Task[None]] = []
@@ -186,6 +194,14 @@ class OneLife:
             await self._on_record(done)
         return said[0]
 
+    def _too_late(self, how: Down | None) -> str:
+        """Nothing of this life goes on any more: only a Stop still counts."""
+        if how is None:
+            raise BadInput(_ENDED)
+        if self._end.result() is End.LOST:
+            return "stopping, as soon as another gateway is there"
+        return "the app ends, and all drones are down"
+
     async def _on_record(self, done: Sequence[Task[None]]) -> None:
         """Wait until what was asked for was done and is durable; raise `BadInput` if it is not."""
         answers = [asyncio.ensure_future(self._kernel.offer(task)) for task in done]
@@ -195,6 +211,4 @@ class OneLife:
             one.cancel()
         is_known = self._kept.result() if self._kept.done() else all(task.is_set for task in done)
         if self._failure is not None or not is_known:
-            raise BadInput(
-                "the app ended before it could say whether that was done: look, once it goes on"
-            )
+            raise BadInput(_ENDED)

@@ -63,9 +63,10 @@ class Control(Protocol):
 
 def perform(control: Control, request: Mapping[str, object]) -> str:
     """Do what was asked; raise `BadInput` if it makes no sense."""
+    how = stop_in(request)
+    if how is not None:
+        return control.stop(how)
     match request:
-        case {"command": "stop", "how": ("rtl" | "land") as how}:
-            return control.stop(Down(how))
         case {"command": "pause", "mission": str() | None as mission}:
             return control.pause(mission)
         case {"command": "go-on", "mission": str() | None as mission}:
@@ -78,6 +79,14 @@ def perform(control: Control, request: Mapping[str, object]) -> str:
             return control.decide(mission, answer)
         case _:
             raise BadInput("this app does not know that command")
+
+
+def stop_in(request: Mapping[str, object]) -> Down | None:
+    """Return how a request wants all drones to come down; None: it wants something else."""
+    match request:
+        case {"command": "stop", "how": ("rtl" | "land") as how}:
+            return Down(how)
+    return None
 
 
 @asynccontextmanager

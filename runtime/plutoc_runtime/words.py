@@ -19,6 +19,13 @@ def quoted(text: str) -> str:
     return f'"{printable(text)}"'
 
 
+def in_shell(text: object) -> str:
+    """Write a word of a command line so that a shell takes it as it is, and runs nothing of it."""
+    from shlex import quote  # only who is told what to type needs it
+
+    return quote(str(text))
+
+
 def number(value: float) -> str:
     """Write a number with three decimals at most: 2, 0.5, 1.333."""
     text = f"{value:.3f}".rstrip("0").rstrip(".")

@@ -144,6 +144,21 @@ def test_a_stop_reaches_drones_whose_app_hangs(new_flight: NewFlight) -> None:
     assert completed(flight)
 
 
+def test_a_stop_counts_although_the_gateway_dies_meanwhile(new_flight: NewFlight) -> None:
+    """Another one is started, and brings the drones down."""
+    flight = new_flight(1.0)
+    flight.start()
+    flight.until_it_says("launched")
+    assert flight.run("tell", str(flight.journal), "stop", "--rtl").returncode == 0
+    gateway = gateway_of(flight.journal)
+    assert gateway is not None
+    os.kill(gateway, signal.SIGKILL)
+    assert flight.see_through() == 130
+    assert "the gateway has ended" in flight.lives[0]
+    assert all(z == 0.0 for _, _, z in drones_are_at(flight))
+    assert no_process_is_left(flight)
+
+
 def test_missions_are_paused_skipped_and_cancelled_while_they_fly(new_flight: NewFlight) -> None:
     flight = new_flight(10.0)
     flight.start()

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from ..asking import Nobody
 from ..errors import BadInput
 from ..journal.store import Store
-from ..words import printable, quoted
+from ..words import in_shell, printable, quoted
 from . import output
 from .flown import ANSWERS, records_in, waiting, waiting_lines
 from .tell import asked as asked_of_app
@@ -45,7 +45,7 @@ def decide(app: App, options: Options) -> int:
         _put_down(journal, mission, answer, records.time)
         output.line(
             f"mission {quoted(mission)}: {answer}; it is on record, and "
-            f"{app.name} resume {journal} acts on it"
+            f"{app.name} resume {in_shell(journal)} acts on it"
         )
     return 0
 

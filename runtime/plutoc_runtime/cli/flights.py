@@ -17,6 +17,7 @@ from ..gateway.settings import settings_for
 from ..gateway.starting import connect
 from ..journal.place import gateway_folder
 from ..journal.store import Store
+from ..words import in_shell
 from ..setting import End, Lived, Setting, Stops
 from . import output, stop_mark
 from .events import line_of
@@ -55,7 +56,12 @@ class Flight:
     @property
     def how_to_go_on(self) -> str:
         """A sentence for whoever has stopped it."""
-        return f"to go on: {self.app.name} resume {self.journal}"
+        return how_to_go_on(self.app, self.journal)
+
+
+def how_to_go_on(app: App, journal: Path) -> str:
+    """Return a sentence for whoever has stopped an app, with what can be typed."""
+    return f"to go on: {app.name} resume {in_shell(journal)}"
 
 
 def see_through(flight: Flight, store: Store, known: Recovered | None = None) -> int:
@@ -140,7 +146,7 @@ def supervised(app: App, options: Options, journal: Path, first: Sequence[str] |
             first=on if first is None else again.command(*first, "--sim", *flags),
             again=lambda: on if journal.exists() else None,
             finished=lambda: finished(records_in(app, journal)) if journal.exists() else 0,
-            how_to_go_on=f"to go on: {app.name} resume {journal}",
+            how_to_go_on=how_to_go_on(app, journal),
         )
     )
 

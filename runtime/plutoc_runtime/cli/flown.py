@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterator, Sequence
 from contextlib import closing
 from pathlib import Path
@@ -12,7 +13,7 @@ from ..journal.fold import Record, Records
 from ..journal.header import check
 from ..journal.reader import Reader
 from ..status import Status
-from ..words import printable, quoted
+from ..words import in_shell, printable
 from .report import MissionRow, drone_table, in_one_line, mission_table
 from .verdict import code_of
 
@@ -22,6 +23,9 @@ if TYPE_CHECKING:
 
 ANSWERS = {"question": ("done", "not-done", "cancel"), "held": ("go-on", "cancel")}
 """What can be said to a mission that waits for this."""
+
+_HARMLESS = re.compile(r"[\w ,.:;/()+-]+")
+"""Names of which a shell leaves everything as it is, in quotation marks."""
 
 _ASIDE = {"question": Status.UNCERTAIN, "held": Status.HELD, "paused": Status.PAUSED}
 
@@ -71,7 +75,13 @@ def waiting_lines(app: App, journal: Path, records: Records) -> Iterator[str]:
     for name, what, question in waiting(records):
         yield f"{printable(name)}: {printable(question)}"
         for answer in ANSWERS[what]:
-            yield f"  {app.name} decide {journal} {quoted(name)} {answer}"
+            yield f"  {app.name} decide {in_shell(journal)} {_typed(name)} {answer}"
+
+
+def _typed(name: str) -> str:
+    """Write a mission's name, which may come from a stranger, as it can be typed safely."""
+    word = f'"{name}"' if _HARMLESS.fullmatch(name) else in_shell(name)
+    return f"-- {word}" if name.startswith("-") else word
 
 
 def records_in(app: App, journal: Path) -> Records:

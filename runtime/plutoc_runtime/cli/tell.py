@@ -12,9 +12,11 @@ from typing import TYPE_CHECKING
 from ..asking import Ended, Nobody, Silent, ask, note_of
 from ..errors import BadInput
 from ..gateway.starting import stop_directly
+from ..journal.errors import missing
 from ..journal.lock import holder
 from ..journal.place import gateway_folder
 from ..standing import Down
+from ..words import in_shell
 from . import output, stop_mark
 
 if TYPE_CHECKING:
@@ -44,16 +46,20 @@ def asked(app: App, options: Options, request: Mapping[str, object]) -> str:
     try:
         return ask(note_of(journal), request, PATIENCE)
     except Nobody:
+        if not journal.exists():
+            raise missing(journal) from None
         raise Nobody(
             f"{journal}: {app.name} is not running, so there is nobody to tell; "
-            f"{app.name} resume {journal} goes on"
+            f"{app.name} resume {in_shell(journal)} goes on"
         ) from None
     except Ended as error:
-        raise Ended(f"{journal}: {error}; {app.name} resume {journal} does that") from None
+        raise Ended(
+            f"{journal}: {error}; {app.name} resume {in_shell(journal)} does that"
+        ) from None
     except Silent as error:
         raise Silent(
             f"{journal}: {error}; a hook may keep it busy. "
-            f"{app.name} tell {journal} stop brings the drones down all the same"
+            f"{app.name} tell {in_shell(journal)} stop brings the drones down all the same"
         ) from None
 
 
@@ -80,6 +86,11 @@ def _request(app: App, options: Options) -> dict[str, object]:
 def _stop(app: App, options: Options, request: dict[str, object]) -> str:
     """Stop the app; if it says nothing, bring the drones down without it."""
     journal, how = Path(os.path.realpath(options.the_journal)), Down(request["how"])
+    again = f"{app.name} resume {in_shell(journal)}"
+    if gateway_folder(journal).is_dir():
+        stop_mark.leave(
+            journal, how
+        )  # if the app crashes meanwhile: who starts it again shall land
     until = time.monotonic() + PATIENCE
     while True:
         try:
@@ -87,9 +98,10 @@ def _stop(app: App, options: Options, request: dict[str, object]) -> str:
         except (Nobody, Silent) as nobody:
             with suppress(Nobody):
                 said = stop_directly(gateway_folder(journal), how, PATIENCE)
-                stop_mark.leave(journal, how)
-                return f"{nobody}: {said} without it; {app.name} resume {journal} goes on"
+                return f"{nobody}: {said} without it; {again} goes on"
         if holder(journal) is None:
+            if not journal.exists():
+                raise missing(journal)
             raise Nobody(f"{journal}: {app.name} is not running, and no drone flies")
         if time.monotonic() > until:
             raise Silent(f"{journal}: {app.name} runs, but has come to no drones: end it")

@@ -157,6 +157,25 @@ def test_two_processes_cannot_go_on_with_one_journal(journal: Write, command: Co
     assert "only one at a time may" in err
 
 
+@pytest.mark.parametrize(
+    ("name", "typed"),
+    [
+        ("North field, 2", '"North field, 2"'),
+        ("$(reboot)", "'$(reboot)'"),
+        ('the "so-called" `field`', "'the \"so-called\" `field`'"),
+        ("--help", '-- "--help"'),
+        ("x" * 100, f'"{"x" * 100}"'),
+    ],
+)
+def test_whatever_a_mission_is_called_what_is_said_to_be_typed_runs_nothing_else(
+    name: str, typed: str, journal: Write, command: Command
+) -> None:
+    facts = {"mission": name}
+    path = journal(created(name, 0), {**LAUNCHED, **facts}, {**DOUBT, **facts})
+    _, out, _ = command("decide", path)
+    assert out.splitlines()[1] == f"  alfalfa decide {path} {typed} done"
+
+
 def test_decide_alone_lists_what_is_asked(journal: Write, command: Command) -> None:
     """With the commands that answer."""
     path = journal(created("North", 0), created("South", 1), LAUNCHED, DOUBT)

@@ -103,6 +103,7 @@ def test_what_makes_no_sense_is_refused(
 
 
 def test_where_no_app_runs_one_is_told_how_to_go_on(journal: Path, command: Command) -> None:
+    journal.touch()
     code, out, err = command("tell", journal, "pause")
     assert (code, out) == (2, "")
     assert err == (
@@ -111,7 +112,31 @@ def test_where_no_app_runs_one_is_told_how_to_go_on(journal: Path, command: Comm
     )
 
 
+def test_what_is_said_to_be_typed_is_safe_to_type(tmp_path: Path, command: Command) -> None:
+    """Whatever the journal is called."""
+    journal = tmp_path / "a b$(id)"
+    journal.touch()
+    _, _, err = command("tell", journal, "pause")
+    assert err.endswith(f"alfalfa resume '{journal}' goes on\n")
+
+
+@pytest.mark.parametrize("words", ["stop", "stop --rtl", "pause"])
+def test_nobody_is_told_that_no_drone_flies_for_a_wrong_name(
+    words: str, journal: Path, command: Command
+) -> None:
+    said = f"{journal}: there is no such journal\n"
+    assert command("tell", journal, *words.split()) == (2, "", said)
+
+
+def test_a_stop_is_kept_for_whoever_starts_the_app_again(journal: Path, command: Command) -> None:
+    """It may crash while its drones come down."""
+    with running(journal, lambda request: "stopping"):
+        assert command("tell", journal, "stop", "--rtl") == (0, "stopping\n", "")
+        assert stop_mark.found(journal) is Down.HOME
+
+
 def test_where_nothing_runs_there_is_nothing_to_stop(journal: Path, command: Command) -> None:
+    journal.touch()
     said = f"{journal}: alfalfa is not running, and no drone flies\n"
     assert command("tell", journal, "stop") == (2, "", said)
 
