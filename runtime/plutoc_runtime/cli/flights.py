@@ -17,8 +17,8 @@ from ..gateway.settings import settings_for
 from ..gateway.starting import connect
 from ..journal.place import gateway_folder
 from ..journal.store import Store
-from ..words import in_shell
 from ..setting import End, Lived, Setting, Stops
+from ..words import in_shell
 from . import output, stop_mark
 from .events import line_of
 from .flown import finished, records_in, report_of, waiting_lines
