@@ -61,6 +61,8 @@ def _tried(app: App, options: Options) -> int:
         smallest = _smallest(app, tally.findings)
     finally:
         progress.clear()
+    if not tally.runs:
+        raise BadInput("the fleet can fly none of the missions that were drawn: use --missions")
     if options.json:
         output.line(dumped(findings_data(app, tally, smallest)))
     else:

@@ -94,6 +94,8 @@ def explored(
     for case in cases:
         if enough(tally):
             return
+        if not case.missions:
+            continue  # the fleet can fly none that was drawn
         trial = tried(app, case)
         tally.runs += 1
         tally.rows += trial.rows
@@ -111,6 +113,8 @@ def everywhere(app: App, case: Case) -> Iterator[Case]:
     Of a long journal it is every second row, or third, and so on. In the midst of every action
     there die brain and gateway, and drones forget.
     """
+    if not case.missions:
+        return
     yield case
     trial = tried(app, case)
     for row in range(1, trial.rows + 1, 1 + trial.rows // _MOST_ROWS):

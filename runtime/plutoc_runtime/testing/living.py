@@ -202,7 +202,7 @@ class Living:
             if kind is Kind.REBOOT:
                 rig.fired[kind.value] += 1
                 rig.navigation.reboot(drone)
-            elif rig.navigation.strike(drone, Failure.CRASH):
+            elif self.flies(drone) and rig.navigation.strike(drone, Failure.CRASH):
                 rig.fired[kind.value] += 1
         elif kind is Kind.REPORT:
             rig.fired[kind.value] += 1
@@ -225,6 +225,10 @@ class Living:
         elif kind in BY_HAND:
             brain.by_hand(kind, events)
 
+    def flies(self, drone: str) -> bool:
+        """Whether a drone is in the air: nobody can fall from the ground."""
+        return not self.rig.navigation.telemetry(drone).landed
+
     def by_hand(self, kind: Kind, events: list[Event]) -> None:
         named = [str(event["mission"]) for event in events if event.get("mission")]
         mission = (named or [mission.name for mission in self.rig.case.missions])[-1]
@@ -240,6 +244,9 @@ class Living:
                 self.rig.later(THINKS, self.person)
 
     def told(self, command: Callable[[], object]) -> bool:
+        """Tell the app something; say whether it could."""
+        if self.task.is_set:  # it is about to end, and hears nobody any more
+            return False
         try:
             command()
         except BadInput:
