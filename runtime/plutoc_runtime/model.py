@@ -213,7 +213,7 @@ class Mission(Generic[AnyTrip]):
     round: int = field(default=0, init=False)
     """How often it has begun again."""
     attempts: int = field(default=0, init=False)
-    """How many flights it has had, good and bad."""
+    """How many flights it has had, good and bad; one that was interrupted does not count."""
     index: int = 0
     """Its place in the missions file."""
     last_result: int | None = field(default=None, init=False, repr=False)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterable
 from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -17,6 +18,7 @@ from .tell import asked as asked_of_app
 
 if TYPE_CHECKING:
     from ..app import App
+    from ..journal.fold import Records
     from .options import Options
 
 
@@ -31,7 +33,7 @@ def decide(app: App, options: Options) -> int:
         return 0
     asked = {name: (what, question) for name, what, question in waiting(records)}
     if mission not in asked:
-        raise BadInput(f"{journal}: mission {quoted(mission)} waits for nobody's decision")
+        raise BadInput(_not_asked(journal, mission, records, asked))
     what, question = asked[mission]
     if answer not in ANSWERS[what]:
         fitting = ", ".join(ANSWERS[what])
@@ -48,6 +50,14 @@ def decide(app: App, options: Options) -> int:
             f"{app.name} resume {in_shell(journal)} acts on it"
         )
     return 0
+
+
+def _not_asked(journal: Path, mission: str, records: Records, asked: Iterable[str]) -> str:
+    known = mission in records.missions
+    what = "waits for nobody's decision" if known else "is not in this journal"
+    others = ", ".join(map(quoted, asked))
+    rest = f"; those that wait are: {others}" if others else ""
+    return f"{journal}: mission {quoted(mission)} {what}{rest}"
 
 
 def _put_down(journal: Path, mission: str, answer: str, now: float) -> None:

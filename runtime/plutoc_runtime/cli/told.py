@@ -83,7 +83,7 @@ _SENTENCES: Mapping[str, Callable[[Fact], str]] = {
     "trip.reset": lambda event: f"trip {event['trip']} waits for attempt {event['attempt']}",
     "action.begun": lambda event: f"the action of trip {event['trip']} begins ({event['drone']})",
     "drone.free": _drone("is free"),
-    "drone.busy": _drone("flies on for its mission"),
+    "drone.busy": _drone("stays with its mission"),
     "drone.returning": _drone("returns home"),
     "drone.charging": _drone("charges"),
     "drone.offline": _drone("does not answer"),

@@ -32,10 +32,15 @@ NOTE, SETTINGS, LEDGER, LOCK, LOG = "gateway", "settings.json", "ledger", "lock"
 
 ANOTHER_RUNS = 3
 
+_FOR_APPS = "gateway: an app starts this by itself when it flies; there is nothing to do by hand"
+
 
 def main(arguments: Sequence[str]) -> int:
     """Run the gateway of a folder until nobody needs it."""
-    (folder,) = map(Path, arguments)
+    folder = Path(*arguments[:1])
+    if len(arguments) != 1 or not (folder / SETTINGS).is_file():
+        print(_FOR_APPS, file=sys.stderr)
+        return 2
     lock = taken(folder)
     if lock is None:
         return ANOTHER_RUNS

@@ -26,8 +26,8 @@ def exists(path: Path) -> JournalError:
     if path.is_dir():
         return is_folder(path)
     return JournalError(
-        f"{path}: there is a journal already, and it is never overwritten: go on with it by"
-        " resume, or name another place with --journal"
+        f"{path}: there is a journal already, or some other file, and it is never overwritten:"
+        " go on with a journal by resume, or name another place with --journal"
     )
 
 
@@ -225,7 +225,7 @@ def unreadable_snapshots() -> str:
 def no_home() -> JournalError:
     """Nobody can tell where this user keeps things."""
     return JournalError(
-        "there is no home folder to keep the journal in: say where it is to be with --journal"
+        "there is no home folder to keep journals in: name the journal, which for fly is --journal"
     )
 
 

@@ -202,7 +202,7 @@ def test_a_decision_is_put_down_in_a_journal_at_rest(journal: Write, command: Co
     ("words", "said"),
     [
         ("South done", 'mission "South" waits for nobody\'s decision'),
-        ("East done", 'mission "East" waits for nobody\'s decision'),
+        ("East done", 'mission "East" is not in this journal; those that wait are: "North"'),
         ("North", "was it done?; say one of: done, not-done, cancel"),
         ("North go-on", "was it done?; say one of: done, not-done, cancel"),
     ],
