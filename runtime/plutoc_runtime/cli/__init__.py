@@ -16,6 +16,9 @@ if TYPE_CHECKING:
 
 BAD_INPUT, INTERNAL, INTERRUPTED, CLOSED_PIPE = 2, 70, 130, 141
 
+_WITHOUT_HOOKS = (["tell"], ["journal"])
+"""Commands that need nothing of an app but its name: a Stop must work whatever is in hooks.py."""
+
 
 def start(name: str, load: Callable[[], App]) -> int:
     """Load an app and run the command that the program was called with."""
@@ -26,9 +29,9 @@ def start(name: str, load: Callable[[], App]) -> int:
     app: App | None = None
     ending = Ending(name)
     with ending:
-        from .loading import loaded
+        from .loading import bare, loaded
 
-        app = loaded(load)
+        app = bare(name) if sys.argv[1:2] in _WITHOUT_HOOKS else loaded(load)
     return main(app) if app is not None else ending.code
 
 

@@ -6,7 +6,7 @@ import traceback
 from collections.abc import Callable
 from pathlib import PurePath
 from types import ModuleType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NoReturn
 
 from ..errors import BadInput
 
@@ -14,6 +14,26 @@ if TYPE_CHECKING:
     from ..app import App
 
 HOOKS = "hooks.py"
+
+
+def bare(name: str) -> App:
+    """Return an app of which nothing but the name is known, for commands that need no more."""
+    from ..app import App
+    from ..model import Mission, Trip
+
+    def flow(_: object) -> NoReturn:
+        raise RuntimeError("nothing flies here")
+
+    return App(
+        name=name,
+        title=name,
+        flow=flow,
+        mission=Mission,
+        trip=Trip,
+        fields=(),
+        categories=(),
+        actions={},
+    )
 
 
 def loaded(load: Callable[[], App]) -> App:

@@ -88,9 +88,8 @@ def _stop(app: App, options: Options, request: dict[str, object]) -> str:
     journal, how = Path(os.path.realpath(options.the_journal)), Down(request["how"])
     again = f"{app.name} resume {in_shell(journal)}"
     if gateway_folder(journal).is_dir():
-        stop_mark.leave(
-            journal, how
-        )  # if the app crashes meanwhile: who starts it again shall land
+        # If the app crashes meanwhile, whoever starts it again shall land as well.
+        stop_mark.leave(journal, how)
     until = time.monotonic() + PATIENCE
     while True:
         try:

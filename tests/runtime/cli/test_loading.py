@@ -54,6 +54,21 @@ def test_what_is_wrong_with_the_hooks_is_told_with_its_place(
     assert "Traceback" not in printed.err
 
 
+@pytest.mark.parametrize("command", ["tell", "journal", "decide"])
+def test_an_app_can_be_stopped_whatever_is_in_its_hooks(
+    command: str,
+    load_with: Callable[[str], int],
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    """And its journal can be read: only who asks for missions needs them."""
+    what = ["stop"] if command == "tell" else []
+    monkeypatch.setattr(sys, "argv", ["tried", command, "no.journal", *what])
+    assert load_with("import no_such_module\n") == 2
+    no_journal = "no.journal: there is no such journal" in capsys.readouterr().err
+    assert no_journal is (command != "decide")
+
+
 def test_a_mistake_of_ours_is_not_blamed_on_the_hooks(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
