@@ -30,6 +30,9 @@ THINKS = 20.0
 STOPPED = 45.0
 """Seconds for which an app that was stopped stays so."""
 
+_read = json.JSONDecoder().raw_decode
+"""A row begins and ends with its list: there is nothing around it to look for."""
+
 _NONE: frozenset[Kind] = frozenset()
 
 
@@ -112,7 +115,7 @@ class Living:
         if rig.brain is not self:  # somebody else has the journal by now
             return self.added
         rig.book.times.append(rig.world.now)
-        events: list[Event] = json.loads(row)
+        events: list[Event] = _read(row)[0]
         if self.before:
             self.look_back(events)
         struck = rig.strikes.get(len(rig.book.times))
