@@ -8,6 +8,8 @@ from json.encoder import encode_basestring_ascii
 from math import isfinite
 from typing import TYPE_CHECKING, Any
 
+from .words import shown
+
 if TYPE_CHECKING:
     from .trace import Event
 
@@ -63,7 +65,15 @@ class _ExactWriters(dict[type, Callable[[Any], str]]):
     """The same, but nothing is rounded."""
 
     def __missing__(self, _: type) -> Callable[[Any], str]:
-        return json.dumps
+        return _as_can_be
+
+
+def _as_can_be(value: object) -> str:
+    """Write what may be no plain data: a hook may put anything anywhere."""
+    try:
+        return json.dumps(value, default=shown)
+    except (TypeError, ValueError):  # keys that are no text, circles
+        return json.dumps(shown(value))
 
 
 def _number(value: float) -> str:

@@ -264,3 +264,16 @@ def test_a_held_mission_that_is_let_go_on_may_still_be_uncertain() -> None:
     assert living.life.recorder.records.missions["a"]["answer"] is None
     living.decide_at_rest("a", "done")
     assert living.run() == ["COMPLETED"]
+
+
+def test_a_hook_that_puts_anything_anywhere_stops_no_journal() -> None:
+    loop: list[object] = []
+    loop.append(loop)
+
+    def odd(mission: apps.Mission, context: Context) -> None:
+        setattr(mission.trips[-1], "delay", loop)  # as Python lets it
+
+    mission = apps.mission("a", apps.trip("1", 3), apps.trip("2", 4))
+    living = Living(enterable(prepare=odd), mission)
+    assert living.run() == ["COMPLETED"]
+    assert json.dumps(living.life.recorder.records.data)

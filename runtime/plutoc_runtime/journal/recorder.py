@@ -58,13 +58,13 @@ class Recorder:
     def take(self, event: Event) -> None:
         """Something happened: it goes on record with the others of its instant."""
         add = _ADDED.get(str(event["event"]))
-        if add is None:
-            self._lines.append(exact(event))
-            self.records.take(event)
-        else:
-            written = exact({**event, **add(self, event)})
-            self._lines.append(written)
-            self.records.take(json.loads(written))  # its own, not the living mission's lists
+        if add is not None:
+            event = {**event, **add(self, event)}
+        written = exact(event)
+        self._lines.append(written)
+        if event["event"] in _SHARED:
+            event = json.loads(written)  # its own, not what the living mission and its hooks have
+        self.records.take(event)
 
     def when_durable(self, call: Callable[[], object]) -> None:
         """Call this as soon as all that has happened up to now is durable; not before this instant
@@ -142,6 +142,9 @@ def _added(recorder: Recorder, event: Event) -> Facts:
     assert isinstance(names, list)
     return {"trips": [trip_data(recorder._app, trip) for trip in trips if trip.name in names]}
 
+
+_SHARED = ("mission.created", "mission.changed", "mission.extended", "trip.reset")
+"""The events with parts that a hook may have made, and may still have in its hands."""
 
 _ADDED: dict[str, Callable[[Recorder, Event], Facts]] = {
     "mission.created": _plan,

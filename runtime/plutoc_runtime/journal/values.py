@@ -22,7 +22,7 @@ Data = dict[str, Any]
 def fields_of(app: App, entity: Entity, of: object) -> Data:
     """Return what is filled in of the fields that the app's graph adds to missions or to trips."""
     given = {field: getattr(of, field.name) for field in app.fields if field.on is entity}
-    return {field.name: value for field, value in given.items() if value != field.default}
+    return {f.name: _plain(value) for f, value in given.items() if value is not f.default}
 
 
 def mission_data(app: App, mission: Mission[Any]) -> Data:
@@ -48,7 +48,7 @@ def trip_data(app: App, trip: Trip) -> Data:
     if trip.source is not None:
         data["source"] = list(trip.source)
     if trip.parameters:
-        data["parameters"] = dict(trip.parameters)
+        data["parameters"] = {str(name): _plain(value) for name, value in trip.parameters.items()}
     if trip.item is not None:
         data["item"] = {"name": trip.item.name, "mass": trip.item.mass}
     if trip.added:
@@ -155,3 +155,8 @@ def _photo_of(photo: Mapping[str, Any]) -> Photo:
         sees=tuple(photo["sees"]),
         sharpness=photo["sharpness"],
     )
+
+
+def _plain(value: object) -> object:
+    """Return what its user or a hook gave a field, as text if a hook gave it something odd."""
+    return value if value is None or isinstance(value, (bool, int, float, str)) else shown(value)

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import inf
+from operator import is_
 from typing import TYPE_CHECKING
 
 from ..energy import CLIMB_SPEED, docked
@@ -53,6 +54,16 @@ class Snapshot:
     flown: float
 
 
+Due = tuple[float, "Failure | None"]
+"""When something comes to pass by itself, and what; None: it touches down."""
+
+_NEVER: Due = inf, None
+
+
+def _moment(due: Due) -> float:
+    return due[0]
+
+
 class Body:
     """The state of one drone. It is its own telemetry."""
 
@@ -81,6 +92,9 @@ class Body:
         self._charge = Charge(drone.battery_level, clock())
         self._leg, self._landed = standing(drone.home, clock()), True
         self._flown = 0.0
+        self._due: Due = _NEVER
+        self._due_of: tuple[object, ...] = (None,) * 6
+        """What comes first, and of what that was worked out: it is asked for all the time."""
         self.touch_down(clock())
 
     # What anybody may ask at any time
@@ -208,6 +222,8 @@ class Body:
 
     def settle(self, now: float) -> None:
         """Let everything come to pass that was due by now, each at its own moment."""
+        if self._landed:
+            return
         while (due := self._next())[0] <= now:
             self._happen(*due)
 
@@ -216,20 +232,27 @@ class Body:
         """When something will go wrong, if it stays in the air for so long."""
         return self._next()[0]
 
-    def _next(self) -> tuple[float, Failure | None]:
-        """What comes first, and of equals the worst; None: it touches down by itself."""
+    def _next(self) -> Due:
+        """What comes first, and of equals the worst."""
         if self._landed:
-            return inf, None
+            return _NEVER
+        # each of these is replaced when it changes, and never changes in itself
+        of = (self._charge, self._drawn, self._began, self._leg, self.down, self.left_alone)
+        if not all(map(is_, of, self._due_of)):
+            self._due, self._due_of = self._worked_out(), of
+        return self._due
+
+    def _worked_out(self) -> Due:
         empty = self._charge.empty_at, Failure.BATTERY
         if self.down is not None or self.left_alone:  # it has lost its link, and lands
-            return min((self.arrives, None), empty, key=lambda due: due[0])
+            return min((self._leg.arrives, None), empty, key=_moment)
         drawn = (
             (self._drawn.crash, Failure.CRASH),
             (self._drawn.link, Failure.LINK),
             (self._drawn.battery, Failure.BATTERY),
         )
         moments = [(self._began + after, what) for after, what in drawn if after is not None]
-        return min((*moments, empty), key=lambda due: due[0])
+        return min((*moments, empty), key=_moment)
 
     def _happen(self, when: float, what: Failure | None) -> None:
         x, y, z = self._leg.at(when)
