@@ -92,6 +92,36 @@ def test_where_the_ledger_was_damaged_drones_are_believed() -> None:
     assert (heard, job.begun) == ([None, None], 0)
 
 
+def test_what_a_drone_remembers_is_not_done_again_though_nobody_else_knows_of_it() -> None:
+    """The ledger may be lost, or have forgotten what a damaged journal does not say any more."""
+    field, heard = Field(), list[object]()
+    field.gateway.link(1).fly(Task(), heard.append)
+    field.advance(50)
+    field.gateway.crash()
+    field.ledger.forget(Task().id)
+    link = field.another().link(2)
+    assert isinstance(field.kernel, VirtualTime)
+    assert not fly(field.kernel, link.call()).jobs
+    link.fly(job := Task(), heard.append)
+    field.advance(50)
+    assert (heard, job.begun) == ([None, None], 0)
+
+
+def test_in_a_first_life_no_drone_is_taken_at_its_word() -> None:
+    """It may remember another flight, whose jobs had the same names."""
+    field, heard = Field(), list[object]()
+    field.gateway.link(1).fly(Task(), heard.append)
+    field.advance(50)
+    field.gateway.crash()
+    field.ledger.forget(Task().id)
+    link = field.another().link(1)
+    assert isinstance(field.kernel, VirtualTime)
+    fly(field.kernel, link.call())
+    link.fly(job := Task(), heard.append)
+    field.advance(50)
+    assert job.begun == 1
+
+
 def test_the_file_does_not_grow_for_ever(tmp_path: Path) -> None:
     """What was forgotten is left out when the next process begins."""
     path = tmp_path / "ledger"

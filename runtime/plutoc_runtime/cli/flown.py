@@ -9,6 +9,7 @@ from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ..journal.errors import Damaged
 from ..journal.fold import Record, Records
 from ..journal.header import check
 from ..journal.reader import Reader
@@ -85,14 +86,19 @@ def _typed(name: str) -> str:
 
 
 def records_in(app: App, journal: Path) -> Records:
-    """Return what a journal says, while somebody else may write it; refuse that of another app."""
+    """Return what a journal says, while somebody else may write it.
+
+    One of another app is refused, and so is a damaged one: nobody knows what is missing.
+    """
     records = Records()
     with closing(Reader(journal)) as reader:
-        for row in reader.rows():
+        for row in reader.more():
             for event in json.loads(row.text):
                 if row.seq == 0:
                     check(journal, event, app)
                 records.take(event)
+        if reader.damaged is not None:
+            raise Damaged(reader.damaged)
     return records
 
 

@@ -142,7 +142,7 @@ class Gateway:
             spawn(self._ask(drone), key, f"{drone} is asked") for drone, key in self._keys.items()
         ]
         drones = {drone: await task for drone, task in zip(self._keys, asked, strict=True)}
-        return RollCall(drones=drones, jobs=self.jobs.settle(drones))
+        return RollCall(drones=drones, jobs=self.jobs.settle(drones, self._epoch > 1))
 
     async def _ask(self, drone: str) -> Standing:
         standing = await self.navigation.roll_call(drone)

@@ -35,6 +35,8 @@ class Jobs:
         """By their ids; an `Entry` is settled, or of another life of the gateway."""
         if ledger is not None:
             self._known.update((entry.id, entry) for entry in ledger.entries())
+        self._remembered: dict[str, Standing] = {}
+        """Who says to have done a job, by the job's id: nobody else may know of it any more."""
         self._current: dict[str, Given] = {}
         """What drones fly, or hover for, by the drones' ids."""
         self.boots = dict.fromkeys(keys, 0)
@@ -47,6 +49,8 @@ class Jobs:
         drone = job.drone
         given = Given(self, job, report, self.boots[drone])
         known = self._known.get(given.id)
+        if known is None and given.id in self._remembered:
+            known = self._known[given.id] = _done(given.id, self._remembered[given.id])
         if known is not None and known.state not in _MAY_FLY:
             self._repeated(known, report)
             return
@@ -140,8 +144,13 @@ class Jobs:
 
     # What drones tell
 
-    def settle(self, drones: Mapping[str, Standing]) -> Mapping[str, Entry]:
-        """Find out from the drones what has become of actions that had begun; return all jobs."""
+    def settle(self, drones: Mapping[str, Standing], again: bool) -> Mapping[str, Entry]:
+        """Find out from the drones what has become of actions that had begun; return all jobs.
+
+        `again`: it is not the journal's first life, so what they remember may be of earlier ones.
+        """
+        if again:
+            self._remembered = {id: drone for drone in drones.values() for id in drone.done or ()}
         if self._ledger is not None and not self._ledger.is_whole:
             for drone in drones.values():
                 self._believe(drone)
@@ -165,12 +174,9 @@ class Jobs:
 
     def _believe(self, drone: Standing) -> None:
         """Take the drone's word for what it did, where the ledger was damaged."""
-        for id, value in (drone.done or {}).items():
+        for id in drone.done or ():
             if id not in self._known:
-                entry = Entry(
-                    id=id, drone=drone.drone, state=JobState.DONE, boot=drone.boot, value=value
-                )
-                self._known[id] = entry
+                self._known[id] = entry = _done(id, drone)
                 self._keep(entry)
 
     def _keep(self, job: Given | Entry) -> None:
@@ -181,6 +187,11 @@ class Jobs:
 
     def _post(self, drone: str, call: Callable[[], object]) -> None:
         self._kernel.schedule(self._kernel.now, Kind.FLIGHT, self._keys[drone], call)
+
+
+def _done(id: str, drone: Standing) -> Entry:
+    value = (drone.done or {})[id]
+    return Entry(id=id, drone=drone.drone, state=JobState.DONE, boot=drone.boot, value=value)
 
 
 def _flies(job: Given | Entry) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sqlite3
 from collections.abc import Callable, Sequence
 from contextlib import closing
 from pathlib import Path
@@ -174,6 +175,18 @@ def test_whatever_a_mission_is_called_what_is_said_to_be_typed_runs_nothing_else
     path = journal(created(name, 0), {**LAUNCHED, **facts}, {**DOUBT, **facts})
     _, out, _ = command("decide", path)
     assert out.splitlines()[1] == f"  alfalfa decide {path} {typed} done"
+
+
+def test_nothing_is_decided_in_a_damaged_journal(journal: Write, command: Command) -> None:
+    """Neither listed nor written down: what is missing may be what it was about."""
+    path = journal(created("North", 0), LAUNCHED, DOUBT)
+    with closing(sqlite3.connect(path)) as database:
+        database.execute("UPDATE journal SET text = replace(text, 'North', 'South') WHERE seq = 1")
+        database.commit()
+    for words in (), ("North", "done"):
+        code, out, err = command("decide", path, *words)
+        assert (code, out) == (2, "")
+        assert "the journal is damaged: row 1 of 3 is not what was written" in err
 
 
 def test_decide_alone_lists_what_is_asked(journal: Write, command: Command) -> None:
