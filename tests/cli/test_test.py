@@ -107,7 +107,9 @@ def test_its_own_missions_are_tried_when_asked_for(app: Path, capfd: Said) -> No
 def test_what_cannot_be_tried_is_exit_2(app: Path, capfd: Said, words: list[str], why: str) -> None:
     """And says why."""
     assert main(["test", str(app), *words]) == 2
-    assert why in capfd.readouterr().err
+    said = capfd.readouterr().err
+    assert why in said
+    assert "--file" not in said  # which is only between plutoc and the package
 
 
 def test_a_broken_source_is_exit_1(app: Path, capfd: Said) -> None:

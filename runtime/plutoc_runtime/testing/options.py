@@ -37,9 +37,16 @@ class Options:
         return self.strike is not None or self.weather is not None
 
 
+_USAGE = """plutoc test [-h] [--seeds N] [--seed N] [--missions M.toml]
+                   [--fleet F.toml] [--strike WHAT@ROW,…]
+                   [--weather WHAT=HOW,…] [--json]
+                   FILE"""
+"""As `plutoc test` itself has it: whoever reads this has typed that."""
+
+
 def parse(argv: Sequence[str]) -> Options:
     """Read the command line; raise SystemExit, as argparse does, after an error."""
-    parser = ArgumentParser(prog="plutoc test", allow_abbrev=False)
+    parser = ArgumentParser(prog="plutoc test", usage=_USAGE, allow_abbrev=False)
     parser.add_argument("--file", type=Path)
     parser.add_argument("--seeds", type=count)
     parser.add_argument("--seed", type=whole)
