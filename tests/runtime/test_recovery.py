@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import sys
 from dataclasses import replace
+from typing import Any
 
 import pytest
 
@@ -271,7 +272,8 @@ def test_a_hook_that_puts_anything_anywhere_stops_no_journal() -> None:
     loop.append(loop)
 
     def odd(mission: apps.Mission, context: Context) -> None:
-        setattr(mission.trips[-1], "delay", loop)  # as Python lets it
+        trip: Any = mission.trips[-1]
+        trip.delay = loop  # as Python lets it
 
     mission = apps.mission("a", apps.trip("1", 3), apps.trip("2", 4))
     living = Living(enterable(prepare=odd), mission)
