@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable
 from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -31,9 +30,10 @@ def decide(app: App, options: Options) -> int:
         for line in listed or ["no mission waits for a person"]:
             output.line(line)
         return 0
-    asked = {name: (what, question) for name, what, question in waiting(records)}
+    # Whoever was mistaken may say otherwise, as long as nothing has come of it.
+    asked = {name: (what, why) for name, what, why in waiting(records, answered=True)}
     if mission not in asked:
-        raise BadInput(_not_asked(journal, mission, records, asked))
+        raise BadInput(_not_asked(journal, mission, records))
     what, question = asked[mission]
     if answer not in ANSWERS[what]:
         fitting = ", ".join(ANSWERS[what])
@@ -52,10 +52,10 @@ def decide(app: App, options: Options) -> int:
     return 0
 
 
-def _not_asked(journal: Path, mission: str, records: Records, asked: Iterable[str]) -> str:
+def _not_asked(journal: Path, mission: str, records: Records) -> str:
     known = mission in records.missions
     what = "waits for nobody's decision" if known else "is not in this journal"
-    others = ", ".join(map(quoted, asked))
+    others = ", ".join(quoted(name) for name, _, _ in waiting(records))
     rest = f"; those that wait are: {others}" if others else ""
     return f"{journal}: mission {quoted(mission)} {what}{rest}"
 

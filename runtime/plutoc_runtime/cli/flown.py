@@ -41,7 +41,7 @@ def report_of(
     lines = [*mission_table(app, rows), ""]
     if drones:
         lines += [*drone_table(drones, {}), ""]
-    lines.append(in_one_line(statuses, ended, flights, failed))
+    lines.append(in_one_line(statuses, ended or records.time, flights, failed))
     return code_of(statuses), lines
 
 
@@ -62,11 +62,15 @@ def all_over(records: Records) -> bool:
     return bool(missions) and all(record["ended"] for record in missions)
 
 
-def waiting(records: Records) -> Iterator[tuple[str, str, str]]:
-    """Yield the missions that wait for a person: name, for what, and the question."""
+def waiting(records: Records, *, answered: bool = False) -> Iterator[tuple[str, str, str]]:
+    """Yield the missions that wait for a person: name, for what, and the question.
+
+    `answered`: those, too, of whom somebody has decided already, with nothing come of it yet.
+    """
     for name, record in _in_order(records):
         for what in ANSWERS:
-            if record[what] is not None and record["answer"] is None and not record["ended"]:
+            asks = record[what] is not None and not record["ended"]
+            if asks and (answered or record["answer"] is None):
                 yield name, what, record[what]
                 break
 

@@ -211,6 +211,14 @@ def test_a_decision_is_put_down_in_a_journal_at_rest(journal: Write, command: Co
     assert command("decide", path) == (0, "no mission waits for a person\n", "")
 
 
+def test_who_was_mistaken_may_decide_otherwise(journal: Write, command: Command) -> None:
+    """As long as nothing has come of it."""
+    path = journal(created("North", 0), LAUNCHED, DOUBT)
+    for answer in ("done", "not-done"):
+        assert command("decide", path, "North", answer)[0] == 0
+    assert [event.get("answer") for event in events_of(path)[-2:]] == ["done", "not-done"]
+
+
 @pytest.mark.parametrize(
     ("words", "said"),
     [
