@@ -156,11 +156,12 @@ class Fleet:
             self._changed()
 
     def _note(self, drone: Drone) -> None:
+        x, y, z = drone.location
         self._trace.note(
-            f"drone.{drone.status.value.lower()}",
+            _EVENT[drone.status],
             drone=drone.id,
             battery=round(drone.battery_level, 4),
-            at=[round(value, 3) for value in drone.location],
+            at=[round(x, 3), round(y, 3), round(z, 3)],
         )
 
     def _changed(self) -> None:
@@ -259,3 +260,6 @@ class Fleet:
 
 
 _FREE = DroneStatus.FREE
+
+_EVENT = {status: f"drone.{status.value.lower()}" for status in DroneStatus}
+"""What the event is called in which a drone's status becomes this."""

@@ -26,7 +26,9 @@ class Leg:
         """
         if now >= self.arrives or self.arrives <= self.leaves:
             return self.end
-        part = max(0.0, now - self.leaves) / (self.arrives - self.leaves)
+        if now <= self.leaves:
+            return self.start
+        part = (now - self.leaves) / (self.arrives - self.leaves)
         (ax, ay, az), (bx, by, bz) = self.start, self.end
         return ax + part * (bx - ax), ay + part * (by - ay), az + part * (bz - az)
 
@@ -50,7 +52,10 @@ class Charge:
 
     def at(self, now: float) -> float:
         """Return the level at a time."""
-        return min(1.0, max(0.0, self.level + self.rate * max(0.0, now - self.since)))
+        if not self.rate or now <= self.since:
+            return self.level
+        level = self.level + self.rate * (now - self.since)
+        return 0.0 if level < 0.0 else level if level < 1.0 else 1.0
 
     @property
     def empty_at(self) -> float:
