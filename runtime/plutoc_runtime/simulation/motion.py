@@ -55,7 +55,7 @@ class Charge:
         if not self.rate or now <= self.since:
             return self.level
         level = self.level + self.rate * (now - self.since)
-        return 0.0 if level < 0.0 else level if level < 1.0 else 1.0
+        return min(1.0, level) if level > 0.0 else 0.0
 
     @property
     def empty_at(self) -> float:
