@@ -78,3 +78,13 @@ def test_where_no_folder_can_be_made_the_message_says_how_to_name_a_place(state:
     state.write_text("a file is in the way", encoding="utf-8")
     with pytest.raises(JournalError, match=r"cannot be kept here: not a directory; .* --journal"):
         place.new("alfalfa", NOON)
+
+
+def test_two_flights_that_begin_in_one_second_have_a_journal_each(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The first has only its lock as yet."""
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
+    first = place.new("farm", 0.0)
+    place.beside(first, ".lock").touch()
+    assert place.new("farm", 0.0) != first

@@ -36,7 +36,7 @@ def new(app: str, now: float) -> Path:
         raise errors.no_default_place(folder, error) from None
     begun = time.strftime("%Y-%m-%d-%H%M%S", time.localtime(now))
     path, number = folder / f"{begun}{ENDING}", 1
-    while os.path.lexists(path):
+    while os.path.lexists(path) or os.path.lexists(beside(path, ".lock")):  # another begins now
         number += 1
         path = folder / f"{begun}-{number}{ENDING}"
     return path
