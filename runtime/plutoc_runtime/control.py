@@ -45,8 +45,7 @@ class Control:
     """The commands of one running app."""
 
     def __init__(self, session: Session, link: Commanding) -> None:
-        self._session, self._link = session, link
-        self._core, self._engine = session.core, session.engine
+        self._link, self._core, self._engine = link, session.core, session.engine
         self.stopped: Signal[Down] = Signal()
         """Set when everything was stopped and all drones are down."""
         self.whole: Task[float] | None = None
@@ -99,9 +98,7 @@ class Control:
         if state.mission.status in (Status.UNCERTAIN, Status.HELD):
             raise BadInput(f"mission {quoted(mission)} waits for a decision: decide that first")
         unwanted = _trip_to_skip(state, trip)
-        if (state.in_flight is not None and unwanted is state.in_flight.trip) or (
-            unwanted is state.mission.trips[0] and state.task is not None
-        ):
+        if unwanted is state.mission.trips[0]:  # it may fly, or be waited for
             self._step_out(state, partial(self._skip, unwanted))
         else:
             self._core.transitions.skip(state.mission, unwanted)

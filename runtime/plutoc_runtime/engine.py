@@ -12,7 +12,7 @@ from .kernel import Cancelled, Task, mission_key
 from .run import Run
 from .signals import Signal
 from .state import State
-from .status import FAILED, Status
+from .status import FAILED, UNEXECUTED, Status
 
 if TYPE_CHECKING:
     from .core import Core
@@ -37,42 +37,32 @@ class Engine:
         yield from self._living.values()
         yield from self._aside.values()
 
-    @property
-    def aside(self) -> Sequence[State]:
-        """The missions that wait for a person."""
-        return tuple(self._aside.values())
-
     def start(self, missions: Sequence[Mission[Any]]) -> None:
         """Set the missions on their way, all at once."""
-        core, kernel, recorder = self._core, self._core.kernel, self._core.recorder
-        ended, doomed = self._ended, self._doomed
         for mission in missions:
-            if recorder is not None:
-                recorder.missions[mission.name] = mission
-            state = State(core, mission, doomed, self._waits)
-            key = mission_key(mission.index)
-            run = Run(mission, state, key)
-            run.task = state.task = task = kernel.spawn(core.app.flow(run), key, mission.name)
-            task.over = ended
-            self._living[task] = state
+            self._enter(self.new_state(mission), UNEXECUTED)
 
     def new_state(self, mission: Mission[Any]) -> State:
-        """Return the state of a mission that was interrupted in an earlier life of the app."""
+        """Return the state of a mission, of which nothing is remembered as yet."""
         if self._core.recorder is not None:
             self._core.recorder.missions[mission.name] = mission
         return State(self._core, mission, self._doomed, self._waits)
 
     def resume(self, state: State, status: Status) -> None:
         """Let a mission that was interrupted go on at the block where it can, with this status."""
-        core, mission, key = self._core, state.mission, mission_key(state.mission.index)
         if self.done.is_set:
             self.done = Signal()
-        self._aside.pop(mission.name, None)
+        self._aside.pop(state.mission.name, None)
+        self._enter(state, status)
+
+    def _enter(self, state: State, status: Status) -> None:
+        """Send a mission into its graph, at its beginning or where it can go on."""
+        core, mission, key = self._core, state.mission, mission_key(state.mission.index)
         run = Run(mission, state, key)
         run.at, run.status = state.at, status
-        run.task = state.task = core.kernel.spawn(core.app.flow(run), key, mission.name)
-        run.task.over = self._ended
-        self._living[run.task] = state
+        run.task = state.task = task = core.kernel.spawn(core.app.flow(run), key, mission.name)
+        task.over = self._ended
+        self._living[task] = state
 
     def set_aside(self, state: State) -> None:
         """Take a mission out of its graph, if it is in it, until a person says how it goes on."""

@@ -227,3 +227,12 @@ def test_a_probe_is_asked_when_a_mission_is_paused_during_its_own_action(
     living.at(60.0, lambda: living.life.control.go_on("a"))
     assert living.run() == ["COMPLETED"]
     assert names(living.named("trip.launched"), "trip") == ["1", "2"]
+
+
+def test_all_that_is_left_of_a_paused_mission_can_be_skipped() -> None:
+    living = Living(enterable(), two_trips())
+    living.at(3.0, lambda: living.life.control.pause("a"))
+    living.at(20.0, lambda: living.life.control.skip("a"))
+    living.at(21.0, lambda: living.life.control.skip("a"))
+    assert living.run() == ["COMPLETED"]
+    assert living.done_by_drones == []

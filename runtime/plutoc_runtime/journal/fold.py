@@ -16,9 +16,6 @@ Record = dict[str, Any]
 
 Fact = Mapping[str, Any]
 
-OVER = ("COMPLETED", "FAILED", "CANCELLED")
-"""The statuses that are an end, once a mission has `ended`."""
-
 
 class Records:
     """All missions of one journal, as far as it has been read."""
