@@ -1,0 +1,54 @@
+"""Examples as a user installs them: compiled, and with the extra `station` in one environment."""
+
+from __future__ import annotations
+
+import fcntl
+import shutil
+import sys
+import venv
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from tests.release.environments import ROOT, compile_app, succeed
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class App:
+    """An installed app, and the two files that its example has."""
+
+    name: str
+    program: Path
+    fleet: Path
+    missions: Path
+
+
+def installed(names: Sequence[str], folder: Path) -> dict[str, App]:
+    """Install these examples into one environment; whoever comes second finds it made."""
+    folder.mkdir(parents=True, exist_ok=True)
+    programs = folder / "venv" / "bin"
+    with (folder / "lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)  # the other workers wait here
+        if not (folder / "made").exists():
+            _install(names, folder)
+            (folder / "made").touch()
+    return {
+        name: App(
+            name=name,
+            program=programs / name,
+            fleet=folder / name / "fleet.toml",
+            missions=folder / name / "missions.toml",
+        )
+        for name in names
+    }
+
+
+def _install(names: Sequence[str], folder: Path) -> None:
+    wanted = []
+    for name in names:
+        shutil.copytree(ROOT / "examples" / name, folder / name)
+        package = compile_app(folder / name / "app.pluto", folder / name / "package")
+        wanted.append(f"{package}[station]")
+    venv.create(folder / "venv", with_pip=False)
+    pip = (sys.executable, "-m", "pip", "--python", folder / "venv", "install", "--quiet")
+    succeed(*pip, *wanted)
