@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from .model import Category, Drone, Trip
 
 _FREE, _BUSY = DroneStatus.FREE, DroneStatus.BUSY
-_GONE = (DroneStatus.LOST, DroneStatus.OFFLINE)
+_LOST = DroneStatus.LOST
 _IN_THE_AIR = (_BUSY, DroneStatus.RETURNING, DroneStatus.RECOVERING)
 
 _IN_VAIN = 16
@@ -62,7 +62,7 @@ class Queue:
         """The free drones that are in the pools."""
         self._low: dict[Drone, float] = {}
         """Free drones that are too low for all that has waited so far, and until when they are."""
-        self._gone = self._asked_of = sum(drone.status in _GONE for drone in drones)
+        self._gone = self._asked_of = sum(drone.status is _LOST for drone in drones)
         self._airborne = sum(drone.status in _IN_THE_AIR for drone in drones)
         self._thresholds: Thresholds[Request] = Thresholds()
         self._recheck: Timer | None = None
@@ -103,8 +103,8 @@ class Queue:
             self._airborne -= 1
         if after in _IN_THE_AIR:
             self._airborne += 1
-        if after in _GONE or before in _GONE:
-            self._gone += (after in _GONE) - (before in _GONE)
+        if after is _LOST or before is _LOST:
+            self._gone += (after is _LOST) - (before is _LOST)
             self._sure = None
         if self._waiting:
             self._kernel.last = self._serving
@@ -122,6 +122,17 @@ class Queue:
         """Something changed: serve the queue at the end of this instant."""
         if self._waiting:
             self._kernel.last = self._serving
+
+    def prioritise(self, trip: Trip, priority: int) -> None:
+        """Whoever waits for a drone for this trip has another priority from now on."""
+        entries = self._entries
+        for place, (_, arrival, request) in enumerate(entries):
+            if request.trip is trip and request.waits:
+                entries[place] = (-priority, arrival, request)
+                heapify(entries)
+                self._thresholds.kept.clear()  # it knows them by their old places
+                self.changed()
+                return
 
     @property
     def waiting(self) -> bool:
@@ -303,7 +314,7 @@ class Queue:
 
     def _any_able(self, request: Request) -> bool:
         for drone in self._drones:
-            if drone.status not in _GONE and request.never(drone) is None:
+            if drone.status is not _LOST and request.never(drone) is None:
                 if request.levels[drone.category] <= 1.0:
                     self._sure = request.levels
                 return True
@@ -311,7 +322,7 @@ class Queue:
 
     def _unable(self, request: Request) -> MissionFailed:
         lost = [f"{self._gone} of {len(self._drones)} drones are lost"] if self._gone else []
-        left = (drone for drone in self._drones if drone.status not in _GONE)
+        left = (drone for drone in self._drones if drone.status is not _LOST)
         reasons = (request.never(drone) for drone in left)
         because = "; ".join([*lost, *dict.fromkeys(reason for reason in reasons if reason)])
         return MissionFailed(f"no drone of the fleet can fly trip {request.trip.name}: {because}")

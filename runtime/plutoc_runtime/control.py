@@ -25,14 +25,15 @@ from .interruption import (
 from .kernel import FLEET, Task, mission_key
 from .signals import Signal
 from .standing import Down
-from .status import Status
+from .status import DroneStatus, Status
+from .transitions import PRIORITY
 from .words import counted, quoted
 
 if TYPE_CHECKING:
     from .flight import Flight
     from .gateway.commanding import Commanding
     from .journal.fold import Record
-    from .model import Trip
+    from .model import Drone, Trip
     from .session import Session
     from .state import State
 
@@ -131,6 +132,39 @@ class Control:
         else:
             settle_doubt(state, self._engine, self._link, answer == "done")
         return f"mission {quoted(mission)}: {answer}"
+
+    def prioritise(self, mission: str, trip: str, priority: int) -> str:
+        """Fly a trip that has not been flown sooner, or later, than others that wait for a drone."""
+        state = self._state(mission)
+        if not any(field.name == PRIORITY for field in self._core.app.fields):
+            raise BadInput("the trips of this app have no priority")
+        wanted = _trip_to_do(state, trip)
+        self._core.transitions.prioritise(state.mission, wanted, priority)
+        self._core.queue.prioritise(wanted, priority)
+        return f"mission {quoted(mission)}: trip {quoted(trip)} has priority {priority}"
+
+    def retire(self, drone: str) -> str:
+        """Let nobody have a drone any more, until it is brought back."""
+        who = self._drone(drone)
+        if who in self._core.fleet.retired:
+            return f"{drone} is retired already"
+        self._core.trace.note("drone.retired", drone=drone)
+        flies = who.status is DroneStatus.BUSY
+        self._core.fleet.retire(who)
+        return f"{drone} is retired" + (", once its trip is over" if flies else "")
+
+    def bring_back(self, drone: str) -> str:
+        """Let a retired drone be handed out again."""
+        who = self._drone(drone)
+        if who not in self._core.fleet.retired:
+            return f"{drone} is not retired"
+        self._core.trace.note("drone.brought_back", drone=drone)
+        self._core.fleet.bring_back(who)
+        return f"{drone} is back"
+
+    def remember(self, id: str, command: str) -> None:
+        """Put on record that a command is carried out: nobody shall carry it out twice."""
+        self._core.trace.note("commanded", id=id, command=command)
 
     async def carried_out(self) -> None:
         """Wait until what was asked for has been done and is on record: then it will not be lost."""
@@ -239,7 +273,15 @@ class Control:
                 state.carrier = None
         self._engine.end(state, Status.CANCELLED, CANCELLED)
 
-    # Which missions
+    # Which missions and drones
+
+    def _drone(self, id: str) -> Drone:
+        self._refuse_after_stop()
+        for drone in self._core.fleet.drones:
+            if drone.id == id:
+                return drone
+        names = ", ".join(quoted(drone.id) for drone in self._core.fleet.drones)
+        raise BadInput(f"no drone {quoted(id)} is in the fleet; there are: {names}")
 
     def _record(self, state: State) -> Record:
         recorder = self._core.recorder
@@ -276,20 +318,26 @@ class Control:
 def _trip_to_skip(state: State, name: str | None) -> Trip:
     """Return the trip that is meant; raise `BadInput` where it cannot be skipped."""
     mission = state.mission
-    trips = {trip.name: trip for trip in mission.trips}
     who = f"mission {quoted(mission.name)}"
-    if not trips:
+    if not mission.trips:
         raise BadInput(f"{who} has no trip left to skip")
-    unwanted: Trip | None = mission.trips[0] if name is None else trips.get(name)
-    if unwanted is None:
-        left = ", ".join(quoted(one) for one in trips)
-        raise BadInput(f"{who} has no trip {quoted(name or '')} to do; it has {left}")
+    unwanted = mission.trips[0] if name is None else _trip_to_do(state, name)
     if unwanted.item is not None:
         raise BadInput(
             f"{who}: trip {quoted(unwanted.name)} picks or releases {unwanted.item.name}, and what "
             "is picked must be released: cancel the mission instead"
         )
     return unwanted
+
+
+def _trip_to_do(state: State, name: str) -> Trip:
+    trips: dict[str, Trip] = {trip.name: trip for trip in state.mission.trips}
+    if name not in trips:
+        left = ", ".join(quoted(one) for one in trips) or "none"
+        raise BadInput(
+            f"mission {quoted(state.mission.name)} has no trip {quoted(name)} to do; it has {left}"
+        )
+    return trips[name]
 
 
 def _named(states: Sequence[State]) -> str:

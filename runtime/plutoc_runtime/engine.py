@@ -42,6 +42,12 @@ class Engine:
         for mission in missions:
             self._enter(self.new_state(mission), UNEXECUTED)
 
+    def add(self, missions: Sequence[Mission[Any]]) -> None:
+        """Set more missions on their way, while others fly or after all have ended."""
+        if self.done.is_set:
+            self.done = Signal()
+        self.start(missions)
+
     def new_state(self, mission: Mission[Any]) -> State:
         """Return the state of a mission, of which nothing is remembered as yet."""
         if self._core.recorder is not None:

@@ -47,6 +47,8 @@ class Fleet:
         """What drones do for themselves."""
         self._change: Signal[None] | None = None
         """The next change of any drone, if anybody waits for it."""
+        self.retired: set[Drone] = set()
+        """Those that nobody may have until they are brought back."""
         queue.served = self._fetch_what_is_low
 
     def engage(self, drone: Drone) -> None:
@@ -73,7 +75,10 @@ class Fleet:
     def dismiss(self, drone: Drone) -> None:
         """A drone has done what it was allocated for."""
         telemetry = drone.telemetry
-        if (
+        if drone in self.retired:
+            if not self._rests(drone):
+                self.send_home(drone)
+        elif (
             telemetry.landed
             and telemetry.battery_level > drone.category.reserve
             and (self._stays or docked(telemetry.location, drone.home))
@@ -110,6 +115,18 @@ class Fleet:
         well = standing.reached and standing.landed and standing.carrying is None
         if not (well and self._rests(drone)):
             self.recover(drone)
+
+    def retire(self, drone: Drone) -> None:
+        """Nobody gets this drone any more; what it flies for now it flies to the end."""
+        self.retired.add(drone)
+        if drone.status in (_FREE, DroneStatus.CHARGING) and not self._rests(drone):
+            self.send_home(drone)
+
+    def bring_back(self, drone: Drone) -> None:
+        """A retired drone may be handed out again."""
+        self.retired.discard(drone)
+        if drone.status is DroneStatus.OFFLINE and not self._rests(drone):
+            self.send_home(drone)
 
     def flies_on(self, drone: Drone) -> None:
         """A drone has been flying for a mission since before the app was interrupted."""
@@ -217,7 +234,10 @@ class Fleet:
             self._become(drone, DroneStatus.LOST)
 
     async def _settle(self, drone: Drone) -> None:
-        """It stands on the ground, well: is there enough in its battery to be handed out?"""
+        """It stands on the ground, well: is there enough in its battery to be handed out?
+
+        A retired drone is home then, or goes there.
+        """
         if not self._rests(drone):
             self._become(drone, DroneStatus.RETURNING)
             await self._return(drone)
@@ -225,7 +245,11 @@ class Fleet:
     def _rests(self, drone: Drone) -> bool:
         """Let it be handed out, or charge first; False: it must go home for that."""
         missing = drone.category.reserve - drone.battery_level
-        if missing < 0:
+        if drone in self.retired:
+            if not self._is_docked(drone):
+                return False
+            self._become(drone, DroneStatus.OFFLINE)
+        elif missing < 0:
             self._become(drone, _FREE)
         elif self._is_docked(drone):
             self._become(drone, DroneStatus.CHARGING)

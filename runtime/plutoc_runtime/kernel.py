@@ -110,6 +110,11 @@ class Task(Signal[T]):
         """Told when it has ended, however it has; without anybody an error stops the run."""
         kernel.tasks[self] = None
 
+    @property
+    def coroutine(self) -> Coroutine[Any, Any, T]:
+        """What it is that goes on: for whoever wants to see where it waits."""
+        return self._coroutine
+
     def wake(self, _: object = None) -> None:
         """Go on, when its turn comes."""
         kernel = self._kernel

@@ -11,11 +11,13 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from .control import Control
+from .errors import BadInput
 from .journal.careful import Careful
 from .journal.recorder import Recorder, Sink
 from .kernel import FLEET, Kernel, Task
 from .recovery import go_on
 from .session import Listener, Session
+from .words import quoted
 
 if TYPE_CHECKING:
     from .app import App
@@ -51,6 +53,7 @@ class Life:
             heard.append(partial(self._when_durable, watcher))
         self.session = Session(app, fleet, kernel, navigation, heard, self.recorder, link)
         self.control = Control(self.session, link)
+        self._retired: Sequence[str] = records.retired
         self.missions: tuple[Mission[Any], ...] = ()
         """All missions, those of earlier lives that have ended included."""
 
@@ -74,6 +77,18 @@ class Life:
             return self.start(planned)
         return self._set_out(self._went_on())
 
+    def add(self, missions: Sequence[Mission[Any]]) -> None:
+        """Let more missions set out, beside those that fly; `BadInput` if they cannot."""
+        if not self.missions:
+            raise BadInput("the drones are just being asked where they are: try again in a moment")
+        for name in {one.name for one in self.missions} & {one.name for one in missions}:
+            raise BadInput(f"a mission {quoted(name)} has been started already: rename the new one")
+        first = 1 + max(mission.index for mission in self.missions)
+        for index, mission in enumerate(missions, start=first):
+            mission.index = index
+        self.missions += tuple(missions)
+        self.session.engine.add(missions)
+
     def _set_out(self, whole: Coroutine[Any, Any, float]) -> Task[float]:
         self.control.whole = task = self._kernel.spawn(whole, FLEET, "the session")
         return task
@@ -82,16 +97,23 @@ class Life:
         core = self.session.core
         roll = await self._link.call()
         core.trace.note("brain.began", epoch=self._epoch)
-        self.missions = tuple(missions)
+        self._retire()
         for drone in core.fleet.drones:
             core.fleet.take_up(drone, roll.drones[drone.id])
         self.session.set_out(missions)
+        self.missions = tuple(missions)
         return await self.session.see_through()
 
     async def _went_on(self) -> float:
         session, records = self.session, self.recorder.records
         roll = await self._link.call()
         session.core.trace.note("brain.began", epoch=self._epoch)
+        self._retire()
         missions = await go_on(session.core, session.engine, self._link, roll, records)
         self.missions = tuple(missions)
         return await session.see_through()
+
+    def _retire(self) -> None:
+        """Let nobody have the drones that were retired in an earlier life."""
+        fleet = self.session.core.fleet
+        fleet.retired.update(drone for drone in fleet.drones if drone.id in self._retired)

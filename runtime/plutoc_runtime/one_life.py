@@ -52,7 +52,8 @@ class OneLife:
         self._writer = Writer(store, partial(self._post, self._durable), self._unwritable)
         self._stops: Stops | None = None
         self._link: Reached | None = None
-        self._life: Life | None = None
+        self.life: Life | None = None
+        """What is lived, once the gateway is reached."""
         self._end: Signal[End] = Signal()
         self._failure: JournalError | None = None
         self._since_snapshot = 0
@@ -64,7 +65,7 @@ class OneLife:
         setting, kernel, self._stops = self._setting, self._kernel, stops
         lost = partial(self._end.set, End.LOST)
         self._link = link = await setting.connect(kernel, self._store.epoch, lost)
-        self._life = life = Life(
+        self.life = life = Life(
             setting.app,
             setting.fleet,
             kernel,
@@ -77,7 +78,9 @@ class OneLife:
         )
         life.control.stopped.watch(lambda _: self._end.set(End.STOPPED))
         stops.stop_now = self._stop
-        async with listening(setting.note, self._answer):
+        if setting.born is not None:
+            setting.born(self)
+        async with listening(setting.note, self.answer):
             try:
                 end = await self._lived(life, stops)
             finally:  # whoever still waits for an answer need not any longer
@@ -121,8 +124,8 @@ class OneLife:
 
     def _stop(self, how: Down) -> None:
         """Stop, unless it is all over anyway."""
-        if self._life is not None and not self._end.is_set:
-            self._kernel.post(self._life.control.stop, how)
+        if self.life is not None and not self._end.is_set:
+            self._kernel.post(self.life.control.stop, how)
 
     def _over(self, over: Task[float]) -> None:
         if not isinstance(over.error, Cancelled):  # as it is by a stop
@@ -142,8 +145,8 @@ class OneLife:
             self._writer.snapshot(json.dumps(self._records.data))
 
     def _durable(self, number: int) -> None:
-        if self._life is not None:
-            self._life.recorder.durable(number)
+        if self.life is not None:
+            self.life.recorder.durable(number)
 
     def _post(self, call: Callable[..., object], *args: object) -> None:
         """Call this within the kernel, from another thread."""
@@ -156,19 +159,28 @@ class OneLife:
         self._post(self._stop_unrecorded)
 
     def _stop_unrecorded(self) -> None:
-        if self._life is None:
+        if self.life is None:
             self._end.set(End.STOPPED)
         elif not self._end.is_set:
-            self._life.control.stop(Down.LAND)
+            self.life.control.stop(Down.LAND)
             why = f"{self._failure}; all drones land"
             last = {"t": round(self._kernel.now, 6), "event": "log", "mission": None, "text": why}
             self._store.last_words(json.dumps([last]))
 
     # What others ask for
 
-    async def _answer(self, request: Mapping[str, object]) -> str:
-        """Do what somebody asks for, at once; say so when it cannot be lost any more."""
-        how = stop_in(request)
+    async def answer(self, request: Mapping[str, object]) -> str:
+        """Do what somebody asks for, at once; say so when it cannot be lost any more.
+
+        `BadInput`: it cannot be done, and why.
+        """
+        return await self.carry_out(lambda life: perform(life.control, request), stop_in(request))
+
+    async def carry_out(self, what: Callable[[Life], str], how: Down | None = None) -> str:
+        """Do this within the kernel, at once; return what it says when that cannot be lost any more.
+
+        `how`: it is a Stop, for which nobody waits.
+        """
         if how is not None and self._stops is not None:
             self._stops.asked = how  # if the gateway dies meanwhile, the next life stops, too
         if self._end.is_set:
@@ -178,19 +190,19 @@ class OneLife:
         done: list[Task[None]] = []
 
         def carry_out() -> None:
-            assert self._life is not None
-            control = self._life.control
+            assert self.life is not None
             try:
-                said.append(perform(control, request))
+                said.append(what(self.life))
             except BadInput as error:
                 refused.append(error)
             else:
-                done.append(self._kernel.spawn(control.carried_out(), FLEET, "an answer"))
+                finished = self.life.control.carried_out()
+                done.append(self._kernel.spawn(finished, FLEET, "an answer"))
 
         self._kernel.post(carry_out)
         if refused:
             raise refused[0]
-        if request.get("command") != "stop":
+        if how is None:
             await self._on_record(done)
         return said[0]
 

@@ -56,6 +56,22 @@ class Control(Protocol):
         """End a mission, or all, for good."""
         ...
 
+    def prioritise(self, mission: str, trip: str, priority: int) -> str:
+        """Fly a trip sooner, or later, than others that wait for a drone."""
+        ...
+
+    def retire(self, drone: str) -> str:
+        """Let nobody have a drone any more, until it is brought back."""
+        ...
+
+    def bring_back(self, drone: str) -> str:
+        """Let a retired drone be handed out again."""
+        ...
+
+    def remember(self, id: str, command: str) -> None:
+        """Put on record that a command is carried out: nobody shall carry it out twice."""
+        ...
+
     def decide(self, mission: str, answer: str) -> str:
         """Settle what only a person can know: `done`, `not-done`, `go-on` or `cancel`."""
         ...
@@ -77,6 +93,17 @@ def perform(control: Control, request: Mapping[str, object]) -> str:
             return control.cancel(mission)
         case {"command": "decide", "mission": str(mission), "answer": str(answer)}:
             return control.decide(mission, answer)
+        case {
+            "command": "prioritise",
+            "mission": str(mission),
+            "trip": str(trip),
+            "priority": int(priority),
+        }:
+            return control.prioritise(mission, trip, priority)
+        case {"command": "retire", "drone": str(drone)}:
+            return control.retire(drone)
+        case {"command": "bring-back", "drone": str(drone)}:
+            return control.bring_back(drone)
         case _:
             raise BadInput("this app does not know that command")
 

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from .gateway.commanding import Reached
     from .journal.fold import Records
     from .model import Drone, Mission
+    from .one_life import OneLife
     from .realtime import RealTime
     from .standing import Down
     from .trace import Event
@@ -47,6 +48,8 @@ class Setting:
     tell: Callable[[Event], object]
     """Shows an event to whoever watches, once it is on record."""
     speed: float = 1.0
+    born: Callable[[OneLife], object] | None = None
+    """Told of each life when it begins."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

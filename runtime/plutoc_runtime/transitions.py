@@ -15,6 +15,10 @@ if TYPE_CHECKING:
     from .trace import Trace
 
 
+PRIORITY = "priority"
+"""The field of trips that decides who gets a drone first, in apps whose graph has one."""
+
+
 class Transitions:
     """Every change of status there is."""
 
@@ -156,6 +160,11 @@ class Transitions:
         trip.status = TripStatus.SKIPPED
         mission.trips.remove(trip)
         self._note(mission, "trip.skipped", trip=trip.name)
+
+    def prioritise(self, mission: Mission[Any], trip: Trip, priority: int) -> None:
+        """Somebody wants a trip to be flown sooner, or later, than it would be."""
+        setattr(trip, PRIORITY, priority)
+        self._note(mission, "trip.prioritised", trip=trip.name, priority=priority)
 
     def pause(self, mission: Mission[Any]) -> None:
         """Somebody wants a mission to wait until it is told to go on."""

@@ -13,14 +13,20 @@ if TYPE_CHECKING:
 
 def line_of(event: Event) -> str | None:
     """Return the line for an event; None for what only a machine wants to know."""
-    say = _SENTENCES.get(str(event["event"]))
-    if say is None:
+    said = sentence_of(event)
+    if said is None:
         return None
     time = f"{float(str(event['t'])):>8.1f} s  "
     mission = event.get("mission")
-    text = f"{mission}: {say(event)}" if mission else say(event)
+    text = f"{mission}: {said}" if mission else said
     first, *rest = text.split("\n")  # a hook's traceback has many lines
     return "\n".join([time + printable(first), *(" " * len(time) + printable(r) for r in rest)])
+
+
+def sentence_of(event: Event) -> str | None:
+    """Return what happened, without when and to which mission; None: only a machine cares."""
+    say = _SENTENCES.get(str(event["event"]))
+    return None if say is None else say(event)
 
 
 def _launched(event: Event) -> str:
@@ -66,6 +72,9 @@ _SENTENCES: Mapping[str, Callable[[Event], str]] = {
     "mission.decided": lambda event: f"a person has decided: {event['answer']}",
     "trip.interrupted": lambda event: f"trip {event['trip']} interrupted; it will be flown again",
     "trip.skipped": lambda event: f"trip {event['trip']} skipped",
+    "trip.prioritised": lambda event: f"trip {event['trip']} has priority {event['priority']}",
+    "drone.retired": lambda event: f"{event['drone']} is retired",
+    "drone.brought_back": lambda event: f"{event['drone']} is back",
     "stopped": lambda event: f"everything stops ({_HOW.get(str(event['how']), event['how'])})",
     "drone.recovering": lambda event: f"{event['drone']} recovers",
     "drone.lost": lambda event: f"{event['drone']} is lost",

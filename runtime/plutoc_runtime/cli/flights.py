@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import closing, suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from ..files.fleet import FleetFile
     from ..journal.fold import Records
     from ..model import Drone, Mission
+    from ..one_life import OneLife
     from ..simulation.faults import Faults
     from ..trace import Event
     from .options import Options
@@ -70,9 +71,9 @@ def see_through(flight: Flight, store: Store, known: Recovered | None = None) ->
     `known` is what the journal says, if it has been read already.
     """
     stops = Stops()
-    interrupts = Interrupts(stops, flight.journal, flight.how_to_go_on)
+    interrupts = Interrupts(stops, lambda: flight.journal, flight.how_to_go_on)
     with interrupts.listening():
-        lived = asyncio.run(_lives(flight, store, stops, interrupts, known))
+        lived = asyncio.run(_heard(flight, store, stops, interrupts, known))
     if lived.end is End.STOPPED:
         output.tell(f"all drones are down; {flight.how_to_go_on}")
         return interrupts.code or STOPPED
@@ -88,15 +89,34 @@ def reported(app: App, journal: Path, records: Records, drones: Sequence[Drone] 
     return code
 
 
-async def _lives(
+async def _heard(
     flight: Flight,
     store: Store,
     stops: Stops,
     interrupts: Interrupts,
     known: Recovered | None,
 ) -> Lived:
-    """Live once more each time that the gateway dies."""
+    """Live, and hear whoever wants it to end."""
     interrupts.loop = asyncio.get_running_loop()
+    return await lives(flight, store, stops, known, Watcher(tell=tell, say=output.tell))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Watcher:
+    """Whoever watches a flight."""
+
+    tell: Callable[[Event], object]
+    """Told of each event, once it is on record."""
+    say: Callable[[str], object]
+    """Told what is no event of the flight: a gateway has died."""
+    born: Callable[[OneLife], object] | None = None
+    """Told of each life when it begins."""
+
+
+async def lives(
+    flight: Flight, store: Store, stops: Stops, known: Recovered | None, watcher: Watcher
+) -> Lived:
+    """Live once more each time that the gateway dies; `known` is what the journal says."""
     settings = settings_for(
         flight.app,
         flight.fleet,
@@ -111,8 +131,9 @@ async def _lives(
         fleet=flight.fleet,
         connect=lambda kernel, epoch, lost: connect(folder, settings, kernel, epoch, lost),
         note=note_of(flight.journal),
-        tell=tell,
+        tell=watcher.tell,
         speed=flight.speed,
+        born=watcher.born,
     )
     deaths, done = 0, -1
     while True:
@@ -129,7 +150,7 @@ async def _lives(
                 f"{flight.journal}: the gateway ended {deaths} times in a row with nothing finished"
                 f" in between; what it said is in {folder / 'log'}; {flight.how_to_go_on}"
             )
-        output.tell(
+        watcher.say(
             "the gateway has ended, or cut this app off: it is reached anew, and all drones are asked"
         )
         store = Store.open(flight.journal)

@@ -28,7 +28,8 @@ AT_ONCE = 1.0
 class Interrupts:
     """Whoever wants the app to end, and whether it has heard."""
 
-    def __init__(self, stops: Stops, journal: Path, how_to_go_on: str) -> None:
+    def __init__(self, stops: Stops, journal: Callable[[], Path | None], how_to_go_on: str) -> None:
+        """Begin; `journal` says which one is being written when somebody wants to stop."""
         self.code: int | None = None
         """The exit code of what has interrupted it."""
         self.loop: asyncio.AbstractEventLoop | None = None
@@ -69,6 +70,9 @@ class Interrupts:
     def _go_past(self) -> None:
         """A hook keeps the app from hearing: tell the drones without it."""
         if not self._heard:
+            journal = self._journal()
             with suppress(BadInput):
-                stop_directly(gateway_folder(self._journal), Down.LAND, AT_ONCE)
+                if journal is None:
+                    return
+                stop_directly(gateway_folder(journal), Down.LAND, AT_ONCE)
                 output.tell("the app is busy: the gateway lands the drones without it")

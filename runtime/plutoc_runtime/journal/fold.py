@@ -16,6 +16,9 @@ Record = dict[str, Any]
 
 Fact = Mapping[str, Any]
 
+REMEMBERED = 200
+"""Commands that are known by their names: nobody asks again for one that is older."""
+
 
 class Records:
     """All missions of one journal, as far as it has been read."""
@@ -36,6 +39,10 @@ class Records:
         """[mission, trip, round, attempt, value] of every action that was done."""
         self.flown: dict[str, int] = self.data["flown"]
         """How many trips each drone was sent on."""
+        self.commands: list[str] = self.data.setdefault("commands", [])
+        """The names of the last commands that were carried out, as whoever commanded chose them."""
+        self.retired: list[str] = self.data.setdefault("retired", [])
+        """The drones that nobody may have."""
 
     @property
     def time(self) -> float:
@@ -200,6 +207,10 @@ def _skipped(_: Records, record: Record, event: Fact) -> None:
     record["gone"].append(_take(record["todo"], event["trip"]))
 
 
+def _prioritised(_: Records, record: Record, event: Fact) -> None:
+    _trip(record, event).setdefault("fields", {})["priority"] = event["priority"]
+
+
 def _extended(records: Records, record: Record, event: Fact) -> None:
     _goes_on(record)
     record["judged"] = len(records.results)
@@ -277,6 +288,22 @@ def _stopped(records: Records, event: Fact) -> None:
     records.data["stopped"] = event["t"]
 
 
+def _commanded(records: Records, event: Fact) -> None:
+    """Somebody commanded something, and may ask again, not having heard the answer."""
+    records.commands.append(str(event["id"]))
+    del records.commands[:-REMEMBERED]
+
+
+def _retired(records: Records, event: Fact) -> None:
+    if event["drone"] not in records.retired:
+        records.retired.append(str(event["drone"]))
+
+
+def _brought_back(records: Records, event: Fact) -> None:
+    if event["drone"] in records.retired:
+        records.retired.remove(str(event["drone"]))
+
+
 def shift_delays(records: Records, seconds: float) -> None:
     """Move every delay that is not over by so many seconds, in which nobody waited."""
     for record in records.missions.values():
@@ -326,6 +353,7 @@ _MISSION: dict[str, Callable[[Records, Record, Fact], None]] = {
     "trip.reset": _reset,
     "trip.interrupted": _interrupted,
     "trip.skipped": _skipped,
+    "trip.prioritised": _prioritised,
     "mission.extended": _extended,
     "mission.repeated": _repeated,
     "mission.modified": _modified,
@@ -341,4 +369,7 @@ _MISSION: dict[str, Callable[[Records, Record, Fact], None]] = {
 _WHOLE: dict[str, Callable[[Records, Fact], None]] = {
     "brain.began": _began,
     "stopped": _stopped,
+    "commanded": _commanded,
+    "drone.retired": _retired,
+    "drone.brought_back": _brought_back,
 }
