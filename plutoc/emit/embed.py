@@ -1,8 +1,9 @@
 """What a generated package carries along: the runtime's modules and the blocks' steps.
 
-A module of the runtime is copied byte for byte. A module of a block is copied with its imports
-bent to where things are now, and not a byte more: `plutoc_runtime` becomes dots, and a module of
-the block's own package, however it was imported, the file beside it.
+A module of the runtime is copied byte for byte, and with a package of it come the pages for browsers
+that lie in its folder. A module of a block is copied with its imports bent to where things are now,
+and not a byte more: `plutoc_runtime` becomes dots, and a module of the block's own package, however
+it was imported, the file beside it.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from plutoc.emit.memory import remembered
-from plutoc.emit.modules import RUNTIME, EmbedError, Module, imports_from, is_within, load
+from plutoc.emit.modules import RUNTIME, EmbedError, Module, data_of, imports_from, is_within, load
 from plutoc.installed import facts_of_package
 from plutoc.registry import STD
 
@@ -98,6 +99,9 @@ class _Embedding:
         self.sources[path] = name
         if is_within(name, RUNTIME):
             self.files[path] = module.text
+            if module.is_package:
+                folder = path.rpartition("/")[0]
+                self.files.update((f"{folder}/{one}", text) for one, text in data_of(module))
             needed = _of_runtime(module)
         else:
             self.files[path] = _moved(module, package)

@@ -16,6 +16,9 @@ from plutoc.frozen import frozen
 
 RUNTIME = plutoc_runtime.__name__
 _HOME = os.path.dirname(plutoc_runtime.__file__)
+_DATA = (".css", ".html", ".js", ".svg")
+"""What a package of the runtime has beside its modules: pages for browsers."""
+_START = "__init__.py"
 
 
 class EmbedError(Exception):
@@ -81,13 +84,36 @@ def _of_runtime(name: str) -> Module | None:
     """Return a module of the runtime: where that is known, Python need not search."""
     path = os.path.join(_HOME, *name.split(".")[1:])
     is_package = os.path.isdir(path)
-    file = os.path.join(path, "__init__.py") if is_package else f"{path}.py"
+    file = os.path.join(path, _START) if is_package else f"{path}.py"
     try:
         with open(file, "rb") as opened:
             text = opened.read().decode("utf-8")
     except FileNotFoundError:
         return None
     return Module(name=name, file=file, text=text, is_package=is_package)
+
+
+def data_of(package: Module) -> Iterator[tuple[str, str]]:
+    """Yield the path and the text of each file of a package that is no Python, in order of path.
+
+    Those in folders within it count, unless they are packages themselves.
+    """
+    for path in sorted(_data(os.path.dirname(package.file), "")):
+        file = os.path.join(os.path.dirname(package.file), *path.split("/"))
+        with open(file, "rb") as opened:
+            yield path, opened.read().decode("utf-8")
+
+
+def _data(folder: str, path: str) -> Iterator[str]:
+    with os.scandir(folder) as found:
+        entries = list(found)
+    if path and any(entry.name == _START for entry in entries):
+        return
+    for entry in entries:
+        if entry.is_dir():
+            yield from _data(entry.path, f"{path}{entry.name}/")
+        elif entry.name.endswith(_DATA):
+            yield path + entry.name
 
 
 def is_within(name: str, package: str) -> bool:

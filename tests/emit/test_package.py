@@ -22,6 +22,7 @@ from plutoc.emit.package import Package, emit
 from plutoc.emit.project_files import project_file
 from plutoc.emit.python import owned
 from plutoc.emit.readme_file import readme
+from plutoc.graph.names import taken_app_name
 from plutoc.plan.model import Plan
 from tests.emit.apps import ODD_NAMES, PARCELS, PLAIN
 from tests.emit.plans import plan_of
@@ -167,6 +168,15 @@ def test_project_has_a_name_that_a_distribution_can_have() -> None:
     assert project["name"] == "odd"
     assert project["scripts"] == {"odd_": "odd_.__main__:main"}
     assert project["dependencies"] == []
+
+
+def test_no_app_has_the_name_of_what_its_extras_bring() -> None:
+    """Its package would stand in the way of theirs."""
+    project = tomllib.loads(package_of(PLAIN).owned["pyproject.toml"])["project"]
+    needed = [one for extra in project["optional-dependencies"].values() for one in extra]
+    names = [re.split("[<>=]", one)[0].replace("-", "_") for one in needed]
+    assert {"starlette", "tomli_w", "uvicorn", "websockets", "matplotlib"} <= {*names}
+    assert all(map(taken_app_name, names))
 
 
 SCRIPT = """

@@ -1,0 +1,1 @@
+"""The ground station: it serves an app in a browser."""
