@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from .capability import Miss, chain_of, miss_of
@@ -16,10 +17,33 @@ if TYPE_CHECKING:
     from .model import Category, Mission, Point, Trip
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Unflyable:
+    """Trips that one drone must fly, and none of the fleet ever could."""
+
+    mission: Mission[Any]
+    trips: Sequence[Trip]
+    reason: str
+
+    @property
+    def called(self) -> str:
+        """How a message calls them."""
+        names = [trip.name if trip.name.isdigit() else quoted(trip.name) for trip in self.trips]
+        trips = f"trip {names[0]}" if len(names) == 1 else f"trips {names[0]} to {names[-1]}"
+        return f"mission {quoted(self.mission.name)}, {trips}"
+
+
 def problems(
     missions: Sequence[Mission[Any]], app: App, fleet: FleetFile, airspace: Airspace
 ) -> list[str]:
     """Return a sentence for each trip that no drone of the fleet could ever do."""
+    return [f"{one.called}: {one.reason}" for one in unflyable(missions, app, fleet, airspace)]
+
+
+def unflyable(
+    missions: Sequence[Mission[Any]], app: App, fleet: FleetFile, airspace: Airspace
+) -> list[Unflyable]:
+    """Return the trips that no drone of the fleet could ever do, each with the reason."""
     categories = {category.name: category for category in app.categories}
     drones = [(categories[drone.category], drone.home) for drone in fleet.drones]
     found = []
@@ -30,7 +54,8 @@ def problems(
             rest = rest[len(chain) :]
             misses = _misses(app, airspace, drones, chain)
             if misses is not None:
-                found.append(f"{_called(mission, chain)}: {_nobody(_nearest(misses, drones))}")
+                reason = _nobody(_nearest(misses, drones))
+                found.append(Unflyable(mission=mission, trips=chain, reason=reason))
     return found
 
 
@@ -79,9 +104,3 @@ def _nearest(misses: Sequence[Miss], drones: Sequence[tuple[Category, Point]]) -
 def _nobody(misses: Sequence[Miss]) -> str:
     reasons = dict.fromkeys(miss.reason for miss in misses)
     return "no drone of the fleet can do it: " + "; ".join(reasons)
-
-
-def _called(mission: Mission[Any], chain: Sequence[Trip]) -> str:
-    names = [trip.name if trip.name.isdigit() else quoted(trip.name) for trip in chain]
-    trips = f"trip {names[0]}" if len(names) == 1 else f"trips {names[0]} to {names[-1]}"
-    return f"mission {quoted(mission.name)}, {trips}"

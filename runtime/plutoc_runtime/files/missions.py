@@ -26,6 +26,13 @@ def load_missions(path: Path, app: App, airspace: Airspace) -> list[Mission[Any]
 
 def missions_of(document: Document, app: App, airspace: Airspace) -> list[Mission[Any]]:
     """Return the missions of a file that was read, as `load_missions` does."""
+    missions = read_missions(document, app, airspace)
+    document.refuse_if_bad()
+    return missions
+
+
+def read_missions(document: Document, app: App, airspace: Airspace) -> list[Mission[Any]]:
+    """Return the missions as far as they can be read; the document has what is wrong with them."""
     top = Table(document, document.data)
     top.only(("mission",), "a missions file")
     names: dict[str, Table] = {}
@@ -35,7 +42,6 @@ def missions_of(document: Document, app: App, airspace: Airspace) -> list[Missio
     ]
     if document.data.get("mission", []) == []:
         top.problem(errors.none_given("mission"))
-    document.refuse_if_bad()
     return missions
 
 

@@ -6,12 +6,14 @@ import os
 import re
 import tomllib
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import BadInput
 from . import errors
 from .dotted import line_of_long_key
 from .toml_places import Place, Places, line_of, places
+from .wording import IN_A_FILE, Wording
 
 LARGEST = 1 << 20
 """Bytes. A plan is written by people: anything larger is another file."""
@@ -19,31 +21,49 @@ LARGEST = 1 << 20
 MOST_SHOWN = 50
 
 
-class Document:
-    """A parsed plan file and what is wrong with it: all of it, told in one go."""
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Problem:
+    """Something that is wrong with a plan."""
 
-    def __init__(self, path: str, data: dict[str, object], where: Places) -> None:
-        self.path, self.data = path, data
+    place: Place
+    who: str
+    """How a message calls what it is about."""
+    text: str
+    line: int | None
+
+    @property
+    def sentence(self) -> str:
+        """What is said where nothing else shows what it is about."""
+        return f"{self.who}: {self.text}" if self.who else self.text
+
+
+class Document:
+    """A parsed plan and what is wrong with it: all of it, told in one go."""
+
+    def __init__(
+        self, path: str, data: dict[str, object], where: Places, words: Wording = IN_A_FILE
+    ) -> None:
+        self.path, self.data, self.words = path, data, words
+        self.problems: list[Problem] = []
         self._where = where
-        self._problems: list[tuple[int, str]] = []
 
     def line(self, place: Place) -> int | None:
         """Return the line of what has this path."""
         return line_of(self._where, place)
 
-    def problem(self, text: str, place: Place = ()) -> None:
-        """Something is wrong at this place."""
-        self._problems.append((self.line(place) or 0, text))
+    def problem(self, text: str, place: Place, who: str, near: Place) -> None:
+        """Something is wrong at this place; whoever reads a file finds it near another."""
+        line = self.line(near)
+        self.problems.append(Problem(place=place, who=who, text=text, line=line))
 
     def refuse_if_bad(self) -> None:
         """Raise `BadInput` with a line for each problem, if there is one."""
-        if self._problems:
-            found = sorted(self._problems, key=lambda problem: problem[0])
-            lines = [
-                f"{self.path}:{line}: {text}" if line else f"{self.path}: {text}"
-                for line, text in found
-            ]
-            raise BadInput(shortened(lines))
+        if self.problems:
+            found = sorted(self.problems, key=lambda problem: problem.line or 0)
+            raise BadInput(shortened([f"{self._at(one)}: {one.sentence}" for one in found]))
+
+    def _at(self, problem: Problem) -> str:
+        return f"{self.path}:{problem.line}" if problem.line else self.path
 
 
 def shortened(lines: Sequence[str]) -> str:

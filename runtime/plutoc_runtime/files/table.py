@@ -22,10 +22,17 @@ class Table:
     ) -> None:
         self.document, self.data, self.place, self.who = document, data, place, who
 
-    def problem(self, text: str, *inside: str | int) -> None:
-        """Something is wrong with this table, or with what it holds there."""
-        where = (*self.place, *inside)
-        self.document.problem(f"{self.who}: {text}" if self.who else text, where)
+    def problem(self, text: str, *inside: str | int, near: str | None = None) -> None:
+        """Something is wrong with this table, or with what it holds there.
+
+        What is not there at all is looked for near another key.
+        """
+        place = (*self.place, *inside)
+        self.document.problem(text, place, self.who, (*self.place, near) if near else place)
+
+    def called(self, key: str) -> str:
+        """Return what a message calls a key."""
+        return self.document.words.called(key)
 
     def line(self, *inside: str | int) -> int | None:
         """Return the line where something in this table stands."""
@@ -35,13 +42,13 @@ class Table:
         """Return the converted value; None if there is none, or none that can be read."""
         if key not in self.data:
             if required:
-                self.problem(errors.missing(key))
+                self.problem(self.document.words.missing(key), key)
             return None
         value = self.data[key]
         try:
             return convert(value)
         except ValueError as error:
-            self.problem(f"{key} {errors.shown(value)} {error}", key)
+            self.problem(f"{self.called(key)} {errors.shown(value)} {error}", key)
             return None
 
     def only(self, keys: Sequence[str], what: str) -> None:

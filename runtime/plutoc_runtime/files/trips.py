@@ -31,7 +31,7 @@ def read_trips(mission: Table, app: App, airspace: Airspace) -> list[Trip]:
     for index, table in enumerate(mission.tables("trip", "mission.trip")):
         trips.append((_trip(table, index, app, airspace, names), table))
     if mission.data.get("trip", []) == []:
-        mission.problem(errors.no_trips())
+        mission.problem(mission.document.words.no_trips())
     check_items(trips)
     return [trip for trip, _ in trips]
 
@@ -74,7 +74,7 @@ def _point(table: Table, key: str, airspace: Airspace, *, required: bool) -> Poi
     if point is not None:
         problem = airspace.problem(point)
         if problem is not None:
-            table.problem(f"{key} {problem}", key)
+            table.problem(f"{table.called(key)} {problem}", key)
     return point
 
 
@@ -92,7 +92,8 @@ def _parameters(table: Table, action: Action) -> dict[str, Plain]:
         else:
             value = parameter.default
             if value is None:
-                table.problem(errors.parameter_missing(action.name, parameter.name), "parameters")
+                said = errors.parameter_missing(action.name, parameter.name)
+                table.problem(said, "parameters", parameter.name)
         if value is not None:
             filled[parameter.name] = value
     return filled
@@ -102,7 +103,8 @@ def _item(table: Table, action: Action | None) -> Item | None:
     item = table.table("item")
     if item is None:
         if action is not None and action.name in (PICK, RELEASE) and "item" not in table.data:
-            table.problem(errors.item_missing(action.name), "action")
+            said = table.document.words.item_missing(action.name)
+            table.problem(said, "item", near="action")
         return None
     if action is not None and action.name not in (PICK, RELEASE):
         table.problem(errors.item_unwanted(action.name, (PICK, RELEASE)), "item")
