@@ -7,7 +7,6 @@ import os
 import re
 import signal
 import subprocess
-import time
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -17,6 +16,7 @@ from urllib.error import HTTPError
 from urllib.request import Request, urlopen
 
 from tests.kill.judge import done_by_the_world
+from tests.kill.lives import eventually
 from tests.kill.trial import end_gateway
 from tests.station.browser.installed import App
 
@@ -26,13 +26,9 @@ PATIENCE = 60.0
 SAID = re.compile(r"^station: (http://\S+)", re.MULTILINE)
 
 
-def eventually(seen: Callable[[], object], what: str) -> None:
-    """Wait until something is so."""
-    end = time.monotonic() + PATIENCE
-    while not seen():
-        if time.monotonic() > end:
-            raise AssertionError(f"it never came about that {what}")
-        time.sleep(0.02)
+def until(holds: Callable[[], bool], what: str) -> None:
+    """Wait until something holds."""
+    assert eventually(holds, PATIENCE), f"it never came about that {what}"
 
 
 @dataclass(slots=True, kw_only=True)
@@ -63,8 +59,9 @@ class Station:
                 stderr=subprocess.STDOUT,
             )
         life = self._life
-        eventually(
-            lambda: SAID.search(self.said()) or life.poll() is not None, "the station is there"
+        until(
+            lambda: SAID.search(self.said()) is not None or life.poll() is not None,
+            "the station is there",
         )
         found = SAID.search(self.said())
         assert found, f"exit {life.poll()}:\n{self.said()}"

@@ -1,0 +1,160 @@
+"""What does it cost to watch, and how old is what one sees?
+
+`python benchmarks/station.py` serves a compiled app in real time with simulated drones: 50 drones fly,
+200 missions want them, and three browsers look at the Monitor. It prints how much of a core the
+server takes with nobody and with three looking, how much of its main thread each browser, how old
+what they show is, what a client costs that asks and never reads, and how long one waits for the
+first paint. Needs Chromium, and what the extra `test` installs. Linux only: it reads /proc.
+"""
+
+from __future__ import annotations
+
+import argparse
+import gzip
+import json
+import tempfile
+import time
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from statistics import median, quantiles
+
+from playwright.sync_api import Browser
+
+from measuring.options import at_least_one
+from watching.flight import compiled, fleet, plan
+from watching.idler import idler
+from watching.server import Server, seconds_of, serve
+from watching.tabs import Tab, browser, first_paint, opened
+
+Numbers = dict[str, float]
+
+PAGES = Path(__file__).parents[1] / "runtime" / "plutoc_runtime" / "station" / "pages"
+SETTLE = 5.0
+"""Seconds until what has just begun is steady."""
+
+
+def weight() -> float:
+    """Return the kilobytes of all pages, each gzipped by itself."""
+    files = [path for path in sorted(PAGES.iterdir()) if path.suffix != ".py" and path.is_file()]
+    return sum(len(gzip.compress(path.read_bytes(), mtime=0)) for path in files) / 1000
+
+
+def share(used: Callable[[], float], seconds: float) -> float:
+    """Return how much of these seconds was used, in per cent."""
+    before, begun = used(), time.perf_counter()
+    time.sleep(seconds)
+    return 100 * (used() - before) / (time.perf_counter() - begun)
+
+
+def airborne(server: Server, drones: int) -> None:
+    """Begin the flight, and wait until so many drones fly or all that can."""
+    server.ask("/api/start", {"id": "benchmark"}, "POST")
+    end = time.monotonic() + 60
+    while time.monotonic() < end:
+        live = server.ask("/api/live?flight=&seen=0&log=0&results=0")
+        if sum(row["mission"] is not None for row in live["drones"]) >= drones:
+            return
+        time.sleep(0.5)
+
+
+def watched(server: Server, found: Browser, tabs: int, seconds: float) -> Numbers:
+    """Measure with so many browsers: first what they cost, then how old what they show is."""
+    url = server.url + "/"
+    quiet = [opened(found, url, listening=False) for _ in range(tabs)]
+    time.sleep(SETTLE)
+    before = [tab.busy for tab in quiet]
+    begun = time.perf_counter()
+    numbers = {"server, watched, %": share(lambda: server.used, seconds)}
+    took = time.perf_counter() - begun
+    busy = [100 * (tab.busy - was) / took for tab, was in zip(quiet, before, strict=True)]
+    numbers["main thread of a browser, most, %"] = max(busy)
+    for tab in quiet:
+        tab.page.context.close()
+    listening = [opened(found, url, listening=True) for _ in range(tabs)]
+    time.sleep(SETTLE)
+    numbers.update(_ages(listening, seconds))
+    for tab in listening:
+        tab.page.context.close()
+    return numbers
+
+
+def _ages(tabs: Sequence[Tab], seconds: float) -> Numbers:
+    before = [tab.ages()[1] for tab in tabs]
+    time.sleep(seconds)
+    after = [tab.ages() for tab in tabs]
+    ages = [age for some, _ in after for age in some]
+    updates = [now - was for (_, now), was in zip(after, before, strict=True)]
+    return {
+        "updates a second, least": min(updates) / seconds,
+        "age of what is shown, p50, ms": median(ages),
+        "age of what is shown, p95, ms": quantiles(ages, n=100)[94],
+        "age of what is shown, most, ms": max(ages),
+    }
+
+
+def neglected(server: Server, seconds: float) -> Numbers:
+    """Measure what a client costs that never reads, and what it sees at last."""
+    memory = server.memory
+    with idler(server.url) as back:
+        time.sleep(SETTLE)
+        used = share(lambda: server.used, seconds)
+        grown = server.memory - memory
+        newest = server.ask("/api/live?flight=&seen=0&log=0&results=0")["n"]
+        behind = newest - back()
+    return {
+        "server, a client never reads, %": used,
+        "memory that it costs, MB": grown,
+        "versions that it is behind when it reads again": max(0, behind),
+    }
+
+
+def measure(given: argparse.Namespace, say: Callable[[str], None]) -> Numbers:
+    """Measure everything, line by line."""
+    numbers: Numbers = {}
+
+    def tell(some: Numbers) -> None:
+        for name, number in some.items():
+            say(f"{name:50}{number:12,.2f}")
+        numbers.update(some)
+
+    tell({"weight of all pages, gzipped, kB": weight()})
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        source = compiled(folder)
+        (folder / "fleet.toml").write_text(fleet(given.drones))
+        server = serve(source, folder / "fleet.toml", folder / "station")
+        try:
+            tell({"from serve to its address, s": server.started_in})
+            tell({"from there to the first paint, s": first_paint(server.url + "/")})
+            missions = {"revision": server.ask("/api/plan")["revision"]}
+            server.ask("/api/plan", {**missions, "missions": plan(given.missions)}, "PUT")
+            airborne(server, given.drones)
+            time.sleep(SETTLE)
+            gateway = server.gateway()
+            tell({"server, nobody looks, %": share(lambda: server.used, given.seconds)})
+            if gateway is not None:
+                tell({"gateway, %": share(lambda: seconds_of(gateway), given.seconds)})
+            with browser() as found:
+                tell(watched(server, found, given.tabs, given.seconds))
+            tell(neglected(server, given.seconds))
+        finally:
+            server.end()
+    return numbers
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Print lines, or JSON."""
+    parser = argparse.ArgumentParser(description="What it costs to watch a flight.")
+    parser.add_argument("--drones", type=at_least_one, default=50)
+    parser.add_argument("--missions", type=at_least_one, default=200)
+    parser.add_argument("--tabs", type=at_least_one, default=3, help="browsers that look")
+    parser.add_argument("--seconds", type=float, default=20.0, help="of each measurement")
+    parser.add_argument("--json", action="store_true", help="print one object instead of lines")
+    given = parser.parse_args(arguments)
+    numbers = measure(given, (lambda line: None) if given.json else print)
+    if given.json:
+        print(json.dumps(numbers, indent=2))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,31 @@
+"""The station is light: it opens at once, on a slow line as well."""
+
+from __future__ import annotations
+
+import gzip
+import re
+from pathlib import Path
+
+from tests.release.environments import ROOT
+
+PAGES = ROOT / "runtime" / "plutoc_runtime" / "station" / "pages"
+MOST = 60_000
+
+
+def served() -> list[Path]:
+    """Return the files that browsers are sent."""
+    return [path for path in sorted(PAGES.iterdir()) if path.is_file() and path.suffix != ".py"]
+
+
+def test_all_pages_together_are_less_than_sixty_kilobytes_gzipped() -> None:
+    """Each by itself, as they are sent."""
+    weights = {path.name: len(gzip.compress(path.read_bytes(), mtime=0)) for path in served()}
+    assert "index.html" in weights
+    assert sum(weights.values()) < MOST, weights
+
+
+def test_no_page_names_another_machine() -> None:
+    """Neither a script, nor a style, nor a picture; a namespace is a name and no address."""
+    for path in served():
+        named = set(re.findall(r"(?:https?:)?//[a-z0-9.-]+\.[a-z]+", path.read_text("utf-8")))
+        assert named <= {"http://www.w3.org"}, path.name
