@@ -1,0 +1,49 @@
+// How things stand, in words: the phase of the flight, and what Start would do.
+
+import { many } from "./words.js";
+
+const FLYING = new Set(["flying", "stopping"]);
+
+export const inTheAir = (state) => FLYING.has(state.phase);
+export const toResume = (state) => state.phase === "stopped" || state.phase === "interrupted";
+
+const DOWN = { rtl: "Stopping: the drones fly home", land: "Stopping: the drones land where they are" };
+
+// → [kind of chip, sign, words]
+export function phaseWords(state) {
+  switch (state.phase) {
+    case "idle": return ["info", "info", "Ready"];
+    case "flying": return ["good", "start", "Flying"];
+    case "stopping": return ["warn", "wait", DOWN[state.how] ?? "Stopping: the drones come down"];
+    case "stopped": return ["warn", "pause", "Stopped"];
+    case "over": return ["info", "good", "All missions have ended"];
+    case "interrupted": return ["warn", "warning", "Interrupted"];
+    default: return ["", "wait", "Connecting"];
+  }
+}
+
+// What Start would do now: its words, whether it can, and what to say beside it.
+export function startWords(state, plan) {
+  const flying = state.phase === "flying";
+  const todo = plan.missions.filter((mission) => !flying || !mission.launched);
+  const keys = new Set(todo.map((mission) => mission.key));
+  const bad = plan.problems.filter(({ mission }) => mission === null || keys.has(mission));
+  const text = !todo.length ? "Start"
+    : `Start ${flying ? many(todo.length, "new mission") : many(todo.length, "mission")}`;
+  const no = (why) => ({ text, able: false, why });
+  if (!plan.loaded || state.phase === "unknown") return no("");
+  if (state.busy) return no(state.busy);
+  if (state.phase === "stopping") return no("");
+  if (toResume(state)) {
+    return no(state.phase === "stopped"
+      ? "Resume goes on with every mission where it was. Put away begins afresh."
+      : "A flight was broken off. Resume goes on with it; Put away begins afresh.");
+  }
+  if (!todo.length) return no(flying ? "" : "Nothing to start yet: add a mission first.");
+  if (bad.length) {
+    return no(`${bad.length === 1 ? "One thing is" : `${bad.length} things are`} to be mended first:`
+      + " see the marked missions.");
+  }
+  const why = { idle: "All is set.", over: "Start flies the whole plan again." }[state.phase] ?? "";
+  return { text, able: true, why };
+}
