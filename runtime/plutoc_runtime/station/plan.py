@@ -1,0 +1,151 @@
+"""The plan that people draw: one for all who look at it, checked, and kept with every change."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Collection, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from . import plan_errors as errors
+from . import plan_file, plan_text
+from .example import example_missions
+from .plan_errors import Stale
+from .plan_json import Shape, check_together, missions_from, trips_of
+from .plan_problems import as_json, checked
+
+if TYPE_CHECKING:
+    from ..app import App
+    from ..files.fleet import FleetFile
+    from ..model import Mission
+
+__all__ = ["Plan", "Stale"]
+
+MOST_SAID = 10
+"""So many problems are told to whoever presses Start; all stand where they are."""
+
+
+class Plan:
+    """Missions as they are drawn; those that were launched stay as they are while anything flies.
+
+    Every change has a number, the plan's revision, and says on which one it was drawn.
+    """
+
+    def __init__(
+        self, app: App, fleet: FleetFile, keep: Path | None, now: Callable[[], float] = time.time
+    ) -> None:
+        self._app, self._fleet, self._keep = app, fleet, keep
+        kept = plan_file.read(keep, app) if keep else plan_file.Kept()
+        self.trouble = kept.said
+        """What went wrong with keeping it, for everybody; empty: nothing."""
+        # From the clock: no number may ever mean two plans, though one could not be kept.
+        self.revision = max(kept.revision + 1, round(now() * 1000))
+        self._missions = list(kept.missions)
+        self._problems = checked(app, fleet, self._missions)[1]
+
+    def data(self) -> Shape:
+        """Return the plan as pages get it."""
+        return {
+            "revision": self.revision,
+            "missions": self._missions,
+            "problems": [as_json(problem) for problem in self._problems],
+            "said": self.trouble,
+        }
+
+    # What pages do
+
+    def replace(self, revision: object, missions: object) -> None:
+        """Take the plan that somebody has drawn; raise `Stale` if it was drawn on an old one."""
+        drawn = self._with_launched(missions_from(missions, self._app))
+        if drawn != self._missions:  # what is there already, somebody may say twice
+            self._check_current(revision)
+            self._change(drawn)
+
+    def import_toml(self, text: str, revision: object) -> None:
+        """Take the missions of a file, instead of those that were not launched."""
+        self._check_current(revision)
+        read = plan_text.shapes_of(text, self._app, self._fleet.airspace)
+        self._change(self._with_launched(self._shaped(read)))
+
+    def example(self, revision: object) -> None:
+        """Add missions that this app and this fleet can fly."""
+        self._check_current(revision)
+        names = [str(mission["name"]) for mission in self._missions]
+        added = example_missions(self._app, self._fleet, names)
+        self._change([*self._missions, *self._shaped(added)])
+
+    def export_toml(self) -> str:
+        """Return the plan as a missions file."""
+        return self.text()
+
+    # What flies
+
+    def launchable(self) -> tuple[list[Mission[Any]], list[str]]:
+        """Return what has not been launched yet, with its keys; raise `BadInput` if it cannot be.
+
+        The missions are new ones each time: whoever flies them changes them.
+        """
+        if self._problems:
+            raise errors.not_ready([problem.alone for problem in self._problems], MOST_SAID)
+        waiting = [mission for mission in self._missions if not mission["launched"]]
+        return checked(self._app, self._fleet, waiting)[0], [str(one["key"]) for one in waiting]
+
+    def launched(self, keys: Collection[str]) -> None:
+        """These missions fly: nobody may change them now."""
+        self._mark(lambda mission: bool(mission["launched"]) or mission["key"] in keys)
+
+    def unlock(self) -> None:
+        """Nothing flies any more: every mission may be changed, and launched again."""
+        self._mark(lambda _: False)
+
+    def text(self, keys: Collection[str] | None = None) -> str:
+        """Return the missions file of these missions, or of all."""
+        chosen = [one for one in self._missions if keys is None or one["key"] in keys]
+        return plan_text.text_of(self._app, chosen)
+
+    def _mark(self, is_launched: Callable[[Mapping[str, object]], bool]) -> None:
+        marked = [{**mission, "launched": is_launched(mission)} for mission in self._missions]
+        if marked != self._missions:
+            self._change(marked)
+
+    def _check_current(self, revision: object) -> None:
+        if isinstance(revision, bool) or not isinstance(revision, int):
+            raise errors.not_a_number(revision)
+        if revision != self.revision:
+            raise errors.stale(revision, self.revision)
+
+    def _with_launched(self, drawn: Sequence[Shape]) -> list[Shape]:
+        """Put those that were launched back as they are; those that are missing come first."""
+        fixed = {one["key"]: one for one in self._missions if one["launched"]}
+        merged = [fixed.pop(mission["key"], mission) for mission in drawn]
+        missions = [*fixed.values(), *merged]
+        check_together(missions)
+        return missions
+
+    def _shaped(self, missions: Sequence[Shape]) -> list[Shape]:
+        """Give keys to missions and trips that come from elsewhere than a page."""
+        taken = {one["key"] for mission in self._missions for one in (mission, *trips_of(mission))}
+        count = 0
+
+        def keyed(shape: Shape) -> Shape:
+            nonlocal count
+            key = None
+            while key is None or key in taken:
+                key, count = f"{self.revision:x}-{count:06x}", count + 1
+            return {**shape, "key": key}
+
+        shapes = [{**keyed(one), "trips": [*map(keyed, trips_of(one))]} for one in missions]
+        return missions_from(shapes, self._app)
+
+    def _change(self, missions: list[Shape]) -> None:
+        self._missions = missions
+        self._problems = checked(self._app, self._fleet, missions)[1]
+        self.revision += 1
+        if self._keep is None:
+            return
+        try:
+            plan_file.write(self._keep, self._app, self.revision, missions)
+        except OSError as error:
+            self.trouble = errors.not_kept(self._keep, error)
+        else:
+            self.trouble = ""

@@ -1,0 +1,98 @@
+"""What is still wrong with a plan, and where: the checks of a missions file, in a screen's words."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from ..files.missions import read_missions
+from ..files.reading import Document
+from ..plan_check import unflyable
+from .plan_json import Shape, trips_of
+from .plan_words import in_one_go, on_a_screen, sentence
+
+if TYPE_CHECKING:
+    from ..app import App
+    from ..files.fleet import FleetFile
+    from ..files.toml_places import Place
+    from ..model import Mission
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PlanProblem:
+    """Something that keeps a plan from being flown."""
+
+    mission: str | None
+    """The key of the mission that it is about, if it is about one."""
+    trip: str | None
+    field: str | None
+    """Such as `safe_time`, `target`, `item.mass` or `parameters.dose`."""
+    text: str
+    """As it stands beside that field."""
+    alone: str
+    """As it stands where nothing else shows what it is about."""
+
+
+def checked(
+    app: App, fleet: FleetFile, missions: Sequence[Shape]
+) -> tuple[list[Mission[Any]], list[PlanProblem]]:
+    """Return the missions to fly, as far as they can be read, and what is wrong with them."""
+    document = _document(app, missions)
+    read = read_missions(document, app, fleet.airspace) if missions else []
+    found = [
+        _problem(missions, one.place, sentence(one.text, app), sentence(one.sentence, app))
+        for one in document.problems
+    ]
+    bad = {one.mission for one in found}
+    sound = [one for one in read if missions[one.index]["key"] not in bad]
+    for miss in unflyable(sound, app, fleet, fleet.airspace):
+        place = ("mission", miss.mission.index, "trip", miss.trips[0].index)
+        text = sentence(in_one_go(miss.trips, miss.reason), app)
+        alone = sentence(f"{miss.called}: {miss.reason}", app)
+        found.append(_problem(missions, place, text, alone))
+    return read, found
+
+
+def as_json(problem: PlanProblem) -> Shape:
+    """Return a problem as pages get it."""
+    return {
+        "mission": problem.mission,
+        "trip": problem.trip,
+        "field": problem.field,
+        "text": problem.text,
+    }
+
+
+def as_in_a_file(mission: Mapping[str, object]) -> dict[str, object]:
+    """Return a mission as a missions file would have it: no keys, and nothing that is not given."""
+    trips = [_bare(trip) for trip in trips_of(mission)]
+    return {**_bare(mission), "trip": trips}
+
+
+def _bare(given: Mapping[str, object]) -> dict[str, object]:
+    ours = ("key", "launched", "trips")
+    return {key: value for key, value in given.items() if key not in ours and value is not None}
+
+
+def _document(app: App, missions: Sequence[Shape]) -> Document:
+    data: dict[str, object] = {"mission": [as_in_a_file(mission) for mission in missions]}
+    return Document("", data, {}, on_a_screen(app))
+
+
+def _problem(missions: Sequence[Shape], place: Place, text: str, alone: str) -> PlanProblem:
+    """Find the keys of what is at this place of a file."""
+    mission = trip = None
+    inside: Sequence[str | int] = ()
+    match place:
+        case ("mission", int(i), "trip", int(j), *inside):
+            mission, trip = missions[i]["key"], list(trips_of(missions[i]))[j]["key"]
+        case ("mission", int(i), *inside):
+            mission = missions[i]["key"]
+    return PlanProblem(
+        mission=None if mission is None else str(mission),
+        trip=None if trip is None else str(trip),
+        field=".".join(part for part in inside if isinstance(part, str)) or None,
+        text=text,
+        alone=alone,
+    )

@@ -1,0 +1,53 @@
+"""How a plan is spoken of to whoever draws it on a screen, and never sees its file."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ..files.wording import Wording
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from ..app import App
+    from ..model import Trip
+
+_CALLED = {
+    "name": "the name",
+    "target": "the place",
+    "source": "the place where the flight begins",
+    "mass": "the mass",
+}
+_MISSING = {
+    "action": "has no action yet: choose one",
+    "target": "has no place yet: drag it onto the floor plan, or type x and y",
+    "name": "the item has no name yet",
+    "mass": "the item has no mass yet: write it like 4 g",
+}
+
+
+def on_a_screen(app: App) -> Wording:
+    """Return the words for screens, which have labels where files have keys."""
+    called = {**_CALLED, **{field.name: field.label for field in app.fields}}
+    return Wording(
+        called=lambda key: called.get(key, key),
+        missing=lambda key: _MISSING.get(key, f"has no {called.get(key, key)} yet"),
+        no_trips=lambda: "has no trips yet: drag an action onto the floor plan",
+        item_missing=lambda action: f"{action} needs an item: give its name and its mass",
+    )
+
+
+def sentence(text: str, app: App) -> str:
+    """Begin a sentence that stands alone with a capital, unless a name of the app begins it."""
+    first = text.partition(" ")[0].rstrip(":,;")
+    parameters = (one.name for action in app.actions.values() for one in action.parameters)
+    if first in app.actions or first in parameters:
+        return text
+    return text[:1].upper() + text[1:]
+
+
+def in_one_go(trips: Sequence[Trip], reason: str) -> str:
+    """Say why nobody can fly these trips, beside the first of them."""
+    if len(trips) == 1:
+        return reason
+    return f"from here to trip {trips[-1].name} one drone must fly all: {reason}"
