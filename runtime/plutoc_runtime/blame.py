@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from types import FrameType, TracebackType
+from types import CodeType, FrameType, TracebackType
 from typing import Any
+
+_KNOWN: dict[tuple[CodeType, int], str] = {}
+"""Comments that were found before, by the line below them."""
 
 
 def blame(error: BaseException, flow: Callable[..., Any]) -> None:
@@ -30,6 +33,20 @@ def blamed(error: BaseException, flow: Callable[..., Any]) -> str:
     for frame, line in _frames(error.__traceback__):
         if file is not None and frame.f_code.co_filename == file.co_filename:
             found = _above(frame, line) or found
+    return found
+
+
+def waiting_at(coroutine: object, flow: Callable[..., Any]) -> str:
+    """Return the declaration of the block at which a mission's coroutine waits; empty: at none."""
+    file, found = flow.__code__.co_filename, ""
+    while coroutine is not None:
+        frame: FrameType | None = getattr(coroutine, "cr_frame", None)
+        if frame is not None and frame.f_code.co_filename == file:
+            place = frame.f_code, frame.f_lineno
+            if place not in _KNOWN:
+                _KNOWN[place] = _above(frame, frame.f_lineno)
+            found = _KNOWN[place] or found
+        coroutine = getattr(coroutine, "cr_await", None)
     return found
 
 

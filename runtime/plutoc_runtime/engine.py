@@ -28,6 +28,8 @@ class Engine:
         self._aside: dict[str, State] = {}
         """The missions that wait for a person: paused, uncertain or held."""
         self._halted = False
+        self.patient = False
+        """Whether missions that wait for a person's decision keep it from being over."""
         self.done: Signal[None] = Signal()
         """Set when the last mission has ended, and none is paused; another one when one goes on."""
 
@@ -107,7 +109,8 @@ class Engine:
     def look_for_the_end(self) -> None:
         """See whether there is nothing left to do."""
         paused = (state.mission.status is Status.PAUSED for state in self._aside.values())
-        if not self._living and not any(paused):
+        waits = bool(self._aside) if self.patient else any(paused)
+        if not self._living and not waits:
             self.done.set(None)
 
     def halt(self) -> None:

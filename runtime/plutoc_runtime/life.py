@@ -65,6 +65,8 @@ class Life:
             self.recorder.when_durable(partial(self._link.forget, id))
 
     def _when_durable(self, watcher: Listener, event: Event) -> None:
+        if event["event"] == "trip.completed":
+            event = {**event, "result": self.recorder.records.results[-1][-1]}
         self.recorder.when_durable(partial(watcher, event))
 
     def start(self, missions: Sequence[Mission[Any]]) -> Task[float]:

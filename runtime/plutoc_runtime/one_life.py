@@ -76,6 +76,7 @@ class OneLife:
             listeners=(self._count,),
             watcher=setting.tell,
         )
+        life.session.engine.patient = setting.patient
         life.control.stopped.watch(lambda _: self._end.set(End.STOPPED))
         stops.stop_now = self._stop
         if setting.born is not None:

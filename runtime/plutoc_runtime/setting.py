@@ -48,6 +48,8 @@ class Setting:
     tell: Callable[[Event], object]
     """Shows an event to whoever watches, once it is on record."""
     speed: float = 1.0
+    patient: bool = False
+    """Whether it goes on for as long as a mission waits for a person's decision."""
     born: Callable[[OneLife], object] | None = None
     """Told of each life when it begins."""
 

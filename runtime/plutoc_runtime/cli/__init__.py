@@ -97,6 +97,10 @@ def _command(app: App, argv: Sequence[str] | None) -> int:
             from .fly import fly
 
             return fly(app, options)
+        case "serve":
+            from .serve import serve
+
+            return serve(app, options)
         case "tell":
             from .tell import tell
 

@@ -111,6 +111,8 @@ class Watcher:
     """Told what is no event of the flight: a gateway has died."""
     born: Callable[[OneLife], object] | None = None
     """Told of each life when it begins."""
+    patient: bool = False
+    """Whether somebody is there who can decide what missions ask."""
 
 
 async def lives(
@@ -134,6 +136,7 @@ async def lives(
         tell=watcher.tell,
         speed=flight.speed,
         born=watcher.born,
+        patient=watcher.patient,
     )
     deaths, done = 0, -1
     while True:

@@ -10,7 +10,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from threading import Timer
 from types import FrameType
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 from ..errors import BadInput
 from ..gateway.starting import stop_directly
@@ -18,18 +18,28 @@ from ..journal.place import gateway_folder
 from ..standing import Down
 from . import output
 
-if TYPE_CHECKING:
-    from ..setting import Stops
-
 AT_ONCE = 1.0
 """Seconds that the app may take to stop its drones, before they are told without it."""
+
+
+class Stoppable(Protocol):
+    """What can be brought to its end."""
+
+    asked: Down | None
+    """How, once somebody has asked for that."""
+
+    def stop(self, how: Down) -> None:
+        """Bring all drones down; called in the loop's thread."""
+        ...
 
 
 class Interrupts:
     """Whoever wants the app to end, and whether it has heard."""
 
-    def __init__(self, stops: Stops, journal: Callable[[], Path | None], how_to_go_on: str) -> None:
-        """Begin; `journal` says which one is being written when somebody wants to stop."""
+    def __init__(
+        self, stops: Stoppable, journal: Callable[[], Path | None], how_to_go_on: str
+    ) -> None:
+        """Begin; `journal` says which one is being written then; None: nothing flies."""
         self.code: int | None = None
         """The exit code of what has interrupted it."""
         self.loop: asyncio.AbstractEventLoop | None = None
@@ -55,7 +65,8 @@ class Interrupts:
             output.tell(f"leaving at once: the gateway lands the drones; {self._how}")
             os._exit(128 + number)
         self.code = 128 + number
-        output.tell("stopping: the drones land where they are (once more to leave at once)")
+        if self._journal() is not None:
+            output.tell("stopping: the drones land where they are (once more to leave at once)")
         self._stops.asked = Down.LAND
         if self.loop is not None:
             self.loop.call_soon_threadsafe(self._stop)

@@ -12,6 +12,7 @@ from ..errors import BadInput
 from ..quantities import Type, parse_quantity
 from ..words import quoted
 from .flight_options import add_flights, how_it_flies
+from .station_options import add_station
 
 if TYPE_CHECKING:
     from ..app import App
@@ -47,6 +48,13 @@ class Options:
     land: bool = False
     rtl: bool = False
     answer: str | None = None
+    plan: Path | None = None
+    host: str = ""
+    port: int = 0
+    names: list[str] = field(default_factory=list)
+    folder: Path | None = None
+    open: bool = False
+    going_on: bool = False
 
     @property
     def the_journal(self) -> Path:
@@ -78,6 +86,11 @@ def parse(app: App, argv: Sequence[str] | None) -> Options:
         type=Path,
         help="where to write down what happens; default: a new file in the user's own folder",
     )
+    serve = command("serve", "Open the ground station: draw, fly and watch missions in a browser.")
+    _fleet(serve)
+    how_it_flies(serve)
+    _chance(serve, "with --sim: ")
+    add_station(serve)
     add_flights(command)
     _journal(command("journal", "Print what happened, as it was written down."))
     options = parser.parse_args(argv, namespace=Options())
@@ -95,6 +108,10 @@ def _plain(parser: ArgumentParser) -> ArgumentParser:
 
 def _files(parser: ArgumentParser) -> None:
     parser.add_argument("missions", metavar="M.toml", type=Path, help="the missions file")
+    _fleet(parser)
+
+
+def _fleet(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--fleet",
         metavar="F.toml",

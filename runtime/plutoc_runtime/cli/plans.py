@@ -33,8 +33,7 @@ class Plan:
 
 def load(app: App, options: Options) -> Plan:
     """Return the plan of a command's files; raise `BadInput` where nobody could fly it."""
-    fleet_text = text_of(options.fleet) if options.fleet else None
-    fleet = _fleet(app, str(options.fleet), fleet_text)
+    fleet, fleet_text = load_fleet(app, options)
     missions_text = text_of(options.missions)
     missions = missions_of(parsed(str(options.missions), missions_text), app, fleet.airspace)
     found = problems(missions, app, fleet, fleet.airspace)
@@ -43,6 +42,12 @@ def load(app: App, options: Options) -> Plan:
     if found:
         raise BadInput(shortened([f"{options.missions}: {sentence}" for sentence in found]))
     return Plan(missions=missions, fleet=fleet, missions_text=missions_text, fleet_text=fleet_text)
+
+
+def load_fleet(app: App, options: Options) -> tuple[FleetFile, str | None]:
+    """Return the fleet of a command's file, and that file's text; None: there is none."""
+    text = text_of(options.fleet) if options.fleet else None
+    return _fleet(app, str(options.fleet), text), text
 
 
 def fleet_in(app: App, journal: Path, header: Header) -> FleetFile:

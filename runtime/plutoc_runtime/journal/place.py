@@ -27,7 +27,11 @@ def new(app: str, now: float) -> Path:
 
     The folder is there after that, and nobody else may look into it.
     """
-    folder = _folder(app)
+    return new_in(folder_of(app), now)
+
+
+def new_in(folder: Path, now: float) -> Path:
+    """Return the same in a folder that somebody has chosen."""
     try:
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
         if not os.access(folder, os.W_OK | os.X_OK):
@@ -44,15 +48,21 @@ def new(app: str, now: float) -> Path:
 
 def newest(app: str) -> Path:
     """Return the journal that was written last, of those whose place nobody chose."""
-    folder = _folder(app)
+    folder = folder_of(app)
+    path = newest_in(folder)
+    if path is None:
+        raise errors.none_yet(app, folder)
+    return path
+
+
+def newest_in(folder: Path) -> Path | None:
+    """Return the journal of a folder that was written last; None: it has none."""
     found: list[tuple[int, str, Path]] = []
     with suppress(OSError):
         for path in folder.glob(f"*{ENDING}"):
             with suppress(OSError):
                 found.append((_written(path), path.name, path))
-    if not found:
-        raise errors.none_yet(app, folder)
-    return max(found)[2]
+    return max(found)[2] if found else None
 
 
 def _written(path: Path) -> int:
@@ -62,7 +72,8 @@ def _written(path: Path) -> int:
     return latest
 
 
-def _folder(app: str) -> Path:
+def folder_of(app: str) -> Path:
+    """Return where an app's journals are when nobody says."""
     state = Path(os.environ.get("XDG_STATE_HOME", ""))
     if not state.is_absolute():  # so it is when nobody has set it
         home = Path(os.path.expanduser("~"))

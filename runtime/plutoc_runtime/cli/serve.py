@@ -1,0 +1,219 @@
+"""`serve`: the ground station in a browser."""
+
+from __future__ import annotations
+
+import asyncio
+import fcntl
+import secrets
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from .. import again
+from ..errors import BadInput
+from ..files.reading import text_of
+from ..journal import place
+from ..standing import Down
+from ..station.api import Api
+from ..station.audit import Audit
+from ..station.guard import Guard, needs_token
+from ..station.phase import Phase
+from ..station.plan import Plan
+from ..station.settings import Settings
+from ..station.static import floor_plan
+from ..station.station import Station
+from ..station.web import serve as serve_web
+from ..station.web import server_is_there
+from . import output
+from .flown import finished, records_in
+from .interrupts import Interrupts
+from .plans import load_fleet
+from .supervise import Supervised, supervise
+
+if TYPE_CHECKING:
+    from ..app import App
+    from .options import Options
+
+AGAIN = "serve goes on with what was interrupted"
+
+
+def serve(app: App, options: Options) -> int:
+    """Serve the station until somebody interrupts it; then all drones land first."""
+    if not options.sim:
+        raise BadInput(f"{app.name}: real drones are not supported yet: use --sim")
+    server_is_there(app.name)
+    settings = _settings(app, options)
+    if options.supervise:
+        return _supervised(app, options, settings)
+    with _alone(settings):
+        station = Station(app, settings, _plan(app, options, settings))
+        leaving = _Leaving(station)
+        interrupts = Interrupts(leaving, leaving.journal, AGAIN)
+        with interrupts.listening():
+            asyncio.run(_serve(app, options, settings, station, interrupts))
+        return interrupts.code or 0
+
+
+async def _serve(
+    app: App, options: Options, settings: Settings, station: Station, interrupts: Interrupts
+) -> None:
+    interrupts.loop = asyncio.get_running_loop()
+    station.begin()
+    if options.going_on and station.phase is Phase.INTERRUPTED:
+        station.resume()
+    token = _token(settings) if needs_token(options.host, tuple(options.names)) else None
+    guard = Guard(host=options.host, port=options.port, names=tuple(options.names), token=token)
+    api = Api(station, guard, Audit(settings.own_folder / "audit.log"))
+
+    def ready(port: int) -> None:
+        (settings.own_folder / PORT).write_text(str(port), encoding="utf-8")
+        address = f"http://{_host_in_url(options.host)}:{port}/" + (
+            f"#token={token}" if token else ""
+        )
+        output.line(f"station: {address}")
+        output.flush()
+        if options.open:
+            import webbrowser  # few want it, and it is slow to import
+
+            webbrowser.open(address)
+
+    server = asyncio.create_task(serve_web(api, options.host, _port(options, settings), ready))
+    leaves = asyncio.create_task(station.leaves.wait())
+    await asyncio.wait([server, leaves], return_when=asyncio.FIRST_COMPLETED)
+    if not server.done():
+        server.cancel()
+    with suppress(asyncio.CancelledError):
+        await server
+
+
+class _Leaving:
+    """What Ctrl-C stops: all that flies, and then the station."""
+
+    def __init__(self, station: Station) -> None:
+        self.asked: Down | None = None
+        self._station = station
+
+    def stop(self, _: Down) -> None:
+        """Let all drones land, and the station end."""
+        self._station.leave()
+
+    def journal(self) -> Path | None:
+        """Return which journal is being written."""
+        outing = self._station.outing
+        return outing.journal if outing is not None and outing.lives else None
+
+
+def _settings(app: App, options: Options) -> Settings:
+    fleet, text = load_fleet(app, options)
+    folder = options.folder or place.folder_of(app.name)
+    image = floor_plan(options.fleet.parent, fleet.image) if options.fleet and fleet.image else None
+    settings = Settings(
+        folder=folder,
+        fleet=fleet,
+        fleet_text=text,
+        image=image,
+        sim=options.sim,
+        seed=options.seed,
+        faults=options.fail,
+        speed=options.speed,
+    )
+    try:
+        settings.own_folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+    except OSError as error:
+        raise BadInput(
+            f"{folder}: the station cannot keep anything there: {error.strerror}"
+        ) from None
+    return settings
+
+
+def _plan(app: App, options: Options, settings: Settings) -> Plan:
+    plan = Plan(app, settings.fleet, settings.own_folder / "plan.json")
+    if options.plan is not None:
+        if plan.is_empty:
+            plan.import_toml(text_of(options.plan), plan.revision)
+        else:
+            output.tell(f"the plan that was drawn here stays: {options.plan} is not read")
+    return plan
+
+
+PORT = "port"
+"""The file that says where browsers look for the station: after a crash it is there again."""
+
+
+def _port(options: Options, settings: Settings) -> int:
+    if options.going_on and not options.port:
+        with suppress(OSError, ValueError):
+            return int((settings.own_folder / PORT).read_text(encoding="utf-8"))
+    return options.port
+
+
+def _token(settings: Settings) -> str:
+    """Return the token: the same after a restart, so that nobody is locked out in mid-flight."""
+    file = settings.own_folder / "token"
+    with suppress(OSError, ValueError):
+        known = file.read_text(encoding="ascii").strip()
+        if len(known) >= _TOKEN:
+            return known
+    token = secrets.token_urlsafe(_TOKEN)
+    file.touch(mode=0o600)
+    file.write_text(token, encoding="ascii")
+    return token
+
+
+_TOKEN = 32
+"""Bytes."""
+
+
+def _host_in_url(host: str) -> str:
+    return f"[{host}]" if ":" in host else host
+
+
+@contextmanager
+def _alone(settings: Settings) -> Iterator[None]:
+    """Let nobody else serve from this folder."""
+    with (settings.own_folder / "lock").open("ab") as lock:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise BadInput(
+                f"{settings.folder}: another station is being served from there: end that one, or"
+                " name another folder with --folder"
+            ) from None
+        yield
+
+
+def _supervised(app: App, options: Options, settings: Settings) -> int:
+    """Let another process serve, and start it again, going on, when it crashes."""
+    first = again.command(*_words(options))
+
+    def done() -> int:
+        journal = place.newest_in(settings.folder)
+        return finished(records_in(app, journal)) if journal is not None else 0
+
+    return supervise(
+        Supervised(
+            name=app.name,
+            first=first,
+            again=lambda: [*first, "--going-on"],
+            finished=done,
+            how_to_go_on=AGAIN,
+        )
+    )
+
+
+def _words(options: Options) -> list[str]:
+    """Return the command line of the station that is supervised."""
+    faults = ",".join(f"{what}={share}" for what, share in options.fail.items())
+    optional = {
+        "--fleet": options.fleet,
+        "--missions": options.plan,
+        "--folder": options.folder,
+        "--speed": options.speed,
+        "--fail": faults or None,
+    }
+    given = [word for flag, value in optional.items() if value for word in (flag, str(value))]
+    names = [word for name in options.names for word in ("--name", name)]
+    where = ["--host", options.host, "--port", str(options.port), "--seed", str(options.seed)]
+    opens = ["--open"] if options.open else []
+    return ["serve", "--sim", "--supervised", *where, *names, *given, *opens]

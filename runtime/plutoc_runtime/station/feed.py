@@ -1,0 +1,101 @@
+"""What has happened in a flight, for a console; and what it has brought in."""
+
+from __future__ import annotations
+
+import json
+from collections import deque
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+from ..cli.events import line_of, sentence_of
+
+if TYPE_CHECKING:
+    from ..trace import Event
+
+KEPT = 20_000
+"""Lines, and results; older ones are in the journal alone."""
+
+AT_ONCE = 500
+"""Lines that a page gets in one message: the newest."""
+
+
+class Tail:
+    """The newest entries of a list that only grows; each has a number, from 1 on."""
+
+    def __init__(self) -> None:
+        self.last = 0
+        self._texts: deque[str] = deque(maxlen=KEPT)
+
+    def add(self, *facts: object) -> None:
+        """Add an entry: its number, and these facts."""
+        self.last += 1
+        self._texts.append(json.dumps([self.last, *facts]))
+
+    def since(self, number: int) -> Iterator[str]:
+        """Yield those after that number, no more than a page can show."""
+        new = min(self.last - number, AT_ONCE, len(self._texts))
+        return (self._texts[place] for place in range(-new, 0))
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._texts)
+
+
+class Feed:
+    """What is told of one flight."""
+
+    def __init__(self) -> None:
+        self.log, self.results = Tail(), Tail()
+        self._lines: deque[str] = deque(maxlen=KEPT)
+
+    def take(self, event: Event) -> None:
+        """Something happened, and is on record."""
+        said = sentence_of(event)
+        if said is not None:
+            self._lines.append(line_of(event) or "")
+            self.log.add(event["t"], event.get("mission"), said, _kind(event))
+        verdict = _VERDICTS.get(str(event["event"]))
+        if event["event"] == "trip.completed":
+            self._result(event, *_value(event.get("result")))
+        elif verdict is not None:
+            self._result(event, "verdict", f"{verdict}: {event.get('reason') or said}")
+
+    def say(self, time: float, text: str, kind: str = "info") -> None:
+        """Tell what is no event of the flight's."""
+        self._lines.append(f"{time:>8.1f} s  {text}")
+        self.log.add(time, None, text, kind)
+
+    def console(self) -> str:
+        """Return all lines that are kept, as a text."""
+        return "".join(f"{line}\n" for line in self._lines)
+
+    def _result(self, event: Event, kind: str, value: object) -> None:
+        facts = (event.get(fact) for fact in ("t", "mission", "trip", "round", "attempt", "drone"))
+        self.results.add(*facts, kind, value)
+
+
+def _value(data: Any) -> tuple[str, object]:
+    """Return what kind of result a page must show, and what it needs for that."""
+    match data:
+        case {"$photo": photo}:
+            return "photo", photo
+        case {"$text": str(text)} | {"$number": str(text)}:
+            return "value", text
+        case None | bool() | int() | float() | str():
+            return "value", data
+        case _:
+            return "value", json.dumps(data)
+
+
+_VERDICTS = {"mission.judged": "not accepted", "mission.extended": "more to do"}
+
+_BAD = ("trip.failed", "mission.judged", "mission.uncertain", "mission.held", "drone.lost")
+
+
+def _kind(event: Event) -> str:
+    """Return how a line is to be shown: `good`, `bad`, `hook` (the app's own words), or `info`."""
+    kind = event["event"]
+    if kind == "log":
+        return "hook"
+    if kind in _BAD or event.get("status") == "FAILED":
+        return "bad"
+    return "good" if kind == "mission.ended" and event["status"] == "COMPLETED" else "info"

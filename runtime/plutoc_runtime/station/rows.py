@@ -1,0 +1,183 @@
+"""What everybody sees of a mission and of a drone, as plain data."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING, Any
+
+from ..control import ANSWERS
+from ..status import Status, TripStatus
+from ..transitions import PRIORITY
+from .whereabouts import END, ENDED, blocks_of
+
+if TYPE_CHECKING:
+    from ..app import App
+    from ..journal.fold import Record
+    from ..model import Drone, Mission, Point, Trip
+    from ..state import State
+
+Row = dict[str, object]
+
+
+def mission_row(
+    app: App, mission: Mission[Any], state: State | None, now: float, fleet: str
+) -> Row:
+    """Return what there is to see of a mission; `fleet` says what all drones are doing."""
+    done, todo = mission.completed_trips, mission.trips
+    at = blocks_of(state, app.flow) if state is not None else ()
+    until = _until(state, now)
+    current = todo[0] if todo else None
+    drone = _drone_of(mission, state)
+    return {
+        "name": mission.name,
+        "index": mission.index,
+        "status": mission.status.value,
+        "reason": mission.reason,
+        "trips": [_trip(trip) for trip in (*done, *todo)],
+        "current": len(done) if todo else None,
+        "done": len(done),
+        "total": len(done) + len(todo),
+        "drone": drone.id if drone is not None else None,
+        "at": [END] if mission.status in ENDED else list(at),
+        "wait": "" if state is None else _why_it_waits(app, state, at, until, fleet),
+        "until": until,
+        "attempt": current.attempt if current is not None else 1,
+        "attempts": mission.attempts,
+        "round": mission.round,
+        "question": _question(mission.status, mission.reason),
+    }
+
+
+def recorded_row(name: str, record: Record) -> Row:
+    """Return the same of a mission that nothing but a journal tells of."""
+    done, todo = record["done"], record["todo"]
+    status, reason = record["status"], record["reason"]
+    if status == "RUNNING":  # it did, and does no longer
+        status = "STANDBY"
+    for what, aside in _ASIDE.items():
+        if record[what] is not None and not record["ended"]:
+            status, reason = aside.value, record[what]
+            break
+    at = [END] if record["ended"] else [record["at"]] if record["at"] else []
+    return {
+        "name": name,
+        "index": record["index"],
+        "status": status,
+        "reason": reason if isinstance(reason, str) else "",
+        "trips": [_recorded_trip(trip, "COMPLETED") for trip in done]
+        + [_recorded_trip(trip, "WAITING") for trip in todo],
+        "current": len(done) if todo else None,
+        "done": len(done),
+        "total": len(done) + len(todo),
+        "drone": None,
+        "at": at,
+        "wait": "",
+        "until": None,
+        "attempt": todo[0].get("attempt", 1) if todo else 1,
+        "attempts": record["attempts"],
+        "round": record["round"],
+        "question": None,
+    }
+
+
+def drone_row(drone: Drone, mission: str | None, retired: bool) -> Row:
+    """Return what there is to see of a drone; to the centimetre, and the thousandth."""
+    return _drone_row(
+        drone.id,
+        drone.status.value,
+        drone.location,
+        drone.battery_level,
+        mission,
+        drone.trips,
+        retired,
+    )
+
+
+def drone_at(
+    id: str, place: Point, battery: float | None, trips: int, retired: bool = False
+) -> Row:
+    """Return the same of a drone of which nobody hears now: where it was seen last."""
+    return _drone_row(id, "OFFLINE", place, battery, None, trips, retired)
+
+
+def mission_of_each(states: Iterable[State]) -> dict[str, str]:
+    """Return for which mission each drone works, by their names."""
+    drones = ((_drone_of(state.mission, state), state.mission.name) for state in states)
+    return {drone.id: name for drone, name in drones if drone is not None}
+
+
+def _drone_row(
+    id: str,
+    status: str,
+    at: Point,
+    battery: float | None,
+    mission: str | None,
+    trips: int,
+    retired: bool,
+) -> Row:
+    x, y, z = at
+    return {
+        "id": id,
+        "status": status,
+        "x": round(x, 2),
+        "y": round(y, 2),
+        "z": round(z, 2),
+        "battery": None if battery is None else round(battery, 3),
+        "mission": mission,
+        "trips": trips,
+        "retired": retired,
+    }
+
+
+def _trip(trip: Trip) -> list[object]:
+    x, y, _ = trip.target
+    priority = getattr(trip, PRIORITY, None)
+    return [trip.name, trip.status.value, round(x, 3), round(y, 3), priority, trip.action]
+
+
+def _recorded_trip(data: Record, status: str) -> list[object]:
+    x, y, _ = data["target"]
+    stands = data.get("status", status)
+    if stands == TripStatus.EXECUTING.value:  # nobody knows: it will be asked
+        stands = TripStatus.WAITING.value
+    priority = data.get("fields", {}).get(PRIORITY)
+    return [data["name"], stands, round(x, 3), round(y, 3), priority, data["action"]]
+
+
+def _drone_of(mission: Mission[Any], state: State | None) -> Drone | None:
+    if state is None:
+        return None
+    flight = state.in_flight
+    return state.allocated or (flight.flier if flight is not None else state.carrier)
+
+
+def _until(state: State | None, now: float) -> float | None:
+    if state is None or state.delay is None:
+        return None
+    until = max(state.delay[1:])
+    return until if until > now else None
+
+
+def _why_it_waits(
+    app: App, state: State, at: Sequence[str], until: float | None, fleet: str
+) -> str:
+    mission = state.mission
+    if mission.status is Status.PAUSED:
+        return "paused"
+    if mission.status in ANSWERS:
+        return "waits for your decision"
+    if state.in_flight is not None or state.task is None:
+        return ""
+    if until is not None:
+        return "waits until its time has come"
+    if state.allocated is None and at and at[0] in app.resumes:
+        return f"waits for a drone ({fleet})"
+    return ""
+
+
+def _question(status: Status, text: str) -> Row | None:
+    answers = ANSWERS.get(status)
+    return None if answers is None else {"text": text, "answers": list(answers)}
+
+
+_ASIDE = {"question": Status.UNCERTAIN, "held": Status.HELD, "paused": Status.PAUSED}

@@ -1,0 +1,282 @@
+"""The station: what flies, what everybody sees of it, and what may be commanded."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import secrets
+import time
+from collections import OrderedDict
+from collections.abc import Mapping
+from contextlib import suppress
+from typing import TYPE_CHECKING, Any
+
+from ..cli import stop_mark
+from ..cli.flights import Flight
+from ..cli.taken_up import take_up
+from ..errors import BadInput
+from ..gateway.starting import stop_directly
+from ..journal import place
+from ..journal.header import header
+from ..journal.store import Store
+from ..remote_control import perform
+from ..simulation.faults import Faults
+from ..standing import Down
+from ..words import counted
+from . import leftover
+from .commands import checked
+from .describe import described
+from .outing import Outing
+from .phase import Phase, phase_of
+from .scene import Scene
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from ..app import App
+    from ..life import Life
+    from ..model import Mission
+    from .plan import Plan
+    from .settings import Settings
+
+REMEMBERED = 1_000
+"""Commands whose answers are known, if they are asked for once more."""
+
+STOP_WITHIN = 5.0
+"""Seconds for a gateway without a brain to answer."""
+
+
+class Station:
+    """One app, its fleet, the plan that people draw, and what flies of it."""
+
+    def __init__(self, app: App, settings: Settings, plan: Plan) -> None:
+        self._app, self._settings, self.plan = app, settings, plan
+        self.described = described(app, settings) | {"server": secrets.token_hex(8)}
+        self.outing: Outing | None = None
+        """What flies, or flew last."""
+        self.leaves = asyncio.Event()
+        """Set when nothing flies any more and somebody wants the station to end."""
+        self._leaving = False
+        self._answers: OrderedDict[str, asyncio.Future[str]] = OrderedDict()
+        self._scene = Scene(self)
+        self._one_at_a_time = asyncio.Lock()
+
+    @property
+    def image(self) -> Path | None:
+        """The floor plan."""
+        return self._settings.image
+
+    @property
+    def phase(self) -> Phase:
+        """What goes on."""
+        return phase_of(self.outing)
+
+    def begin(self) -> None:
+        """Show the flight that an earlier station, or `fly`, has not brought to its end."""
+        taken = leftover.found(self._app, self._settings)
+        if taken is None:
+            self.plan.unlock()
+            return
+        self.outing = Outing(taken.flight(self._settings.speed), self._over)
+        self.outing.read(taken.known)
+        taken.store.close()
+
+    # What may be commanded
+
+    async def command(self, name: str, id: str, given: Mapping[str, object]) -> str:
+        """Do what somebody asks for, once; return what was done, or raise `BadInput`.
+
+        Whoever asks again under the same name, having heard no answer, gets the answer of then.
+        """
+        arguments = checked(name, given)
+        if id in self._answers:
+            return await asyncio.shield(self._answers[id])
+        if self._was_done(id):
+            return "done already"
+        answer = asyncio.ensure_future(self._do(name, id, arguments))
+        self._answers[id] = answer
+        answer.add_done_callback(_heard)
+        while len(self._answers) > REMEMBERED and next(iter(self._answers.values())).done():
+            self._answers.popitem(last=False)
+        return await asyncio.shield(answer)  # whoever asked may go: it is done all the same
+
+    def _was_done(self, id: str) -> bool:
+        outing = self.outing
+        if outing is None:
+            return False
+        records = outing.life.recorder.records if outing.life is not None else outing.records
+        return records is not None and id in records.commands
+
+    async def _do(self, name: str, id: str, given: Mapping[str, object]) -> str:
+        match name:
+            case "stop":
+                return await self._stop(Down(str(given["how"])))
+            case "start":
+                async with self._one_at_a_time:
+                    return await self._start(id, given)
+            case "resume":
+                async with self._one_at_a_time:
+                    return self.resume()
+            case "discard":
+                async with self._one_at_a_time:
+                    return await self._discard()
+            case _:
+                return await self._of_the_flight(name, id, given)
+
+    async def _start(self, id: str, given: Mapping[str, object]) -> str:
+        revision = given.get("revision")
+        if revision is not None and revision != self.plan.revision:
+            raise BadInput("the plan has changed meanwhile: look at it, and start again")
+        phase = self.phase
+        if phase is Phase.STOPPING:
+            raise BadInput("the drones are coming down: wait until they are")
+        if phase in (Phase.STOPPED, Phase.INTERRUPTED):
+            raise BadInput("the last flight has not ended: resume it, or put it away")
+        if phase is Phase.OVER:
+            self.plan.unlock()
+        missions, keys = self.plan.launchable()
+        if not missions:
+            raise BadInput(
+                "every mission flies already"
+                if phase is Phase.FLYING
+                else "there is no mission yet"
+            )
+        started = f"{counted(len(missions), 'mission')} started"
+        if phase is Phase.FLYING:
+            one = self.outing.one if self.outing is not None else None
+            if one is None:
+                raise BadInput(_NOT_YET)
+
+            def add(life: Life) -> str:
+                life.add(missions)
+                life.control.remember(id, "start")
+                return started
+
+            said = await one.carry_out(add)
+        else:
+            self._set_out(missions)
+            said = started
+        self.plan.launched(keys)
+        self._over()
+        return said
+
+    def _set_out(self, missions: list[Mission[Any]]) -> None:
+        settings = self._settings
+        for index, mission in enumerate(missions):
+            mission.index = index
+        journal = place.new_in(settings.folder, time.time())
+        begun = header(
+            self._app,
+            missions=self.plan.text(),
+            fleet=settings.fleet_text,
+            sim=settings.sim,
+            seed=settings.seed,
+            faults=settings.faults,
+        )
+        store = Store.create(journal, begun)
+        flight = Flight(
+            app=self._app,
+            journal=store.path,
+            missions=missions,
+            fleet=settings.fleet,
+            speed=settings.speed or 1.0,
+            seed=settings.seed,
+            faults=Faults(**settings.faults),
+        )
+        self.outing = Outing(flight, self._over)
+        self.outing.begin(store, None)
+
+    def resume(self) -> str:
+        """Go on with what was stopped or interrupted."""
+        if self.phase not in (Phase.STOPPED, Phase.INTERRUPTED) or self.outing is None:
+            raise BadInput("there is nothing to go on with")
+        journal = self.outing.journal
+        taken = take_up(self._app, journal)
+        stop_mark.remove(taken.store.path)
+        self.outing.flight = taken.flight(self._settings.speed)
+        self.outing.begin(taken.store, taken.known)
+        return "going on where it was"
+
+    async def _discard(self) -> str:
+        if self.phase not in (Phase.STOPPED, Phase.INTERRUPTED) or self.outing is None:
+            raise BadInput("there is nothing to put away")
+        folder = place.gateway_folder(self.outing.journal)
+        with suppress(BadInput):  # nothing flies any more, as it should be
+            await asyncio.to_thread(stop_directly, folder, Down.LAND, STOP_WITHIN)
+        leftover.put_away(self._settings, self.outing.journal)
+        self.outing = None
+        self.plan.unlock()
+        self._over()
+        return "put away; its journal is kept"
+
+    async def _stop(self, how: Down) -> str:
+        """Bring all drones down: nothing stands between this and the drones."""
+        outing = self.outing
+        if outing is None or not outing.lives:
+            return await self._stop_without_a_brain(how)
+        if outing.one is not None and outing.life is not None:
+            return await outing.one.answer({"command": "stop", "how": how.value})
+        outing.stops.stop(how)
+        return "stopping, as soon as the drones can be reached"
+
+    async def _stop_without_a_brain(self, how: Down) -> str:
+        """The app may have crashed, and its gateway may be bringing the drones down."""
+        if self.outing is not None:
+            folder = place.gateway_folder(self.outing.journal)
+            with suppress(BadInput):
+                return await asyncio.to_thread(stop_directly, folder, how, STOP_WITHIN)
+        return "nothing flies"
+
+    async def _of_the_flight(self, name: str, id: str, given: Mapping[str, object]) -> str:
+        outing = self.outing
+        if outing is None or not outing.lives:
+            raise BadInput("nothing flies now")
+        if outing.one is None or outing.life is None:
+            raise BadInput(_NOT_YET)
+
+        def do(life: Life) -> str:
+            said = perform(life.control, {"command": name, **given})
+            life.control.remember(id, name)
+            return said
+
+        return await outing.one.carry_out(do)
+
+    def leave(self) -> None:
+        """Let the station end as soon as all drones are down."""
+        self._leaving = True
+        if self.outing is not None and self.outing.lives:
+            self.outing.stops.stop(Down.LAND)
+        else:
+            self.leaves.set()
+
+    def _over(self) -> None:
+        """A flight has begun or ended: let the plan be drawn anew, and whoever waits for it go."""
+        if self.phase in (Phase.IDLE, Phase.OVER):
+            self.plan.unlock()
+        if self._leaving and self.phase not in (Phase.FLYING, Phase.STOPPING):
+            self.leaves.set()
+
+    # What everybody sees
+
+    async def newer(self, flight: str, seen: int, log: int, results: int) -> str:
+        """Return what has changed since somebody looked, as soon as anything has, or in a second."""
+        return await self._scene.newer(flight, seen, log, results)
+
+    def console(self) -> str:
+        """Return what has happened in the flight, line by line."""
+        return self.outing.feed.console() if self.outing is not None else ""
+
+    def results(self) -> list[object]:
+        """Return what the flight has brought in."""
+        if self.outing is None:
+            return []
+        return [json.loads(text) for text in self.outing.feed.results]
+
+
+_NOT_YET = "the drones are just being asked where they are: try again in a moment"
+
+
+def _heard(answer: asyncio.Future[str]) -> None:
+    """Whoever asked may have gone: a refusal that nobody hears is no mistake."""
+    if not answer.cancelled():
+        answer.exception()
