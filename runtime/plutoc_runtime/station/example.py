@@ -45,7 +45,7 @@ _COLUMNS = 7
 _EDGE = 0.1
 """The share of the map along each of its edges where no place is."""
 
-_WINDOWS = (1.0, 0.5, 0.2, 0.1, 0.05, 0.02)
+_WINDOWS = (2.0, 0.5, 0.2, 0.1, 0.05, 0.02)
 """Shares of the map, around the drones' homes, in which places are looked for: the first that
 will do. On a large map a battery does not last for a way across."""
 

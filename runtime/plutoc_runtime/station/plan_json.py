@@ -7,11 +7,12 @@ name is typed letter by letter.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from math import isfinite
 from typing import TYPE_CHECKING
 
 from ..fields import Entity
+from ..words import quoted
 from . import plan_errors as errors
 
 if TYPE_CHECKING:
@@ -57,11 +58,10 @@ def check_together(missions: Sequence[Shape]) -> None:
         seen.add(key)
 
 
-def trips_of(mission: Mapping[str, object]) -> Iterator[Shape]:
-    """Yield a mission's trips."""
+def trips_of(mission: Mapping[str, object]) -> Sequence[Shape]:
+    """Return a mission's trips."""
     trips = mission["trips"]
-    if isinstance(trips, list):
-        yield from trips
+    return trips if isinstance(trips, list) else ()
 
 
 def fields_of(app: App, entity: Entity) -> list[str]:
@@ -133,7 +133,7 @@ def _scalars(data: Mapping[str, object], keys: Sequence[str], who: str) -> Shape
         value = data.get(key)
         if value is None:
             continue
-        where = f"{who}: {key}"
+        where = f"{who}: {quoted(key)}"
         if isinstance(value, str):
             _text(value, where)
         elif not isinstance(value, bool):
@@ -143,8 +143,10 @@ def _scalars(data: Mapping[str, object], keys: Sequence[str], who: str) -> Shape
 
 
 def _number(value: object, where: str) -> None:
-    if not isinstance(value, int | float) or not (isinstance(value, int) or isfinite(value)):
+    if not isinstance(value, int | float):
         raise errors.wrong(where, value, "a number or a text")
+    if isinstance(value, float) and not isfinite(value):
+        raise errors.wrong(where, value, "a finite number")
     if abs(value) > LARGEST:
         raise errors.too_large(where)
 

@@ -10,7 +10,7 @@ from ..files.missions import read_missions
 from ..files.reading import Document
 from ..plan_check import unflyable
 from .plan_json import Shape, trips_of
-from .plan_words import in_one_go, on_a_screen, sentence
+from .plan_words import in_one_go, on_a_screen, own_names, sentence
 
 if TYPE_CHECKING:
     from ..app import App
@@ -38,18 +38,18 @@ def checked(
     app: App, fleet: FleetFile, missions: Sequence[Shape]
 ) -> tuple[list[Mission[Any]], list[PlanProblem]]:
     """Return the missions to fly, as far as they can be read, and what is wrong with them."""
-    document = _document(app, missions)
+    document, names = _document(app, missions), own_names(app)
     read = read_missions(document, app, fleet.airspace) if missions else []
     found = [
-        _problem(missions, one.place, sentence(one.text, app), sentence(one.sentence, app))
+        _problem(missions, one.place, sentence(one.text, names), sentence(one.sentence, names))
         for one in document.problems
     ]
     bad = {one.mission for one in found}
     sound = [one for one in read if missions[one.index]["key"] not in bad]
     for miss in unflyable(sound, app, fleet, fleet.airspace):
         place = ("mission", miss.mission.index, "trip", miss.trips[0].index)
-        text = sentence(in_one_go(miss.trips, miss.reason), app)
-        alone = sentence(f"{miss.called}: {miss.reason}", app)
+        text = sentence(in_one_go(miss.trips, miss.reason), names)
+        alone = sentence(f"{miss.called}: {miss.reason}", names)
         found.append(_problem(missions, place, text, alone))
     return read, found
 
@@ -72,7 +72,11 @@ def as_in_a_file(mission: Mapping[str, object]) -> dict[str, object]:
 
 def _bare(given: Mapping[str, object]) -> dict[str, object]:
     ours = ("key", "launched", "trips")
-    return {key: value for key, value in given.items() if key not in ours and value is not None}
+    return {
+        key: value
+        for key, value in given.items()
+        if key not in ours and value is not None and (key, value) != ("parameters", {})
+    }
 
 
 def _document(app: App, missions: Sequence[Shape]) -> Document:
@@ -86,7 +90,7 @@ def _problem(missions: Sequence[Shape], place: Place, text: str, alone: str) -> 
     inside: Sequence[str | int] = ()
     match place:
         case ("mission", int(i), "trip", int(j), *inside):
-            mission, trip = missions[i]["key"], list(trips_of(missions[i]))[j]["key"]
+            mission, trip = missions[i]["key"], trips_of(missions[i])[j]["key"]
         case ("mission", int(i), *inside):
             mission = missions[i]["key"]
     return PlanProblem(

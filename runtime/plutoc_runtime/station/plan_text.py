@@ -50,7 +50,7 @@ def _mission(app: App, mission: Shape) -> Iterator[str]:
 
 def _pairs(given: Mapping[str, object], keys: Sequence[str], indent: str) -> Iterator[str]:
     for key in keys:
-        if given.get(key) not in (None, {}):
+        if key in given:
             yield f"{indent}{key} = {_written(given[key])}"
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from ..files.wording import Wording
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Container, Sequence
 
     from ..app import App
     from ..model import Trip
@@ -37,13 +37,15 @@ def on_a_screen(app: App) -> Wording:
     )
 
 
-def sentence(text: str, app: App) -> str:
-    """Begin a sentence that stands alone with a capital, unless a name of the app begins it."""
-    first = text.partition(" ")[0].rstrip(":,;")
+def own_names(app: App) -> frozenset[str]:
+    """Return the names of the app's that a sentence may begin with."""
     parameters = (one.name for action in app.actions.values() for one in action.parameters)
-    if first in app.actions or first in parameters:
-        return text
-    return text[:1].upper() + text[1:]
+    return frozenset((*app.actions, *parameters))
+
+
+def sentence(text: str, names: Container[str]) -> str:
+    """Begin a sentence with a capital, unless one of these names begins it."""
+    return text if text.partition(" ")[0] in names else text[:1].upper() + text[1:]
 
 
 def in_one_go(trips: Sequence[Trip], reason: str) -> str:
