@@ -1,0 +1,103 @@
+"""A line for each command that anybody gave, the refused ones too: who, when, what came of it.
+
+It is a note for people, not what the station goes by. So a full disk loses lines, and stops nothing.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import time
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from pathlib import Path
+from traceback import format_exception
+
+from .http import Request
+from .rates import Rate
+
+_LARGEST = 4 * 1024 * 1024
+"""Bytes of a file; then it becomes `audit.log.1`, and what was there before is gone."""
+_LONGEST = 200
+_MOST = 20
+"""Characters of a text, and entries of a list, that are written down."""
+_REFUSED = 10.0
+"""Lines a second about what was refused: a stranger must not push out what was done."""
+
+
+class Audit:
+    """The log of one station."""
+
+    def __init__(
+        self,
+        file: Path | None,
+        *,
+        now: Callable[[], float] = time.time,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self._file, self._now = file, now
+        self._refusals = Rate(_REFUSED, clock)
+        self._left_out = 0
+
+    def done(self, request: Request, given: Mapping[str, object], status: int, said: str) -> None:
+        """Note a command that was heard, and what was said to it."""
+        entry = {"client": request.client, "do": request.path, "given": short(given)}
+        self._write({**entry, "status": status, "said": said})
+
+    def refused(self, request: Request, status: int, said: str) -> None:
+        """Note what somebody may not, or what nobody can make sense of."""
+        if not self._refusals.allows(""):
+            self._left_out += 1
+            return
+        if self._left_out:
+            self._write({"refused too, without a line": self._left_out})
+            self._left_out = 0
+        asked = {"client": request.client, "refused": f"{request.method} {request.path}"}
+        bears = {name: request.headers[name] for name in _TELLING if name in request.headers}
+        self._write({**asked, **bears, "status": status, "said": said})
+
+    def trouble(self, request: Request, error: BaseException) -> None:
+        """Note a mistake of the station's own, with all that helps to find it."""
+        where = "".join(format_exception(error))[-20 * _LONGEST :]
+        self._write({"client": request.client, "trouble": request.path}, where)
+
+    def _write(self, entry: Mapping[str, object], where: str | None = None) -> None:
+        if self._file is None:
+            return
+        stamp = time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime(self._now()))
+        whole = {"time": stamp, **{key: short(value) for key, value in entry.items()}}
+        if where is not None:
+            whole["traceback"] = where
+        line = json.dumps(whole, separators=(",", ":"), default=str) + "\n"
+        with suppress(OSError):
+            self._turn(len(line))
+            flags = os.O_WRONLY | os.O_CREAT | os.O_APPEND | os.O_NOFOLLOW
+            with os.fdopen(os.open(self._file, flags, 0o600), "ab") as file:
+                file.write(line.encode("ascii"))
+
+    def _turn(self, more: int) -> None:
+        """Put a file that is full aside."""
+        assert self._file is not None
+        with suppress(FileNotFoundError):
+            if self._file.stat().st_size + more > _LARGEST:
+                self._file.replace(self._file.with_name(f"{self._file.name}.1"))
+
+
+_TELLING = ("host", "origin", "sec-fetch-site")
+"""Headers that say where a request comes from."""
+
+
+def short(value: object, depth: int = 3) -> object:
+    """Return a value with what is long in it cut."""
+    if isinstance(value, str):
+        return value if len(value) <= _LONGEST else value[:_LONGEST] + "…"
+    if isinstance(value, Mapping):
+        if depth == 0:
+            return "…"
+        some = list(value.items())[:_MOST]
+        return {str(key)[:_LONGEST]: short(each, depth - 1) for key, each in some}
+    if isinstance(value, (list, tuple)):
+        if depth == 0 or len(value) > _MOST:
+            return f"… ({len(value)})"
+        return [short(each, depth - 1) for each in value]
+    return value

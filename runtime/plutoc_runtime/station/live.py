@@ -1,0 +1,160 @@
+"""Keeps pages up to date: each says what it has seen, and is told once what is newer.
+
+So a page that stops reading costs nothing, and is told the newest when it comes back.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable
+from contextlib import suppress
+
+from . import refusals
+from .answers import asked_number
+from .audit import Audit
+from .behind import Newest
+from .dressing import dressed
+from .guard import Asking, Guard, knows, refusal
+from .http import MISTAKES, Closed, Line, Malformed, Reply, Request
+from .rates import Rate
+from .refusals import Refused
+from .strict_json import parsed_object
+
+_AT_ONCE = 32
+"""Pages that are kept up to date."""
+_WAITING = 32
+"""Who has connected and not said yet what has been seen, nor the token."""
+_MESSAGES = 20.0
+"""A second."""
+_FIRST, _NEXT = 10.0, 120.0
+"""Seconds in which something must be said."""
+_LONGEST_FLIGHT = 100
+
+NO_TOKEN, MALFORMED, TOO_MANY, TROUBLE, SILENT, OVER = 4401, 4400, 4429, 1011, 4408, 1012
+"""Why a line is closed. From 4400 on they are HTTP's, and 4000 more."""
+
+
+class Live:
+    """All pages that are kept up to date."""
+
+    def __init__(
+        self, station: Newest, guard: Guard, audit: Audit, clock: Callable[[], float]
+    ) -> None:
+        self._station, self._guard, self._audit, self._clock = station, guard, audit, clock
+        self._on = self._waiting = 0
+        self._talks: set[asyncio.Task[None]] = set()
+        self._over = False
+
+    async def poll(self, request: Request) -> Reply:
+        """Tell a page that cannot stay connected."""
+        query = request.query
+        counts = [asked_number(query, name) for name in ("seen", "log", "results")]
+        if self._on >= _AT_ONCE:
+            raise Refused(refusals.too_busy())
+        self._on += 1
+        try:
+            text = await self._station.newer(query.get("flight", ""), *counts)
+        finally:
+            self._on -= 1
+        return Reply(status=200, body=text.encode("utf-8", "replace"))
+
+    async def talk(self, line: Line, request: Request) -> None:
+        """Tell a page for as long as it asks."""
+        task = asyncio.current_task()
+        assert task is not None
+        self._talks.add(task)
+        try:
+            await self._admit(line, request)
+        except Closed:
+            pass
+        except asyncio.CancelledError:
+            if not self._over:
+                raise
+            await _hang_up(line, OVER, "the station ends")
+        except MISTAKES as error:
+            self._audit.trouble(request, error)
+            await _hang_up(line, TROUBLE, "something went wrong inside the station")
+        finally:
+            self._talks.discard(task)
+
+    def end(self) -> None:
+        """Hang up on everybody: nobody is waited for."""
+        self._over = True
+        for task in self._talks:
+            task.cancel()
+
+    async def _admit(self, line: Line, request: Request) -> None:
+        """Let somebody in who may be, and hang up with a reason on whoever talks nonsense."""
+        why = refusal(self._guard, request, Asking.LIVE)
+        if why is None and (self._over or self._waiting >= _WAITING):
+            why = refusals.too_busy()
+        if why is not None:
+            self._audit.refused(request, why.status, why.said)
+            await line.refuse(dressed(request, why.reply))
+            return
+        try:
+            await self._converse(line)
+        except _Improper as error:
+            self._audit.refused(request, error.code - 4000, str(error))
+            await _hang_up(line, error.code, str(error))
+
+    async def _converse(self, line: Line) -> None:
+        self._waiting += 1
+        try:
+            await line.open()
+            first = await _heard(line, _FIRST)
+        finally:
+            self._waiting -= 1
+        token = first.get("token", "")
+        if not isinstance(token, str) or not knows(self._guard, token):
+            raise _Improper(NO_TOKEN, refusals.no_token().said)
+        if self._on >= _AT_ONCE:
+            raise _Improper(TOO_MANY, refusals.too_busy().said)
+        self._on += 1
+        try:
+            await self._tell(line, first)
+        finally:
+            self._on -= 1
+
+    async def _tell(self, line: Line, asked: dict[str, object]) -> None:
+        rate = Rate(_MESSAGES, self._clock)
+        while True:
+            if not rate.allows(""):
+                raise _Improper(TOO_MANY, refusals.too_many().said)
+            await line.send(await self._station.newer(*_seen(asked)))
+            asked = await _heard(line, _NEXT)
+
+
+class _Improper(Exception):
+    """Somebody is hung up on, and told why."""
+
+    def __init__(self, code: int, why: str) -> None:
+        super().__init__(why)
+        self.code = code
+
+
+async def _heard(line: Line, within: float) -> dict[str, object]:
+    """Return what is said next, if it comes in time and makes sense."""
+    try:
+        async with asyncio.timeout(within):
+            text = await line.receive()
+    except TimeoutError:
+        raise _Improper(SILENT, f"nothing was said for {within:g} seconds") from None
+    try:
+        return parsed_object(text)
+    except Malformed as error:
+        raise _Improper(MALFORMED, str(error)) from None
+
+
+def _seen(asked: dict[str, object]) -> tuple[str, int, int, int]:
+    """Return what somebody says to have seen."""
+    match asked:
+        case {"flight": str(flight), "seen": int(seen), "log": int(log), "results": int(results)}:
+            return flight[:_LONGEST_FLIGHT], seen, log, results
+        case _:
+            raise _Improper(MALFORMED, "a message says flight, seen, log and results")
+
+
+async def _hang_up(line: Line, code: int, why: str) -> None:
+    with suppress(Closed):
+        await line.close(code, why)
