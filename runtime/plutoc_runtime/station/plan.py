@@ -52,6 +52,11 @@ class Plan:
             "said": self.trouble,
         }
 
+    @property
+    def is_empty(self) -> bool:
+        """Whether nobody has drawn anything yet."""
+        return not self._missions
+
     # What pages do
 
     def replace(self, revision: object, missions: object) -> None:
