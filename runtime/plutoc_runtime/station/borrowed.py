@@ -115,7 +115,6 @@ def borrowed(app: str) -> Borrowed:
         responses = import_module("starlette.responses")
         websockets = import_module("starlette.websockets")
         import_module("uvicorn.protocols.websockets.websockets_sansio_impl")
-        import_module("tomli_w")
     except ImportError:
         raise BadInput(
             "serve needs a web server, the extra `station` of this package:"
