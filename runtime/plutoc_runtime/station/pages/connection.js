@@ -1,7 +1,8 @@
 // The line to the station: a WebSocket, or plain requests where that does not work; when it breaks,
 // it is tried again, at the latest every 2 s. A hidden tab asks once a second.
 //
-//   const line = connection(wanted, take);   // wanted() → what to ask for; take(message)
+//   const line = connection(wanted, take, denied);   // wanted() → what to ask for; take(message);
+//                                                    // denied(): the station wants its token
 //   line.start();
 
 import { get } from "./api.js";
@@ -9,6 +10,8 @@ import { token } from "./token.js";
 
 const SILENCE = 4000; // the station answers after a second at the latest
 const POLLS = 30; // so many plain requests before the WebSocket is tried again
+
+const NO_TOKEN = 4401;
 
 const wait = (time) => new Promise((done) => setTimeout(done, time));
 
@@ -24,7 +27,7 @@ function leisure() {
 }
 
 // Resolves when the socket is gone, with how many messages came through it.
-function throughSocket(wanted, take) {
+function throughSocket(wanted, take, denied) {
   return new Promise((done) => {
     let count = 0;
     let alarm = 0;
@@ -42,7 +45,11 @@ function throughSocket(wanted, take) {
       socket.send(JSON.stringify({ ...more, ...wanted() }));
     };
     alarm = setTimeout(over, SILENCE);
-    socket.onclose = socket.onerror = over;
+    socket.onerror = over;
+    socket.onclose = (event) => {
+      if (event.code === NO_TOKEN) denied();
+      over();
+    };
     socket.onopen = () => ask(token() ? { token: token() } : {});
     socket.onmessage = async (event) => {
       clearTimeout(alarm);
@@ -60,7 +67,7 @@ function throughSocket(wanted, take) {
   });
 }
 
-async function byRequests(wanted, take) {
+async function byRequests(wanted, take, denied) {
   let count = 0;
   try {
     while (count < POLLS) {
@@ -70,17 +77,18 @@ async function byRequests(wanted, take) {
       await wait(80);
     }
   } catch (error) {
+    if (error.status === 401) denied();
     if (error.status === undefined) console.error(error);
   }
   return count;
 }
 
-export function connection(wanted, take) {
+export function connection(wanted, take, denied) {
   async function keepOn() {
     let failed = 0;
     for (;;) {
       const requests = failed % 3 === 2;
-      const count = await (requests ? byRequests : throughSocket)(wanted, take);
+      const count = await (requests ? byRequests : throughSocket)(wanted, take, denied);
       if (requests && count === POLLS) failed = 1; // it works; one try of the WebSocket
       else failed = count ? 0 : failed + 1;
       await wait(count ? 50 : Math.min(2000, 150 * 2 ** Math.min(failed, 4)));

@@ -22,20 +22,22 @@ function defaultWords({ type, units, default: value }) {
   return String(value);
 }
 
-// A number without a unit gets the first: what is typed as 180 is read back as 180 s.
-function quantity(text, units) {
+const USUAL = ["s", "g", "m", "deg", "%", "m/s", "C"];
+
+// The unit of a number without one: that of the default, else the usual one. It is written beside
+// the number at once, so that everybody sees what was understood.
+function unitOf(field, units) {
+  const shown = defaultWords(field).split(" ")[1];
+  return shown ?? USUAL.find((unit) => units.includes(unit)) ?? units[0];
+}
+
+function quantity(text, unit) {
   const clean = text.trim();
   if (!clean) return undefined;
   const read = amount(clean);
   if (!read) return clean;
-  return `${read.number} ${read.unit || (units.includes("s") ? "s" : units[0])}`;
+  return `${read.number} ${read.unit || unit}`;
 }
-
-const READ = {
-  time: (text) => quantity(text, TIME),
-  int: (text) => whole(text),
-  float: (text) => number(text),
-};
 
 function number(text) {
   const clean = text.trim().replace(",", ".");
@@ -43,20 +45,18 @@ function number(text) {
   return Number.isFinite(Number(clean)) ? Number(clean) : text.trim();
 }
 
-function whole(text) {
-  return number(text);
-}
-
 function typed(field, id, change) {
   const units = field.type === "time" ? TIME : field.units ?? [];
-  const read = READ[field.type]
-    ?? (units.length ? (text) => quantity(text, units) : (text) => text.trim() || undefined);
+  const unit = unitOf(field, units);
+  const read = field.type === "int" || field.type === "float" ? number
+    : units.length ? (text) => quantity(text, unit) : (text) => text.trim() || undefined;
   const dayTime = field.type === "time of day";
   const fallback = defaultWords(field);
   const input = h("input", {
     id, type: dayTime ? "time" : "text", autocomplete: "off", spellcheck: "false",
     inputmode: field.type === "int" ? "numeric" : null,
-    placeholder: fallback || (units.length ? `such as 3 ${units[Math.min(1, units.length - 1)]}` : null),
+    placeholder: fallback || (units.length ? `such as 3 ${field.type === "time" ? "min" : unit}` : null),
+    maxlength: 500,
     oninput: () => change(read(input.value), true),
     onchange: () => {
       const value = read(input.value);

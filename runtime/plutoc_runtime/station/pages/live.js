@@ -11,6 +11,7 @@
 //     changes = { fresh, missions: Set of names, drones: Set of ids, log: [new], results: [new] }
 //     `fresh`: another flight, everything that was there before is gone
 //   live.other.heard(() => …)            another server answers: it was started again
+//   live.denied.heard(() => …)           the station wants its token first
 //   live.start()
 
 import { bell } from "./bell.js";
@@ -26,7 +27,7 @@ export function liveFeed() {
   const live = {
     server: null, flight: "", n: 0, made: 0, state: { phase: "unknown", time: 0 },
     missions: new Map(), drones: new Map(), log: [], results: [],
-    changed: bell(), other: bell(),
+    changed: bell(), other: bell(), denied: bell(),
   };
   let seenLog = 0;
   let seenResults = 0;
@@ -99,7 +100,7 @@ export function liveFeed() {
   const wanted = () => ({
     flight: live.flight, seen: live.n, log: seenLog, results: seenResults,
   });
-  const line = connection(wanted, take);
+  const line = connection(wanted, take, live.denied.ring);
   live.age = () => performance.now() - heard + late;
   live.lost = () => live.age() > 3000;
   live.start = line.start;

@@ -26,6 +26,7 @@ const plan = planKept();
 const context = { app: null, live, plan, say, hush, tell, selected: selection(plan), go: null };
 const made = new Map(); // id of a page → the page
 let open = null;
+let planSaid = ""; // what is wrong with keeping the plan
 
 const pages = tabs(PAGES, (id) => {
   open?.hide?.();
@@ -35,6 +36,12 @@ const pages = tabs(PAGES, (id) => {
 context.go = pages.go;
 const head = top(context, pages.bar);
 
+// Another name than the station's own is refused in words; without a token there is a place for it.
+function closed({ status, message }) {
+  fill(document.body, status === 401 ? gate(message)
+    : h("main", { class: "gate" }, h("p", { class: "card" }, message)));
+}
+
 // → what the station says of the app, or null where it wants a token first.
 async function described() {
   for (;;) {
@@ -42,7 +49,7 @@ async function described() {
       return await get("/api/app");
     } catch (error) {
       if (error.status === 401 || error.status === 403) {
-        fill(document.body, gate(error.message));
+        closed(error);
         return null;
       }
       say(`${error.message} Trying again.`, { bad: true });
@@ -102,7 +109,12 @@ async function begin() {
   if (!context.app) return;
   live.changed.heard(update);
   live.other.heard(anew);
-  plan.changed.heard(head.update);
+  live.denied.heard(() => closed({ status: 401, message: "" }));
+  plan.changed.heard(() => {
+    head.update();
+    if (plan.said && plan.said !== planSaid) say(plan.said, { bad: true });
+    planSaid = plan.said;
+  });
   plan.refused.heard((said) => say(said, { bad: true }));
   window.addEventListener("beforeunload", (event) => {
     if (plan.unsaved() && plan.trouble) event.preventDefault();

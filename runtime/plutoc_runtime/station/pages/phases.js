@@ -22,6 +22,17 @@ export function phaseWords(state) {
   }
 }
 
+// The first of what is to be mended, in one line.
+function firstOf(problems, missions) {
+  const { mission: key, trip: tripKey, text } = problems[0];
+  const mission = missions.find((each) => each.key === key);
+  const at = mission?.trips.findIndex((trip) => trip.key === tripKey) ?? -1;
+  const trip = at < 0 ? "" : `, trip ${mission.trips[at].name ?? at + 1}`;
+  const where = mission ? `${mission.name.trim() || "Without a name"}${trip}: ` : "";
+  const more = problems.length > 1 ? ` And ${problems.length - 1} more.` : "";
+  return `${where}${text.replace(/[.]?$/, ".")}${more}`;
+}
+
 // What Start would do now: its words, whether it can, and what to say beside it.
 export function startWords(state, plan) {
   const flying = state.phase === "flying";
@@ -40,10 +51,7 @@ export function startWords(state, plan) {
       : "A flight was broken off. Resume goes on with it; Put away begins afresh.");
   }
   if (!todo.length) return no(flying ? "" : "Nothing to start yet: add a mission first.");
-  if (bad.length) {
-    return no(`${bad.length === 1 ? "One thing is" : `${bad.length} things are`} to be mended first:`
-      + " see the marked missions.");
-  }
+  if (bad.length) return no(firstOf(bad, todo));
   const why = { idle: "All is set.", over: "Start flies the whole plan again." }[state.phase] ?? "";
   return { text, able: true, why };
 }

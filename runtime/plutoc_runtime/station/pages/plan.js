@@ -7,6 +7,7 @@
 //   plan.edit(change, true)           the same while somebody types: saved after a moment
 //   plan.changed.heard(() => …)       the plan has changed, here or elsewhere
 //   plan.unsaved() · plan.trouble     is something not saved yet? · why, in words, or ""
+//   plan.said                         what is wrong with keeping it at the station, or ""
 //   plan.refused.heard((said) => …)   the station would not have it; the plan is as it was before
 //
 // Somebody else may change the plan meanwhile: then our changes are made to theirs, and sent again.
@@ -26,7 +27,7 @@ export function planKept() {
   let tries = 0;
 
   const plan = {
-    missions: [], problems: [], trouble: "", loaded: false, changed: bell(), refused: bell(),
+    missions: [], problems: [], said: "", trouble: "", loaded: false, changed: bell(), refused: bell(),
   };
 
   function replay() {
@@ -38,6 +39,7 @@ export function planKept() {
   function take(fresh) {
     base = fresh;
     plan.loaded = true;
+    plan.said = fresh.said ?? "";
     plan.trouble = "";
     tries = 0;
     replay();
