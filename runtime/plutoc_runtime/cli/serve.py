@@ -17,14 +17,15 @@ from ..journal import place
 from ..standing import Down
 from ..station.api import Api
 from ..station.audit import Audit
+from ..station.borrowed import borrowed
 from ..station.guard import Guard, needs_token
+from ..station.listening import address, listening, port_of
 from ..station.phase import Phase
 from ..station.plan import Plan
 from ..station.settings import Settings
 from ..station.static import floor_plan
 from ..station.station import Station
 from ..station.web import serve as serve_web
-from ..station.web import server_is_there
 from . import output
 from .flown import finished, records_in
 from .interrupts import Interrupts
@@ -42,7 +43,7 @@ def serve(app: App, options: Options) -> int:
     """Serve the station until somebody interrupts it; then all drones land first."""
     if not options.sim:
         raise BadInput(f"{app.name}: real drones are not supported yet: use --sim")
-    server_is_there(app.name)
+    borrowed(app.name)  # before anything is kept or flown
     settings = _settings(app, options)
     if options.supervise:
         return _supervised(app, options, settings)
@@ -59,32 +60,39 @@ async def _serve(
     app: App, options: Options, settings: Settings, station: Station, interrupts: Interrupts
 ) -> None:
     interrupts.loop = asyncio.get_running_loop()
-    station.begin()
-    if options.going_on and station.phase is Phase.INTERRUPTED:
-        station.resume()
-    token = _token(settings) if needs_token(options.host, tuple(options.names)) else None
-    guard = Guard(host=options.host, port=options.port, names=tuple(options.names), token=token)
-    api = Api(station, guard, Audit(settings.own_folder / "audit.log"))
+    with listening(options.host, _port(options, settings)) as listener:
+        guard = _guard(options, settings, port_of(listener))
+        api = Api(station, guard, Audit(settings.own_folder / "audit.log"))
+        station.begin()
+        if options.going_on and station.phase is Phase.INTERRUPTED:
+            station.resume()
 
-    def ready(port: int) -> None:
-        (settings.own_folder / PORT).write_text(str(port), encoding="utf-8")
-        address = f"http://{_host_in_url(options.host)}:{port}/" + (
-            f"#token={token}" if token else ""
-        )
-        output.line(f"station: {address}")
-        output.flush()
-        if options.open:
-            import webbrowser  # few want it, and it is slow to import
+        def ready() -> None:
+            (settings.own_folder / PORT).write_text(str(guard.port), encoding="utf-8")
+            output.line(f"station: {address(guard)}")
+            output.flush()
+            if options.open:
+                import webbrowser  # few want it, and it is slow to import
 
-            webbrowser.open(address)
+                webbrowser.open(address(guard))
 
-    server = asyncio.create_task(serve_web(api, options.host, _port(options, settings), ready))
-    leaves = asyncio.create_task(station.leaves.wait())
-    await asyncio.wait([server, leaves], return_when=asyncio.FIRST_COMPLETED)
-    if not server.done():
-        server.cancel()
-    with suppress(asyncio.CancelledError):
-        await server
+        server = asyncio.create_task(serve_web(api, listener, app.name, ready))
+        leaves = asyncio.create_task(station.leaves.wait())
+        await asyncio.wait([server, leaves], return_when=asyncio.FIRST_COMPLETED)
+        if station.leaves.is_set():
+            server.cancel()
+            with suppress(asyncio.CancelledError):
+                await server
+        else:  # it has ended by itself, which it should not
+            station.leave()
+            await leaves
+            await server
+
+
+def _guard(options: Options, settings: Settings, port: int) -> Guard:
+    names = tuple(options.names)
+    token = _token(settings) if needs_token(options.host, names) else None
+    return Guard(host=options.host, port=port, names=names, token=token)
 
 
 class _Leaving:
@@ -163,10 +171,6 @@ def _token(settings: Settings) -> str:
 
 _TOKEN = 32
 """Bytes."""
-
-
-def _host_in_url(host: str) -> str:
-    return f"[{host}]" if ":" in host else host
 
 
 @contextmanager

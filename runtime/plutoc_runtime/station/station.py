@@ -136,11 +136,9 @@ class Station:
             self.plan.unlock()
         missions, keys = self.plan.launchable()
         if not missions:
-            raise BadInput(
-                "every mission flies already"
-                if phase is Phase.FLYING
-                else "there is no mission yet"
-            )
+            if phase is Phase.FLYING:  # somebody else was quicker
+                return "every mission of the plan flies already"
+            raise BadInput("there is no mission yet: make one first")
         started = f"{counted(len(missions), 'mission')} started"
         if phase is Phase.FLYING:
             one = self.outing.one if self.outing is not None else None
@@ -188,6 +186,8 @@ class Station:
 
     def resume(self) -> str:
         """Go on with what was stopped or interrupted."""
+        if self.phase is Phase.FLYING:
+            return "it goes on already"
         if self.phase not in (Phase.STOPPED, Phase.INTERRUPTED) or self.outing is None:
             raise BadInput("there is nothing to go on with")
         journal = self.outing.journal
