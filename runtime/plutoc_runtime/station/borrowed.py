@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from ..errors import BadInput
 from ..words import in_shell
+from .crowd import Crowd
 from .http import Reply
 
 if TYPE_CHECKING:
@@ -132,13 +133,14 @@ def borrowed(app: str) -> Borrowed:
 def _serving(application: Application) -> Server:
     """Return a server that leaves signals, logs and proxies alone."""
     uvicorn = import_module("uvicorn")
+    connection = import_module("uvicorn.protocols.http.h11_impl").H11Protocol
     starlette = import_module("starlette.applications").Starlette
     mount = import_module("starlette.routing").Mount
     routed = starlette(routes=[mount("/", app=application)])
     routed.router.default = application  # a path that begins with no slash
     config = uvicorn.Config(
         routed,
-        http="h11",
+        http=Crowd(connection),
         ws="websockets-sansio",
         lifespan="off",
         workers=1,
