@@ -139,7 +139,7 @@ def _plan(app: App, options: Options, settings: Settings) -> Plan:
     plan = Plan(app, settings.fleet, settings.own_folder / "plan.json")
     if options.plan is not None:
         if plan.is_empty:
-            plan.import_toml(text_of(options.plan), plan.revision)
+            plan.import_toml(text_of(options.plan), plan.revision, str(options.plan))
         else:
             output.tell(f"the plan that was drawn here stays: {options.plan} is not read")
     return plan

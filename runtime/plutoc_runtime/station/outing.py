@@ -15,6 +15,7 @@ from ..cli import output
 from ..cli.flights import Flight, Watcher, lives
 from ..errors import BadInput
 from ..journal.reader import Reader
+from ..kernel import WHATEVER
 from ..setting import End, Stops
 from ..status import DroneStatus
 from . import rows
@@ -66,6 +67,14 @@ class Outing:
         """What is lived now, if the drones can be reached."""
         return self.one.life if self.one is not None else None
 
+    @property
+    def names(self) -> set[str]:
+        """The missions that it has."""
+        if self.life is not None and self.life.missions:
+            return {mission.name for mission in self.life.missions}
+        known = self.records.missions if self.records is not None else {}
+        return {*known} or {mission.name for mission in self.flight.missions}
+
     def read(self, known: Recovered) -> None:
         """Show what a journal says that nobody lives."""
         self.records = known.records
@@ -85,7 +94,9 @@ class Outing:
             lived = await lives(self.flight, store, self.stops, known, watcher)
         except BadInput as error:
             self.trouble = str(error)
-        except Exception as error:  # a mistake of ours: the drones land, and the page must say so
+        except (asyncio.CancelledError, KeyboardInterrupt, SystemExit):
+            raise
+        except WHATEVER as error:  # a mistake of ours: the drones land, and the page must say so
             output.tell("".join(traceback.format_exception(error)).rstrip())
             notes = " ".join(getattr(error, "__notes__", ()))
             self.trouble = f"internal error: {type(error).__name__}: {error} {notes}".strip()

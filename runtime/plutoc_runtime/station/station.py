@@ -80,6 +80,7 @@ class Station:
         self.outing = Outing(taken.flight(self._settings.speed), self._over)
         self.outing.read(taken.known)
         taken.store.close()
+        self._lock_what_flies()
 
     # What may be commanded
 
@@ -124,48 +125,58 @@ class Station:
                 return await self._of_the_flight(name, id, given)
 
     async def _start(self, id: str, given: Mapping[str, object]) -> str:
-        revision = given.get("revision")
-        if revision is not None and revision != self.plan.revision:
-            raise BadInput("the plan has changed meanwhile: look at it, and start again")
         phase = self.phase
         if phase is Phase.STOPPING:
             raise BadInput("the drones are coming down: wait until they are")
         if phase in (Phase.STOPPED, Phase.INTERRUPTED):
             raise BadInput("the last flight has not ended: resume it, or put it away")
-        if phase is Phase.OVER:
-            self.plan.unlock()
         missions, keys = self.plan.launchable()
+        if not missions and phase is Phase.FLYING:  # somebody else was quicker
+            return "every mission of the plan flies already"
         if not missions:
-            if phase is Phase.FLYING:  # somebody else was quicker
-                return "every mission of the plan flies already"
             raise BadInput("there is no mission yet: make one first")
-        started = f"{counted(len(missions), 'mission')} started"
-        if phase is Phase.FLYING:
-            one = self.outing.one if self.outing is not None else None
-            if one is None:
-                raise BadInput(_NOT_YET)
+        if given["revision"] not in (None, self.plan.revision):
+            raise BadInput("the plan has changed meanwhile: look at it, and start again")
+        text = self.plan.text(keys)
+        self.plan.launched(keys)  # before anything flies: nobody may change it from now on
+        try:
+            if phase is Phase.FLYING:
+                await self._add(id, missions)
+            else:
+                self._set_out(missions, text)
+        except BaseException:
+            self._lock_what_flies()
+            raise
+        return f"{counted(len(missions), 'mission')} started"
 
-            def add(life: Life) -> str:
-                life.add(missions)
-                life.control.remember(id, "start")
-                return started
+    async def _add(self, id: str, missions: list[Mission[Any]]) -> None:
+        """Let missions set out beside those that fly."""
+        one = self.outing.one if self.outing is not None else None
+        if one is None:
+            raise BadInput(_NOT_YET)
 
-            said = await one.carry_out(add)
+        def add(life: Life) -> str:
+            life.add(missions)
+            life.control.remember(id, "start")
+            return ""
+
+        await one.carry_out(add)
+
+    def _lock_what_flies(self) -> None:
+        """Let the missions that the flight has, and no others, be as they are in the plan."""
+        if self.outing is None or self.phase is Phase.OVER:
+            self.plan.unlock()
         else:
-            self._set_out(missions)
-            said = started
-        self.plan.launched(keys)
-        self._over()
-        return said
+            self.plan.adopt(self.outing.names)
 
-    def _set_out(self, missions: list[Mission[Any]]) -> None:
+    def _set_out(self, missions: list[Mission[Any]], text: str) -> None:
         settings = self._settings
         for index, mission in enumerate(missions):
             mission.index = index
         journal = place.new_in(settings.folder, time.time())
         begun = header(
             self._app,
-            missions=self.plan.text(),
+            missions=text,
             fleet=settings.fleet_text,
             sim=settings.sim,
             seed=settings.seed,
@@ -206,7 +217,6 @@ class Station:
         leftover.put_away(self._settings, self.outing.journal)
         self.outing = None
         self.plan.unlock()
-        self._over()
         return "put away; its journal is kept"
 
     async def _stop(self, how: Down) -> str:
