@@ -66,10 +66,10 @@ class Plan:
             self._check_current(revision)
             self._change(drawn)
 
-    def import_toml(self, text: str, revision: object) -> None:
+    def import_toml(self, text: str, revision: object, file: str = plan_text.NAME) -> None:
         """Take the missions of a file, instead of those that were not launched."""
         self._check_current(revision)
-        read = plan_text.shapes_of(text, self._app, self._fleet.airspace)
+        read = plan_text.shapes_of(text, self._app, self._fleet.airspace, file)
         self._change(self._with_launched(self._shaped(read)))
 
     def example(self, revision: object) -> None:
@@ -98,6 +98,10 @@ class Plan:
     def launched(self, keys: Collection[str]) -> None:
         """These missions fly: nobody may change them now."""
         self._mark(lambda mission: bool(mission["launched"]) or mission["key"] in keys)
+
+    def adopt(self, names: Collection[str]) -> None:
+        """Missions of these names fly, and no others: so says a journal that was found."""
+        self._mark(lambda mission: mission["name"] in names)
 
     def unlock(self) -> None:
         """Nothing flies any more: every mission may be changed, and launched again."""

@@ -29,9 +29,9 @@ def text_of(app: App, missions: Sequence[Shape]) -> str:
     return "\n".join(line for mission in missions for line in _mission(app, mission))
 
 
-def shapes_of(text: str, app: App, airspace: Airspace) -> list[Shape]:
+def shapes_of(text: str, app: App, airspace: Airspace, file: str = NAME) -> list[Shape]:
     """Return the missions of a file, without keys; raise `BadInput` as `check` would say it."""
-    document = parsed(NAME, text)
+    document = parsed(file, text)
     missions_of(document, app, airspace)
     given: Any = document.data["mission"]  # that it is a list of tables has just been seen
     return [_shape(mission, str(i), app) for i, mission in enumerate(given, 1)]

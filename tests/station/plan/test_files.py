@@ -1,0 +1,198 @@
+"""From a plan to a missions file and back."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import given, settings
+
+from plutoc_runtime.errors import BadInput
+from plutoc_runtime.files.missions import load_missions
+from plutoc_runtime.model import Mission
+from plutoc_runtime.station.plan import Plan, Stale
+from tests.runtime.files.an_app import APP
+from tests.runtime.files.test_missions import FULL
+from tests.station.plan.drawing import FLEET, SOUND_PLANS, Json, a_plan, drawn, mission, said, trip
+
+FILE = """\
+[[mission]]
+name = "North field"
+safe_time = "3 min"
+repeat = 2
+at = "08:30"
+evaluator = "find_blooms"
+
+  [[mission.trip]]
+  name = "A"
+  action = "take_photo"
+  target = [2.0, 1.5]
+  delay = "30 s"
+  priority = 1
+
+  [[mission.trip]]
+  action = "pollinate"
+  parameters = { dose = "40 mg", share = "20 %" }
+  target = [4, 1.5, 0.8]
+
+  [[mission.trip]]
+  action = "pick_item"
+  item = { name = "pills", mass = "4 g" }
+  source = [0.5, 0.5]
+  target = [4.0, 3.0]
+
+  [[mission.trip]]
+  action = "release_item"
+  item = { name = "pills", mass = 0.004 }
+  target = [6.0, 3.0]
+
+[[mission]]
+name = "2"
+
+  [[mission.trip]]
+  action = "measure"
+  target = [1, 1]
+"""
+
+
+def imported(text: str) -> Plan:
+    plan = a_plan()
+    plan.import_toml(text, plan.revision)
+    return plan
+
+
+def facts(missions: list[Mission[Any]]) -> list[object]:
+    """Return all that missions are made of, to be compared."""
+    of_mission = ("name", "index", *(f.name for f in APP.fields if f.on.value == "mission"))
+    of_trip = ("name", "index", "action", "target", "source", "parameters", "item", "delay")
+    return [
+        (
+            [getattr(one, name) for name in of_mission],
+            [[getattr(trip, name) for name in (*of_trip, "priority")] for trip in one.trips],
+        )
+        for one in missions
+    ]
+
+
+def test_a_file_comes_back_as_its_writer_wrote_it() -> None:
+    """With its quantities, its order, and places as one draws them; what goes without saying goes."""
+    unnamed = FILE.replace('name = "2"\n', "").replace("0.8]", '"80 cm"]').replace("04 }", "040 }")
+    assert imported(unnamed).export_toml() == FILE
+
+
+def test_times_of_day_of_toml_become_texts() -> None:
+    """JSON has none."""
+    text = FILE.replace('"08:30"', "08:30:00")
+    assert imported(text).export_toml() == FILE.replace('"08:30"', '"08:30:00"')
+
+
+def test_the_whole_of_a_file_is_taken(tmp_path: Path) -> None:
+    """Each mission that a file's reader finds, with everything in it."""
+    file = tmp_path / "m.toml"
+    file.write_text(FULL, encoding="utf-8")
+    assert facts(imported(FULL).launchable()[0]) == facts(load_missions(file, APP, FLEET.airspace))
+
+
+@given(missions=SOUND_PLANS)
+@settings(max_examples=100, derandomize=True, deadline=None)
+def test_what_is_exported_flies_the_same(
+    tmp_path_factory: pytest.TempPathFactory, missions: list[Json]
+) -> None:
+    """From the file as from the screen; and a plan that takes the file in is the same again."""
+    plan = drawn(*missions)
+    flown, keys = plan.launchable()
+    assert keys == [one["key"] for one in missions]
+    text = plan.export_toml()
+    if not missions:
+        assert text == ""
+        return
+    file = tmp_path_factory.mktemp("plan") / "m.toml"
+    file.write_bytes(text.encode())
+    assert facts(load_missions(file, APP, FLEET.airspace)) == facts(flown)
+    assert imported(text).export_toml() == text
+
+
+def test_hostile_texts_stay_texts(tmp_path: Path) -> None:
+    """Nothing in a text can end it, and every character comes back."""
+    hostile = '"]\n[[mission]]\n\x7f\x00\\u0041\U0001f681 \u2028 {{ }} <script>'
+    parameters = {"dose": 1, "note": hostile, "a.b": 1}
+    text = drawn(mission("mission-one", trip(action="pollinate", parameters=parameters))).text()
+    assert '"a.b" = 1' in text
+    file = tmp_path / "m.toml"
+    file.write_bytes(text.replace(', "a.b" = 1', "").encode())
+    [read] = load_missions(file, APP, FLEET.airspace)
+    assert read.trips[0].parameters["note"] == hostile
+
+
+def test_an_unfinished_plan_is_exported_as_it_is() -> None:
+    """What is not drawn yet is not there."""
+    begun = mission("mission-one", trip(target=None, item={}), safe_time="3 m", name="")
+    assert drawn(begun, mission("mission-two", trips=[])).text() == (
+        '[[mission]]\nname = ""\nsafe_time = "3 m"\n\n'
+        '  [[mission.trip]]\n  action = "take_photo"\n  item = {}\n\n'
+        '[[mission]]\nname = "mission-two"\n'
+    )
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("", "missions.toml: has no [[mission]]: nothing to fly"),
+        ("[[mission]", "missions.toml:1: is not valid TOML: "),
+        (FILE.replace('"3 min"', '"3 m"'),
+         'missions.toml:3: mission "North field": safe_time "3 m" is a length, not a time: '
+         "it takes ms, s, min, h"),
+        (FILE.replace("[1, 1]", "[1, 99]"),
+         'missions.toml:36: mission "2", trip 1: target (1, 99) is outside the map: '
+         "x goes from 0 to 20 m, y from 0 to 20 m"),
+    ],
+)  # fmt: skip
+def test_a_bad_file_is_refused_as_check_refuses_it(text: str, sentence: str) -> None:
+    """With its lines; and nothing changes."""
+    plan = drawn(mission())
+    before = plan.data()
+    with pytest.raises(BadInput) as caught:
+        plan.import_toml(text, plan.revision)
+    assert str(caught.value).startswith(sentence)
+    assert plan.data() == before
+
+
+def test_what_nobody_can_fly_is_taken_and_told() -> None:
+    """Whoever draws can mend it."""
+    plan = imported(FILE.replace('"4 g"', '"8 g"').replace("0.004", "0.008"))
+    [(_, _, _, sentence)] = said(plan)
+    assert "carrier carries at most 5 g" in sentence
+
+
+def test_a_file_replaces_what_was_drawn_but_not_what_flies() -> None:
+    """With keys that nobody has."""
+    plan = drawn(mission("mission-one"), mission("mission-two"))
+    plan.launched(["mission-two"])
+    plan.import_toml(FILE, plan.revision)
+    missions: Any = plan.data()["missions"]
+    assert [one["name"] for one in missions] == ["mission-two", "North field", "2"]
+    plan.import_toml(FILE, plan.revision)
+    again: Any = plan.data()["missions"]
+    old, new = ({one["key"] for one in some[1:]} for some in (missions, again))
+    assert not old & new
+
+
+def test_a_file_is_not_taken_on_an_old_plan() -> None:
+    """Nor is an example."""
+    plan = drawn(mission())
+    with pytest.raises(Stale):
+        plan.import_toml(FILE, plan.revision - 1)
+    with pytest.raises(Stale):
+        plan.example(plan.revision - 1)
+    assert [one["key"] for one in plan.data()["missions"]] == ["mission-one"]
+
+
+def test_some_missions_alone_are_a_file_too() -> None:
+    """Those of these keys, in the plan's order."""
+    plan = drawn(mission("mission-one"), mission("mission-two"), mission("mission-six"))
+    text = plan.text(["mission-six", "mission-one"])
+    assert [line for line in text.split("\n") if line.startswith("name")] == [
+        'name = "mission-one"',
+        'name = "mission-six"',
+    ]
