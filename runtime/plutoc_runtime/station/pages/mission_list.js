@@ -54,7 +54,11 @@ export function missionList(fields, { select, open, rename, remove, move }) {
   });
   let missions = [];
   let selected = null;
-  reorderable(element, (from, to) => move(missions[from].key, to));
+  reorderable(element, (from, to) => {
+    const { key } = missions[from];
+    move(key, to);
+    select(key);
+  });
 
   function on(event, act) {
     const item = event.target.closest(".mission");

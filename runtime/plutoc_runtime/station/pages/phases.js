@@ -28,9 +28,12 @@ function firstOf(problems, missions) {
   const mission = missions.find((each) => each.key === key);
   const at = mission?.trips.findIndex((trip) => trip.key === tripKey) ?? -1;
   const trip = at < 0 ? "" : `, trip ${mission.trips[at].name ?? at + 1}`;
-  const where = mission ? `${mission.name.trim() || "Without a name"}${trip}: ` : "";
+  const where = mission ? `${mission.name.trim() || "A mission"}${trip}` : "";
   const more = problems.length > 1 ? ` And ${problems.length - 1} more.` : "";
-  return `${where}${text.replace(/[.]?$/, ".")}${more}`;
+  const words = text.replace(/[.]?$/, ".");
+  const all = !where ? words
+    : words.startsWith("Has ") ? `${where} h${words.slice(1)}` : `${where}: ${words}`;
+  return `${all}${more}`;
 }
 
 // What Start would do now: its words, whether it can, and what to say beside it.
@@ -39,7 +42,7 @@ export function startWords(state, plan) {
   const todo = plan.missions.filter((mission) => !flying || !mission.launched);
   const keys = new Set(todo.map((mission) => mission.key));
   const bad = plan.problems.filter(({ mission }) => mission === null || keys.has(mission));
-  const text = !todo.length ? "Start"
+  const text = !todo.length || state.phase === "stopping" ? "Start"
     : `Start ${flying ? many(todo.length, "new mission") : many(todo.length, "mission")}`;
   const no = (why) => ({ text, able: false, why });
   if (!plan.loaded || state.phase === "unknown") return no("");
@@ -50,7 +53,10 @@ export function startWords(state, plan) {
       ? "Resume goes on with every mission where it was. Put away begins afresh."
       : "A flight was broken off. Resume goes on with it; Put away begins afresh.");
   }
-  if (!todo.length) return no(flying ? "" : "Nothing to start yet: add a mission first.");
+  if (!todo.length) {
+    return no(flying ? "All missions are started. More can be added at any time."
+      : "Nothing to start yet: add a mission first.");
+  }
   if (bad.length) return no(firstOf(bad, todo));
   const why = { idle: "All is set.", over: "Start flies the whole plan again." }[state.phase] ?? "";
   return { text, able: true, why };

@@ -8,12 +8,18 @@ import { many } from "./words.js";
 
 const LARGEST = 1 << 20;
 
-// What was there before comes back, beside what flies.
-function back(before) {
-  return (missions) => [
-    ...missions.filter((mission) => mission.launched),
-    ...before.filter((mission) => !missions.some((now) => now.launched && now.key === mission.key)),
-  ];
+// Takes away what came, and brings back what went; what was done since then stays.
+function back(before, after) {
+  const keys = (missions) => new Set(missions.map((mission) => mission.key));
+  const [was, came] = [keys(before), keys(after)];
+  const gone = before.filter((mission) => !came.has(mission.key));
+  return (missions) => {
+    const now = keys(missions);
+    return [
+      ...missions.filter((mission) => was.has(mission.key) || !came.has(mission.key)),
+      ...gone.filter((mission) => !now.has(mission.key)),
+    ];
+  };
 }
 
 // Asks the station for another plan; where somebody was quicker, on top of theirs.
@@ -33,7 +39,8 @@ async function another({ plan, say, selected }, ask, said) {
     return false;
   }
   selected.set(plan.missions.find((mission) => !mission.launched)?.key ?? null);
-  say(said(plan.missions), { undo: () => plan.edit(back(before)) });
+  const after = plan.missions;
+  say(said(after), { undo: () => plan.edit(back(before, after)) });
   return true;
 }
 
