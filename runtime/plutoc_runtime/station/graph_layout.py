@@ -5,10 +5,10 @@ from __future__ import annotations
 from .drawing.layout import drawn
 from .graph import Arrow, Box, Graph
 
-_NAME, _KIND, _LABEL = 8.0, 6.2, 5.8
+_NAME, _KIND, _LABEL = 7.8, 5.8, 5.6
 """How wide a letter is, on average: of a name, of a kind, of the statuses beside an arrow."""
-_BORDER = 22.0
-_NARROW, _WIDE = 84.0, 210.0
+_BORDER = 20.0
+_NARROW, _WIDE = 72.0, 210.0
 _HIGH = 44.0
 _PILL = (62.0, 32.0)
 _MOST = 400
@@ -48,11 +48,16 @@ def laid_out(graph: Graph) -> dict[str, object] | None:
                 "statuses": list(arrow.statuses),
                 "fork": arrow.fork,
                 "dotted": arrow.dotted,
-                "points": [[round(x, 1), round(y, 1)] for x, y in way],
+                "points": [_rounded(point) for point in way],
+                "label": _rounded(label) if label is not None else None,
             }
-            for arrow, way in zip(graph.arrows, laid.ways, strict=True)
+            for arrow, way, label in zip(graph.arrows, laid.ways, laid.labels, strict=True)
         ],
     }
+
+
+def _rounded(point: tuple[float, float]) -> list[float]:
+    return [round(point[0], 1), round(point[1], 1)]
 
 
 def _size(box: Box) -> tuple[float, float]:

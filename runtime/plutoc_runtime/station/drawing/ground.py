@@ -8,6 +8,7 @@ from enum import Enum
 from .grid import CHANNEL, GAP, Grid, Spot
 
 Point = tuple[float, float]
+Piece = tuple[Point, Point]
 Line = tuple[bool, int]
 """A gap (True) or a channel (False), by its number: the first is before the first column or row."""
 

@@ -2,27 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
-from .grid import Grid, Spot, fit, grids
+from .grid import Grid, fit, grids
 from .ground import Line, Point, Side
+from .labels import labels
 from .layers import layers
-from .ports import Ports, ports
-from .routes import Route, routes
-from .tracks import Run, tracks
+from .ports import ports
+from .routes import routes
+from .rulers import Ruler, rulers
+from .runs import runs_along
+from .tracks import tracks
+from .unrest import unrest
 
-_MARGIN = 10.0
-_APART = 8.0
-"""Between two ways beside each other."""
-_ROOM, _ROOM_BELOW = 16.0, 24.0
-"""Between a box and the nearest way that runs along it: an arrow's head needs it; below a box missions
-stand."""
-_BEND, _CROSSING = 30.0, 60.0
-"""What a bend and a crossing are as bad as, in lengths of way."""
-_FAR = 1e5
-"""More than any row is high."""
+_MANY = 40
+"""Of more boxes only one picture is tried."""
+_TURN = 0.12
+"""What a turn from row to row adds to the unrest of a picture."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -43,145 +41,99 @@ class Laid:
     height: float
     boxes: tuple[Placed, ...]
     ways: tuple[tuple[Point, ...], ...]
+    labels: tuple[Point | None, ...]
+    """The middle of the foot of each arrow's words."""
 
 
 def drawn(
-    sizes: Sequence[tuple[float, float]], ways: Sequence[tuple[int, int]], labels: Sequence[float]
+    sizes: Sequence[tuple[float, float]], ways: Sequence[tuple[int, int]], widths: Sequence[float]
 ) -> Laid:
     """Return the picture of boxes of these sizes, the first of which is where all begins.
 
-    `labels` says of each way how much room its words need.
+    `widths` says how wide the words of each way are; 0 where it has none.
     """
-    tries = [_laid(ground, ways, labels) for ground in grids(layers(len(sizes), ways), sizes)]
-    return min(tries, key=_unrest)  # of equally good ones the first
-
-
-def _unrest(laid: Laid) -> float:
-    """Return how hard a picture is to read: long, bent and crossing ways, shown small."""
-    pieces = [list(pairwise(way)) for way in laid.ways]
-    length = sum(abs(a[0] - b[0]) + abs(a[1] - b[1]) for way in pieces for a, b in way)
-    bends = sum(len(way) - 1 for way in pieces)
-    every = [piece for way in pieces for piece in way]
-    flat = [(a[0], b[0], a[1]) for a, b in every if a[1] == b[1]]
-    steep = [(a[1], b[1], a[0]) for a, b in every if a[0] == b[0] and a[1] != b[1]]
-    crossings = sum(
-        min(x, to_x) < its_x < max(x, to_x) and min(its_y, its_to_y) < y < max(its_y, its_to_y)
-        for x, to_x, y in flat
-        for its_y, its_to_y, its_x in steep
+    some = grids(layers(len(sizes), ways), sizes)
+    tries = [_laid(grid, ways, widths) for grid in some[: 1 if len(sizes) > _MANY else len(some)]]
+    best = min(tries, key=_unrest)[1]  # of equally good ones the first
+    boxes = [(one.x, one.y, one.x + one.w, one.y + one.h) for one in best.boxes]
+    words = tuple(labels(best.ways, widths, boxes))
+    return Laid(
+        width=best.width, height=best.height, boxes=best.boxes, ways=best.ways, labels=words
     )
-    return (length + _BEND * bends + _CROSSING * crossings) / fit(laid.width, laid.height)
 
 
-def _laid(ground: Grid, ways: Sequence[tuple[int, int]], labels: Sequence[float]) -> Laid:
-    found = routes(ground, ways)
-    doors = ports(ground, ways, found)
-    runs = _runs(ground, ways, found, doors)
-    track: dict[tuple[int, Line], int] = {}
-    count: dict[Line, int] = {}
-    for line, there in runs.items():
-        given = tracks(list(there.values()))
-        track.update({(number, line): one for number, one in zip(there, given, strict=True)})
-        count[line] = max(given) + 1
-    xs, columns, width = _ruled(ground.columns, True, count, _wide(ground, ways, found, labels))
-    ys, rows, height = _ruled(ground.rows, False, count, {})
+def _unrest(tried: tuple[Grid, Laid]) -> float:
+    grid, laid = tried
+    turns = len(grid.rows) - 1
+    return unrest(laid.ways) * (1 + _TURN * turns) / fit(laid.width, laid.height)
+
+
+def _laid(
+    grid: Grid, ways: Sequence[tuple[int, int]], widths: Sequence[float]
+) -> tuple[Grid, Laid]:
+    """Return the picture of a grid, without words."""
+    found = routes(grid, ways)
+    doors = ports(grid, ways, found)
+    track: dict[Line, Mapping[int, int]] = {}
+    for line, runs in runs_along(grid, ways, found, doors).items():
+        track[line] = dict(zip(runs, tracks(list(runs.values())), strict=True))
+    count = {line: max(given.values()) + 1 for line, given in track.items()}
+    across, down = rulers(grid, ways, found, widths, count)
     boxes = tuple(
         Placed(
-            x=columns[spot.column] - spot.w / 2,
-            y=rows[spot.row] + spot.y - spot.h / 2,
+            x=across.middles[spot.column] - spot.w / 2,
+            y=down.middles[spot.row] + spot.y - spot.h / 2,
             w=spot.w,
             h=spot.h,
         )
-        for spot in ground.spots
+        for spot in grid.spots
     )
-    drawn: list[tuple[Point, ...]] = []
-    for number, ((source, target), route, door) in enumerate(zip(ways, found, doors, strict=True)):
-        start = _door(boxes[source], route.leaving.value, door.leaving)
-        end = _door(boxes[target], route.entering.value, door.entering)
-        x, y = start
-        points = [start]
-        for line in route.lines:
-            at = (xs if line[0] else ys)[line[1]] + _APART * track[number, line]
-            x, y = (at, y) if line[0] else (x, at)
-            points.append((x, y))
-        if route.lines:
-            points.append((x, end[1]) if route.lines[-1][0] else (end[0], y))
-        drawn.append((*points, end))
-    return Laid(width=width, height=height, boxes=boxes, ways=tuple(drawn))
+    drawn_ways = tuple(
+        _way(
+            _door(boxes[source], route.leaving, door.leaving),
+            _door(boxes[target], route.entering, door.entering),
+            [(line[0], _at(line, track[line][number], across, down)) for line in route.lines],
+        )
+        for number, ((source, target), route, door) in enumerate(
+            zip(ways, found, doors, strict=True)
+        )
+    )
+    return grid, Laid(width=across.end, height=down.end, boxes=boxes, ways=drawn_ways, labels=())
 
 
-def _door(box: Placed, side: tuple[int, int], offset: float) -> Point:
+def _at(line: Line, track: int, across: Ruler, down: Ruler) -> float:
+    is_gap, number = line
+    return (across if is_gap else down).track(number, track)
+
+
+def _door(box: Placed, side: Side, offset: float) -> Point:
     """Return where a way meets a box."""
     x, y = box.x + box.w / 2, box.y + box.h / 2
-    if side[0]:
-        return x + side[0] * box.w / 2, y + offset
-    return x + offset, y + side[1] * box.h / 2
+    if side.flat:
+        return x + side.value[0] * box.w / 2, y + offset
+    return x + offset, y + side.value[1] * box.h / 2
 
 
-def _wide(
-    ground: Grid,
-    ways: Sequence[tuple[int, int]],
-    found: Sequence[Route],
-    labels: Sequence[float],
-) -> dict[int, float]:
-    """Return how wide gaps must be for the words of ways that are nowhere else."""
-    wide: dict[int, float] = {}
-    for (source, _), route, label in zip(ways, found, labels, strict=True):
-        if route.leaving.flat and label and all(is_gap for is_gap, _ in route.lines):
-            right = route.leaving is Side.RIGHT
-            gap = route.lines[0][1] if route.lines else ground.spots[source].column + right
-            wide[gap] = max(wide.get(gap, 0.0), label + _ROOM)
-    return wide
+def _way(start: Point, end: Point, lines: Sequence[tuple[bool, float]]) -> tuple[Point, ...]:
+    """Return the points of a way that runs along these lines in turn."""
+    x, y = start
+    points = [start]
+    for is_gap, at in lines:
+        x, y = (at, y) if is_gap else (x, at)
+        points.append((x, y))
+    if lines:
+        points.append((x, end[1]) if lines[-1][0] else (end[0], y))
+    return tuple(_corners([*points, end]))
 
 
-def _ruled(
-    sizes: Sequence[float], are_gaps: bool, count: Mapping[Line, int], least: Mapping[int, float]
-) -> tuple[list[float], list[float], float]:
-    """Return where the first track of each line is, the middles of what is between, and the end."""
-    at, lines, middles = _MARGIN, list[float](), list[float]()
-    room = _ROOM if are_gaps else _ROOM_BELOW
-    for number in range(len(sizes) + 1):
-        some = count.get((are_gaps, number), 0)
-        tracks_wide = max(some - 1, 0) * _APART
-        before = room if number else 0.0
-        after = _ROOM if number < len(sizes) and (number or some) else 0.0
-        spare = max(least.get(number, 0.0) - before - tracks_wide - after, 0.0) if number else 0.0
-        lines.append(at + before + spare / 2)
-        at += before + tracks_wide + after + spare
-        if number < len(sizes):
-            middles.append(at + sizes[number] / 2)
-            at += sizes[number]
-    return lines, middles, at + _MARGIN
-
-
-def _runs(
-    ground: Grid,
-    ways: Sequence[tuple[int, int]],
-    found: Sequence[Route],
-    doors: Sequence[Ports],
-) -> dict[Line, dict[int, Run]]:
-    """Return what runs along each line, by the number of the way.
-
-    Places along a line are told by rows or columns, and within these by the distance from the
-    middle: what is between them has its size only when all tracks are known.
-    """
-    runs: dict[Line, dict[int, Run]] = {}
-    for number, ((source, target), route, door) in enumerate(zip(ways, found, doors, strict=True)):
-        first, last = ground.spots[source], ground.spots[target]
-        for place, line in enumerate(route.lines):
-            back = _end(line, route.lines[:place][::-1], first, door.leaving)
-            ahead = _end(line, route.lines[place + 1 :], last, door.entering)
-            runs.setdefault(line, {})[number] = Run(ends=(back, ahead))
-    return runs
-
-
-def _end(line: Line, rest: Sequence[Line], spot: Spot, offset: float) -> tuple[float, int]:
-    """Return where a run along a line ends, and to which side its way goes on, to the box there."""
-    is_gap, number = line
-    across, along = (spot.column, spot.row) if is_gap else (spot.row, spot.column)
-    if rest:
-        at = (rest[0][1] - 0.5) * _FAR
-        further = rest[1][1] - 0.5 if len(rest) > 1 else across
-    else:
-        at = along * _FAR + (spot.y if is_gap else 0.0) + offset
-        further = across
-    return at, 1 if further > number - 0.5 else -1
+def _corners(points: Iterable[Point]) -> Iterator[Point]:
+    """Yield the points at which a way begins, turns and ends."""
+    apart: list[Point] = []
+    for point in points:
+        if not apart or point != apart[-1]:
+            apart.append(point)
+    yield apart[0]
+    for (a, b), (_, c) in pairwise(pairwise(apart)):
+        if not (a[0] == b[0] == c[0] or a[1] == b[1] == c[1]):
+            yield b
+    yield apart[-1]

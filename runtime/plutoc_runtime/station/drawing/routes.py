@@ -8,13 +8,15 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
+from math import inf
 
 from .grid import Grid, Spot
-from .ground import Ground, Line, Point, Side
+from .ground import Ground, Line, Piece, Side
+from .taken import Taken
 
-_BEND, _CROSS, _BESIDE, _AGAINST = 30.0, 30.0, 10.0, 20.0
-"""What is paid, in lengths of way: for a bend, for crossing another way, for running beside one, and
-for leaving a box where it is entered, or the other way about."""
+_BEND, _AGAINST = 30.0, 20.0
+"""What is paid, in lengths of way: for a bend, and for leaving a box where it is entered, or the other
+way about."""
 _CLOSELY = 8
 """Of so many ways, the cheapest by themselves, it is looked what they cross."""
 
@@ -28,28 +30,33 @@ class Route:
     lines: tuple[Line, ...]
 
 
-Piece = tuple[Point, Point]
-
-
 def routes(grid: Grid, ways: Sequence[tuple[int, int]]) -> list[Route]:
     """Return a way for each arrow; the short ones choose first."""
     ground = Ground(grid)
     ends = [(ground.spots[source], ground.spots[target]) for source, target in ways]
-    taken: list[Piece] = []
+    taken = Taken()
     found: dict[int, Route] = {}
     for number in sorted(range(len(ways)), key=lambda one: _apart(ground, *ends[one])):
-        source, target = ends[number]
-        tried: list[tuple[float, int, Route, list[Piece]]] = []
-        for place, route in enumerate(_options(ground, source, target)):
-            pieces = _pieces(ground, source, target, route)
-            tried.append((_price(source, target, route, pieces), place, route, pieces))
-        tried.sort(key=lambda one: one[:2])
-        _, _, route, pieces = min(
-            tried[:_CLOSELY], key=lambda one: (one[0] + _trouble(one[3], taken), one[1])
-        )
-        found[number] = route
-        taken += pieces
+        found[number], pieces = _best(ground, *ends[number], taken)
+        taken.add(pieces)
     return [found[number] for number in range(len(ways))]
+
+
+def _best(ground: Ground, source: Spot, target: Spot, taken: Taken) -> tuple[Route, list[Piece]]:
+    """Return the way that costs least, and about where it runs."""
+    tried: list[tuple[float, int, Route, list[Piece]]] = []
+    for place, route in enumerate(_options(ground, source, target)):
+        pieces = _pieces(ground, source, target, route)
+        tried.append((_price(source, target, route, pieces), place, route, pieces))
+    tried.sort(key=lambda one: one[:2])
+    least = inf
+    for price, _, route, pieces in tried[:_CLOSELY]:
+        if price >= least:
+            break
+        whole = price + taken.trouble(pieces, least - price)
+        if whole < least:
+            least, best = whole, (route, pieces)
+    return best
 
 
 def _apart(ground: Ground, source: Spot, target: Spot) -> float:
@@ -76,7 +83,7 @@ def _faces(source: Spot, target: Spot, leaving: Side, entering: Side) -> bool:
         return False
     if leaving.flat:
         ahead = (target.column - source.column) * x > 0
-        return ahead and source.row == target.row and abs(source.y - target.y) < 1
+        return ahead and source.row == target.row and source.y == target.y
     return (target.row - source.row) * y > 0 and source.column == target.column
 
 
@@ -119,23 +126,3 @@ def _price(source: Spot, target: Spot, route: Route, pieces: list[Piece]) -> flo
         route.entering.value[0] == target.onward
     )
     return length + _BEND * bends + _AGAINST * against
-
-
-def _trouble(pieces: list[Piece], taken: Sequence[Piece]) -> float:
-    """Return what is to be paid for the ways that are there already."""
-    paid = 0.0
-    for (x, y), (to_x, to_y) in pieces:
-        left, right = min(x, to_x), max(x, to_x)
-        top, bottom = min(y, to_y), max(y, to_y)
-        flat = top == bottom
-        for (its_x, its_y), (its_to_x, its_to_y) in taken:
-            its_flat = its_y == its_to_y
-            if (
-                min(its_x, its_to_x) > right
-                or max(its_x, its_to_x) < left
-                or min(its_y, its_to_y) > bottom
-                or max(its_y, its_to_y) < top
-            ):
-                continue
-            paid += _BESIDE if flat == its_flat else _CROSS
-    return paid
