@@ -30,7 +30,9 @@ export function dragOnto(floor, chip, act) {
     event.dataTransfer.dropEffect = "copy";
     act.hover(snapped(floor, event));
   });
-  picture.addEventListener("dragleave", () => dragging && act.hover(null));
+  picture.addEventListener("dragleave", (event) => {
+    if (dragging && !picture.contains(event.relatedTarget)) act.hover(null);
+  });
   picture.addEventListener("drop", (event) => {
     if (!dragging) return;
     event.preventDefault();

@@ -132,6 +132,6 @@ function roomy(drones, scale) {
   const wide = 7 * Math.max(0, ...drones.map((drone) => drone.id.length)) + 6;
   return drones.every((one, index) => drones.slice(index + 1).every((other) => {
     const [dx, dy] = [0, 1].map((axis) => Math.abs(one.home[axis] - other.home[axis]) * scale);
-    return dx > wide || dy > 30;
+    return dx > wide || dy > 27;
   }));
 }

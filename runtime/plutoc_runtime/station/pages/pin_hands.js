@@ -1,5 +1,5 @@
 // Moving a pin: by a pointer, snapping to 0.1 m (0.01 m with Shift), or by the arrow keys, 0.1 m a
-// press (1 m with Shift). Esc puts a dragged pin back; Delete removes one.
+// press (1 m with Shift). Esc puts a dragged pin back; Delete removes one; Enter goes to its card.
 
 import { round } from "./floor_view.js";
 
@@ -15,7 +15,7 @@ export function snapped(floor, event, dx = 0, dy = 0) {
   return [round(x, step), round(y, step)];
 }
 
-export function draggable(floor, pin, { locked, drag, place, remove }) {
+export function draggable(floor, pin, { locked, drag, place, remove, open }) {
   let held = null; // where it was taken, and how far from its middle
 
   pin.addEventListener("pointerdown", (event) => {
@@ -55,6 +55,7 @@ export function draggable(floor, pin, { locked, drag, place, remove }) {
   pin.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     if (event.key === "Escape" && held) end(event);
+    else if (event.key === "Enter" || event.key === " ") open();
     else if (locked()) return;
     else if (event.key in ARROWS) {
       const step = event.shiftKey ? 1 : 0.1;

@@ -1,12 +1,14 @@
 // The pins of a mission's trips on the floor plan, numbered and joined in their order. They can be
 // dragged, moved with the arrow keys and deleted; a pin that may not be where it is says so.
 //
-//   const shown = pins(floor, { choose(key), drag(key, [x, y]), place(key, [x, y]), remove(key) });
-//   shown.update({ trips: [{ key, number, target, words, trouble }…], chosen, locked, home });
+//   const shown = pins(floor, { choose(key), drag(key, [x, y]), place(key, [x, y]),
+//                             remove(key), open(key) });
+//   shown.update({ trips: [{ key, number, target, words, place, trouble }…], chosen, locked, home });
 //   shown.others([[x, y]…]);      the places of other missions, faintly
 
 import { keyed, put, set, svg } from "./dom.js";
 import { draggable } from "./pin_hands.js";
+import { name, pinWords } from "./pin_words.js";
 import { number } from "./numbers.js";
 
 const BESIDE = 25; // pixels between pins at one and the same place
@@ -28,13 +30,14 @@ export function pins(floor, act) {
       svg("text", { class: "pin-number", y: 4.5 }),
       svg("g", { class: "pin-sign", transform: "translate(11 -12)" },
         svg("path", { d: "M0 -8 L8.5 7 H-8.5 Z" }), svg("text", { y: 5 }, "!")),
-      svg("text", { class: "pin-words", y: 33 }));
+      pinWords());
     pin.addEventListener("focus", () => act.choose(key));
     draggable(floor, pin, {
       locked: () => locked,
       drag: (target) => act.drag(key, target),
       place: (target) => act.place(key, target),
       remove: () => act.remove(key),
+      open: () => act.open(key),
     });
     return floor.mark(0, 0, pin);
   }
@@ -53,7 +56,7 @@ export function pins(floor, act) {
       set(pin, "class", `pin${trip.key === chosen ? " chosen" : ""}${trip.trouble ? " bad" : ""}`);
       set(pin, "aria-label", described(trip, locked));
       put(pin.querySelector(".pin-number"), trip.number);
-      put(pin.querySelector(".pin-words"), trip.words);
+      name(pin.lastChild, trip.place || trip.words, { floor, target: trip.target });
     });
     const points = placed.map(({ target: [x, y] }) => `${x},${y}`);
     set(way, "points", points.join(" "));
@@ -84,7 +87,7 @@ function offsets(trips) {
 
 function described(trip, locked) {
   const [x, y] = trip.target;
-  const how = locked ? "" : " Arrow keys move it, Delete removes it.";
+  const how = locked ? "" : " Arrow keys move it, Delete removes it, Enter opens its card.";
   const trouble = trip.trouble ? ` Problem: ${trip.trouble}` : "";
   return `Trip ${trip.number}: ${trip.words}, at ${number(x)}, ${number(y)} metres.${trouble}${how}`;
 }

@@ -41,14 +41,15 @@ export function tripBody(app, action, act) {
   const more = h("details", { class: "more" }, h("summary", {}, "More"), where.height);
   const button = (sign, text, onclick) =>
     h("button", { type: "button", class: "button small", onclick }, icon(sign), text);
-  const up = button("up", "Earlier", () => act.move(-1));
-  const down = button("down", "Later", () => act.move(1));
+  const arrow = (sign, text, by) => h("button", {
+    type: "button", class: "button icon", "aria-label": text, title: text, onclick: () => act.move(by),
+  }, icon(sign));
+  const [up, down] = [arrow("up", "Fly it earlier", -1), arrow("down", "Fly it later", 1)];
   const rest = [button("copy", "Copy", act.copy), button("bin", "Delete", act.remove)];
-  const foot = h("div", { class: "row trip-foot" }, up, down, ...rest);
+  const foot = h("div", { class: "row trip-foot" }, up, down, h("span", { class: "spread row" }, rest));
   const element = h("div", { class: "trip-body" }, general,
-    h("div", { class: "trip-fields" }, what.element, name.element), where.element,
-    releases && carried,
-    fields.length > 0 && h("div", { class: "trip-fields" }, fields.map(({ field }) => field.element)),
+    h("div", { class: "trip-fields" }, what.element, name.element, where.element,
+      releases && carried, fields.map(({ field }) => field.element)),
     more, foot);
   let told = "";
 

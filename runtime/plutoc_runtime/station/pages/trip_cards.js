@@ -74,7 +74,11 @@ export function tripCards(app, act) {
     card.classList.toggle("chosen", isOpen);
     shown(part.grip, !locked);
     shown(part.body, isOpen);
-    if (!isOpen) return;
+    if (!isOpen) {
+      if (part.fields) fill(part.body);
+      part.fields = null;
+      return;
+    }
     part.fields ??= bodyOf(trip, part.body);
     part.fields.update({ ...about, locked, first: at === 0, last: at === shownTrips.length - 1 });
   }
@@ -108,6 +112,7 @@ export function tripCards(app, act) {
       }
     },
     focus: (key) => cardOf(key)?.querySelector(".trip-head").focus(),
+    fillIn: (key) => cardOf(key)?.querySelector(".trip-body select, .trip-body input")?.focus(),
   };
 
   function cardOf(key) {

@@ -46,6 +46,7 @@ export function trips(context) {
       act.place(key, target);
     },
     remove: act.remove,
+    open: (key) => cards.fillIn(key),
   });
   ghost.raise();
 
@@ -110,7 +111,7 @@ export function trips(context) {
     shown(why, mission.launched);
     shown(palette.element, !mission.launched);
     shown(empty, !list.length);
-    shown(order, list.length > 1 && !locked);
+    shown(order, list.length > 1 && !locked && chosen === null);
     fill(troubles, found.own.filter(({ field }) => field !== "name" && list.length)
       .map(({ text }) => problemLine(text)));
     cards.update({ trips: list, chosen, locked });
