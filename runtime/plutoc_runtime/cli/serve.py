@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import fcntl
+import os
 import secrets
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -176,14 +177,18 @@ _TOKEN = 32
 @contextmanager
 def _alone(settings: Settings) -> Iterator[None]:
     """Let nobody else serve from this folder."""
-    with (settings.own_folder / "lock").open("ab") as lock:
+    with (settings.own_folder / "lock").open("a+", encoding="ascii") as lock:
         try:
             fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
+            lock.seek(0)
             raise BadInput(
-                f"{settings.folder}: another station is being served from there: end that one, or"
-                " name another folder with --folder"
+                f"{settings.folder}: another station is being served from there"
+                f" (process {lock.read()}): end that one, or name another folder with --folder"
             ) from None
+        lock.truncate(0)
+        lock.write(str(os.getpid()))
+        lock.flush()
         yield
 
 

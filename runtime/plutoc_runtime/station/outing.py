@@ -6,7 +6,7 @@ import asyncio
 import json
 import traceback
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -36,7 +36,7 @@ FLEET_EACH = 1.0
 class Outing:
     """A journal, whoever lives it, and what everybody sees of it."""
 
-    def __init__(self, flight: Flight, changed: Callable[[], object]) -> None:
+    def __init__(self, flight: Flight, ended: Callable[[], object]) -> None:
         self.flight = flight
         self.id = flight.journal.name
         self.feed = Feed()
@@ -51,10 +51,8 @@ class Outing:
         self.trouble = ""
         """Why it could not go on."""
         self.task: asyncio.Task[None] | None = None
-        self._changed = changed
-        self._last_seen = [
-            rows.drone_at(entry.id, entry.home, None, trips=0) for entry in flight.fleet.drones
-        ]
+        self._ended = ended
+        self._last_seen = self._drones_at_home(())
         self._fleet, self._fleet_at = "", -FLEET_EACH
 
     @property
@@ -78,6 +76,7 @@ class Outing:
     def read(self, known: Recovered) -> None:
         """Show what a journal says that nobody lives."""
         self.records = known.records
+        self._last_seen = self._drones_at_home(known.records.retired)
         with closing(Reader(self.flight.journal)) as reader:
             for row in reader.rows():
                 for event in json.loads(row.text):
@@ -87,6 +86,7 @@ class Outing:
         """Let it live, from its beginning or from what is known."""
         self.end, self.trouble, self.stops = None, "", Stops()
         self.task = asyncio.create_task(self._live(store, known))
+        self.task.add_done_callback(lambda _: self._ended())
 
     async def _live(self, store: Store, known: Recovered | None) -> None:
         watcher = Watcher(tell=self.feed.take, say=self._say, born=self._born, patient=True)
@@ -108,7 +108,6 @@ class Outing:
             self.one = None
             if self.trouble:
                 self._say(self.trouble, "bad")
-            self._changed()
 
     def _born(self, one: OneLife) -> None:
         self.one = one
@@ -153,6 +152,13 @@ class Outing:
         retired = life.session.core.fleet.retired
         for drone in life.session.drones:
             yield rows.drone_row(drone, work.get(drone.id), drone in retired)
+
+    def _drones_at_home(self, retired: Sequence[str]) -> list[rows.Row]:
+        """Return where drones are of which nobody has heard as yet."""
+        return [
+            rows.drone_at(entry.id, entry.home, None, trips=0, retired=entry.id in retired)
+            for entry in self.flight.fleet.drones
+        ]
 
     def _drones_at_the_end(self) -> list[rows.Row]:
         """Return where the drones were seen last: from now on nobody hears of them."""

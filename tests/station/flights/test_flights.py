@@ -1,0 +1,235 @@
+"""A station's flights, commanded as a page does: started, stopped, killed, gone on with."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+from collections.abc import Callable
+from contextlib import closing
+from itertools import count
+from typing import Any
+
+import pytest
+
+from plutoc_runtime.journal.reader import Reader
+from tests.station.browser.serving import Station, until
+from tests.station.flights.conftest import Serve
+
+NUMBERS = count()
+
+
+def tell(station: Station, what: str, **given: object) -> str:
+    """Command something under a name of its own; return what is said."""
+    status, answer = station.post(f"/api/{what}", {"id": f"test-{next(NUMBERS)}", **given})
+    assert status == 200, answer
+    return str(answer["said"])
+
+
+def refused(station: Station, what: str, **given: object) -> tuple[int, str]:
+    """Command what cannot be done."""
+    status, answer = station.post(f"/api/{what}", {"id": f"test-{next(NUMBERS)}", **given})
+    assert status != 200
+    return status, str(answer["said"])
+
+
+def events(station: Station, kind: str) -> list[dict[str, Any]]:
+    """Return the events of one kind, of all flights."""
+    found: list[dict[str, Any]] = []
+    for journal in station.journals():
+        with closing(Reader(journal)) as reader:
+            found += [event for row in reader.rows() for event in json.loads(row.text)]
+    return [event for event in found if event["event"] == kind]
+
+
+def comes_to(station: Station, phase: str) -> None:
+    until(lambda: station.phase == phase, f"the station is {phase}")
+
+
+def row(station: Station, mission: str) -> dict[str, Any]:
+    return next(row for row in station.now()["missions"] if row["name"] == mission)
+
+
+def flies(station: Station) -> Callable[[], bool]:
+    return lambda: len(events(station, "trip.launched")) > 0
+
+
+def each_trip_was_done_once(station: Station) -> bool:
+    done = [(e["mission"], e["trip"], e["round"]) for e in events(station, "trip.completed")]
+    twice_in_the_world = [deed for deed, times in station.done().items() if times > 1]
+    return len(done) == len(set(done)) and not twice_in_the_world
+
+
+def test_missions_fly_to_their_end_and_can_be_flown_once_more(serve: Serve) -> None:
+    station = serve()
+    assert station.phase == "idle"
+    assert tell(station, "start") == "3 missions started"
+    comes_to(station, "over")
+    assert set(station.statuses().values()) == {"COMPLETED"}
+    assert not any(mission["launched"] for mission in station.get("/api/plan")["missions"])
+    assert tell(station, "start") == "3 missions started"
+    comes_to(station, "over")
+    assert len(station.journals()) == 2
+
+
+def test_two_starts_start_once(serve: Serve) -> None:
+    station = serve()
+    assert tell(station, "start") == "3 missions started"
+    assert tell(station, "start") == "every mission of the plan flies already"
+    comes_to(station, "over")
+    assert len(events(station, "mission.created")) == 3
+
+
+def test_a_command_that_is_repeated_under_its_name_is_carried_out_once(serve: Serve) -> None:
+    station = serve()
+    tell(station, "start")
+    until(flies(station), "something flies")
+    skip = {"id": "the-same", "mission": "Mission 1", "trip": "C"}
+    first, again = station.post("/api/skip", skip), station.post("/api/skip", skip)
+    assert first == again
+    assert first[0] == 200
+    assert len(events(station, "trip.skipped")) == 1
+
+
+def test_all_fly_home_by_a_stop_and_go_on_where_they_were(serve: Serve) -> None:
+    station = serve()
+    homes = {drone["id"]: drone["home"] for drone in station.get("/api/app")["drones"]}
+    tell(station, "start")
+    until(flies(station), "something flies")
+    assert tell(station, "stop", how="rtl") == "stopping: all drones fly home and land"
+    comes_to(station, "stopped")
+    for drone in station.now()["drones"]:
+        assert [drone["x"], drone["y"], drone["z"]] == homes[drone["id"]]
+    assert refused(station, "start")[1].startswith("the last flight has not ended")
+    assert tell(station, "resume") == "going on where it was"
+    comes_to(station, "over")
+    assert set(station.statuses().values()) == {"COMPLETED"}
+    assert each_trip_was_done_once(station)
+
+
+def test_a_killed_station_shows_what_was_interrupted_and_flies_nothing_before_it_is_told(
+    serve: Serve,
+) -> None:
+    station = serve()
+    tell(station, "start")
+    until(flies(station), "something flies")
+    assert station.post("/api/retire", {"id": "before", "drone": "cf4"})[0] == 200
+    station.kill()
+    station.start()
+    assert station.phase == "interrupted"
+    assert all(mission["launched"] for mission in station.get("/api/plan")["missions"])
+    assert [drone["retired"] for drone in station.now()["drones"]] == [False, False, False, True]
+    launched = len(events(station, "trip.launched"))
+    assert station.post("/api/retire", {"id": "before", "drone": "cf4"}) == (
+        200,
+        {"said": "done already"},
+    )
+    assert len(events(station, "trip.launched")) == launched
+    tell(station, "resume")
+    comes_to(station, "over")
+    assert set(station.statuses().values()) == {"COMPLETED"}
+    assert each_trip_was_done_once(station)
+
+
+def test_what_was_interrupted_can_be_put_away_and_something_else_flown(serve: Serve) -> None:
+    station = serve()
+    tell(station, "start")
+    until(flies(station), "something flies")
+    station.kill()
+    station.start()
+    assert tell(station, "discard") == "put away; its journal is kept"
+    assert station.phase == "idle"
+    station.kill()
+    station.start()
+    assert station.phase == "idle"
+    assert tell(station, "start") == "3 missions started"
+    comes_to(station, "over")
+
+
+def test_ctrl_c_lands_all_drones_and_the_next_station_goes_on(serve: Serve) -> None:
+    station = serve()
+    tell(station, "start")
+    until(flies(station), "something flies")
+    station.end()
+    assert "stopping: the drones land where they are" in station.said()
+    assert events(station, "stopped")[0]["how"] == "land"
+    station.start()
+    assert station.phase == "stopped"
+    tell(station, "resume")
+    comes_to(station, "over")
+    assert each_trip_was_done_once(station)
+
+
+def test_a_supervised_station_goes_on_by_itself_when_it_is_killed(serve: Serve) -> None:
+    station = serve("drugs_distribution", "--supervise")
+    tell(station, "start")
+    until(flies(station), "something flies")
+    before = station.get("/api/app")["server"]
+    serving = int((station.folder / "station" / "lock").read_text())
+    assert serving != station.pid
+    os.kill(serving, signal.SIGKILL)
+
+    def is_another() -> bool:
+        try:
+            return bool(station.get("/api/app")["server"] != before)
+        except OSError:
+            return False
+
+    until(is_another, "another process serves")
+    comes_to(station, "over")
+    assert set(station.statuses().values()) == {"COMPLETED"}
+    assert each_trip_was_done_once(station)
+
+
+def test_missions_that_were_drawn_meanwhile_set_out_beside_those_that_fly(serve: Serve) -> None:
+    station = serve()
+    tell(station, "start")
+    plan = station.get("/api/plan")
+    added = {
+        "key": "added-mission",
+        "name": "More",
+        "trips": [{"key": "added-trip", "action": "measure", "target": [3, 5], "parameters": {}}],
+    }
+    drawn = {"revision": plan["revision"], "missions": [*plan["missions"], added]}
+    assert station.put("/api/plan", drawn)[0] == 200
+    until(flies(station), "something flies")
+    assert tell(station, "start") == "1 mission started"
+    comes_to(station, "over")
+    assert station.statuses()["More"] == "COMPLETED"
+    assert len(station.journals()) == 1
+
+
+def test_a_priority_can_be_changed_while_missions_fly_and_only_in_apps_that_have_one(
+    serve: Serve,
+) -> None:
+    station = serve("drugs_distribution_retry")
+    tell(station, "start")
+    until(flies(station), "something flies")
+    waiting = next(r for r in station.now()["missions"] if r["current"] is not None)
+    trip = waiting["trips"][-1][0]
+    tell(station, "prioritise", mission=waiting["name"], trip=trip, priority=7)
+    assert row(station, waiting["name"])["trips"][-1][4] == 7
+    without = serve()
+    tell(without, "start")
+    until(flies(without), "something flies")
+    given = {"mission": "Mission 1", "trip": "A", "priority": 7}
+    assert refused(without, "prioritise", **given) == (
+        409,
+        "the trips of this app have no priority",
+    )
+
+
+def test_nobody_else_serves_from_the_same_folder(serve: Serve) -> None:
+    station = serve()
+    other = Station(app=station.app, folder=station.folder, options=station.options)
+    with pytest.raises(AssertionError, match="another station is being served from there"):
+        other.start()
+
+
+def test_a_port_that_is_taken_is_said_so(serve: Serve, tmp_path: Any) -> None:
+    station = serve()
+    elsewhere = tmp_path / "elsewhere"
+    elsewhere.mkdir()
+    other = Station(app=station.app, folder=elsewhere, options=station.options, port=station.port)
+    with pytest.raises(AssertionError, match=f"port {station.port} is taken"):
+        other.start()
