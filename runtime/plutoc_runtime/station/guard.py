@@ -109,7 +109,7 @@ def _is_ours(guard: Guard, host: str, local: str) -> bool:
     if found is None:
         return False
     name, port = found.group(1), int(found.group(2) or _PLAIN_PORT)
-    for other in guard.names:
+    for other in map(str.lower, guard.names):
         if host == other or (name == other and port in (guard.port, _PLAIN_PORT)):
             return True
     return port == guard.port and _is_own(guard.host, name, local)
@@ -124,7 +124,7 @@ def _is_own(bound: str, name: str, local: str) -> bool:
         return name == bound.lower() or (
             name == "localhost" and here is not None and here.is_loopback
         )
-    return meant in (here, _address(bound))
+    return not meant.is_unspecified and meant in (here, _address(bound))
 
 
 def _address(text: str) -> IPv4Address | IPv6Address | None:

@@ -1,0 +1,181 @@
+"""A station of a few lines that remembers what was changed, and ways to ask it."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from collections.abc import Awaitable, Callable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from plutoc_runtime.errors import BadInput
+from plutoc_runtime.station.api import Api
+from plutoc_runtime.station.audit import Audit
+from plutoc_runtime.station.guard import Guard
+from plutoc_runtime.station.http import Reply, Request
+from plutoc_runtime.station.plan_errors import Stale
+
+HOST = "127.0.0.1:8765"
+OURS = {
+    "host": HOST,
+    "origin": f"http://{HOST}",
+    "sec-fetch-site": "same-origin",
+    "x-pluto": "1",
+    "content-type": "application/json",
+}
+"""What a page of the station's own sends."""
+SEEN = {"flight": "", "seen": 0, "log": 0, "results": 0}
+
+
+@dataclass
+class APlan:
+    """A plan that anything may be put into."""
+
+    missions: object = ()
+    revision: int = 1
+
+    def data(self) -> Mapping[str, object]:
+        return {"revision": self.revision, "missions": self.missions, "problems": []}
+
+    def replace(self, revision: int, missions: object) -> None:
+        if revision != self.revision:
+            raise Stale("it has been changed meanwhile")
+        if not isinstance(missions, list):
+            raise BadInput("missions is no list")
+        self.missions, self.revision = missions, revision + 1
+
+    def import_toml(self, text: str, revision: int) -> None:
+        if "=" not in text:
+            raise BadInput("line 1: expected =")
+        self.replace(revision, [text])
+
+    def example(self, revision: int) -> None:
+        self.replace(revision, ["an example"])
+
+    def export_toml(self) -> str:
+        return "[[mission]]\n"
+
+
+@dataclass
+class AStation:
+    """A station at which everything can be done, or goes wrong."""
+
+    plan: APlan = field(default_factory=APlan)
+    image: Path | None = None
+    done: list[tuple[str, Mapping[str, object]]] = field(default_factory=list)
+    wrong: Exception | None = None
+    told: int = 0
+    busy: Callable[[], Awaitable[object]] | None = None
+
+    @property
+    def described(self) -> Mapping[str, object]:
+        return {"name": "alfalfa"}
+
+    async def command(self, name: str, id: str, given: Mapping[str, object], /) -> str:
+        if self.wrong is not None:
+            raise self.wrong
+        if self.busy is not None and name != "stop":
+            await self.busy()
+        self.done.append((name, given))
+        return f"{name} is done"
+
+    async def newer(self, flight: str, seen: int, log: int, results: int) -> str:
+        if self.wrong is not None:
+            raise self.wrong
+        if self.busy is not None:
+            await self.busy()
+        self.told += 1
+        return json.dumps({"n": self.told, "flight": flight})
+
+    def console(self) -> str:
+        return "<script>alert(1)</script>\ud800"
+
+    def results(self) -> list[object]:
+        return [{"value": float("nan")}, {"value": (1.5, float("inf"))}]
+
+    @property
+    def untouched(self) -> bool:
+        """Whether nothing has been changed."""
+        return not self.done and self.plan == APlan()
+
+
+@dataclass
+class Asked:
+    """A station, what serves it, and a clock that goes on only when told."""
+
+    station: AStation
+    api: Api
+    times: list[float]
+    paused: list[float]
+
+    def __call__(
+        self,
+        method: str,
+        path: str,
+        body: bytes | str | object = b"",
+        headers: Mapping[str, str] | None = None,
+        **query: str,
+    ) -> Reply:
+        """Ask this, as a page of the station's own does, and return the answer."""
+        return asyncio.run(self.api.answer(request(method, path, body, headers, **query)))
+
+
+def request(
+    method: str,
+    path: str,
+    body: bytes | str | object = b"",
+    headers: Mapping[str, str] | None = None,
+    **query: str,
+) -> Request:
+    """Return what a page of the station's own asks, or whoever sends these headers."""
+    if not isinstance(body, bytes):
+        body = (body if isinstance(body, str) else json.dumps(body)).encode()
+
+    async def read() -> bytes:
+        assert isinstance(body, bytes)
+        return body
+
+    return Request(
+        method=method,
+        path=path,
+        query=query,
+        headers=OURS if headers is None else headers,
+        read=read,
+        client="127.0.0.1",
+        local="127.0.0.1",
+    )
+
+
+def asked(station: AStation | None = None, file: Path | None = None, **guard: Any) -> Asked:
+    """Serve a station without a web server."""
+    station = station or AStation()
+    times, paused = [0.0], list[float]()
+
+    async def pause(seconds: float) -> None:
+        paused.append(seconds)
+
+    def clock() -> float:
+        return times[-1]
+
+    api = Api(
+        station,
+        Guard(**{"host": "127.0.0.1", "port": 8765, **guard}),
+        Audit(file, now=lambda: 0.0, clock=clock),
+        clock=clock,
+        pause=pause,
+    )
+    return Asked(station, api, times, paused)
+
+
+def said(reply: Reply) -> str:
+    """Return the sentence in an answer."""
+    found = json.loads(reply.body)["said"]
+    assert isinstance(found, str)
+    return found
+
+
+def without(*names: str, **other: str) -> dict[str, str]:
+    """Return a page's headers but for these, and with those."""
+    kept = {name: value for name, value in OURS.items() if name not in names}
+    return {**kept, **{name.replace("_", "-"): value for name, value in other.items()}}

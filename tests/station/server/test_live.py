@@ -1,0 +1,187 @@
+"""Pages that are kept up to date: one answer to each question."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from collections.abc import Sequence
+from pathlib import Path
+
+import pytest
+
+from plutoc_runtime.station import live
+from plutoc_runtime.station.http import Closed, Reply
+
+from .asking import OURS, SEEN, Asked, AStation, asked, request, without
+
+
+class ALine:
+    """A page that says these things, and then hangs up, or waits for ever."""
+
+    def __init__(self, *says: object, stays: bool = False) -> None:
+        self.says = [each if isinstance(each, str) else json.dumps(each) for each in says]
+        self.stays = stays
+        self.opened = False
+        self.heard: list[str] = []
+        self.refused: Reply | None = None
+        self.closed: int | None = None
+
+    async def open(self) -> None:
+        self.opened = True
+
+    async def refuse(self, reply: Reply) -> None:
+        self.refused = reply
+
+    async def receive(self) -> str:
+        if not self.says and self.stays:
+            await asyncio.Event().wait()
+        if not self.says:
+            raise Closed
+        return self.says.pop(0)
+
+    async def send(self, text: str) -> None:
+        self.heard.append(text)
+
+    async def close(self, code: int, why: str) -> None:
+        self.closed = code
+
+
+def talk(ask: Asked, line: ALine, headers: dict[str, str] = OURS) -> ALine:
+    asyncio.run(ask.api.live(line, request("GET", "/api/live", b"", headers)))
+    return line
+
+
+def test_each_question_is_answered_once() -> None:
+    line = talk(asked(), ALine(SEEN, {**SEEN, "flight": "a"}))
+    assert [json.loads(text) for text in line.heard] == [
+        {"n": 1, "flight": ""},
+        {"n": 2, "flight": "a"},
+    ]
+    assert line.closed is None
+
+
+@pytest.mark.parametrize(
+    "headers",
+    [
+        {},
+        without(host="rebound.example"),
+        without(origin="http://evil.example"),
+        without(origin="null"),
+        without(sec_fetch_site="cross-site"),
+        without("origin", "x-pluto"),
+    ],
+)
+def test_a_page_of_another_site_is_not_let_in(headers: dict[str, str]) -> None:
+    ask = asked()
+    line = talk(ask, ALine(SEEN), headers)
+    assert line.refused is not None and line.refused.status == 403
+    assert "Content-Security-Policy" in dict(line.refused.headers)
+    assert not line.opened and ask.station.told == 0
+
+
+@pytest.mark.parametrize("token", [None, "", "guess", 1, None])
+def test_the_first_message_bears_the_token(token: object) -> None:
+    ask = asked(token="sesame")
+    line = talk(ask, ALine(SEEN if token is None else {**SEEN, "token": token}))
+    assert (line.closed, ask.station.told) == (live.NO_TOKEN, 0)
+    line = talk(ask, ALine({**SEEN, "token": "sesame"}, SEEN))
+    assert (line.closed, len(line.heard)) == (None, 2)
+
+
+def test_a_token_in_the_address_opens_nothing() -> None:
+    ask = asked(token="sesame")
+    line = ALine(SEEN)
+    asked_for = request("GET", "/api/live", b"", OURS, token="sesame")
+    asyncio.run(ask.api.live(line, asked_for))
+    assert (line.closed, ask.station.told) == (live.NO_TOKEN, 0)
+
+
+@pytest.mark.parametrize(
+    "nonsense",
+    [
+        "",
+        "nonsense",
+        "[]",
+        {},
+        {**SEEN, "flight": None},
+        {**SEEN, "seen": 1.5},
+        {**SEEN, "seen": "1"},
+        '{"flight": "", "seen": NaN, "log": 0, "results": 0}',
+        "[" * 40,
+        '{"flight": "\\ud800", "seen": 0, "log": 0, "results": 0}',
+    ],
+)
+def test_who_talks_nonsense_is_hung_up_on(nonsense: object) -> None:
+    ask = asked()
+    assert talk(ask, ALine(nonsense, SEEN)).closed == live.MALFORMED
+    assert talk(ask, ALine(SEEN, nonsense, SEEN)).closed == live.MALFORMED
+    assert ask.station.told == 1
+
+
+def test_who_asks_too_often_is_hung_up_on() -> None:
+    line = talk(asked(), ALine(*[SEEN] * 30))
+    assert (len(line.heard), line.closed) == (20, live.TOO_MANY)
+
+
+def test_who_says_nothing_is_hung_up_on(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(live, "_FIRST", 0.01)
+    monkeypatch.setattr(live, "_NEXT", 0.01)
+    ask = asked()
+    assert talk(ask, ALine(stays=True)).closed == live.SILENT
+    line = talk(ask, ALine(SEEN, stays=True))
+    assert (len(line.heard), line.closed) == (1, live.SILENT)
+
+
+def test_a_mistake_of_ours_is_told_to_the_log_and_not_to_the_page(tmp_path: Path) -> None:
+    ask = asked(AStation(wrong=ZeroDivisionError("secret")), tmp_path / "audit.log")
+    assert talk(ask, ALine(SEEN)).closed == live.TROUBLE
+    assert "ZeroDivisionError: secret" in (tmp_path / "audit.log").read_text()
+
+
+def all_at_once(ask: Asked, lines: Sequence[ALine]) -> None:
+    """Let all of them connect, and end the station once nothing happens any more."""
+
+    async def scene() -> None:
+        talks = [
+            asyncio.create_task(ask.api.live(line, request("GET", "/api/live"))) for line in lines
+        ]
+        for _ in range(10):
+            await asyncio.sleep(0)
+        ask.api.end()
+        await asyncio.gather(*talks)
+
+    asyncio.run(scene())
+
+
+def test_so_many_pages_and_no_more_are_kept_up_to_date() -> None:
+    lines = [ALine(SEEN, stays=True) for _ in range(40)]
+    all_at_once(asked(), lines)
+    assert [len(line.heard) for line in lines] == [1] * 32 + [0] * 8
+    served, others = lines[:32], lines[32:]
+    assert {line.closed for line in served} == {live.OVER}
+    assert all(line.closed == live.TOO_MANY or line.refused is not None for line in others)
+
+
+def test_strangers_who_say_nothing_take_nobodys_place() -> None:
+    ask = asked(token="sesame")
+    strangers = [ALine(stays=True) for _ in range(100)]
+    all_at_once(ask, strangers)
+    assert [line.opened for line in strangers] == [True] * 32 + [False] * 68
+    headers = without(authorization="Bearer sesame")
+    assert ask("GET", "/api/live", b"", headers).status == 200
+
+
+def test_a_page_that_hangs_up_makes_room() -> None:
+    ask = asked()
+    for _ in range(100):
+        assert len(talk(ask, ALine(SEEN)).heard) == 1
+
+
+def test_when_the_station_ends_nobody_is_waited_for() -> None:
+    gate = asyncio.Event()
+    ask = asked(AStation(busy=gate.wait))
+    lines = [ALine(SEEN), ALine(stays=True), ALine(SEEN, SEEN)]
+    all_at_once(ask, lines)
+    assert {line.closed for line in lines} == {live.OVER}
+    late = talk(ask, ALine(SEEN))
+    assert late.refused is not None and late.refused.status == 503
