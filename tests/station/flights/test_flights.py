@@ -84,7 +84,7 @@ def test_a_command_that_is_repeated_under_its_name_is_carried_out_once(serve: Se
     station = serve()
     tell(station, "start")
     until(flies(station), "something flies")
-    skip = {"id": "the-same", "mission": "Mission 1", "trip": "C"}
+    skip: dict[str, object] = {"id": "the-same", "mission": "Mission 1", "trip": "C"}
     first, again = station.post("/api/skip", skip), station.post("/api/skip", skip)
     assert first == again
     assert first[0] == 200

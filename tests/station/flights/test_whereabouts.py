@@ -1,0 +1,71 @@
+"""At which blocks missions are, read off where their coroutines wait."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from importlib import import_module
+from typing import Any
+
+import pytest
+
+from plutoc.compile import analyse
+from plutoc.source import Source
+from plutoc_runtime.station.whereabouts import _named
+from tests.flying import EXAMPLES, built
+
+DECLARATIONS = {
+    "wait = Clock": ("wait",),
+    "allocate = DroneAllocator(policy: nearest)": ("allocate",),
+    "say = MissionModifier(hook: tell, to: [1, 2])": ("say",),
+    "launch -> [watch, timer] -> first = GateFIFO": ("watch", "timer"),
+    "launch -> [watch, limit -> other] -> all = GateFunnel": ("watch", "limit"),
+    "": (),
+}
+
+
+@pytest.mark.parametrize("declaration", DECLARATIONS)
+def test_a_declaration_above_a_call_names_its_blocks(declaration: str) -> None:
+    assert _named(declaration) == DECLARATIONS[declaration]
+
+
+def blocks_met(name: str, tmp_path: Any) -> Mapping[str, Sequence[tuple[str, ...]]]:
+    """Fly an example, and return at which blocks each mission was after each event, in order."""
+    example = built(name, tmp_path)
+    virtual, session, faults = (
+        import_module(f"{name}._runtime.{module}")
+        for module in ("virtual", "session", "simulation.faults")
+    )
+    where = import_module(f"{name}._runtime.station.whereabouts")
+    met: dict[str, list[tuple[str, ...]]] = {m.name: [] for m in example.missions}
+
+    def look() -> None:
+        for state in simulation.session.engine.states:
+            at, known = where.blocks_of(state, app.flow), met[state.mission.name]
+            if at and (not known or known[-1] != at):
+                known.append(at)
+
+    app = import_module(f"{name}.flow").APP
+    kernel = virtual.VirtualTime()
+    simulation = session.Simulation(app, example.fleet, kernel, 0, faults.Faults(), None)
+    kernel.settled = look
+    over = simulation.session.start(example.missions)
+    kernel.run(over, 100_000.0)
+    kernel.close()
+    return met
+
+
+@pytest.mark.parametrize("name", sorted(path.name for path in EXAMPLES.iterdir()))
+def test_a_mission_is_only_ever_at_blocks_of_its_graph(name: str, tmp_path: Any) -> None:
+    source = Source("app.pluto", (EXAMPLES / name / "app.pluto").read_text())
+    blocks = {node.name for node in analyse(source)[0].graph.nodes}
+    met = blocks_met(name, tmp_path)
+    for seen in met.values():
+        assert seen
+        assert {block for at in seen for block in at} <= blocks
+
+
+def test_a_mission_of_alfalfa_is_seen_to_wait_and_in_the_fork_in_which_it_flies(
+    tmp_path: Any,
+) -> None:
+    met = {at for seen in blocks_met("alfalfa", tmp_path).values() for at in seen}
+    assert {("wait",), ("watch", "timer")} <= met
