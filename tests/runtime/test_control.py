@@ -179,8 +179,13 @@ def test_a_person_decides_while_the_app_is_at_rest(answer: str, flights: list[st
 
 def test_where_somebody_watches_the_app_lives_until_they_have_decided() -> None:
     living = spraying("once")
-    living.crash(10.0)
-    living.at(11.0, lambda: setattr(living.life.session.engine, "patient", True))
+
+    def watched_life() -> None:
+        living.live_on()
+        living.life.session.engine.patient = True
+
+    living.at(10.0, living.die)
+    living.at(11.0, watched_life)
     living.at(300.0, lambda: living.life.control.decide("a", "done"))
     assert living.run(299.0) == ["UNCERTAIN"]
     assert living.run() == ["COMPLETED"]
