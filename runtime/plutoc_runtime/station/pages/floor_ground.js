@@ -3,6 +3,7 @@
 
 import { svg } from "./dom.js";
 import { step, toMetres } from "./floor_view.js";
+import { mapPicture } from "./map_picture.js";
 
 let made = 0; // two floor plans may be in one page: the patterns need names of their own
 
@@ -40,14 +41,18 @@ export function ground(map, drones) {
 function image(map) {
   const [width, height] = map.size;
   const element = svg("image", {
-    href: map.image, width, height, preserveAspectRatio: "none", class: "picture",
+    width, height, preserveAspectRatio: "none", class: "picture",
     transform: `translate(0 ${height}) scale(1 -1)`,
   });
-  const probe = new Image();
-  probe.addEventListener("load", () => {
-    if (isPaper(probe)) element.classList.add("paper-like");
+  mapPicture(map).then((address) => {
+    if (!address) return;
+    element.setAttribute("href", address);
+    const probe = new Image();
+    probe.addEventListener("load", () => {
+      if (isPaper(probe)) element.classList.add("paper-like");
+    });
+    probe.src = address;
   });
-  probe.src = map.image;
   return element;
 }
 

@@ -108,12 +108,20 @@ export function tripCards(app, act) {
       if (chosen !== opened) {
         opened = chosen;
         const card = cardOf(chosen);
-        if (card) requestAnimationFrame(() => card.scrollIntoView({ block: "nearest" }));
+        if (card) requestAnimationFrame(() => seen(card));
       }
     },
     focus: (key) => cardOf(key)?.querySelector(".trip-head").focus(),
     fillIn: (key) => cardOf(key)?.querySelector(".trip-body select, .trip-body input")?.focus(),
   };
+
+  /** Scrolls the list, but never the page: the map stays where it is. */
+  function seen(card) {
+    const [box, all] = [card.getBoundingClientRect(), element.getBoundingClientRect()];
+    const below = Math.min(box.bottom - all.bottom + 6, box.top - all.top - 4);
+    if (below > 0) element.scrollTop += below;
+    else if (box.top < all.top) element.scrollTop += box.top - all.top - 4;
+  }
 
   function cardOf(key) {
     return [...element.children].find((card) => card.dataset.key === key);

@@ -76,10 +76,12 @@ export function trips(context) {
       const trip = dragged ? { ...kept, target: [...draft.target, ...height] } : kept;
       const all = found.trips.get(kept.key) ?? [];
       const here = trip.target ? whyNot(app.map, trip.target) : "";
-      const problems = all.filter(({ field }) => !((dragged || here) && field === "target"));
+      const pick = from.get(kept.key);
+      const isTold = (field) => ((dragged || here) && field === "target")
+        || (pick !== undefined && field?.startsWith("item.")); // the trip that picks it tells that
+      const problems = all.filter(({ field }) => !isTold(field));
       const place = here || problems.find(({ field }) => field === "target")?.text || "";
       const trouble = [place, ...problems.map(({ text }) => text)].find(Boolean) ?? "";
-      const pick = from.get(kept.key);
       return {
         key: trip.key, trip, number: at + 1, target: trip.target, place, problems, trouble,
         words: trip.name ? `${called(trip.action)} · ${trip.name}` : called(trip.action),
