@@ -57,8 +57,8 @@ export async function send(method, path, content, type = "application/json", tim
 
 const pause = (time) => new Promise((done) => setTimeout(done, time));
 
-// A command is sent again with the same id where its answer got lost, so it is done once. `patience`
-// is how long we try, in ms: what was asked for long ago is not to happen out of the blue.
+// A command is sent again with the same id where its answer got lost, so it is done once.
+// `patience` is how long we try, in ms: nothing asked for long ago happens out of the blue.
 export async function command(name, given = {}, patience = 4000) {
   const content = { id: newKey(), ...given };
   const until = performance.now() + patience;

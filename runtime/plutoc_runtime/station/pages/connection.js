@@ -1,8 +1,8 @@
 // The line to the station: a WebSocket, or plain requests where that does not work; when it breaks,
 // it is tried again, at the latest every 2 s. A hidden tab asks once a second.
 //
-//   const line = connection(wanted, take, denied);   // wanted() → what to ask for; take(message);
-//                                                    // denied(): the station wants its token
+//   const line = connection(wanted, take, denied);
+//       // wanted() → what to ask for; take(message); denied(): the station wants its token
 //   line.start();
 
 import { get } from "./api.js";

@@ -1,10 +1,12 @@
-// Elements in one expression, and lists that keep their elements. Text only ever becomes text nodes.
+// Elements in one expression, and lists that keep their elements. Text only ever becomes text
+// nodes.
 //
 //   h("button", { class: "primary", onclick: start, disabled: true }, "Start ", 3, " missions")
 //   svg("circle", { cx: 1, cy: 2, r: 0.2 })
-//   keyed(list, missions, (m) => m.key, make, update)   // make(item) → element, update(element, item, i)
+//   keyed(list, missions, (m) => m.key, make, update)
+//                              // make(item) → element, update(element, item, i)
 //   put(cell, "3 of 5")        // sets the text, if it is another
-//   set(row, "aria-selected", true)   // sets an attribute, if it is another; null or false removes it
+//   set(row, "hidden", true)   // sets an attribute, if it is another; null or false removes it
 
 const PROPERTIES = new Set(["value", "checked", "disabled", "hidden", "selected", "tabIndex"]);
 
@@ -22,7 +24,7 @@ function build(node, props, children) {
 }
 
 function kept(children) {
-  return children.flat(3).filter((child) => child !== null && child !== undefined && child !== false);
+  return children.flat(3).filter((child) => ![null, undefined, false].includes(child));
 }
 
 export function h(tag, props, ...children) {
@@ -62,8 +64,8 @@ export function shown(node, yes) {
 
 const MADE = new WeakMap(); // parent → Map of key → element
 
-// Makes the children of `parent` those of `items`, in their order. An element stays the same as long
-// as its key is there, so that focus, selection and transitions survive.
+// Makes the children of `parent` those of `items`, in their order. An element stays the same as
+// long as its key is there, so that focus, selection and transitions survive.
 export function keyed(parent, items, key, make, update) {
   const before = MADE.get(parent) ?? new Map();
   const now = new Map();

@@ -4,8 +4,8 @@
 //   host.append(input.element);
 //   input.update(value, { problem: "text" | "", locked: bool });   // value undefined: not given
 //
-// `change(value, typing)` is called with the new value, undefined where it is empty: then the default
-// counts. A field that somebody types in is not overwritten meanwhile.
+// `change(value, typing)` is called with the new value, undefined where it is empty: then the
+// default counts. A field that somebody types in is not overwritten meanwhile.
 
 import { h, put, set, shown, unique } from "./dom.js";
 import { icon } from "./icons.js";
@@ -16,10 +16,8 @@ const sentence = (text) => text.charAt(0).toUpperCase() + text.slice(1);
 
 function defaultWords({ type, units, default: value }) {
   if (value === null || value === undefined) return "";
-  if (type === "time" || units?.length) {
-    return value === 0 && type === "time" ? "none" : written(Number(value), units?.length ? units : TIME);
-  }
-  return String(value);
+  if (type === "time") return value === 0 ? "none" : written(Number(value), TIME);
+  return units?.length ? written(Number(value), units) : String(value);
 }
 
 const USUAL = ["s", "g", "m", "deg", "%", "m/s", "C"];
@@ -52,10 +50,11 @@ function typed(field, id, change) {
     : units.length ? (text) => quantity(text, unit) : (text) => text.trim() || undefined;
   const dayTime = field.type === "time of day";
   const fallback = defaultWords(field);
+  const example = units.length ? `such as 3 ${field.type === "time" ? "min" : unit}` : null;
   const input = h("input", {
     id, type: dayTime ? "time" : "text", autocomplete: "off", spellcheck: "false",
     inputmode: field.type === "int" ? "numeric" : null,
-    placeholder: fallback || (units.length ? `such as 3 ${field.type === "time" ? "min" : unit}` : null),
+    placeholder: fallback || example,
     maxlength: 500,
     oninput: () => change(read(input.value), true),
     onchange: () => {
@@ -122,10 +121,12 @@ export function fieldFor(field, { evaluators = [], change }) {
   const made = control(field, id, evaluators, change);
   const main = made.invalid ?? made.input;
   const words = h("span", {});
-  const problem = h("p", { class: "problem", id: `${id}-problem`, hidden: true }, icon("warning"), words);
+  const problem = h("p", { class: "problem", id: `${id}-problem`, hidden: true },
+    icon("warning"), words);
   const label = h("label", { for: id }, field.label ?? sentence(plain(field.name)));
   set(main, "aria-describedby", `${id}-problem`);
-  const element = h("div", { class: "field", "data-field": field.name }, label, made.input, problem);
+  const element = h("div", { class: "field", "data-field": field.name },
+    label, made.input, problem);
   return {
     element, input: main,
     update(value, { problem: text = "", locked = false } = {}) {

@@ -1,16 +1,18 @@
-// What one sees without the station's token, or with a wrong one: where to find it, and a place for it.
+// What one sees without the station's token, or with a wrong one: where to find it, and a place
+// to put it.
 
-import { h, put } from "./dom.js";
+import { h } from "./dom.js";
+import { icon } from "./icons.js";
 import { keepToken, token } from "./token.js";
 
 // The token out of what was pasted: the whole address, or the token alone.
 const tokenIn = (text) => text.trim().replace(/^.*#token=/, "");
 
-export function gate(said) {
-  const wrong = h("p", { class: "problem", role: "alert" });
-  if (token()) put(wrong, said || "The station knows no such token: it gets a new one at each start.");
+export function gate() {
+  const wrong = token() && h("p", { class: "problem", role: "alert" }, icon("warning"),
+    "The station knows no such token: it makes a new one each time it is started.");
   const input = h("input", {
-    id: "token", autocomplete: "off", spellcheck: "false", required: true, type: "password",
+    id: "token", type: "password", autocomplete: "off", spellcheck: "false", required: true,
   });
   const form = h("form", {
     class: "stack",

@@ -1,5 +1,5 @@
-// What happens, as the station sees it now. The page asks for what is newer than it has seen, and the
-// station answers once, with the newest: nothing ever queues up.
+// What happens, as the station sees it now. The page asks for what is newer than it has seen, and
+// the station answers once, with the newest: nothing ever queues up.
 //
 //   const live = liveFeed();
 //   live.state      { phase, time, … }           live.missions   Map of name → row, in order

@@ -38,7 +38,7 @@ const head = top(context, pages.bar);
 
 // Another name than the station's own is refused in words; without a token there is a place for it.
 function closed({ status, message }) {
-  fill(document.body, status === 401 ? gate(message)
+  fill(document.body, status === 401 ? gate()
     : h("main", { class: "gate" }, h("p", { class: "card" }, message)));
 }
 
@@ -109,7 +109,7 @@ async function begin() {
   if (!context.app) return;
   live.changed.heard(update);
   live.other.heard(anew);
-  live.denied.heard(() => closed({ status: 401, message: "" }));
+  live.denied.heard(() => closed({ status: 401 }));
   plan.changed.heard(() => {
     head.update();
     if (plan.said && plan.said !== planSaid) say(plan.said, { bad: true });

@@ -1,4 +1,4 @@
-// The selected mission: its name, its fields (those that the app's graph needs), its trips in short.
+// The selected mission: its name, the fields that the app's graph needs, its trips in short.
 //
 //   const panel = missionPanel(context, { open, copy, remove, move });
 //   panel.element   panel.update(mission, problems, index, count)   panel.rename()
@@ -10,13 +10,15 @@ import { setField } from "./plan_edits.js";
 import { many, plain } from "./words.js";
 
 const SHOWN = 12; // trips
+const NO_TRIPS = "No trips yet. “Set trips” opens the map: drag actions onto it there.";
 
 function button(sign, text, onclick, kind = "") {
   return h("button", { class: `button ${kind}`, onclick }, icon(sign), h("span", {}, text));
 }
 
 function arrow(sign, text, onclick) {
-  return h("button", { class: "button icon", "aria-label": text, title: text, onclick }, icon(sign));
+  return h("button", { class: "button icon", "aria-label": text, title: text, onclick },
+    icon(sign));
 }
 
 function tripLine(trip, i, problem) {
@@ -39,7 +41,7 @@ function tripsInShort() {
         problems.find((each) => each.trip === trip.key)?.text]),
       ({ trip, i }) => tripLine(trip, i, problems.find((each) => each.trip === trip.key)));
       put(more, trips.length > SHOWN ? `and ${trips.length - SHOWN} more`
-        : trips.length ? "" : "No trips yet. “Set trips” opens the map: drag actions onto it there.");
+        : trips.length ? "" : NO_TRIPS);
       shown(more, more.textContent);
     },
   };
@@ -68,7 +70,9 @@ export function missionPanel({ app, plan }, { open, copy, remove, move }) {
   const down = arrow("down", "Move down", () => move(now.key, 1));
   const bin = button("bin", "Delete", () => remove(now.key));
   const fields = h("div", { class: "mission-fields" }, inputs.map(([, input]) => input.element));
-  const element = h("section", { class: "card mission-panel stack", "aria-label": "The selected mission" },
+  const element = h("section", {
+    class: "card mission-panel stack", "aria-label": "The selected mission",
+  },
     locked, title.element, said, inputs.length > 0 && fields,
     h("div", { class: "row trips-head" }, count, set), trips.element,
     h("div", { class: "row panel-foot" }, up, down, h("span", { class: "spread row" },

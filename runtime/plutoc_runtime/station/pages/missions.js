@@ -11,10 +11,17 @@ import { welcome } from "./welcome.js";
 import { newKey } from "./words.js";
 
 function nothingSelected() {
-  return h("section", { class: "card nothing-selected stack", "aria-label": "No mission is selected" },
-    h("h2", {}, "No mission is selected"),
-    h("p", {}, "Select a mission in the list first, or add one. Here you then give it a name and set its trips."),
+  return h("section", { class: "card nothing-selected stack", "aria-labelledby": "none-selected" },
+    h("h2", { id: "none-selected" }, "No mission is selected"),
+    h("p", {}, "Select a mission in the list first, or add one. ",
+      "Here you then give it a name and set its trips."),
     h("p", { class: "hint" }, "A double-click on a mission opens its trips."));
+}
+
+const key = (text) => h("kbd", { class: "key" }, text);
+
+function small(sign, text, onclick) {
+  return h("button", { class: "button small", onclick }, icon(sign), text);
 }
 
 export function missions(context) {
@@ -80,11 +87,11 @@ export function missions(context) {
         class: "button primary spread", onclick: add,
       }, icon("plus"), "Add mission")),
       list.element,
-      h("p", { class: "hint" }, "Select one to fill it in. Drag it, or press ",
-        h("kbd", { class: "key" }, "Alt ↑"), " ", h("kbd", { class: "key" }, "Alt ↓"), ", to move it."),
+      h("p", { class: "hint" }, "Select one to fill it in. To move it, drag it or press ",
+        key("Alt ↑"), " ", key("Alt ↓"), "."),
       h("div", { class: "row side-foot" },
-        h("button", { class: "button small", onclick: () => importFile(context) }, icon("import"), "Import file"),
-        h("button", { class: "button small", onclick: () => exportFile(context) }, icon("export"), "Export file"))),
+        small("import", "Import file", () => importFile(context)),
+        small("export", "Export file", () => exportFile(context)))),
     h("div", { class: "mission-main" }, panel.element, none));
   const element = h("div", {}, first, split);
 

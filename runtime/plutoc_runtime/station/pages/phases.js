@@ -7,7 +7,10 @@ const FLYING = new Set(["flying", "stopping"]);
 export const inTheAir = (state) => FLYING.has(state.phase);
 export const toResume = (state) => state.phase === "stopped" || state.phase === "interrupted";
 
-const DOWN = { rtl: "Stopping: the drones fly home", land: "Stopping: the drones land where they are" };
+const DOWN = {
+  rtl: "Stopping: the drones fly home",
+  land: "Stopping: the drones land where they are",
+};
 
 // → [kind of chip, sign, words]
 export function phaseWords(state) {

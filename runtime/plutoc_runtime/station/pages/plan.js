@@ -1,7 +1,7 @@
 // The plan that everybody draws together.
 //
 //   const plan = planKept();          await plan.load();
-//   plan.missions                     [{ key, name, launched, trips, … }…]: never change them in place
+//   plan.missions                     [{ key, name, launched, trips, … }…]: never changed in place
 //   plan.problems                     [{ mission: key|null, trip: key|null, field, text }…]
 //   plan.edit(change)                 change: missions → missions, seen at once, saved by itself
 //   plan.edit(change, true)           the same while somebody types: saved after a moment
@@ -18,6 +18,7 @@ import { bell } from "./bell.js";
 import { get, send } from "./api.js";
 
 const TYPING = 300;
+const BETWEEN = 120; // ms between two savings, also while a pin is dragged
 
 export function planKept() {
   let base = { revision: 0, missions: [], problems: [] };
@@ -25,9 +26,11 @@ export function planKept() {
   let timer = 0;
   let sending = false;
   let tries = 0;
+  let sentAt = -BETWEEN;
 
   const plan = {
-    missions: [], problems: [], said: "", trouble: "", loaded: false, changed: bell(), refused: bell(),
+    missions: [], problems: [], said: "", trouble: "", loaded: false,
+    changed: bell(), refused: bell(),
   };
 
   function replay() {
@@ -47,13 +50,14 @@ export function planKept() {
 
   function later(time) {
     clearTimeout(timer);
-    timer = setTimeout(save, time);
+    timer = setTimeout(save, Math.max(time, sentAt + BETWEEN - performance.now()));
   }
 
   async function save() {
     clearTimeout(timer);
     if (sending || !pending.length || !plan.loaded) return;
     sending = true;
+    sentAt = performance.now();
     const sent = pending.length;
     try {
       const content = { revision: base.revision, missions: plan.missions };

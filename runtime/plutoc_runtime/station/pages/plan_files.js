@@ -7,6 +7,7 @@ import { h } from "./dom.js";
 import { many } from "./words.js";
 
 const LARGEST = 1 << 20;
+const CHANGED = "Somebody else changed the plan meanwhile: please try again.";
 
 // Takes away what came, and brings back what went; what was done since then stays.
 function back(before, after) {
@@ -32,7 +33,7 @@ async function another({ plan, say, selected }, ask, said) {
       plan.take(answer.data);
       answer = await ask(plan.revision());
     }
-    if (answer.status === 409) throw new Error(answer.data.said ?? "Somebody else changed the plan.");
+    if (answer.status === 409) throw new Error(answer.data.said ?? CHANGED);
     plan.take(answer.data);
   } catch (error) {
     say(error.message, { bad: true });

@@ -1,5 +1,5 @@
-// Changing the order of a list by dragging: with the mouse anywhere on an item, with a finger on its
-// grip (elsewhere a finger scrolls). Escape lets go.
+// Changing the order of a list by dragging: with the mouse anywhere on an item, with a finger on
+// its grip (elsewhere a finger scrolls). Escape lets go.
 //
 //   reorderable(list, (from, to) => …);   // items: the list's children; grip: class "grip"
 

@@ -41,7 +41,8 @@ export function tabs(list, opened) {
       onclick: () => go(id),
     }, title));
     panels.set(id, h("section", {
-      class: "page", role: "tabpanel", id: `page-${id}`, "aria-labelledby": `tab-${id}`, hidden: true,
+      class: "page", role: "tabpanel", id: `page-${id}`, "aria-labelledby": `tab-${id}`,
+      hidden: true,
     }));
   }
   const bar = h("div", { class: "tabs", role: "tablist", "aria-label": "Pages", onkeydown: keys },

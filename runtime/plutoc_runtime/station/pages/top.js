@@ -16,8 +16,8 @@ function ageChip(live) {
     update() {
       const age = live.age();
       const old = age >= 1500;
-      const text = !Number.isFinite(age) ? "not connected" : old ? `${Math.round(age / 1000)} s old` : "live";
-      put(words, text);
+      const seconds = `${Math.round(age / 1000)} s old`;
+      put(words, !Number.isFinite(age) ? "not connected" : old ? seconds : "live");
       set(node, "class", `chip age num ${live.lost() ? "bad" : old ? "warn" : "good"}`);
     },
   };
