@@ -12,8 +12,8 @@ Piece = tuple[Point, Point]
 Line = tuple[bool, int]
 """A gap (True) or a channel (False), by its number: the first is before the first column or row."""
 
-_CLEAR = 8.0
-"""Between a way and a box that it passes."""
+CLEAR = 12.0
+"""Between the middle of a box and others that a way from there can pass."""
 _FAR = 3
 """The most columns between whose boxes a way can pass."""
 
@@ -71,7 +71,7 @@ class Ground:
             if not 0 <= column < len(self.columns):
                 return
             for one in self._cells.get((spot.row, column), ()):
-                if abs(one.y - spot.y) < one.h / 2 + _CLEAR:
+                if abs(one.y - spot.y) < one.h / 2 + CLEAR:
                     return
 
 

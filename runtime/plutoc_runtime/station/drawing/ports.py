@@ -4,14 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from math import inf
 
 from .grid import Grid, Spot
 from .ground import Side
 from .routes import Route
 
-_STEP = 5.0
-_NEAR = 7.0
-"""Less than this between two ways is too little."""
+_STEP = 2.0
+_ASIDE = 4.0
+"""How far from the middle a way wants to leave that turns to that side."""
+_BESIDE = 18.0
+"""The same above and below boxes: in the middle missions stand."""
+_NEAR = (8.0, 6.0)
+"""What shall be between two ways, and what must do where there is little room."""
+_PASSING = 6.0
+"""How far a way can be from the middle that goes on between other boxes: less than `CLEAR`."""
 _CORNER = 7.0
 """What is left free of a side at each end."""
 
@@ -36,9 +43,13 @@ class _Stub:
     wanted: float
 
 
+_Busy = dict[tuple[bool, int, int], list[tuple[tuple[float, float], float]]]
+"""In each zone the spans of stubs, and where they are."""
+
+
 def ports(grid: Grid, ways: Sequence[tuple[int, int]], found: Sequence[Route]) -> list[Ports]:
     """Return the ports of each way; straight ones choose first, then those that bend least."""
-    busy: dict[tuple[bool, int, int], list[tuple[tuple[float, float], float]]] = {}
+    busy: _Busy = {}
     given: dict[int, Ports] = {}
     for number in sorted(range(len(ways)), key=lambda one: (len(found[one].lines), one)):
         route = found[number]
@@ -53,21 +64,19 @@ def ports(grid: Grid, ways: Sequence[tuple[int, int]], found: Sequence[Route]) -
     return [given[number] for number in range(len(ways))]
 
 
-def _placed(
-    stub: _Stub, busy: dict[tuple[bool, int, int], list[tuple[tuple[float, float], float]]]
-) -> float:
+def _placed(stub: _Stub, busy: _Busy) -> float:
     """Return how far from the middle a stub shall be: as near to where it wants as others let it."""
     there = busy.setdefault(stub.zone, [])
-    most = max(stub.half - _CORNER, 0.0)
-    steps = int(most / _STEP)
+    steps = int(max(stub.half - _CORNER, 0.0) / _STEP)
     offsets = [_STEP * step for step in range(-steps, steps + 1)]
     offsets.sort(key=lambda one: (abs(one - stub.wanted), abs(one), one))
-    others = [at for span, at in there if span[0] <= stub.span[1] and stub.span[0] <= span[1]]
-    room = {
-        one: min((abs(stub.base + one - at) for at in others), default=_NEAR) for one in offsets
-    }
-    free = [one for one in offsets if room[one] >= _NEAR]
-    offset = free[0] if free else max(offsets, key=room.__getitem__)
+    low, high = stub.span
+    others = [at for span, at in there if span[0] <= high and low <= span[1]]
+    room = {one: min((abs(stub.base + one - at) for at in others), default=inf) for one in offsets}
+    offset = next(
+        (one for near in _NEAR for one in offsets if room[one] >= near),
+        max(offsets, key=room.__getitem__),
+    )
     there.append((stub.span, stub.base + offset))
     return offset
 
@@ -79,11 +88,12 @@ def _straight(source: Spot, target: Spot, route: Route) -> _Stub:
             (True, source.row, 0),
             (low + 1, high),
             source.y,
-            min(source.h, target.h) / 2,
+            _half(min(source.h, target.h), high > low + 1),
             0.0,
         )
     channel = max(source.row, target.row)
-    return _Stub((False, channel, source.column), (0, 0), 0.0, min(source.w, target.w) / 2, 0.0)
+    wanted = _BESIDE * (target.row - source.row)
+    return _Stub((False, channel, source.column), (0, 0), 0.0, min(source.w, target.w) / 2, wanted)
 
 
 def _stubs(source: Spot, target: Spot, route: Route) -> Iterator[_Stub]:
@@ -97,12 +107,18 @@ def _stubs(source: Spot, target: Spot, route: Route) -> Iterator[_Stub]:
             low, high = sorted((nearest, line[1]))
             there = (other.row - spot.row, other.y - spot.y)
             ahead = toward[0][1] - 0.5 - spot.row if toward else there[0] or there[1]
-            yield _Stub((True, spot.row, 0), (low, high), spot.y, spot.h / 2, _toward(ahead))
+            half = _half(spot.h, high > low)
+            yield _Stub((True, spot.row, 0), (low, high), spot.y, half, _toward(ahead, _ASIDE))
         else:
             where = toward[0][1] - 0.5 if toward else other.column
             zone = (False, line[1], spot.column)
-            yield _Stub(zone, (0, 0), 0.0, spot.w / 2, _toward(where - spot.column) * 2)
+            yield _Stub(zone, (0, 0), 0.0, spot.w / 2, _toward(where - spot.column, _BESIDE))
 
 
-def _toward(distance: float) -> float:
-    return 0.0 if not distance else _STEP if distance > 0 else -_STEP
+def _half(high: float, passing: bool) -> float:
+    """Return how much of a side there is for a stub, from the middle."""
+    return min(high / 2, _PASSING + _CORNER) if passing else high / 2
+
+
+def _toward(ahead: float, far: float) -> float:
+    return 0.0 if not ahead else far if ahead > 0 else -far
