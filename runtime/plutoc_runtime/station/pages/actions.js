@@ -40,8 +40,8 @@ export function actions(app, floor, act) {
   const said = h("p", { class: "in-hand-said" });
   const where = placeForm((target) => {
     act.add(inHand, target);
-    take(null);
-  }, () => take(null));
+    back();
+  }, () => back());
   const line = h("div", { class: "in-hand" }, said, where.element);
   const element = h("section", { class: "actions card", "aria-label": "Actions" },
     h("div", { class: "action-list", role: "group", "aria-label": "Actions to put on the map" },
@@ -59,6 +59,13 @@ export function actions(app, floor, act) {
     }
   }
 
+  /** Put it back, and go back to where it lies: the form that had the focus is gone. */
+  function back() {
+    const chip = chips.get(inHand);
+    take(null);
+    chip.focus();
+  }
+
   aim(floor, () => inHand, {
     hover: (target) => act.hover(inHand, target),
     drop(target) {
@@ -68,10 +75,7 @@ export function actions(app, floor, act) {
     away: () => take(null),
   });
   element.addEventListener("keydown", (event) => {
-    if (event.key === "Escape" && inHand) {
-      chips.get(inHand).focus();
-      take(null);
-    }
+    if (event.key === "Escape" && inHand) back();
   });
   take(null);
   return {

@@ -11,7 +11,7 @@ import { icon } from "./icons.js";
 import { problemLine, textOf } from "./problems.js";
 import { RELEASE } from "./trip_edits.js";
 
-const MASS = { name: "mass", label: "How heavy it is", type: "mass", units: ["g", "mg", "kg"] };
+const MASS = { name: "mass", label: "Mass", type: "mass", units: ["g", "mg", "kg"] };
 
 export function tripBody(app, action, act) {
   const where = coordinates(app.map, (target, typing) => act.set("target", target, typing));
@@ -81,7 +81,7 @@ function itemFields(act) {
     value: (trip) => trip.item?.[key],
     field: fieldFor(spec, { change: (value, typing) => act.item(key, value, typing) }),
   });
-  return [one({ name: "item", label: "What is picked", type: "text" }, "name"), one(MASS, "mass")];
+  return [one({ name: "item", label: "Item", type: "text" }, "name"), one(MASS, "mass")];
 }
 
 function released(trip, pickedIn) {
