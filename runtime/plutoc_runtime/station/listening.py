@@ -12,24 +12,27 @@ from ..words import quoted
 from .guard import Guard, is_loopback
 
 _BACKLOG = 128
+_PORTS = 65536
 _ELSEWHERE = ("192.0.2.1", 9)
 """An address that nobody has: asked for the way there, the system tells which of ours it takes."""
 
 
 def listening(host: str, port: int) -> socket.socket:
     """Return a socket that listens; port 0 is any that is free."""
+    if not 0 <= port < _PORTS:
+        raise BadInput(f"--port {port}: a port is a number from 0 to {_PORTS - 1}")
     try:
         family, kind, protocol, _, address = socket.getaddrinfo(
             host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE
         )[0]
         listener = socket.socket(family, kind, protocol)
-    except (OSError, ValueError, OverflowError):  # ValueError: a host that is no name at all
+    except (OSError, ValueError):  # ValueError: a host that is no name at all
         raise BadInput(f"--host {quoted(host)}: there is no such address") from None
     try:
         listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         listener.bind(address)
         listener.listen(_BACKLOG)
-    except (OSError, OverflowError) as error:
+    except OSError as error:
         listener.close()
         raise BadInput(_why(error, host, port)) from None
     listener.setblocking(False)
@@ -71,8 +74,8 @@ def _own() -> str:
             return "127.0.0.1"
 
 
-def _why(error: Exception, host: str, port: int) -> str:
-    match error.errno if isinstance(error, OSError) else None:
+def _why(error: OSError, host: str, port: int) -> str:
+    match error.errno:
         case code if code == EADDRINUSE:
             return (
                 f"port {port} is taken, perhaps by another station:"

@@ -9,6 +9,7 @@ import os
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cache
 from gzip import compress
 from hashlib import sha256
 from pathlib import Path
@@ -47,8 +48,9 @@ class Held:
     mark: str
 
 
+@cache
 def pages(folder: Path = FOLDER) -> Mapping[str, Held]:
-    """Return what there is at which address."""
+    """Return what there is at which address; it is read once."""
     table = {}
     for file in sorted(folder.iterdir()):
         kind = _KINDS.get(file.suffix)

@@ -79,7 +79,7 @@ def test_a_page_of_another_site_is_not_let_in(headers: dict[str, str]) -> None:
     assert not line.opened and ask.station.told == 0
 
 
-@pytest.mark.parametrize("token", [None, "", "guess", 1, None])
+@pytest.mark.parametrize("token", [None, "", "guess", 1])
 def test_the_first_message_bears_the_token(token: object) -> None:
     ask = asked(token="sesame")
     line = talk(ask, ALine(SEEN if token is None else {**SEEN, "token": token}))

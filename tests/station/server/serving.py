@@ -1,0 +1,116 @@
+"""A station behind the real web server, in the same loop as whoever asks it byte by byte."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from collections.abc import AsyncIterator, Mapping
+from contextlib import asynccontextmanager, suppress
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from websockets.typing import Origin
+
+from plutoc_runtime.station.api import Api
+from plutoc_runtime.station.audit import Audit
+from plutoc_runtime.station.guard import Guard
+from plutoc_runtime.station.listening import listening, port_of
+from plutoc_runtime.station.web import serve
+
+from .asking import AStation
+
+
+@dataclass
+class Served:
+    """A station that is being served."""
+
+    station: AStation
+    port: int
+
+    @property
+    def host(self) -> str:
+        return f"127.0.0.1:{self.port}"
+
+    @property
+    def origin(self) -> Origin:
+        """The site of the station's own pages."""
+        return Origin(f"http://{self.host}")
+
+    @property
+    def headers(self) -> dict[str, str]:
+        """What a page of the station's own sends."""
+        return {
+            "Host": self.host,
+            "Origin": self.origin,
+            "X-Pluto": "1",
+            "Content-Type": "application/json",
+            "Connection": "close",
+        }
+
+    def request(
+        self,
+        method: str,
+        path: str,
+        body: object = None,
+        headers: Mapping[str, str] | None = None,
+        **other: str,
+    ) -> bytes:
+        """Return the bytes of a request; names of headers have _ for -."""
+        content = b"" if body is None else json.dumps(body).encode()
+        named = {name.replace("_", "-"): value for name, value in other.items()}
+        sent = {**(self.headers if headers is None else headers), **named}
+        if content:
+            sent.setdefault("Content-Length", str(len(content)))
+        lines = [f"{method} {path} HTTP/1.1", *(f"{name}: {text}" for name, text in sent.items())]
+        return "\r\n".join([*lines, "", ""]).encode() + content
+
+    async def say(self, *parts: bytes) -> bytes:
+        """Send bytes and return all that comes back, until the server hangs up."""
+        reader, writer = await asyncio.open_connection("127.0.0.1", self.port)
+        try:
+            with suppress(ConnectionError):
+                for part in parts:
+                    writer.write(part)
+                    await writer.drain()
+            return await all_of(reader)
+        finally:
+            writer.close()
+
+    async def stop(self) -> None:
+        """Press Stop, and see that it is taken."""
+        answer = await self.say(self.request("POST", "/api/stop", {"id": "stop", "how": "land"}))
+        assert status(answer) == 200
+
+
+async def all_of(reader: asyncio.StreamReader) -> bytes:
+    """Read until the other side hangs up, as it must."""
+    found = b""
+    async with asyncio.timeout(20):
+        with suppress(ConnectionError):
+            while part := await reader.read(65536):
+                found += part
+    return found
+
+
+def status(answer: bytes) -> int:
+    """Return the status of an answer."""
+    return int(answer.split(b" ", 2)[1])
+
+
+@asynccontextmanager
+async def served(file: Path | None = None, **guard: Any) -> AsyncIterator[Served]:
+    """Serve a station on a port that is free."""
+    station = AStation()
+    with listening("127.0.0.1", 0) as listener:
+        port = port_of(listener)
+        api = Api(station, Guard(host="127.0.0.1", port=port, **guard), Audit(file))
+        ready = asyncio.Event()
+        serving = asyncio.create_task(serve(api, listener, "alfalfa", ready.set))
+        try:
+            await ready.wait()
+            yield Served(station, port)
+        finally:
+            serving.cancel()
+            with suppress(asyncio.CancelledError):
+                await serving

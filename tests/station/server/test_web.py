@@ -1,0 +1,331 @@
+"""The real web server: what is sent byte by byte, slowly, too much of it, or not to its end."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import signal
+import socket
+import sys
+from collections.abc import Callable, Coroutine
+from pathlib import Path
+
+import pytest
+from websockets.asyncio.client import connect
+from websockets.exceptions import ConnectionClosed, InvalidStatus
+from websockets.typing import Origin
+
+from plutoc_runtime.errors import BadInput
+from plutoc_runtime.station import crowd, web
+from plutoc_runtime.station.borrowed import borrowed
+from plutoc_runtime.station.guard import Guard
+from plutoc_runtime.station.listening import address, listening, port_of
+
+from .asking import SEEN
+from .serving import Served, served, status
+
+Scene = Callable[[Served], Coroutine[object, object, None]]
+
+
+def play(scene: Scene, file: Path | None = None) -> None:
+    """Serve a station for a scene, at whose end a Stop is still taken."""
+
+    async def whole() -> None:
+        async with served(file) as station:
+            await scene(station)
+            await station.stop()
+
+    asyncio.run(whole())
+
+
+def test_pages_and_answers_come_over_a_socket() -> None:
+    async def scene(station: Served) -> None:
+        page = await station.say(station.request("GET", "/"))
+        assert status(page) == 200 and page.lower().count(b"content-security-policy") == 1
+        assert b"\nserver:" not in page.lower()
+        head = await station.say(station.request("HEAD", "/"))
+        assert status(head) == 200 and head.endswith(b"\r\n\r\n")
+        assert status(await station.say(station.request("POST", "/api/start", {"id": "1"}))) == 200
+        assert station.station.done == [("start", {})]
+        poll = await station.say(station.request("GET", "/api/live?flight=a+b&seen=3"))
+        assert json.loads(poll.split(b"\r\n\r\n")[1]) == {"n": 1, "flight": "a b"}
+
+    play(scene)
+
+
+@pytest.mark.parametrize(
+    "path",
+    [
+        "/pages/..%2f..%2fhttp.py",
+        "/pages/%2e%2e/%2e%2e/http.py",
+        "/pages/main.js%00",
+        "/pages/..\\..\\http.py",
+        "//etc/passwd",
+        "/%ff%fe",
+        "http://evil.example/pages/../http.py",
+        "/nowhere?" + "&".join(f"a{n}=1" for n in range(100)),
+    ],
+)
+def test_a_path_leads_nowhere_else(path: str) -> None:
+    async def scene(station: Served) -> None:
+        assert status(await station.say(station.request("GET", path))) == 404
+
+    play(scene)
+
+
+LARGE = b"x" * (1024 * 1024 + 1)
+CHUNK = b"%x\r\n" % 65536 + b"x" * 65536 + b"\r\n"
+
+
+def test_a_body_that_is_too_long_is_not_read() -> None:
+    async def scene(station: Served) -> None:
+        plan = station.request("PUT", "/api/plan", Content_Length=str(len(LARGE)))
+        assert status(await station.say(plan)) == 413
+        assert status(await station.say(plan, LARGE)) == 413
+        endless = station.request("PUT", "/api/plan", Transfer_Encoding="chunked")
+        assert status(await station.say(endless, *[CHUNK] * 40)) == 413
+        huge = station.request("PUT", "/api/plan", Content_Length="9" * 19)
+        assert status(await station.say(huge)) in (400, 413)
+        assert station.station.untouched
+
+    play(scene)
+
+
+def test_a_body_that_is_just_short_enough_is_read() -> None:
+    async def scene(station: Served) -> None:
+        start = station.request("POST", "/api/start", Content_Length=str(len(LARGE) - 1))
+        body = b'{"id": "1"}' + b" " * (len(LARGE) - 1 - 11)
+        assert status(await station.say(start, body)) == 200
+
+    play(scene)
+
+
+def test_a_body_that_does_not_come_is_not_waited_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(web, "_BODY_WITHIN", 0.05)
+
+    async def scene(station: Served) -> None:
+        start = station.request("POST", "/api/start", Content_Length="11")
+        assert status(await station.say(start, b'{"id"')) == 408
+        assert station.station.untouched
+
+    play(scene)
+
+
+def test_a_head_that_does_not_come_is_not_waited_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(crowd, "_EACH", 0.05)
+
+    async def scene(station: Served) -> None:
+        assert await station.say(b"") == b""
+        assert await station.say(b"GET / HTTP/1.1\r\nHost: ") == b""
+        kept = station.request("GET", "/", Connection="keep-alive")
+        assert status(await station.say(kept, b"GET")) == 200
+
+    play(scene)
+
+
+def test_who_does_not_read_the_answer_is_let_go(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(crowd, "_EACH", 0.02)
+
+    async def scene(station: Served) -> None:
+        async def endless() -> None:
+            await asyncio.Event().wait()
+
+        station.station.busy = endless
+        start = station.request("POST", "/api/start", {"id": "1"})
+        assert await station.say(start) == b""
+
+    play(scene)
+
+
+def test_many_who_say_nothing_keep_nobody_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(crowd, "_MOST", 16)
+
+    async def scene(station: Served) -> None:
+        silent = [await asyncio.open_connection("127.0.0.1", station.port) for _ in range(40)]
+        await station.stop()
+        for reader, writer in silent[:20]:
+            assert await reader.read() == b""
+            writer.close()
+        for _, writer in silent[20:]:
+            writer.close()
+
+    play(scene)
+
+
+@pytest.mark.parametrize(
+    "raw",
+    [
+        b"\r\n\r\n\r\n\r\n",
+        b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03" + bytes(range(256)),
+        b"GET\r\n\r\n",
+        b"GET / HTTP/9.9\r\nConnection: close\r\n\r\n",
+        b"GET / HTTP/1.1\r\nHost: a\r\nHost: b\r\n\r\n",
+        b"GET / HTTP/1.1\r\nHost : a\r\n\r\n",
+        b"GET / HTTP/1.1\r\nHost: a\r\nContent-Length: -1\r\n\r\n",
+        b"GET / HTTP/1.1\r\nHost: a\r\nContent-Length: 1\r\nContent-Length: 2\r\n\r\n",
+        b"GET /\xff HTTP/1.1\r\nHost: a\r\n\r\n",
+        b"GET / HTTP/1.1\r\nHost: a\r\nConnection: close\r\nX: " + b"x" * 100_000 + b"\r\n\r\n",
+        b"POST /api/start HTTP/1.1\r\nHost: a\r\nTransfer-Encoding: gzip\r\n\r\n",
+    ],
+    ids=range(11),
+)
+def test_what_is_no_http_is_refused(raw: bytes) -> None:
+    async def scene(station: Served) -> None:
+        answer = await station.say(raw)
+        assert 400 <= status(answer) < 500 or status(answer) == 501
+        assert b"Traceback" not in answer
+
+    play(scene)
+
+
+def test_what_comes_twice_in_a_header_counts_for_nothing() -> None:
+    async def scene(station: Served) -> None:
+        start = station.request("POST", "/api/start", {"id": "1"})
+        twice = start.replace(b"X-Pluto", b"Origin: http://evil.example\r\nX-Pluto")
+        assert status(await station.say(twice)) == 403
+        assert station.station.untouched
+
+    play(scene)
+
+
+def test_requests_in_a_row_are_not_smuggled_past_the_guard() -> None:
+    async def scene(station: Served) -> None:
+        bad = station.request("POST", "/api/start", {"id": "1"}, Origin="http://evil.example")
+        bad = bad.replace(b"close", b"keep-alive")
+        answer = await station.say(bad + station.request("GET", "/nowhere"))
+        assert answer.count(b"HTTP/1.1 403") == 1 and answer.count(b"HTTP/1.1 404") == 1
+        both = station.request("POST", "/api/start", {"id": "1"}, Transfer_Encoding="chunked")
+        assert 400 <= status(await station.say(both, b"\r\n")) < 500
+        assert station.station.untouched
+
+    play(scene)
+
+
+def test_what_a_proxy_says_of_its_client_is_not_believed(tmp_path: Path) -> None:
+    async def scene(station: Served) -> None:
+        start = station.request("POST", "/api/start", {"id": "1"}, X_Forwarded_For="6.6.6.6")
+        assert status(await station.say(start)) == 200
+
+    play(scene, tmp_path / "audit.log")
+    assert "6.6.6.6" not in (tmp_path / "audit.log").read_text()
+
+
+def test_a_page_stays_connected() -> None:
+    async def scene(station: Served) -> None:
+        where = f"ws://{station.host}/api/live"
+        async with connect(where, origin=station.origin) as page:
+            for n in (1, 2, 3):
+                await page.send(json.dumps(SEEN))
+                assert json.loads(await page.recv())["n"] == n
+            await page.send(b"\x00\x01")
+            with pytest.raises(ConnectionClosed) as closed:
+                await page.recv()
+            assert closed.value.rcvd is not None and closed.value.rcvd.code == 4400
+        async with connect(where, origin=station.origin) as page:
+            await page.send("x" * 70_000)
+            with pytest.raises(ConnectionClosed) as closed:
+                await page.recv()
+            assert closed.value.rcvd is not None and closed.value.rcvd.code == 1009
+
+    play(scene)
+
+
+@pytest.mark.parametrize("path", ["/api/live", "/api/start", "/", "/nowhere"])
+def test_a_page_of_another_site_does_not_get_connected(path: str) -> None:
+    async def scene(station: Served) -> None:
+        for origin in (Origin("http://evil.example"), Origin("null"), None):
+            with pytest.raises(InvalidStatus) as refused:
+                async with connect(f"ws://{station.host}{path}", origin=origin):
+                    pass
+            assert refused.value.response.status_code in (403, 404)
+        assert station.station.untouched and station.station.told == 0
+
+    play(scene)
+
+
+def test_who_asks_and_does_not_read_costs_nothing_and_hears_all_of_it_later() -> None:
+    async def scene(station: Served) -> None:
+        async with connect(
+            f"ws://{station.host}/api/live", origin=station.origin, max_queue=1
+        ) as page:
+            for _ in range(10):
+                await page.send(json.dumps(SEEN))
+            await station.stop()
+            assert [json.loads(await page.recv())["n"] for _ in range(10)] == list(range(1, 11))
+
+    play(scene)
+
+
+def test_it_ends_at_once_whoever_is_connected() -> None:
+    async def whole() -> None:
+        async with served() as station:
+
+            async def endless() -> None:
+                await asyncio.Event().wait()
+
+            station.station.busy = endless
+            where = f"ws://{station.host}/api/live"
+            page = await connect(where, origin=station.origin)
+            await page.send(json.dumps(SEEN))
+            start = station.request("POST", "/api/start", {"id": "1"})
+            waits = asyncio.create_task(station.say(start))
+        async with asyncio.timeout(10):
+            with pytest.raises(ConnectionClosed) as closed:
+                await page.recv()
+            assert closed.value.rcvd is not None and closed.value.rcvd.code == 1012
+            await waits
+
+    asyncio.run(whole())
+
+
+def test_signals_are_left_to_those_who_fly() -> None:
+    async def whole() -> None:
+        before = signal.getsignal(signal.SIGINT), signal.getsignal(signal.SIGTERM)
+        async with served():
+            assert (signal.getsignal(signal.SIGINT), signal.getsignal(signal.SIGTERM)) == before
+
+    asyncio.run(whole())
+
+
+def test_a_port_that_is_taken_is_said_in_words() -> None:
+    taken = pytest.raises(BadInput, match="is taken, perhaps by another station")
+    with listening("127.0.0.1", 0) as first, taken:
+        listening("127.0.0.1", port_of(first))
+
+
+@pytest.mark.parametrize(
+    ("host", "port", "why"),
+    [
+        ("192.0.2.1", 0, "no such address"),
+        ("a..b", 0, "no such address"),
+        ("127.0.0.1", -1, "--port -1"),
+        ("127.0.0.1", 70_000, "--port 70000"),
+        ("x" * 300, 0, "no such address"),
+        ("\x00", 0, "no such address"),
+    ],
+)
+def test_where_nobody_can_listen_is_said_in_words(host: str, port: int, why: str) -> None:
+    with pytest.raises(BadInput, match=why):
+        listening(host, port)
+
+
+def test_the_address_is_what_one_types() -> None:
+    assert address(Guard(host="127.0.0.1", port=8765)) == "http://127.0.0.1:8765/"
+    assert address(Guard(host="::1", port=80, token="a")) == "http://[::1]:80/#token=a"
+    named = Guard(host="127.0.0.1", port=1, names=("ward.example",), token="a")
+    assert address(named) == "http://ward.example/#token=a"
+    assert "0.0.0.0" not in address(Guard(host="0.0.0.0", port=8765, token="a"))
+
+
+def test_without_the_extra_it_says_how_to_come_by_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "starlette.requests", None)
+    with pytest.raises(BadInput, match=r"pip install 'alfalfa\[station\]'"):
+        borrowed("alfalfa")
+
+
+def test_a_station_comes_back_to_its_port_at_once() -> None:
+    with listening("127.0.0.1", 0) as first:
+        port = port_of(first)
+        with socket.create_connection(("127.0.0.1", port)):
+            pass
+    listening("127.0.0.1", port).close()
