@@ -9,7 +9,16 @@ from pathlib import Path
 
 from ..words import quoted
 
-ACTIONS = ("stop", "pause", "go-on", "skip", "cancel")
+ACTIONS = (
+    "stop",
+    "pause",
+    "go-on",
+    "skip",
+    "cancel",
+    "prioritise",
+    "retire",
+    "bring-back",
+)
 """What a running app can be told."""
 
 ANSWERS = ("done", "not-done", "go-on", "cancel")
@@ -32,10 +41,19 @@ def add_flights(command: Command) -> None:
     tell.add_argument("journal", metavar="J", type=Path, help="the journal that the app keeps")
     tell.add_argument("action", metavar="WHAT", choices=ACTIONS, help=", ".join(ACTIONS))
     tell.add_argument(
-        "mission", metavar="MISSION", nargs="?", help="which one; default: all, except for skip"
+        "mission",
+        metavar="MISSION",
+        nargs="?",
+        help="which one; default: all, where that makes sense. For retire and bring-back: the drone",
     )
     tell.add_argument(
-        "trip", metavar="TRIP", nargs="?", help="which one to skip; default: the next"
+        "trip",
+        metavar="TRIP",
+        nargs="?",
+        help="which one to skip, default: the next; or to give a priority",
+    )
+    tell.add_argument(
+        "--to", metavar="N", dest="priority", type=int, help="prioritise: the trip's new priority"
     )
     how = tell.add_mutually_exclusive_group()
     how.add_argument(

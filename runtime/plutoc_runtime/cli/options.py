@@ -45,6 +45,7 @@ class Options:
     action: str = ""
     mission: str | None = None
     trip: str | None = None
+    priority: int | None = None
     land: bool = False
     rtl: bool = False
     answer: str | None = None

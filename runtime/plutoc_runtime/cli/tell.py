@@ -66,21 +66,42 @@ def asked(app: App, options: Options, request: Mapping[str, object]) -> str:
 def _request(app: App, options: Options) -> dict[str, object]:
     """Return the request for what the command line says; raise `BadInput` if it makes no sense."""
     action, mission, trip = options.action, options.mission, options.trip
-    wrong = ""
-    if action != "stop" and (options.land or options.rtl):
-        wrong = f"--land and --rtl go with stop, not with {action}"
-    elif action == "stop" and mission is not None:
-        wrong = "stop brings all drones down; to end one mission, cancel it, or pause it"
-    elif action == "skip" and mission is None:
-        wrong = "skip needs the name of a mission"
-    elif action not in ("stop", "skip") and trip is not None:
-        wrong = f"{action} is for whole missions; only skip takes a trip"
+    wrong = _wrong(options)
     if wrong:
         raise BadInput(f"{app.name} tell: {wrong}")
-    if action == "stop":
-        return {"command": action, "how": (Down.HOME if options.rtl else Down.LAND).value}
-    request: dict[str, object] = {"command": action, "mission": mission}
-    return request | ({"trip": trip} if action == "skip" else {})
+    match action:
+        case "stop":
+            return {"command": action, "how": (Down.HOME if options.rtl else Down.LAND).value}
+        case "skip":
+            return {"command": action, "mission": mission, "trip": trip}
+        case "prioritise":
+            given = {"mission": mission, "trip": trip, "priority": options.priority}
+            return {"command": action, **given}
+        case "retire" | "bring-back":
+            return {"command": action, "drone": mission}
+        case _:
+            return {"command": action, "mission": mission}
+
+
+def _wrong(options: Options) -> str:
+    """Return what in a command makes no sense; empty: it does."""
+    action, mission, trip = options.action, options.mission, options.trip
+    priority = options.priority is not None
+    if action != "stop" and (options.land or options.rtl):
+        return f"--land and --rtl go with stop, not with {action}"
+    if action != "prioritise" and priority:
+        return f"--to goes with prioritise, not with {action}"
+    if action == "stop" and mission is not None:
+        return "stop brings all drones down; to end one mission, cancel it, or pause it"
+    if action == "skip" and mission is None:
+        return "skip needs the name of a mission"
+    if action in ("retire", "bring-back") and mission is None:
+        return f"{action} needs the name of a drone"
+    if action == "prioritise" and (mission is None or trip is None or not priority):
+        return "prioritise needs a mission, a trip of it, and --to N"
+    if action not in ("skip", "prioritise") and trip is not None:
+        return f"{action} takes no trip; only skip and prioritise do"
+    return ""
 
 
 def _stop(app: App, options: Options, request: dict[str, object]) -> str:

@@ -88,7 +88,11 @@ def test_a_refusal_is_exit_2(journal: Path, command: Command) -> None:
     [
         ("stop North", "stop brings all drones down"),
         ("skip", "skip needs the name of a mission"),
-        ("pause North A", "pause is for whole missions; only skip takes a trip"),
+        ("pause North A", "pause takes no trip; only skip and prioritise do"),
+        ("retire", "retire needs the name of a drone"),
+        ("bring-back cf1 A", "bring-back takes no trip"),
+        ("prioritise North A", "prioritise needs a mission, a trip of it, and --to N"),
+        ("skip North A --to 3", "--to goes with prioritise, not with skip"),
         ("pause --rtl", "--land and --rtl go with stop, not with pause"),
         ("stop --rtl --land", "not allowed with argument"),
         ("dance", "invalid choice: 'dance'"),
