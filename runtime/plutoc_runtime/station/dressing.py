@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from .guard import is_loopback
 from .http import Reply, Request
 
 _PAGE = (
@@ -15,11 +16,13 @@ _PICTURE = (
 )
 _DATA = "default-src 'none'; frame-ancestors 'none'; sandbox"
 
+_ALONE = (("Cross-Origin-Opener-Policy", "same-origin"),)
+"""Browsers heed it only where nobody can listen on the way, and else say that they do not."""
+
 _ALWAYS = (
     ("X-Content-Type-Options", "nosniff"),
     ("X-Frame-Options", "DENY"),
     ("Referrer-Policy", "no-referrer"),
-    ("Cross-Origin-Opener-Policy", "same-origin"),
     ("Cross-Origin-Resource-Policy", "same-origin"),
     ("Permissions-Policy", "camera=(), geolocation=(), microphone=(), payment=(), usb=()"),
 )
@@ -30,7 +33,8 @@ def dressed(request: Request, reply: Reply) -> Reply:
     own = {name.lower() for name, _ in reply.headers}
     kept = () if "cache-control" in own else (("Cache-Control", "no-store"),)
     policy = (("Content-Security-Policy", _policy(request, reply)),)
-    return replace(reply, headers=(*reply.headers, *kept, *policy, *_ALWAYS))
+    alone = _ALONE if is_loopback(request.headers.get("host", "").rpartition(":")[0]) else ()
+    return replace(reply, headers=(*reply.headers, *kept, *policy, *alone, *_ALWAYS))
 
 
 def _policy(request: Request, reply: Reply) -> str:

@@ -56,6 +56,9 @@ class APlan:
     def example(self, revision: int) -> None:
         self.replace(revision, ["an example"])
 
+    async def examined(self) -> None:
+        """There is nothing to find."""
+
     def export_toml(self) -> str:
         return "[[mission]]\n"
 

@@ -288,7 +288,16 @@ def test_every_answer_says_what_a_browser_must_not_do_with_it(
     assert headers["cross-origin-resource-policy"] == "same-origin"
     assert headers["referrer-policy"] == "no-referrer"
     assert headers["cache-control"] == ("no-cache" if path == "/" else "no-store")
+    assert headers["cross-origin-opener-policy"] == "same-origin"
     policy = headers["content-security-policy"].split("; ")
     assert policy[0] == "default-src 'none'"
     assert "frame-ancestors 'none'" in policy
     assert "unsafe" not in headers["content-security-policy"]
+
+
+def test_where_somebody_may_listen_a_browser_is_told_nothing_that_it_would_not_heed() -> None:
+    headers = {"host": "192.168.0.7:8765"}
+    reply = asked(host="192.168.0.7", token="sesame")("GET", "/", b"", headers)
+    assert reply.status == 200
+    assert "Cross-Origin-Opener-Policy" not in dict(reply.headers)
+    assert "X-Frame-Options" in dict(reply.headers)
