@@ -44,12 +44,13 @@ _DIGITS = 15
 _JSON, _TOML = "application/json", "application/toml"
 
 
-def read(station: Station, path: str) -> Reply:
+async def read(station: Station, path: str) -> Reply:
     """Answer somebody who only wants to know."""
     match path:
         case "/api/app":
             return json_reply(200, station.described)
         case "/api/plan":
+            await station.plan.examined()
             return json_reply(200, station.plan.data())
         case "/api/plan.toml":
             try:
@@ -76,15 +77,15 @@ async def change(station: Station, audit: Audit, request: Request) -> Reply:
             given = parsed_object(body)
             revision, missions = _whole(given, "revision"), given.pop("missions", None)
             _nothing_else(given)
-            return _edited(plan, audit, request, lambda: plan.replace(revision, missions))
+            return await _edited(plan, audit, request, lambda: plan.replace(revision, missions))
         case "/api/plan/import":
             revision, text = asked_number(request.query, "revision"), _text(body)
-            return _edited(plan, audit, request, lambda: plan.import_toml(text, revision))
+            return await _edited(plan, audit, request, lambda: plan.import_toml(text, revision))
         case "/api/plan/example":
             given = parsed_object(body)
             revision = _whole(given, "revision")
             _nothing_else(given)
-            return _edited(plan, audit, request, lambda: plan.example(revision))
+            return await _edited(plan, audit, request, lambda: plan.example(revision))
         case path:
             given = parsed_object(body)
             return await _commanded(station, audit, request, path.removeprefix("/api/"), given)
@@ -106,7 +107,7 @@ async def _commanded(
     return in_words(status, said)
 
 
-def _edited(plan: Plan, audit: Audit, request: Request, edit: Callable[[], None]) -> Reply:
+async def _edited(plan: Plan, audit: Audit, request: Request, edit: Callable[[], None]) -> Reply:
     """Change the plan; who has seen an older one is given the newest."""
     try:
         edit()
@@ -117,6 +118,7 @@ def _edited(plan: Plan, audit: Audit, request: Request, edit: Callable[[], None]
         status = 409 if request.path == "/api/plan/example" else 400
         audit.done(request, {}, status, str(error))
         return in_words(status, str(error))
+    await plan.examined()
     data = plan.data()
     audit.done(request, {"revision": data.get("revision")}, status, "")
     return json_reply(status, data)

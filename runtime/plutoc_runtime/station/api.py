@@ -109,7 +109,7 @@ class Api:
         self._under_way += 1
         try:
             if request.method == "GET":
-                return read(self._station, request.path)
+                return await read(self._station, request.path)
             return await change(self._station, self._audit, request)
         finally:
             self._under_way -= 1

@@ -11,7 +11,10 @@ class Plan(Protocol):
     """The plan; each change names the revision that it was made on, and another is `Stale`."""
 
     def data(self) -> Mapping[str, object]:
-        """Return all of it, and what is wrong with it."""
+        """Return all of it, and what is known to be wrong with it."""
+
+    async def examined(self) -> None:
+        """Wait until all is known that is wrong with it."""
 
     def replace(self, revision: int, missions: object) -> None:
         """Put missions in its place."""

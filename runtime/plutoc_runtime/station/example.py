@@ -12,7 +12,7 @@ from ..quantities import Type
 from ..words import mass
 from . import plan_errors as errors
 from .plan_json import Shape
-from .plan_problems import checked
+from .plan_problems import nobody_can_fly, read
 
 if TYPE_CHECKING:
     from ..app import App
@@ -106,7 +106,11 @@ def _mission(
             {"key": str(i), **trip, "target": list(place)}
             for i, (trip, place) in enumerate(zip(wanted, places, strict=True))
         ]
-        if not checked(app, fleet, [{"key": "", "name": "1", "trips": trips}])[1]:
+        mission: Shape = {"key": "", "name": "1", "trips": trips}
+        if not (
+            read(app, fleet.airspace, [mission])[1]
+            or nobody_can_fly(app, fleet, fleet.airspace, mission)
+        ):
             return {"trips": trips}
     return None
 

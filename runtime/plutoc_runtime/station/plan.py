@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -11,8 +12,9 @@ from . import plan_errors as errors
 from . import plan_file, plan_text
 from .example import example_missions
 from .plan_errors import Stale
+from .plan_flyable import Flyable
 from .plan_json import Shape, check_together, missions_from, trips_of
-from .plan_problems import as_json, checked
+from .plan_problems import PlanProblem, as_json, read
 
 if TYPE_CHECKING:
     from ..app import App
@@ -20,6 +22,9 @@ if TYPE_CHECKING:
     from ..model import Mission
 
 __all__ = ["Plan", "Stale"]
+
+MOST_SHOWN = 1_000
+"""Problems that pages get: nobody reads the next one."""
 
 MOST_SAID = 10
 """So many problems are told to whoever presses Start; all stand where they are."""
@@ -41,14 +46,15 @@ class Plan:
         # From the clock: no number may ever mean two plans, though one could not be kept.
         self.revision = max(kept.revision + 1, round(now() * 1000))
         self._missions = list(kept.missions)
-        self._problems = checked(app, fleet, self._missions)[1]
+        self._unread = read(app, fleet.airspace, self._missions)[1]
+        self._flyable = Flyable(app, fleet)
 
     def data(self) -> Shape:
         """Return the plan as pages get it."""
         return {
             "revision": self.revision,
             "missions": self._missions,
-            "problems": [as_json(problem) for problem in self._problems],
+            "problems": [as_json(one) for one in islice(self._problems(), MOST_SHOWN)],
             "said": self.trouble,
         }
 
@@ -56,6 +62,14 @@ class Plan:
     def is_empty(self) -> bool:
         """Whether nobody has drawn anything yet."""
         return not self._missions
+
+    async def examined(self) -> None:
+        """Wait until it is known of every mission whether the fleet can fly it.
+
+        It is found out beside the loop. Before that `data` tells only what else is wrong.
+        """
+        while not self._flyable.knows(self._readable()):  # it may change meanwhile
+            await self._flyable.ask(self._readable())
 
     # What pages do
 
@@ -90,10 +104,13 @@ class Plan:
 
         The missions are new ones each time: whoever flies them changes them.
         """
-        if self._problems:
-            raise errors.not_ready([problem.alone for problem in self._problems], MOST_SAID)
+        self._flyable.ask_at_once(self._readable())
+        problems = [problem.alone for problem in self._problems()]
+        if problems:
+            raise errors.not_ready(problems, MOST_SAID)
         waiting = [mission for mission in self._missions if not mission["launched"]]
-        return checked(self._app, self._fleet, waiting)[0], [str(one["key"]) for one in waiting]
+        missions, _ = read(self._app, self._fleet.airspace, waiting)
+        return missions, [str(one["key"]) for one in waiting]
 
     def launched(self, keys: Collection[str]) -> None:
         """These missions fly: nobody may change them now."""
@@ -111,6 +128,14 @@ class Plan:
         """Return the missions file of these missions, or of all."""
         chosen = [one for one in self._missions if keys is None or one["key"] in keys]
         return plan_text.text_of(self._app, chosen)
+
+    def _problems(self) -> Iterator[PlanProblem]:
+        yield from self._unread
+        yield from self._flyable.known(self._readable())
+
+    def _readable(self) -> list[Shape]:
+        bad = {problem.mission for problem in self._unread}
+        return [mission for mission in self._missions if mission["key"] not in bad]
 
     def _mark(self, is_launched: Callable[[Mapping[str, object]], bool]) -> None:
         marked = [{**mission, "launched": is_launched(mission)} for mission in self._missions]
@@ -148,7 +173,7 @@ class Plan:
 
     def _change(self, missions: list[Shape]) -> None:
         self._missions = missions
-        self._problems = checked(self._app, self._fleet, missions)[1]
+        self._unread = read(self._app, self._fleet.airspace, missions)[1]
         self.revision += 1
         if self._keep is None:
             return

@@ -13,6 +13,7 @@ from .plan_json import Shape, trips_of
 from .plan_words import in_one_go, on_a_screen, own_names, sentence
 
 if TYPE_CHECKING:
+    from ..airspace import Airspace
     from ..app import App
     from ..files.fleet import FleetFile
     from ..files.toml_places import Place
@@ -34,24 +35,32 @@ class PlanProblem:
     """As it stands where nothing else shows what it is about."""
 
 
-def checked(
-    app: App, fleet: FleetFile, missions: Sequence[Shape]
+def read(
+    app: App, airspace: Airspace, missions: Sequence[Shape]
 ) -> tuple[list[Mission[Any]], list[PlanProblem]]:
     """Return the missions to fly, as far as they can be read, and what is wrong with them."""
     document, names = _document(app, missions), own_names(app)
-    read = read_missions(document, app, fleet.airspace) if missions else []
-    found = [
+    found = read_missions(document, app, airspace) if missions else []
+    return found, [
         _problem(missions, one.place, sentence(one.text, names), sentence(one.sentence, names))
         for one in document.problems
     ]
-    bad = {one.mission for one in found}
-    sound = [one for one in read if missions[one.index]["key"] not in bad]
-    for miss in unflyable(sound, app, fleet, fleet.airspace):
-        place = ("mission", miss.mission.index, "trip", miss.trips[0].index)
+
+
+def nobody_can_fly(
+    app: App, fleet: FleetFile, airspace: Airspace, mission: Shape
+) -> list[PlanProblem]:
+    """Return what no drone of the fleet could ever do of a mission that can be read."""
+    missions, found = read(app, airspace, [mission])
+    if found:
+        return []
+    names, problems = own_names(app), []
+    for miss in unflyable(missions, app, fleet, airspace):
         text = sentence(in_one_go(miss.trips, miss.reason), names)
         alone = sentence(f"{miss.called}: {miss.reason}", names)
-        found.append(_problem(missions, place, text, alone))
-    return read, found
+        place = ("mission", 0, "trip", miss.trips[0].index)
+        problems.append(_problem([mission], place, text, alone))
+    return problems
 
 
 def as_json(problem: PlanProblem) -> Shape:

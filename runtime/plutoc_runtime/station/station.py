@@ -125,6 +125,7 @@ class Station:
                 return await self._of_the_flight(name, id, given)
 
     async def _start(self, id: str, given: Mapping[str, object]) -> str:
+        await self.plan.examined()
         phase = self.phase
         if phase is Phase.STOPPING:
             raise BadInput("the drones are coming down: wait until they are")

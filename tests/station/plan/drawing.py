@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 from pathlib import Path
 from typing import Any
 
@@ -41,6 +42,7 @@ def drawn(*missions: Json, fleet: FleetFile = FLEET) -> Plan:
 
 def said(plan: Plan) -> list[tuple[str | None, str | None, str | None, str]]:
     """Return what is said of a plan: mission, trip, field, sentence."""
+    asyncio.run(plan.examined())
     problems: Any = plan.data()["problems"]
     return [(one["mission"], one["trip"], one["field"], one["text"]) for one in problems]
 

@@ -38,9 +38,6 @@ class APlan:
     def data(self) -> Mapping[str, object]:
         return {"revision": self.revision, "missions": self.missions, "problems": []}
 
-    async def examined(self) -> None:
-        pass
-
     def replace(self, revision: int, missions: object) -> None:
         if revision != self.revision:
             raise Stale("it has been changed meanwhile")
