@@ -18,7 +18,7 @@ _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 _TAKEN_PACKAGES = frozenset(
     {
         *("cflib", "starlette", "uvicorn", "pytest", "numpy", "scipy", "hatchling"),
-        *("matplotlib", "tomli_w", "websockets"),
+        *("matplotlib", "websockets"),
         *("anyio", "click", "h11", "idna", "typing_extensions"),  # they need these
         *("pluto", "plutoc", "plutoc_runtime", "plutoc_blocks", "plutoc_grammar"),
         *("src", "tests", "test", "docs", "dist", "build", "setup", "conftest"),

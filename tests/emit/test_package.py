@@ -175,7 +175,7 @@ def test_no_app_has_the_name_of_what_its_extras_bring() -> None:
     project = tomllib.loads(package_of(PLAIN).owned["pyproject.toml"])["project"]
     needed = [one for extra in project["optional-dependencies"].values() for one in extra]
     names = [re.split("[<>=]", one)[0].replace("-", "_") for one in needed]
-    assert {"starlette", "tomli_w", "uvicorn", "websockets", "matplotlib"} <= {*names}
+    assert {"starlette", "uvicorn", "websockets", "matplotlib"} <= {*names}
     assert all(map(taken_app_name, names))
 
 
