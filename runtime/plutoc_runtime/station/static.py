@@ -17,12 +17,8 @@ from pathlib import Path
 from ..errors import BadInput
 from ..words import shown
 from .http import Reply, Request
-from .one_piece import in_one_piece
 
 FOLDER = Path(__file__).parent / "pages"
-
-FIRST = "main.js"
-"""The module that a page begins with; it is handed out with all that it imports."""
 
 _NAME = re.compile(r"[a-z0-9][a-z0-9_-]*\.[a-z0-9]+")
 _KINDS = {
@@ -56,16 +52,10 @@ class Held:
 def pages(folder: Path = FOLDER) -> Mapping[str, Held]:
     """Return what there is at which address; it is read once."""
     table = {}
-    modules = {}
     for file in sorted(folder.iterdir()):
         kind = _KINDS.get(file.suffix)
         if kind is not None and _NAME.fullmatch(file.name) and file.is_file():
             table[f"/pages/{file.name}"] = _held(kind, file.read_bytes(), packs=True)
-            if file.suffix == ".js":
-                modules[file.name] = file.read_text("utf-8")
-    script = in_one_piece(modules, FIRST) if FIRST in modules else None
-    if script is not None:
-        table[f"/pages/{FIRST}"] = _held(_KINDS[".js"], script.encode(), packs=True)
     if "/pages/index.html" in table:
         table["/"] = table["/pages/index.html"]
     return table
