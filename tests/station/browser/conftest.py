@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Literal, Protocol
 
@@ -46,6 +46,8 @@ class Visit(Protocol):
         size: tuple[int, int] = LAPTOP,
         scheme: Scheme = "light",
         touch: bool = False,
+        port: int = 0,
+        prepare: Callable[[Page], object] | None = None,
     ) -> Page: ...
 
 
@@ -91,7 +93,7 @@ def serve(apps: dict[str, App], tmp_path: Path) -> Iterator[Serve]:
     def serve(app: str = "drugs_distribution", *options: str) -> Station:
         folder = tmp_path / f"station{len(stations)}"
         folder.mkdir()
-        speed = () if "--speed" in options else ("--speed", "10")
+        speed = () if "--speed" in options else ("--speed", "20")
         station = Station(app=apps[app], folder=folder, options=(*speed, *options))
         stations.append(station)
         station.start()
@@ -122,6 +124,8 @@ def visit(browser: Browser, watch: Watch) -> Iterator[Visit]:
         size: tuple[int, int] = LAPTOP,
         scheme: Scheme = "light",
         touch: bool = False,
+        port: int = 0,
+        prepare: Callable[[Page], object] | None = None,
     ) -> Page:
         context = browser.new_context(
             viewport={"width": size[0], "height": size[1]},
@@ -133,7 +137,9 @@ def visit(browser: Browser, watch: Watch) -> Iterator[Visit]:
         watch.over(context)
         contexts.append(context)
         page = context.new_page()
-        page.goto(station.url)
+        if prepare is not None:
+            prepare(page)
+        page.goto(station.url.replace(str(station.port), str(port or station.port)))
         return page
 
     yield visit

@@ -13,7 +13,7 @@ HERE = ("127.0.0.1", "localhost")
 NO_NETWORK = ("data", "blob", "about", "chrome-error")
 
 
-@dataclass(slots=True)
+@dataclass  # without slots: playwright keeps something in whoever listens
 class Watch:
     """What pages have complained of, and whom they have asked."""
 

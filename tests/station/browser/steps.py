@@ -1,0 +1,109 @@
+"""What a person does in the page, a function each, found as a person finds it: by what it says."""
+
+from __future__ import annotations
+
+import re
+
+from playwright.sync_api import Locator, Page, expect
+
+from tests.station.browser.exercise import PLAN, Place
+
+A_FLIGHT = 120_000
+"""Milliseconds until a flight that does not end is called a failure."""
+
+PLACE_ON_THE_SCREEN = """
+([x, y]) => {
+  const world = document.querySelector(".page:not([hidden]) svg.floor-picture g.world");
+  const place = new DOMPoint(x, y).matrixTransform(world.getScreenCTM());
+  return [place.x, place.y];
+}
+"""
+
+
+def open_page(page: Page, name: str) -> None:
+    """Go to one of the pages."""
+    page.get_by_role("tab", name=name).click()
+
+
+def add_mission(page: Page, name: str) -> None:
+    """Add a mission, type its name over the one that it has, and go on to its trips."""
+    open_page(page, "Missions")
+    page.get_by_role("button", name=re.compile("^Add (a|the first|your first)? ?mission$")).click()
+    page.keyboard.type(name)
+    page.get_by_role("button", name="Set trips").click()
+
+
+def on_the_screen(page: Page, place: Place) -> tuple[float, float]:
+    """Return the pixel at which a place on the floor plan is seen."""
+    x, y = page.evaluate(PLACE_ON_THE_SCREEN, list(place))
+    return x, y
+
+
+def action_called(page: Page, name: str) -> Locator:
+    """Return an action of the list beside the map: `take_photo` is "Take photo"."""
+    said = name.replace("_", " ").capitalize()
+    group = page.get_by_role("group", name="Actions to put on the map")
+    return group.get_by_role("button", name=said, exact=True)
+
+
+def drag(page: Page, action: str, place: Place) -> None:
+    """Drag an action onto the map with a mouse, as a hand does: press, move, let go."""
+    box = action_called(page, action).bounding_box()
+    assert box is not None
+    x, y = on_the_screen(page, place)
+    page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    page.mouse.down()
+    page.mouse.move(x - 30, y + 20, steps=4)
+    page.mouse.move(x, y, steps=4)
+    page.mouse.up()
+
+
+def item_of(page: Page, trip: int, name: str, mass: str) -> None:
+    """Say what is picked."""
+    card = card_of(page, trip)
+    card.get_by_label("Item", exact=False).first.fill(name)
+    card.get_by_label("Mass").fill(mass)
+    card.get_by_label("Mass").press("Tab")
+
+
+def card_of(page: Page, trip: int) -> Locator:
+    """Return the card of the trip with this number."""
+    return page.get_by_role("list", name="Trips").get_by_role("listitem").nth(trip - 1)
+
+
+def start(page: Page) -> None:
+    """Press Start, as soon as it says how many missions it will start."""
+    page.get_by_role("button", name=re.compile(r"^Start \d+ (new )?missions?$")).click()
+
+
+def row_of(page: Page, mission: str) -> Locator:
+    """Return a mission's line in the Monitor."""
+    table = page.get_by_role("table", name="Missions")
+    return table.get_by_role("row").filter(has=page.get_by_role("button", name=mission))
+
+
+def sees_all(page: Page, word: str, missions: tuple[str, ...] = tuple(PLAN)) -> None:
+    """Watch the Monitor until it says so of each of the missions."""
+    for mission in missions:
+        expect(row_of(page, mission)).to_contain_text(word, timeout=A_FLIGHT)
+
+
+def pin_of(page: Page, trip: int) -> Locator:
+    """Return the pin of the trip with this number."""
+    return page.get_by_role("button", name=re.compile(f"^Trip {trip}: "))
+
+
+def missions_listed(page: Page) -> Locator:
+    """Return the names in the list of missions."""
+    return page.get_by_role("listbox", name="Missions").get_by_role("option").locator("strong")
+
+
+def select_mission(page: Page, name: str) -> None:
+    """Press a mission in the list."""
+    page.get_by_role("listbox", name="Missions").get_by_role("option", name=name).click()
+
+
+def labels(page: Page) -> set[str]:
+    """Return what the fields that are seen are called."""
+    panel = page.get_by_role("tabpanel")
+    return {text.strip() for text in panel.locator("label:visible").all_inner_texts()}

@@ -1,0 +1,197 @@
+"""A browser, the network or the server that dies in mid-flight costs no mission, and does nothing twice."""
+
+from __future__ import annotations
+
+import os
+import signal
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Locator, Page, Route, expect
+
+from tests.station.browser.cable import Cable
+from tests.station.browser.conftest import Serve, Visit
+from tests.station.browser.exercise import COMPLETED, DONE, put_in
+from tests.station.browser.serving import Station, until
+from tests.station.browser.steps import open_page, sees_all, start
+from tests.station.browser.watched import Watch
+
+
+@pytest.fixture
+def station(serve: Serve) -> Station:
+    """A station with the exercise's plan."""
+    station = serve("drugs_distribution")
+    put_in(station)
+    return station
+
+
+@pytest.fixture
+def cable(station: Station) -> Iterator[Cable]:
+    """The network to that station."""
+    cable = Cable(station.port)
+    yield cable
+    cable.close()
+
+
+def lost(page: Page) -> Locator:
+    """Return what says that the connection is lost."""
+    return page.get_by_role("alert").filter(has_text="Connection lost")
+
+
+def is_carried(station: Station) -> bool:
+    """Whether the pills have been picked: the flight is in its middle."""
+    return ("pick_item", "Mission 3/1/0") in station.done()
+
+
+def test_a_browser_that_is_closed_changes_nothing_and_another_one_sees_the_flight(
+    station: Station, visit: Visit
+) -> None:
+    page = visit(station)
+    start(page)
+    until(lambda: is_carried(station), "the pills are picked")
+    page.context.close()
+    again = visit(station)
+    open_page(again, "Monitor")
+    sees_all(again, "Completed")
+    assert station.statuses() == COMPLETED
+    assert station.done() == DONE
+
+
+def test_a_network_that_breaks_and_comes_back_is_said_and_the_page_picks_up_by_itself(
+    station: Station, visit: Visit, watch: Watch, cable: Cable
+) -> None:
+    watch.expected += ["WebSocket", "ERR_", "Failed to load resource"]
+    page = visit(station, port=cable.port)
+    start(page)
+    until(lambda: is_carried(station), "the pills are picked")
+    cable.cut()
+    expect(lost(page)).to_be_visible()
+    cable.mend()
+    expect(lost(page)).to_have_count(0)
+    cable.hush()
+    expect(lost(page)).to_be_visible()
+    cable.mend()
+    sees_all(page, "Completed")
+    assert station.statuses() == COMPLETED
+    assert station.done() == DONE
+
+
+def test_a_server_that_is_killed_goes_on_where_it_was_once_somebody_says_resume(
+    station: Station, visit: Visit, watch: Watch
+) -> None:
+    watch.expected += ["WebSocket", "ERR_", "Failed to load resource"]
+    page = visit(station)
+    start(page)
+    until(lambda: is_carried(station), "the pills are picked")
+    station.kill()
+    expect(lost(page)).to_be_visible()
+    station.start()
+    resume = page.get_by_role("button", name="Resume")
+    expect(resume).to_be_visible()
+    assert station.phase == "interrupted"  # it launches nothing by itself
+    resume.click()
+    sees_all(page, "Completed")
+    assert station.statuses() == COMPLETED
+    assert station.done() == DONE
+
+
+def test_a_server_that_is_supervised_goes_on_by_itself(
+    serve: Serve, visit: Visit, watch: Watch
+) -> None:
+    watch.expected += ["WebSocket", "ERR_", "Failed to load resource"]
+    station = serve("drugs_distribution", "--supervise")
+    put_in(station)
+    page = visit(station)
+    start(page)
+    until(lambda: is_carried(station), "the pills are picked")
+    os.kill(brain_of(station.pid), signal.SIGKILL)
+    sees_all(page, "Completed")
+    assert station.statuses() == COMPLETED
+    assert station.done() == DONE
+
+
+def brain_of(supervisor: int) -> int:
+    """Return the process that a supervisor has started to serve."""
+    children = Path(f"/proc/{supervisor}/task/{supervisor}/children").read_text().split()
+    (brain,) = (int(child) for child in children if _serves(int(child)))
+    return brain
+
+
+def _serves(process: int) -> bool:
+    return b"serve" in Path(f"/proc/{process}/cmdline").read_bytes().split(b"\0")
+
+
+def test_an_answer_that_is_lost_starts_nothing_twice(
+    station: Station, visit: Visit, watch: Watch
+) -> None:
+    """The page asks again, and names the same command."""
+    watch.expected += ["ERR_", "Failed to load resource"]
+    page = visit(station)
+    asked: list[str] = []
+    page.route("**/api/start", lambda route: _lose_first(route, asked))
+    start(page)
+    open_page(page, "Monitor")
+    sees_all(page, "Completed")
+    assert len(asked) == 2
+    assert asked[0] == asked[1]
+    assert len(station.journals()) == 1
+    assert station.done() == DONE
+
+
+def test_an_answer_that_is_lost_skips_one_trip_and_not_two(
+    station: Station, visit: Visit, watch: Watch
+) -> None:
+    watch.expected += ["ERR_", "Failed to load resource"]
+    page = visit(station)
+    asked: list[str] = []
+    page.route("**/api/skip", lambda route: _lose_first(route, asked))
+    start(page)
+    page.get_by_role("table").get_by_role("button", name="Mission 1").click()
+    page.get_by_role("button", name="Skip").last.click()
+    sees_all(page, "Completed")
+    assert len(asked) == 2
+    assert asked[0] == asked[1]
+    (mission,) = (row for row in station.now()["missions"] if row["name"] == "Mission 1")
+    assert [trip[1] for trip in mission["trips"]] == ["COMPLETED", "COMPLETED"]
+
+
+def _lose_first(route: Route, asked: list[str]) -> None:
+    """Let the station hear it, and the page no answer; the next one goes as it should."""
+    asked.append(route.request.post_data or "")
+    if len(asked) == 1:
+        route.fetch()
+        route.abort()
+    else:
+        route.continue_()
+
+
+def test_a_page_without_websockets_asks_and_asks(
+    station: Station, visit: Visit, watch: Watch
+) -> None:
+    """A proxy may let none through: all is seen just the same."""
+    watch.expected += ["WebSocket"]
+    page = visit(station, prepare=without_websockets)
+    start(page)
+    sees_all(page, "Completed")
+    assert station.statuses() == COMPLETED
+
+
+def without_websockets(page: Page) -> None:
+    """Let every WebSocket of a page break off at once."""
+    page.route_web_socket("**/api/live", lambda line: line.close())
+
+
+def test_stop_is_heard_though_nothing_is_seen_any_more(
+    station: Station, visit: Visit, watch: Watch
+) -> None:
+    """Neither WebSocket nor polling answers; the button is there, and what it sends arrives."""
+    watch.expected += ["WebSocket", "ERR_", "Failed to load resource"]
+    page = visit(station)
+    start(page)
+    until(lambda: station.phase == "flying", "it flies")
+    page.context.route("**/api/live*", lambda route: route.abort())
+    page.route_web_socket("**/api/live", lambda line: line.close())
+    page.reload()
+    page.get_by_role("button", name="Stop: land now").click()
+    until(lambda: station.phase == "stopped", "all have landed")
