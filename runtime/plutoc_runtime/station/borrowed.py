@@ -2,7 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import AsyncGenerator, Awaitable, Callable, Mapping, MutableMapping, Sequence
+from collections.abc import (
+    AsyncGenerator,
+    Awaitable,
+    Callable,
+    Mapping,
+    MutableMapping,
+    Sequence,
+)
 from contextlib import nullcontext
 from dataclasses import dataclass
 from importlib import import_module
@@ -60,11 +67,8 @@ class WebSocket(Protocol):
     async def send_text(self, data: str) -> None:
         """Send a text."""
 
-    async def send_denial_response(self, response: Response) -> None:
-        """Take it not."""
-
     async def close(self, code: int, reason: str) -> None:
-        """End it."""
+        """End it, or take it not."""
 
 
 class Server(Protocol):

@@ -63,8 +63,8 @@ class Line(Protocol):
     async def open(self) -> None:
         """Take the connection."""
 
-    async def refuse(self, reply: Reply) -> None:
-        """Take it not, and say why."""
+    async def refuse(self) -> None:
+        """Take it not."""
 
     async def receive(self) -> str:
         """Return what is said next."""

@@ -13,7 +13,6 @@ from . import refusals
 from .answers import asked_number
 from .audit import Audit
 from .behind import Newest
-from .dressing import dressed
 from .guard import Asking, Guard, knows, refusal
 from .http import MISTAKES, Closed, Line, Malformed, Reply, Request
 from .rates import Rate
@@ -90,7 +89,7 @@ class Live:
             why = refusals.too_busy()
         if why is not None:
             self._audit.refused(request, why.status, why.said)
-            await line.refuse(dressed(request, why.reply))
+            await line.refuse()
             return
         try:
             await self._converse(line)

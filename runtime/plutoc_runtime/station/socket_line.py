@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from .borrowed import Borrowed, Receive, Scope, Send
-from .http import Closed, Reply
+from .http import Closed
 
 _LONGEST_REASON = 120
 """Bytes: what fits into the frame that closes a connection."""
@@ -23,11 +23,10 @@ class SocketLine:
         except self._parts.gone:
             raise Closed from None
 
-    async def refuse(self, reply: Reply) -> None:
-        """Take it not, and say why as if it were a plain request."""
+    async def refuse(self) -> None:
+        """Take it not: the server says 403, and a browser tells its page no more than that."""
         try:
-            await self._socket.receive()
-            await self._socket.send_denial_response(self._parts.answer(reply))
+            await self._socket.close(1008, "")
         except self._parts.gone:
             raise Closed from None
 
