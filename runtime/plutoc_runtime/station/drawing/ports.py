@@ -13,8 +13,8 @@ from .routes import Route
 _STEP = 2.0
 _ASIDE = 4.0
 """How far from the middle a way wants to leave that turns to that side."""
-_BESIDE = 18.0
-"""The same above and below boxes: in the middle missions stand."""
+_BESIDE, _STAND = 18.0, 14.0
+"""The same above and below boxes, and what is left free there: in the middle missions stand."""
 _NEAR = (8.0, 6.0)
 """What shall be between two ways, and what must do where there is little room."""
 _PASSING = 6.0
@@ -69,7 +69,8 @@ def _placed(stub: _Stub, busy: _Busy) -> float:
     there = busy.setdefault(stub.zone, [])
     steps = int(max(stub.half - _CORNER, 0.0) / _STEP)
     offsets = [_STEP * step for step in range(-steps, steps + 1)]
-    offsets.sort(key=lambda one: (abs(one - stub.wanted), abs(one), one))
+    middle = 0.0 if stub.zone[0] else _STAND
+    offsets.sort(key=lambda one: (abs(one) < middle, abs(one - stub.wanted), abs(one), one))
     low, high = stub.span
     others = [at for span, at in there if span[0] <= high and low <= span[1]]
     room = {one: min((abs(stub.base + one - at) for at in others), default=inf) for one in offsets}
