@@ -241,7 +241,8 @@ class Station:
     async def _of_the_flight(self, name: str, id: str, given: Mapping[str, object]) -> str:
         outing = self.outing
         if outing is None or not outing.lives:
-            raise BadInput("nothing flies now")
+            held = self.phase in (Phase.STOPPED, Phase.INTERRUPTED)
+            raise BadInput("nothing flies now" + (": resume the flight first" if held else ""))
         if outing.one is None or outing.life is None:
             raise BadInput(_NOT_YET)
 
