@@ -11,14 +11,14 @@ const AROUND = 2 * Math.PI * RADIUS;
 
 function droneMark(floor, drone, chosen) {
   const arc = svg("circle", { class: "arc", r: RADIUS, transform: "rotate(-90)" });
-  const label = svg("text", { class: "label", y: -15, "text-anchor": "middle" }, drone.id);
+  const label = svg("text", { class: "m-label", y: -15, "text-anchor": "middle" }, drone.id);
   const mark = floor.mark(
     drone.x,
     drone.y,
-    svg("circle", { class: "reach", r: 18 }),
-    svg("circle", { class: "back", r: RADIUS }),
+    svg("circle", { class: "m-reach", r: 18 }),
+    svg("circle", { class: "m-back", r: RADIUS }),
     arc,
-    svg("circle", { class: "body", r: 5.5 }),
+    svg("circle", { class: "m-body", r: 5.5 }),
     label,
   );
   mark.classList.add("drone");

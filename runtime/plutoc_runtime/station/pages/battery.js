@@ -21,7 +21,7 @@ export function battery() {
     shown = whole;
     element.hidden = whole === null;
     if (whole === null) return;
-    fill.style.transform = `scaleX(${whole / 100})`;
+    fill.style.width = `${whole}%`;
     element.className = `battery ${level(charge)}`;
     text.show(percent(charge));
   };

@@ -5,6 +5,7 @@ import { clock, many } from "./words.js";
 
 const KEPT = 5000; // lines that the filters can find
 const SHOWN = 1000; // lines on the page
+const TOGETHER = 50; // lines in a block of the page: those out of sight cost nothing
 const KINDS = [
   ["", "All lines"],
   ["info", "News"],
@@ -18,10 +19,10 @@ function line([, time, mission, text, kind]) {
   return h(
     "div",
     { class: `log-line ${kind}` },
-    h("span", { class: "when" }, clock(time)),
-    h("span", { class: "kind", "aria-hidden": "true" }, SIGNS[kind] ?? ""),
-    mission === null ? null : h("span", { class: "of" }, mission),
-    h("span", { class: "text" }, text),
+    h("span", { class: "m-when" }, clock(time)),
+    h("span", { class: "m-kind", "aria-hidden": "true" }, SIGNS[kind] ?? ""),
+    mission === null ? null : h("span", { class: "m-of" }, mission),
+    h("span", { class: "m-text" }, text),
   );
 }
 
@@ -29,6 +30,7 @@ export function consoleView(context) {
   let kept = [];
   let following = true;
   let unread = 0;
+  let block = null;
   const missions = new Set();
   const text = h("input", { type: "search", placeholder: "Find text", "aria-label": "Find text" });
   const mission = h("select", { "aria-label": "Of which mission" }, h("option", { value: "" }, "All missions"));
@@ -65,8 +67,19 @@ export function consoleView(context) {
     newest.hidden = following || unread === 0;
     if (!newest.hidden) newest.textContent = `${many(unread, "new line")} below`;
   };
+  const add = (entries) => {
+    for (const entry of entries) {
+      if (!block || block.childElementCount >= TOGETHER) {
+        block = h("div", { class: "log-block" });
+        lines.append(block);
+      }
+      block.append(line(entry));
+    }
+  };
   const rewrite = () => {
-    lines.replaceChildren(...kept.filter(passes).slice(-SHOWN).map(line));
+    block = null;
+    lines.replaceChildren();
+    add(kept.filter(passes).slice(-SHOWN));
     following = true;
     unread = 0;
     follow();
@@ -84,7 +97,6 @@ export function consoleView(context) {
   for (const each of [mission, kind]) each.addEventListener("change", rewrite);
 
   const update = (entries) => {
-    if (!entries.length) return;
     kept.push(...entries);
     if (kept.length > KEPT * 1.2) kept = kept.slice(-KEPT);
     for (const entry of entries) {
@@ -94,11 +106,8 @@ export function consoleView(context) {
     }
     const fitting = entries.filter(passes).slice(-SHOWN);
     if (!fitting.length) return;
-    lines.append(...fitting.map(line));
-    // Who reads further up keeps what is read; the oldest go when the newest are followed again.
-    if (following || lines.childElementCount > 2 * SHOWN) {
-      while (lines.childElementCount > SHOWN) lines.firstElementChild.remove();
-    }
+    add(fitting);
+    while (lines.childElementCount > SHOWN / TOGETHER) lines.firstElementChild.remove();
     unread = following ? 0 : unread + fitting.length;
     follow();
   };

@@ -16,7 +16,7 @@ export function details(context, app, mission) {
   );
   const asked = h("div", { class: "asked" });
   const reason = h("p", { class: "reason" });
-  const list = h("ol", { class: "lines" });
+  const list = h("ol", { class: "m-lines" });
   const buttons = h("div", { class: "buttons" }, pause, cancel);
   const element = h("div", { class: "details" }, asked, reason, list, buttons);
   const lines = new Map();

@@ -23,7 +23,7 @@ export function filters(changed) {
   find.addEventListener("input", changed);
   const chips = KINDS.map(([name, label, passes], index) => {
     const count = words("0");
-    const number = h("span", { class: "count" }, count.node);
+    const number = h("span", { class: "m-count" }, count.node);
     const button = h(
       "button",
       { type: "button", class: `sift ${name}`, "aria-pressed": String(index === 0) },

@@ -17,7 +17,7 @@ function droneLine(context, id, category, chosen) {
   act.addEventListener("click", () =>
     context.tell(row.retired ? "bring-back" : "retire", { drone: id }),
   );
-  const state = h("span", { class: "status" }, mark.element, status.node);
+  const state = h("span", { class: "m-status" }, mark.element, status.node);
   const element = h(
     "li",
     { class: "drone-line" },

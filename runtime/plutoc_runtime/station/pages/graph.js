@@ -82,7 +82,7 @@ export function graphView(graph, chosen) {
       else moves.push({ row, from, to, ways: waysOf(row, from, to) });
     }
     if (!moves.length && !statuses.length) return;
-    seats.move([...statuses, ...moves]);
+    seats.move([...statuses, ...moves], stand.size);
     for (const { ways } of moves) for (const edges of ways.values()) edges.forEach(light);
     for (const [name, box] of view.boxes) label(name, box);
     if (said !== null) say(said);

@@ -8,7 +8,7 @@ function box(block) {
   const named = block.shape === "start" || block.shape === "end" || block.name === block.kind;
   const element = h(
     "button",
-    { type: "button", class: `block shape-${block.shape}`, "data-block": block.name },
+    { type: "button", class: `m-block shape-${block.shape}`, "data-block": block.name },
     h("span", { class: "block-name" }, block.name),
     named || !block.kind ? null : h("span", { class: "block-kind" }, plainKind(block.kind)),
   );
@@ -52,7 +52,7 @@ export function drawing(graph) {
     svg("defs", {}, ...heads),
   );
   for (const edge of graph.edges) {
-    const kinds = ["edge", edge.fork ? "fork" : "", edge.dotted ? "dotted" : ""];
+    const kinds = ["m-edge", edge.fork ? "fork" : "", edge.dotted ? "dotted" : ""];
     const shape = { class: kinds.join(" ").trim(), d: rounded(edge.points) };
     const path = svg("path", { ...shape, "marker-end": "url(#head)" });
     paths.set(edge, path);
@@ -62,7 +62,7 @@ export function drawing(graph) {
     const text = words(edge, graph.edges);
     if (text) picture.append(text);
   }
-  const tokens = h("div", { class: "tokens", "aria-hidden": "true" });
+  const tokens = h("div", { class: "m-tokens", "aria-hidden": "true" });
   const stage = h("div", { class: "stage" }, picture, ...boxes.values(), tokens);
   stage.style.width = `${graph.width}px`;
   stage.style.height = `${graph.height}px`;

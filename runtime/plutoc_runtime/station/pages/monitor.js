@@ -6,6 +6,7 @@ import { consoleView } from "./console.js";
 import { h } from "./dom.js";
 import { fleetList } from "./fleet.js";
 import { floorPlan } from "./floor.js";
+import { gathered } from "./gathered.js";
 import { graphView } from "./graph.js";
 import { panel } from "./panel.js";
 import { questions } from "./questions.js";
@@ -14,6 +15,7 @@ import { missionTable } from "./table.js";
 import { targets } from "./targets.js";
 
 const WIDE = matchMedia("(min-width: 1060px)");
+const FEW = 8; // drones whose names have room on the map
 
 export function monitor(context) {
   const { app } = context;
@@ -27,10 +29,17 @@ export function monitor(context) {
   );
   const going = targets(floor, chosen);
   const flying = air(floor, chosen);
+  floor.element.classList.toggle("few", app.drones.length <= FEW);
   const fleet = fleetList(context, app, chosen);
   const graph = app.graph && graphView(app.graph, chosen);
   const log = consoleView(context);
   const results = resultsView(context, app, floor, chosen);
+
+  const later = {
+    drones: gathered(fleet.update, "id"),
+    log: gathered(log.update),
+    results: gathered(results.update),
+  };
 
   const panels = {
     table: panel("missions-panel", "Missions", { tools: [table.tools], body: [table.element] }),
@@ -72,16 +81,17 @@ export function monitor(context) {
     table.update(missions, drones, live.state);
     flying.update(drones, live.state);
     going.update(missions, drones);
-    fleet.update(drones);
+    later.drones.add(drones);
     graph?.update(missions);
-    log.update(newer(live.log, "log"));
-    results.update(newer(live.results, "results"));
+    later.log.add(newer(live.log, "log"));
+    later.results.add(newer(live.results, "results"));
   };
   const everything = (live) => write(live, [...live.missions.values()], [...live.drones.values()]);
   const clear = () => {
     seen = { log: 0, results: 0 };
     chosen.set(null);
-    for (const each of [asked, table, flying, going, fleet, graph, log, results]) each?.clear();
+    const views = [asked, table, flying, going, fleet, graph, log, results];
+    for (const each of [...Object.values(later), ...views]) each?.clear();
   };
   // What came while another page was open is made up for when this one is shown.
   const update = (live, changes) => {

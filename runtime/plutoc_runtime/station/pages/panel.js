@@ -28,7 +28,7 @@ export function panel(name, title, { tools = [], body = [], changed = () => {} }
   const element = h(
     "section",
     { class: `panel ${name}`, "aria-labelledby": `${name}-title` },
-    h("div", { class: "bar" }, h("h2", { id: `${name}-title` }, toggle), beside),
+    h("div", { class: "m-bar" }, h("h2", { id: `${name}-title` }, toggle), beside),
     inside,
   );
   const fold = (folded) => {

@@ -53,7 +53,7 @@ export function photos(map, floor, chosen) {
     const place = `${metres(photo.position[0])}, ${metres(photo.position[1])}`;
     const button = h(
       "button",
-      { type: "button", class: "photo" },
+      { type: "button", class: "m-photo" },
       ground(map, photo),
       h("strong", {}, sees),
       h("span", {}, `${mission}, ${trip}`),

@@ -22,7 +22,7 @@ export function question(context, row) {
   });
   return h(
     "div",
-    { class: "question" },
+    { class: "m-question" },
     h("p", {}, h("strong", {}, `${mission}: `), asked.text),
     h("div", { class: "buttons" }, ...buttons),
   );

@@ -22,7 +22,7 @@ export function resultsView(context, app, floor, chosen) {
   for (const part of parts) {
     part.count = words("0");
     part.number = 0;
-    const count = h("span", { class: "count" }, part.count.node);
+    const count = h("span", { class: "m-count" }, part.count.node);
     part.button = h("button", { type: "button", class: "sift" }, `${part.label} `, count);
     part.button.addEventListener("click", () => {
       picked = true;

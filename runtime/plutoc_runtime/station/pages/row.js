@@ -17,12 +17,12 @@ export function missionRow(context, app, name, chosen) {
     "button",
     { type: "button", class: "opener", "aria-expanded": "false" },
     h("span", { class: "arrow", "aria-hidden": "true" }),
-    h("span", { class: "token", "aria-hidden": "true" }, number.node),
+    h("span", { class: "m-token", "aria-hidden": "true" }, number.node),
     h("span", { class: "called" }, name),
   );
-  const cell = (kind, ...inside) => h("div", { class: `cell c-${kind}`, role: "cell" }, ...inside);
-  const whyLine = h("div", { class: "why" }, why.node, left.node);
-  const statusWord = h("span", { class: "status" }, mark.element, state.node);
+  const cell = (kind, ...inside) => h("div", { class: `m-cell c-${kind}`, role: "cell" }, ...inside);
+  const whyLine = h("div", { class: "m-why" }, why.node, left.node);
+  const statusWord = h("span", { class: "m-status" }, mark.element, state.node);
   const cells = [
     cell("name", opener),
     cell("state", statusWord, whyLine),
@@ -62,7 +62,7 @@ export function missionRow(context, app, name, chosen) {
     const share = row.total ? row.done / row.total : 0;
     if (share !== progress) {
       progress = share;
-      fill.style.transform = `scaleX(${share})`;
+      fill.style.width = `${share * 100}%`;
     }
     drone.show(row.drone ?? "–");
     charge.show(row.drone === null ? null : batteryOf(row.drone));
@@ -87,7 +87,7 @@ export function missionRow(context, app, name, chosen) {
     more = details(context, app, name);
     if (row) more.show(row);
     const inside = h("div", { role: "cell", "aria-colspan": String(cells.length) }, more.element);
-    more.element = h("div", { class: "more", role: "row" }, inside);
+    more.element = h("div", { class: "m-more", role: "row" }, inside);
     element.append(more.element);
   };
   return {

@@ -45,14 +45,14 @@ export const tone = (status) => OF[status]?.[1] ?? "calm";
 // An empty sign; show(status) draws the status's path into it.
 export function sign() {
   const path = svg("path", { d: PATHS.ring });
-  const element = svg("svg", { class: "sign", viewBox: "0 0 16 16", "aria-hidden": "true" }, path);
+  const element = svg("svg", { class: "m-sign", viewBox: "0 0 16 16", "aria-hidden": "true" }, path);
   let shown = null;
   const show = (status) => {
     if (status === shown) return;
     shown = status;
     const name = OF[status]?.[0] ?? "ring";
     path.setAttribute("d", PATHS[name]);
-    element.setAttribute("class", FILLED.has(name) ? "sign filled" : "sign");
+    element.setAttribute("class", FILLED.has(name) ? "m-sign filled" : "m-sign");
   };
   return { element, show };
 }

@@ -21,7 +21,7 @@ export function missionTable(context, app, chosen, nothing) {
   const heads = columns.map(([key, label]) => {
     const arrow = h("span", { class: "sorted", "aria-hidden": "true" });
     const button = h("button", { type: "button", title: ORDERS[key].title }, label, arrow);
-    const cell = h("div", { class: "cell", role: "columnheader" }, button);
+    const cell = h("div", { class: "m-cell", role: "columnheader" }, button);
     button.addEventListener("click", () => {
       order = { key, down: order.key === key && !order.down };
       arrange();
@@ -31,12 +31,12 @@ export function missionTable(context, app, chosen, nothing) {
   const head = h("div", { class: "mission-row", role: "row" }, ...heads.map((each) => each.cell));
   const table = h(
     "div",
-    { class: "missions-table", role: "table", "aria-label": "Missions" },
+    { class: "watch-table", role: "table", "aria-label": "Missions" },
     h("div", { class: "table-head", role: "rowgroup" }, head),
     body,
   );
-  table.classList.toggle("retries", app.retries);
-  table.classList.toggle("rounds", app.rounds);
+  table.classList.toggle("has-retries", app.retries);
+  table.classList.toggle("has-rounds", app.rounds);
   const shown = filters(() => sift());
 
   const arrange = () => {

@@ -5,8 +5,8 @@ import { attribute } from "./quick.js";
 import { hasEnded } from "./standing.js";
 
 function targetMark(floor, line, name, chosen) {
-  const number = svg("text", { class: "number", y: 4, "text-anchor": "middle" });
-  const mark = floor.mark(0, 0, svg("path", { class: "pin", d: "M0-9L9 0 0 9-9 0z" }), number);
+  const number = svg("text", { class: "m-index", y: 4, "text-anchor": "middle" });
+  const mark = floor.mark(0, 0, svg("path", { class: "m-pin", d: "M0-9L9 0 0 9-9 0z" }), number);
   mark.classList.add("target");
   mark.setAttribute("data-own", "");
   mark.addEventListener("click", () => chosen.set(name));
@@ -22,8 +22,10 @@ export function targets(floor, chosen) {
   const rows = new Map();
   const places = new Map();
 
+  // Only of missions that have a drone: where all the others will go is on the page Trips.
   const showOne = (row) => {
-    const current = row.current === null || hasEnded(row) ? null : row.trips[row.current];
+    const aside = row.current === null || row.drone === null || hasEnded(row);
+    const current = aside ? null : row.trips[row.current];
     let target = marks.get(row.name);
     if (!current || current[2] === null) {
       target?.mark.remove();
@@ -32,7 +34,7 @@ export function targets(floor, chosen) {
       return;
     }
     if (!target) {
-      target = targetMark(floor, svg("line", { class: "line" }), row.name, chosen);
+      target = targetMark(floor, svg("line", { class: "m-line" }), row.name, chosen);
       target.number.textContent = String(row.index + 1);
       marks.set(row.name, target);
       layer.append(target.mark);
@@ -70,11 +72,11 @@ export function targets(floor, chosen) {
     const stops = row ? row.trips.filter((trip) => trip[2] !== null) : [];
     const way = stops.map((trip) => `${trip[2]},${trip[3]}`).join(" ");
     const dots = stops.map(([, status, x, y]) => {
-      const dot = floor.mark(x, y, svg("circle", { class: "stop", r: 4 }));
+      const dot = floor.mark(x, y, svg("circle", { class: "m-stop", r: 4 }));
       dot.setAttribute("data-status", status);
       return dot;
     });
-    ways.replaceChildren(svg("polyline", { class: "way", points: way }), ...dots);
+    ways.replaceChildren(svg("polyline", { class: "m-way", points: way }), ...dots);
   };
 
   const update = (missions, drones) => {

@@ -3,9 +3,10 @@ import { h } from "./dom.js";
 import { keyframes } from "./ways.js";
 
 const SEATS = 6; // tokens at a block; of more, the others are counted
-const SIZE = 22;
-const STEP = 24;
-const GLIDES = 12; // at once: of more, nobody could follow any
+const SIZE = 20;
+const STEP = 22;
+const ROOM = [36, 132]; // a row of tokens may be so much wider than its block, or this wide
+const FOLLOWED = 30; // missions: of more, nobody could follow one, so none glides
 const TIME = 700; // ms
 
 const still = matchMedia("(prefers-reduced-motion: reduce)");
@@ -13,7 +14,7 @@ const still = matchMedia("(prefers-reduced-motion: reduce)");
 // seat(block, i, n): where the i-th of n tokens stands, on the lower edge of the block's box.
 function seat(block, index, count) {
   const shown = Math.min(count, SEATS + 1);
-  const step = Math.min(STEP, (block.w + 8) / shown);
+  const step = Math.min(STEP, Math.max(block.w + ROOM[0], ROOM[1]) / shown);
   const left = block.x + block.w / 2 - (step * (shown - 1)) / 2;
   return [left + step * index - SIZE / 2, block.y + block.h - SIZE / 2 + 5];
 }
@@ -26,7 +27,7 @@ export function tokens(graph, layer, chosen) {
   const key = (row, block) => `${row.name}\n${block}`;
 
   const make = (row, block) => {
-    const token = h("span", { class: "token", title: row.name }, String(row.index + 1));
+    const token = h("span", { class: "m-token", title: row.name }, String(row.index + 1));
     token.addEventListener("click", () => chosen.set(row.name));
     marks.set(key(row, block), token);
     layer.append(token);
@@ -66,7 +67,7 @@ export function tokens(graph, layer, chosen) {
       return;
     }
     if (!rest) {
-      rest = h("span", { class: "token rest" });
+      rest = h("span", { class: "m-token rest" });
       more.set(name, rest);
       layer.append(rest);
     }
@@ -75,7 +76,9 @@ export function tokens(graph, layer, chosen) {
   };
 
   // moves: [{row, from: [names], to: [names], ways: Map of name -> edges}]
-  const move = (moves) => {
+  const move = (moves, missions) => {
+    const lively = missions <= FOLLOWED && !still.matches;
+    layer.classList.toggle("lively", lively);
     const touched = new Set();
     for (const { row, from, to } of moves) {
       for (const name of from) {
@@ -93,7 +96,7 @@ export function tokens(graph, layer, chosen) {
       }
     }
     for (const name of touched) arrange(name);
-    if (still.matches || document.hidden || moves.length > GLIDES) return;
+    if (document.hidden || !lively) return;
     for (const { row, ways } of moves) {
       for (const [name, edges] of ways) glide(marks.get(key(row, name)), edges);
     }

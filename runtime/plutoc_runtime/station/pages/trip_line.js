@@ -10,7 +10,7 @@ export function tripLine(name, send, priorities) {
   let priority = 1;
   const step = (by, sign_, label) => {
     const text = `${label} the priority of trip ${name}`;
-    const button = h("button", { type: "button", class: "step", "aria-label": text }, sign_);
+    const button = h("button", { type: "button", class: "m-step", "aria-label": text }, sign_);
     button.addEventListener("click", () =>
       send("prioritise", { trip: name, priority: priority + by }),
     );
@@ -18,26 +18,26 @@ export function tripLine(name, send, priorities) {
   };
   const less = step(-1, "−", "Lower");
   const priorityParts = [
-    h("span", { class: "label" }, "Priority"),
+    h("span", { class: "m-label" }, "Priority"),
     less,
-    h("output", { class: "value" }, weight.node),
+    h("output", { class: "m-value" }, weight.node),
     step(1, "+", "Raise"),
   ];
-  const stepper = h("span", { class: "stepper" }, ...priorityParts);
+  const stepper = h("span", { class: "m-stepper" }, ...priorityParts);
   const skip = h(
     "button",
     { type: "button", class: "button quiet small", "aria-label": `Skip trip ${name}` },
     "Skip",
   );
   skip.addEventListener("click", () => send("skip", { trip: name }));
-  const state = h("span", { class: "status" }, mark.element, status.node);
+  const state = h("span", { class: "m-status" }, mark.element, status.node);
   const element = h(
     "li",
-    { class: "line" },
-    h("span", { class: "number" }, number.node),
-    h("span", { class: "trip-name" }, name, h("span", { class: "what" }, what.node)),
+    { class: "m-line" },
+    h("span", { class: "m-nth" }, number.node),
+    h("span", { class: "m-trip" }, name, h("span", { class: "m-what" }, what.node)),
     state,
-    h("span", { class: "acts" }, stepper, skip),
+    h("span", { class: "m-acts" }, stepper, skip),
   );
   const write = {
     tone: attribute(state, "data-tone"),

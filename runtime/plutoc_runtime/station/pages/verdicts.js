@@ -11,9 +11,9 @@ export function verdicts(chosen) {
   const line = ([, time, mission, , round, , , , text]) => {
     const pick = h("button", { type: "button", class: "link" }, mission);
     pick.addEventListener("click", () => chosen.set(mission));
-    const when = h("span", { class: "when" }, clock(time));
+    const when = h("span", { class: "m-when" }, clock(time));
     const of = h("span", {}, pick, round > 1 ? `, round ${round}` : "");
-    return h("li", {}, when, of, h("span", { class: "text" }, String(text)));
+    return h("li", {}, when, of, h("span", { class: "m-text" }, String(text)));
   };
   const update = (entries) => {
     list.prepend(...entries.slice(-SHOWN).map(line).reverse());
