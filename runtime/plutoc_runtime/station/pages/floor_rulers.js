@@ -24,9 +24,11 @@ function across(view, box, width) {
 }
 
 function upwards(view, box, height) {
-  const x = Math.min(Math.max(view.left, 30), box.width - 4);
   const [from, to] = [view.bottom - box.height + 24, view.bottom - 12];
-  return ticks(view.scale, 44, from, Math.min(to, height * view.scale)).map(([along, text]) => {
+  const found = ticks(view.scale, 44, from, Math.min(to, height * view.scale));
+  const wide = 7.5 * Math.max(0, ...found.map(([, text]) => text.length)) + 12;
+  const x = Math.min(Math.max(view.left, wide), box.width - 4);
+  return found.map(([along, text]) => {
     const y = view.bottom - along;
     return tick(x, y, { x: x - 8, y: y + 4, class: "left" }, text, "M0 0h-5");
   });

@@ -4,7 +4,7 @@
 //   const shown = pins(floor, { choose(key), drag(key, [x, y]), place(key, [x, y]),
 //                             remove(key), open(key) });
 //   shown.update({ trips: [{ key, number, target, words, place, trouble }…], chosen, locked, home });
-//   shown.others([[x, y]…]);      the places of other missions, faintly
+//   shown.others([[words, [x, y]]…]);      the places of other missions, faintly
 
 import { keyed, put, set, svg } from "./dom.js";
 import { draggable } from "./pin_hands.js";
@@ -21,6 +21,7 @@ export function pins(floor, act) {
   const way = svg("polyline", { class: "way" });
   lines.append(start, way);
   let locked = false;
+  let others = "";
 
   function make({ key }) {
     const pin = svg("g", { class: "pin", role: "button", tabindex: 0, "data-own": "", "data-key": key },
@@ -56,7 +57,8 @@ export function pins(floor, act) {
       set(pin, "class", `pin${trip.key === chosen ? " chosen" : ""}${trip.trouble ? " bad" : ""}`);
       set(pin, "aria-label", described(trip, locked));
       put(pin.querySelector(".pin-number"), trip.number);
-      name(pin.lastChild, trip.place || trip.words, { floor, target: trip.target });
+      const words = trip.dragged ? `${number(x)}, ${number(y)} m` : trip.words;
+      name(pin.lastChild, trip.place || words, { floor, target: trip.target });
     });
     const points = placed.map(({ target: [x, y] }) => `${x},${y}`);
     set(way, "points", points.join(" "));
@@ -66,7 +68,11 @@ export function pins(floor, act) {
   return {
     update,
     others(places) {
-      faint.replaceChildren(...places.map(([x, y]) => floor.mark(x, y, svg("circle", { r: 5 }))));
+      const now = JSON.stringify(places);
+      if (now === others) return;
+      others = now;
+      faint.replaceChildren(...places.map(([words, [x, y]]) =>
+        floor.mark(x, y, svg("circle", { r: 5 }, svg("title", {}, words)))));
     },
     focus(key) {
       layer.querySelector(`[data-key="${key}"]`)?.focus();

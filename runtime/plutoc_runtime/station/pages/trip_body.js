@@ -8,6 +8,7 @@ import { coordinates } from "./coordinates.js";
 import { fill, h, put, set, shown, unique } from "./dom.js";
 import { fieldFor } from "./fields.js";
 import { icon } from "./icons.js";
+import { number } from "./numbers.js";
 import { problemLine, textOf } from "./problems.js";
 import { RELEASE } from "./trip_edits.js";
 
@@ -38,7 +39,11 @@ export function tripBody(app, action, act) {
   const fields = [...item, ...parameters, ...own];
   const known = new Set(["name", "action", "target", ...fields.map(({ about }) => about)]);
   const general = h("div", { class: "trip-troubles" });
-  const more = h("details", { class: "more" }, h("summary", {}, "More"), where.height);
+  const from = h("p", { class: "hint" });
+  const source = h("div", { class: "row" }, from, h("button", {
+    type: "button", class: "button small", onclick: () => act.set("source", undefined),
+  }, "Begin where the drone is"));
+  const more = h("details", { class: "more" }, h("summary", {}, "More"), where.height, source);
   const button = (sign, text, onclick) =>
     h("button", { type: "button", class: "button small", onclick }, icon(sign), text);
   const arrow = (sign, text, by) => h("button", {
@@ -55,8 +60,8 @@ export function tripBody(app, action, act) {
 
   return {
     element,
-    update({ trip, number, place, problems, pickedIn, locked, first, last }) {
-      name.input.placeholder = String(number);
+    update({ trip, number: turn, place, problems, pickedIn, locked, first, last }) {
+      name.input.placeholder = String(turn);
       name.update(trip.name, { problem: textOf(problems, "name"), locked });
       what.update(textOf(problems, "action"), locked);
       where.update(trip.target, place, locked);
@@ -64,7 +69,10 @@ export function tripBody(app, action, act) {
         field.update(value(trip), { problem: textOf(problems, about), locked });
       }
       if (releases) put(carried, released(trip, pickedIn));
-      if (trip.target?.length === 3) more.open = true;
+      shown(source, trip.source);
+      source.lastChild.disabled = locked;
+      put(from, trip.source ? `The flight begins at ${trip.source.map(number).join(", ")} m.` : "");
+      if (trip.target?.length === 3 || trip.source) more.open = true;
       const others = problems.filter(({ field }) => !known.has(field)).map(({ text }) => text);
       if (told !== others.join("\n")) fill(general, others.map(problemLine));
       told = others.join("\n");

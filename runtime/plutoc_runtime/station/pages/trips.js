@@ -53,8 +53,9 @@ export function trips(context) {
   const title = h("h2", {});
   const troubles = h("div", { class: "stack" });
   const why = h("p", { class: "row locked" }, icon("lock"),
-    "This mission has been started, so its trips stay as they are. What can be done now — skip a "
-      + "trip, pause, cancel — is on the page Monitor.");
+    h("span", {}, "This mission has been started, so its trips stay as they are. On the page ",
+      h("button", { type: "button", class: "link", onclick: () => context.go("monitor") }, "Monitor"),
+      " you can skip a trip, pause the mission or cancel it."));
   const empty = h("p", { class: "hint no-trips" },
     "No trips yet. Drag an action onto the map: that makes a trip. Its number is its turn.");
   const order = h("p", { class: "hint" }, "Drag a card, or press ", h("kbd", { class: "key" }, "Alt ↑"),
@@ -84,7 +85,7 @@ export function trips(context) {
       const trouble = [place, ...problems.map(({ text }) => text)].find(Boolean) ?? "";
       return {
         key: trip.key, trip, number: at + 1, target: trip.target, place, problems, trouble,
-        words: trip.name ? `${called(trip.action)} · ${trip.name}` : called(trip.action),
+        words: trip.name ? `${called(trip.action)} · ${trip.name}` : called(trip.action), dragged,
         pickedIn: pick === undefined ? null : pick + 1,
       };
     });
@@ -120,7 +121,9 @@ export function trips(context) {
   }
 
   const places = (mission) => plan.missions.filter((other) => other !== mission)
-    .flatMap((other) => other.trips.map(({ target }) => target)).filter(Boolean);
+    .flatMap((other) => other.trips.map((trip, at) =>
+      [`${other.name}, trip ${trip.name ?? at + 1}`, trip.target]))
+    .filter(([, target]) => target);
 
   plan.changed.heard(draw);
   selected.changed.heard(() => {

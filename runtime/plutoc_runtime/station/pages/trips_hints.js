@@ -23,7 +23,7 @@ export function nothingToSet(context) {
     element,
     update() {
       const { missions } = plan;
-      shown(element, !selected.mission());
+      shown(element, plan.loaded && !selected.mission());
       shown(list, missions.length);
       if (selected.mission()) return;
       fill(title, missions.length ? "First choose a mission" : "First make a mission");
