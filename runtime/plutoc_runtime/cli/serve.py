@@ -22,7 +22,7 @@ from ..station.borrowed import borrowed
 from ..station.guard import Guard, needs_token
 from ..station.listening import address, listening, port_of
 from ..station.phase import Phase
-from ..station.plan import Plan
+from ..station.plan.plan import Plan
 from ..station.settings import Settings
 from ..station.static import floor_plan
 from ..station.station import Station

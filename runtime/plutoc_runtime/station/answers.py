@@ -10,7 +10,7 @@ from .audit import Audit
 from .behind import Plan, Station
 from .http import Malformed, Reply, Request, json_reply, text_reply
 from .http import said as in_words
-from .plan_errors import Stale
+from .plan.errors import Stale
 from .refusals import Refused
 from .strict_json import parsed_object
 

@@ -16,7 +16,7 @@ from .phase import phase_of
 
 if TYPE_CHECKING:
     from .outing import Outing
-    from .plan import Plan
+    from .plan.plan import Plan
 
 TICK = 0.1
 """Seconds between two looks at what has changed."""

@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from ..app import App
     from ..life import Life
     from ..model import Mission
-    from .plan import Plan
+    from .plan.plan import Plan
     from .settings import Settings
 
 REMEMBERED = 1_000

@@ -19,7 +19,7 @@ from plutoc_runtime.model import Category, Mission
 from plutoc_runtime.quantities import Type
 from plutoc_runtime.session import simulate
 from plutoc_runtime.simulation.faults import Faults
-from plutoc_runtime.station.plan import Plan
+from plutoc_runtime.station.plan.plan import Plan
 from plutoc_runtime.status import Status
 from tests.flying import EXAMPLES
 from tests.runtime.files.an_app import APP, PLAIN

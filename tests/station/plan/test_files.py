@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from plutoc_runtime.errors import BadInput
 from plutoc_runtime.files.missions import load_missions
 from plutoc_runtime.model import Mission
-from plutoc_runtime.station.plan import Plan, Stale
+from plutoc_runtime.station.plan.plan import Plan, Stale
 from tests.runtime.files.an_app import APP
 from tests.runtime.files.test_missions import FULL
 from tests.station.plan.drawing import FLEET, SOUND_PLANS, Json, a_plan, drawn, mission, said, trip

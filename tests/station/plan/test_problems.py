@@ -14,7 +14,7 @@ from plutoc_runtime.errors import BadInput
 from plutoc_runtime.files.missions import load_missions
 from plutoc_runtime.files.reading import MOST_SHOWN
 from plutoc_runtime.plan_check import problems
-from plutoc_runtime.station.plan_text import text_of
+from plutoc_runtime.station.plan.text import text_of
 from tests.runtime.files.an_app import APP
 from tests.station.plan.drawing import FLEET, PLANS, Json, drawn, mission, said, trip
 

@@ -14,7 +14,7 @@ from plutoc_runtime.station.api import Api
 from plutoc_runtime.station.audit import Audit
 from plutoc_runtime.station.guard import Guard
 from plutoc_runtime.station.http import Reply, Request
-from plutoc_runtime.station.plan_errors import Stale
+from plutoc_runtime.station.plan.errors import Stale
 
 HOST = "127.0.0.1:8765"
 OURS = {

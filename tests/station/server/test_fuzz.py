@@ -16,7 +16,7 @@ from plutoc_runtime.station.api import Api
 from plutoc_runtime.station.audit import Audit
 from plutoc_runtime.station.guard import Guard
 from plutoc_runtime.station.http import Reply, Request
-from plutoc_runtime.station.plan import Plan
+from plutoc_runtime.station.plan.plan import Plan
 from tests.station.plan.drawing import a_plan
 
 from .asking import HOST, OURS, AStation

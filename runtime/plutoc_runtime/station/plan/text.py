@@ -7,16 +7,16 @@ from collections.abc import Iterator, Mapping, Sequence
 from datetime import time
 from typing import TYPE_CHECKING, Any
 
-from ..fields import Entity
-from ..files.missions import missions_of
-from ..files.reading import parsed
-from ..files.values import numbers
-from .plan_json import Shape, fields_of, trips_of
-from .plan_problems import as_in_a_file
+from ...fields import Entity
+from ...files.missions import missions_of
+from ...files.reading import parsed
+from ...files.values import numbers
+from .problems import as_in_a_file
+from .shape import Shape, fields_of, trips_of
 
 if TYPE_CHECKING:
-    from ..airspace import Airspace
-    from ..app import App
+    from ...airspace import Airspace
+    from ...app import App
 
 NAME = "missions.toml"
 """What a file is called in messages, whatever it is called on the disk of whoever sends it."""

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ..files.wording import Wording
+from ...files.wording import Wording
 
 if TYPE_CHECKING:
     from collections.abc import Container, Sequence
 
-    from ..app import App
-    from ..model import Trip
+    from ...app import App
+    from ...model import Trip
 
 _CALLED = {
     "name": "the name",

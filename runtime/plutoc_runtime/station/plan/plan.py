@@ -8,18 +8,19 @@ from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from . import plan_errors as errors
-from . import plan_file, plan_text
+from . import errors
+from . import kept as on_disk
+from .errors import Stale
 from .example import example_missions
-from .plan_errors import Stale
-from .plan_flyable import Flyable
-from .plan_json import Shape, check_together, missions_from, trips_of
-from .plan_problems import PlanProblem, as_json, read
+from .flyable import Flyable
+from .problems import PlanProblem, as_json, read
+from .shape import Shape, check_together, missions_from, trips_of
+from .text import NAME, shapes_of, text_of
 
 if TYPE_CHECKING:
-    from ..app import App
-    from ..files.fleet import FleetFile
-    from ..model import Mission
+    from ...app import App
+    from ...files.fleet import FleetFile
+    from ...model import Mission
 
 __all__ = ["Plan", "Stale"]
 
@@ -40,7 +41,7 @@ class Plan:
         self, app: App, fleet: FleetFile, keep: Path | None, now: Callable[[], float] = time.time
     ) -> None:
         self._app, self._fleet, self._keep = app, fleet, keep
-        kept = plan_file.read(keep, app) if keep else plan_file.Kept()
+        kept = on_disk.read(keep, app) if keep else on_disk.Kept()
         self.trouble = kept.said
         """What went wrong with keeping it, for everybody; empty: nothing."""
         # From the clock: no number may ever mean two plans, though one could not be kept.
@@ -80,11 +81,11 @@ class Plan:
             self._check_current(revision)
             self._change(drawn)
 
-    def import_toml(self, text: str, revision: object, file: str = plan_text.NAME) -> None:
+    def import_toml(self, text: str, revision: object, file: str = NAME) -> None:
         """Take the missions of a file, instead of those that were not launched."""
         self._check_current(revision)
-        read = plan_text.shapes_of(text, self._app, self._fleet.airspace, file)
-        self._change(self._with_launched(self._shaped(read)))
+        given = shapes_of(text, self._app, self._fleet.airspace, file)
+        self._change(self._with_launched(self._shaped(given)))
 
     def example(self, revision: object) -> None:
         """Add missions that this app and this fleet can fly."""
@@ -127,7 +128,7 @@ class Plan:
     def text(self, keys: Collection[str] | None = None) -> str:
         """Return the missions file of these missions, or of all."""
         chosen = [one for one in self._missions if keys is None or one["key"] in keys]
-        return plan_text.text_of(self._app, chosen)
+        return text_of(self._app, chosen)
 
     def _problems(self) -> Iterator[PlanProblem]:
         yield from self._unread
@@ -178,7 +179,7 @@ class Plan:
         if self._keep is None:
             return
         try:
-            plan_file.write(self._keep, self._app, self.revision, missions)
+            on_disk.write(self._keep, self._app, self.revision, missions)
         except OSError as error:
             self.trouble = errors.not_kept(self._keep, error)
         else:

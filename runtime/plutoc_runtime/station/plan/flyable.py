@@ -7,13 +7,13 @@ from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from .plan_json import Shape
-from .plan_problems import PlanProblem, nobody_can_fly
+from .problems import PlanProblem, nobody_can_fly
+from .shape import Shape
 
 if TYPE_CHECKING:
-    from ..airspace import Airspace
-    from ..app import App
-    from ..files.fleet import FleetFile
+    from ...airspace import Airspace
+    from ...app import App
+    from ...files.fleet import FleetFile
 
 
 class Flyable:

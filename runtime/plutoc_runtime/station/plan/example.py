@@ -7,17 +7,17 @@ from itertools import combinations, cycle, islice, product
 from math import dist
 from typing import TYPE_CHECKING
 
-from ..actions import PICK, RELEASE, Action
-from ..quantities import Type
-from ..words import mass
-from . import plan_errors as errors
-from .plan_json import Shape
-from .plan_problems import nobody_can_fly, read
+from ...actions import PICK, RELEASE, Action
+from ...quantities import Type
+from ...words import mass
+from . import errors
+from .problems import nobody_can_fly, read
+from .shape import Shape
 
 if TYPE_CHECKING:
-    from ..app import App
-    from ..files.fleet import FleetFile
-    from ..geometry import Corner
+    from ...app import App
+    from ...files.fleet import FleetFile
+    from ...geometry import Corner
 
 PLAUSIBLE: dict[Type, object] = {
     Type.INT: 1,

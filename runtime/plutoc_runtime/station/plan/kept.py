@@ -9,13 +9,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..errors import BadInput
-from ..fields import Entity
-from . import plan_errors as errors
-from .plan_json import MISSION_KEYS, TRIP_KEYS, Shape, fields_of, missions_from
+from ...errors import BadInput
+from ...fields import Entity
+from . import errors
+from .shape import MISSION_KEYS, TRIP_KEYS, Shape, fields_of, missions_from
 
 if TYPE_CHECKING:
-    from ..app import App
+    from ...app import App
 
 LARGEST = 1 << 25
 """Bytes; a plan with every text as long as it may be is smaller."""

@@ -6,18 +6,18 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from ..files.missions import read_missions
-from ..files.reading import Document
-from ..plan_check import unflyable
-from .plan_json import Shape, trips_of
-from .plan_words import in_one_go, on_a_screen, own_names, sentence
+from ...files.missions import read_missions
+from ...files.reading import Document
+from ...plan_check import unflyable
+from .shape import Shape, trips_of
+from .words import in_one_go, on_a_screen, own_names, sentence
 
 if TYPE_CHECKING:
-    from ..airspace import Airspace
-    from ..app import App
-    from ..files.fleet import FleetFile
-    from ..files.toml_places import Place
-    from ..model import Mission
+    from ...airspace import Airspace
+    from ...app import App
+    from ...files.fleet import FleetFile
+    from ...files.toml_places import Place
+    from ...model import Mission
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from ..errors import BadInput, PlutoError
-from ..files.errors import listed, shown
-from ..words import counted, printable, quoted
+from ...errors import BadInput, PlutoError
+from ...files.errors import listed, shown
+from ...words import counted, printable, quoted
 
 
 class Stale(PlutoError):

@@ -1,6 +1,6 @@
 """The shape of a plan as pages send it: whatever has this shape is kept, finished or not.
 
-What it means is another question, which `plan_problems` asks: a plan is drawn bit by bit, and a
+What it means is another question, which `problems` asks: a plan is drawn bit by bit, and a
 name is typed letter by letter.
 """
 
@@ -11,12 +11,12 @@ from collections.abc import Mapping, Sequence
 from math import isfinite
 from typing import TYPE_CHECKING
 
-from ..fields import Entity
-from ..words import quoted
-from . import plan_errors as errors
+from ...fields import Entity
+from ...words import quoted
+from . import errors
 
 if TYPE_CHECKING:
-    from ..app import App
+    from ...app import App
 
 Shape = dict[str, object]
 """A mission or a trip, as JSON has it."""

@@ -1,0 +1,1 @@
+"""The plan that people draw: checked where it is wrong, kept with every change."""
