@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING
 from ..actions import PICK, RELEASE
 from ..fields import Entity, FieldType
 from ..quantities import QUANTITIES, units_of
-from .graph import app_graph
-from .graph_layout import laid_out
+from .graph.picture import laid_out
+from .graph.read import app_graph
 
 if TYPE_CHECKING:
     from ..actions import Action, Parameter
     from ..app import App
     from ..fields import Field
     from ..model import Category
-    from .graph import Graph
+    from .graph.read import Graph
     from .settings import Settings
 
 Shape = dict[str, object]

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from itertools import combinations, pairwise
 from typing import Any
 
-from plutoc_runtime.station.drawing.ground import Piece, Point
-from plutoc_runtime.station.drawing.layout import Laid, Placed
+from plutoc_runtime.station.graph.ground import Piece, Point
+from plutoc_runtime.station.graph.layout import Laid, Placed
 
 Area = tuple[float, float, float, float]
 """Left, top, right, bottom."""

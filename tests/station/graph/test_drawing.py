@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 from plutoc.check.model import Checked
 from plutoc.emit.readme_file import readme
 from plutoc.report.graph import mermaid
-from plutoc_runtime.station.drawing.layout import drawn
-from plutoc_runtime.station.graph import Arrow, Box, Graph, graph_in
-from plutoc_runtime.station.graph_layout import laid_out
+from plutoc_runtime.station.graph.layout import drawn
+from plutoc_runtime.station.graph.picture import laid_out
+from plutoc_runtime.station.graph.read import Arrow, Box, Graph, graph_in
 from tests.station.graph.looking import Pictured, lying_together, mistakes, overlap, pictured
 from tests.station.graph.sources import examples, random_graphs
 

@@ -36,7 +36,7 @@ def made(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Made:
 
 def found(name: str) -> Any:
     """Return the graph that the package finds."""
-    return import_module(f"{name}._runtime.station.graph").app_graph(
+    return import_module(f"{name}._runtime.station.graph.read").app_graph(
         import_module(f"{name}.flow").APP
     )
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from .drawing.layout import drawn
-from .graph import Arrow, Box, Graph
+from .layout import drawn
+from .read import Arrow, Box, Graph
 
 _NAME, _KIND, _LABEL = 7.8, 5.8, 5.6
 """How wide a letter is, on average: of a name, of a kind, of the statuses beside an arrow."""

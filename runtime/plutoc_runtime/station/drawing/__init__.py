@@ -1,1 +1,0 @@
-"""How the app's graph is laid out on a page: boxes in rows that turn like a road, right-angled ways."""
