@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from plutoc_runtime.errors import BadInput
 from plutoc_runtime.files.missions import load_missions
@@ -176,6 +177,35 @@ def test_a_file_replaces_what_was_drawn_but_not_what_flies() -> None:
     again: Any = plan.data()["missions"]
     old, new = ({one["key"] for one in some[1:]} for some in (missions, again))
     assert not old & new
+
+
+def test_what_was_handed_out_in_flight_may_come_back_in_flight() -> None:
+    """The missions that fly are not there twice."""
+    plan = imported(FILE)
+    missions: Any = plan.data()["missions"]
+    plan.launched([missions[0]["key"]])
+    plan.import_toml(plan.export_toml(), plan.revision)
+    assert plan.export_toml() == FILE
+    assert plan.launchable()[0][0].name == "2"
+
+
+@given(
+    at=st.integers(0, len(FILE)),
+    gone=st.integers(0, 20),
+    new=st.one_of(
+        st.text(max_size=4), st.sampled_from(["nan", "-inf", "1979-05-27", "[[]]", "{}"])
+    ),
+)
+@settings(max_examples=300, derandomize=True, deadline=None)
+def test_any_text_is_a_plan_or_refused(at: int, gone: int, new: str) -> None:
+    """Wherever a file was cut or written over; what is taken is handed out again."""
+    plan = a_plan()
+    try:
+        plan.import_toml(FILE[:at] + new + FILE[at + gone :], plan.revision)
+    except BadInput as error:
+        assert str(error).startswith("missions.toml:")
+    else:
+        assert imported(plan.export_toml()).export_toml() == plan.export_toml()
 
 
 def test_a_file_is_not_taken_on_an_old_plan() -> None:

@@ -13,7 +13,7 @@ from . import kept as on_disk
 from .errors import Stale
 from .example import example_missions
 from .flyable import Flyable
-from .problems import PlanProblem, as_json, read
+from .problems import PlanProblem, as_in_a_file, as_json, read
 from .shape import Shape, check_together, missions_from, trips_of
 from .text import NAME, shapes_of, text_of
 
@@ -84,8 +84,11 @@ class Plan:
     def import_toml(self, text: str, revision: object, file: str = NAME) -> None:
         """Take the missions of a file, instead of those that were not launched."""
         self._check_current(revision)
-        given = shapes_of(text, self._app, self._fleet.airspace, file)
-        self._change(self._with_launched(self._shaped(given)))
+        given = self._shaped(shapes_of(text, self._app, self._fleet.airspace, file))
+        # a plan that was handed out while it flew holds those missions, too
+        flying = [as_in_a_file(one) for one in self._missions if one["launched"]]
+        new = [mission for mission in given if as_in_a_file(mission) not in flying]
+        self._change(self._with_launched(new))
 
     def example(self, revision: object) -> None:
         """Add missions that this app and this fleet can fly."""
