@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import signal
+import time
 from contextlib import closing
 from typing import Any
 
@@ -100,6 +101,8 @@ def test_interrupted_twice_it_leaves_at_once_and_the_gateway_lands(new_flight: N
     flight = new_flight(1.0)
     flight.start()
     flight.until_it_says("launched")
+    high_enough = time.monotonic() + 1.5  # to be still landing when it is told for the second time
+    assert eventually(lambda: time.monotonic() > high_enough)
     flight.signal(signal.SIGINT)
     flight.until_it_says("once more to leave at once")
     flight.signal(signal.SIGINT)
