@@ -16,17 +16,17 @@ from ..errors import BadInput
 from ..files.reading import text_of
 from ..journal import place
 from ..standing import Down
-from ..station.api import Api
-from ..station.audit import Audit
-from ..station.borrowed import borrowed
-from ..station.guard import Guard, needs_token
-from ..station.listening import address, listening, port_of
 from ..station.phase import Phase
 from ..station.plan.plan import Plan
 from ..station.settings import Settings
-from ..station.static import floor_plan
 from ..station.station import Station
-from ..station.web import serve as serve_web
+from ..station.web.api import Api
+from ..station.web.audit import Audit
+from ..station.web.borrowed import borrowed
+from ..station.web.guard import Guard, needs_token
+from ..station.web.listening import address, listening, port_of
+from ..station.web.server import serve as serve_web
+from ..station.web.static import floor_plan
 from . import output
 from .flown import finished, records_in
 from .interrupts import Interrupts

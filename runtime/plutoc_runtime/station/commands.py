@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from ..words import quoted
-from .http import Malformed
+from .web.http import Malformed
 
 _MISSION, _TRIP = {"mission": (str,)}, {"trip": (str,)}
 _ALL = {"mission": (str, type(None))}

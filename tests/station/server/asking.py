@@ -10,11 +10,11 @@ from pathlib import Path
 from typing import Any
 
 from plutoc_runtime.errors import BadInput
-from plutoc_runtime.station.api import Api
-from plutoc_runtime.station.audit import Audit
-from plutoc_runtime.station.guard import Guard
-from plutoc_runtime.station.http import Reply, Request
 from plutoc_runtime.station.plan.errors import Stale
+from plutoc_runtime.station.web.api import Api
+from plutoc_runtime.station.web.audit import Audit
+from plutoc_runtime.station.web.guard import Guard
+from plutoc_runtime.station.web.http import Reply, Request
 
 HOST = "127.0.0.1:8765"
 OURS = {

@@ -12,11 +12,11 @@ from typing import Any
 
 from websockets.typing import Origin
 
-from plutoc_runtime.station.api import Api
-from plutoc_runtime.station.audit import Audit
-from plutoc_runtime.station.guard import Guard
-from plutoc_runtime.station.listening import listening, port_of
-from plutoc_runtime.station.web import serve
+from plutoc_runtime.station.web.api import Api
+from plutoc_runtime.station.web.audit import Audit
+from plutoc_runtime.station.web.guard import Guard
+from plutoc_runtime.station.web.listening import listening, port_of
+from plutoc_runtime.station.web.server import serve
 
 from .asking import AStation
 

@@ -11,12 +11,12 @@ from pathlib import Path
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from plutoc_runtime.station.answers import ADDRESSES
-from plutoc_runtime.station.api import Api
-from plutoc_runtime.station.audit import Audit
-from plutoc_runtime.station.guard import Guard
-from plutoc_runtime.station.http import Reply, Request
 from plutoc_runtime.station.plan.plan import Plan
+from plutoc_runtime.station.web.answers import ADDRESSES
+from plutoc_runtime.station.web.api import Api
+from plutoc_runtime.station.web.audit import Audit
+from plutoc_runtime.station.web.guard import Guard
+from plutoc_runtime.station.web.http import Reply, Request
 from tests.station.plan.drawing import a_plan
 
 from .asking import HOST, OURS, AStation

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from plutoc_runtime.station.guard import (
+from plutoc_runtime.station.web.guard import (
     Asking,
     Guard,
     is_loopback,
@@ -12,7 +12,7 @@ from plutoc_runtime.station.guard import (
     needs_token,
     refusal,
 )
-from plutoc_runtime.station.http import Request
+from plutoc_runtime.station.web.http import Request
 
 from .asking import OURS, without
 

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from plutoc_runtime.station import live
-from plutoc_runtime.station.http import Closed
+from plutoc_runtime.station.web import live
+from plutoc_runtime.station.web.http import Closed
 
 from .asking import OURS, SEEN, Asked, AStation, asked, request, without
 

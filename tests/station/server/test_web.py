@@ -16,10 +16,10 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.typing import Origin
 
 from plutoc_runtime.errors import BadInput
-from plutoc_runtime.station import crowd, web
-from plutoc_runtime.station.borrowed import borrowed
-from plutoc_runtime.station.guard import Guard
-from plutoc_runtime.station.listening import address, listening, port_of
+from plutoc_runtime.station.web import crowd, server
+from plutoc_runtime.station.web.borrowed import borrowed
+from plutoc_runtime.station.web.guard import Guard
+from plutoc_runtime.station.web.listening import address, listening, port_of
 
 from .asking import SEEN
 from .serving import Served, served, status
@@ -101,7 +101,7 @@ def test_a_body_that_is_just_short_enough_is_read() -> None:
 
 
 def test_a_body_that_does_not_come_is_not_waited_for(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(web, "_BODY_WITHIN", 0.05)
+    monkeypatch.setattr(server, "_BODY_WITHIN", 0.05)
 
     async def scene(station: Served) -> None:
         start = station.request("POST", "/api/start", Content_Length="11")

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from math import isfinite
 from typing import Protocol
 
-from ..errors import BadInput
+from ...errors import BadInput
 
 Read = Callable[[], Awaitable[bytes]]
 """Reads a body to its end, within limits: raises `Refused`."""

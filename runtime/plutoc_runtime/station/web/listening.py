@@ -7,8 +7,8 @@ from contextlib import closing
 from errno import EACCES, EADDRINUSE, EADDRNOTAVAIL
 from ipaddress import ip_address
 
-from ..errors import BadInput
-from ..words import quoted
+from ...errors import BadInput
+from ...words import quoted
 from .guard import Guard, is_loopback
 
 _BACKLOG = 128

@@ -15,8 +15,8 @@ from dataclasses import dataclass
 from importlib import import_module
 from typing import TYPE_CHECKING, Protocol
 
-from ..errors import BadInput
-from ..words import in_shell
+from ...errors import BadInput
+from ...words import in_shell
 from .crowd import Crowd
 from .http import Reply
 

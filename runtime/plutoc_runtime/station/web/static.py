@@ -14,11 +14,11 @@ from gzip import compress
 from hashlib import sha256
 from pathlib import Path
 
-from ..errors import BadInput
-from ..words import shown
+from ...errors import BadInput
+from ...words import shown
 from .http import Reply, Request
 
-FOLDER = Path(__file__).parent / "pages"
+FOLDER = Path(__file__).parent.parent / "pages"
 
 _NAME = re.compile(r"[a-z0-9][a-z0-9_-]*\.[a-z0-9]+")
 _KINDS = {

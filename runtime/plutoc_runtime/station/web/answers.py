@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from ..errors import BadInput
+from ...errors import BadInput
+from ..plan.errors import Stale
 from . import refusals
 from .audit import Audit
 from .behind import Plan, Station
 from .http import Malformed, Reply, Request, json_reply, text_reply
 from .http import said as in_words
-from .plan.errors import Stale
 from .refusals import Refused
 from .strict_json import parsed_object
 
