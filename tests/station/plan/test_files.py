@@ -77,7 +77,7 @@ def facts(missions: list[Mission[Any]]) -> list[object]:
 
 
 def test_a_file_comes_back_as_its_writer_wrote_it() -> None:
-    """With its quantities, its order, and places as one draws them; what goes without saying goes."""
+    """With its quantities, its order, and places as one draws them."""
     unnamed = FILE.replace('name = "2"\n', "").replace("0.8]", '"80 cm"]').replace("04 }", "040 }")
     assert imported(unnamed).export_toml() == FILE
 

@@ -77,7 +77,8 @@ def test_a_mission_says_what_it_lacks(given: Json, field: str | None, sentence: 
         ({"source": [2, 30]}, "source",
          ("The place where the flight begins (2, 30) is outside the map: "
           "x goes from 0 to 20 m, y from 0 to 20 m")),
-        ({"action": "take_foto"}, "action", 'Unknown action "take_foto"; did you mean "take_photo"?'),
+        ({"action": "take_foto"}, "action",
+         'Unknown action "take_foto"; did you mean "take_photo"?'),
         ({"delay": "soon"}, "delay",
          'Delay "soon" is not a time: write a number and a unit (ms, s, min, h)'),
         ({"priority": 1.5}, "priority", "Priority 1.5 is not a whole number"),

@@ -1,4 +1,4 @@
-"""What is still wrong with a plan, and where: the checks of a missions file, in a screen's words."""
+"""What is wrong with a plan, and where: the checks of a missions file, in a screen's words."""
 
 from __future__ import annotations
 
