@@ -1,0 +1,85 @@
+"""A new user's way, from an empty station to missions that are completed (the thesis's 6.2.1)."""
+
+from __future__ import annotations
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from tests.station.browser.conftest import Serve, Visit
+from tests.station.browser.exercise import COMPLETED, DONE, PLAN, put_in
+from tests.station.browser.serving import Station, until
+from tests.station.browser.steps import (
+    add_mission,
+    drag,
+    item_of,
+    open_page,
+    row_of,
+    sees_all,
+    start,
+)
+
+NEAR = 0.15
+"""Metres between where an action is dropped and where the plan has it."""
+
+
+def draw(page: Page) -> None:
+    """Make the three missions with the mouse and their names."""
+    for mission, trips in PLAN.items():
+        add_mission(page, mission)
+        for number, trip in enumerate(trips, start=1):
+            drag(page, trip.action, trip.at)
+            if trip.action == "pick_item":
+                item_of(page, number, trip.item, "8 g")
+
+
+def is_drawn(station: Station) -> None:
+    """Hold the plan that the station keeps against the exercise."""
+    until(lambda: sizes(station) == [3, 2, 4], "the plan is kept")
+    until(lambda: station.get("/api/plan")["problems"] == [], "it is sound")
+    plan = station.get("/api/plan")["missions"]
+    assert [mission["name"] for mission in plan] == list(PLAN)
+    for mission in plan:
+        for kept, drawn in zip(mission["trips"], PLAN[mission["name"]], strict=True):
+            assert kept["action"] == drawn.action
+            assert kept["target"][:2] == pytest.approx(drawn.at, abs=NEAR)
+
+
+def sizes(station: Station) -> list[int]:
+    """Return the number of trips of each mission in the plan."""
+    return [len(mission["trips"]) for mission in station.get("/api/plan")["missions"]]
+
+
+def test_three_missions_are_drawn_by_drag_and_drop_and_flown_to_their_end(
+    serve: Serve, visit: Visit
+) -> None:
+    station = serve("drugs_distribution")
+    page = visit(station)
+    draw(page)
+    is_drawn(station)
+    start(page)
+    sees_all(page, "Completed")
+    assert station.statuses() == COMPLETED
+    assert station.done() == DONE
+    expect(row_of(page, "Mission 3")).to_contain_text("4 of 4")
+
+
+def test_drones_that_are_called_home_in_mid_flight_go_on_where_they_were(
+    serve: Serve, visit: Visit
+) -> None:
+    station = serve("drugs_distribution")
+    put_in(station)
+    page = visit(station)
+    start(page)
+    until(lambda: ("pick_item", "Mission 3/1/0") in station.done(), "the pills are picked")
+    page.get_by_role("button", name="Stop: fly home").click()
+    until(lambda: station.phase == "stopped", "all are down")
+    drones = station.now()["drones"]
+    assert {drone["z"] for drone in drones} == {0.0}
+    homes = {drone["id"]: drone["home"] for drone in station.get("/api/app")["drones"]}
+    for drone in drones:
+        assert [drone["x"], drone["y"]] == pytest.approx(homes[drone["id"]][:2], abs=NEAR)
+    page.get_by_role("button", name="Resume").click()
+    open_page(page, "Monitor")
+    sees_all(page, "Completed")
+    assert station.statuses() == COMPLETED
+    assert station.done() == DONE
