@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 
 from ...errors import BadInput
+from ..commands import NEEDS
 from ..plan.errors import Stale
 from . import refusals
 from .audit import Audit
@@ -14,20 +15,6 @@ from .http import said as in_words
 from .refusals import Refused
 from .strict_json import parsed_object
 
-_COMMANDS = (
-    "start",
-    "stop",
-    "resume",
-    "discard",
-    "pause",
-    "go-on",
-    "skip",
-    "cancel",
-    "decide",
-    "prioritise",
-    "retire",
-    "bring-back",
-)
 ADDRESSES: Mapping[str, tuple[str, ...]] = {
     "/api/app": ("GET",),
     "/api/live": ("GET",),
@@ -37,7 +24,7 @@ ADDRESSES: Mapping[str, tuple[str, ...]] = {
     "/api/plan/example": ("POST",),
     "/api/console.txt": ("GET",),
     "/api/results.json": ("GET",),
-    **{f"/api/{command}": ("POST",) for command in _COMMANDS},
+    **{f"/api/{command}": ("POST",) for command in NEEDS},
 }
 _LONGEST_ID = 64
 _DIGITS = 15
