@@ -23,7 +23,7 @@ from ..station.station import Station
 from ..station.web.api import Api
 from ..station.web.audit import Audit
 from ..station.web.borrowed import borrowed
-from ..station.web.guard import Guard, needs_token
+from ..station.web.guard import Guard, needs_token, proper_name
 from ..station.web.listening import address, listening, port_of
 from ..station.web.server import serve as serve_web
 from ..station.web.static import floor_plan
@@ -91,7 +91,7 @@ async def _serve(
 
 
 def _guard(options: Options, settings: Settings, port: int) -> Guard:
-    names = tuple(options.names)
+    names = tuple(map(proper_name, options.names))
     token = _token(settings) if needs_token(options.host, names) else None
     return Guard(host=options.host, port=port, names=names, token=token)
 

@@ -235,6 +235,8 @@ def test_of_too_many_commands_some_are_refused_but_never_a_stop() -> None:
     ask = asked()
     starts = [ask("POST", "/api/start", {"id": f"{n}"}).status for n in range(50)]
     assert starts == [200] * 20 + [429] * 30
+    edits = [ask("POST", "/api/plan/example", {"revision": n + 1}).status for n in range(21)]
+    assert edits == [200] * 20 + [429]
     stops = [ask("POST", "/api/stop", {"id": f"{n}"}).status for n in range(50)]
     assert stops == [200] * 50
     ask.times.append(0.5)

@@ -7,17 +7,22 @@ import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from plutoc_runtime.station.phase import Phase
 from plutoc_runtime.station.plan.plan import Plan
+from plutoc_runtime.station.settings import Settings
+from plutoc_runtime.station.station import Station
 from plutoc_runtime.station.web.answers import ADDRESSES
 from plutoc_runtime.station.web.api import Api
 from plutoc_runtime.station.web.audit import Audit
 from plutoc_runtime.station.web.guard import Guard
 from plutoc_runtime.station.web.http import Reply, Request
-from tests.station.plan.drawing import a_plan
+from tests.runtime.files.an_app import APP
+from tests.station.plan.drawing import FLEET, a_plan
 
 from .asking import HOST, OURS, AStation
 from .serving import Served, served, status
@@ -118,6 +123,15 @@ class WithAPlan:
         return len(self.rest.done), self.plan.revision
 
 
+def a_station(folder: Path) -> Station:
+    """Return the real one, at which nothing flies."""
+    settings = Settings(folder=folder, fleet=FLEET, faults={})
+    settings.own_folder.mkdir()
+    station = Station(APP, settings, a_plan())
+    station.begin()
+    return station
+
+
 async def no_pause(_: float) -> None:
     """Let nobody wait."""
 
@@ -144,6 +158,22 @@ def test_no_request_finds_a_mistake(asked: list[Request], token: str | None) -> 
                 assert station.changed == before
 
     asyncio.run(scene())
+
+
+@settings(max_examples=60, derandomize=True, deadline=None)
+@given(asked=st.lists(requests(), min_size=1, max_size=10))
+def test_no_request_finds_a_mistake_of_the_station_behind(asked: list[Request]) -> None:
+    with TemporaryDirectory() as folder:
+        station = a_station(Path(folder))
+        api = Api(station, Guard(host="127.0.0.1", port=8765), Audit(None), pause=no_pause)
+
+        async def scene() -> None:
+            for request in asked:
+                if request.path != "/api/start":  # nothing is to fly here
+                    sound(await api.answer(request))
+
+        asyncio.run(scene())
+        assert station.phase is Phase.IDLE
 
 
 def sound(reply: Reply) -> None:

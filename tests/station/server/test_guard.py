@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import pytest
 
+from plutoc_runtime.errors import BadInput
 from plutoc_runtime.station.web.guard import (
     Asking,
     Guard,
     is_loopback,
     knows,
     needs_token,
+    proper_name,
     refusal,
 )
 from plutoc_runtime.station.web.http import Request
@@ -181,6 +183,22 @@ def test_the_token_shows_nowhere() -> None:
 def test_only_this_machine_reaches_loopback(host: str, is_so: bool) -> None:
     assert is_loopback(host) is is_so
     assert needs_token(host, ()) is not is_so
+
+
+@pytest.mark.parametrize(
+    "name", ["ward.example", "WARD.example:8443", "192.0.2.7", "[2001:db8::1]:80", "ward_1"]
+)
+def test_a_name_is_what_a_browser_says(name: str) -> None:
+    assert proper_name(name) == name.lower()
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["", "https://ward.example", "ward.example/", "ward.example:x", "a:99999", "a b", "*", "é.x"],
+)
+def test_what_no_browser_says_is_no_name(name: str) -> None:
+    with pytest.raises(BadInput, match="a name is like"):
+        proper_name(name)
 
 
 def test_a_station_with_another_name_is_reached_by_others() -> None:

@@ -22,8 +22,8 @@ from .static import handed_out, pages, picture
 STOP = "/api/stop"
 """It brings drones down: whoever may command may always command this."""
 
-_COMMANDS, _READS = 20.0, 100.0
-"""A second, for each client."""
+_COMMANDS, _EDITS, _READS = 20.0, 20.0, 100.0
+"""A second, for each client; whoever draws the plan has all commands left."""
 _AT_ONCE = 64
 """Requests that are under way, Stops not counted."""
 _WRONG_TOKEN = 0.5
@@ -50,7 +50,8 @@ class Api:
         self._station, self._audit, self._pause = station, audit, pause
         self._pages = pages()
         self._picture = picture(station.image) if station.image is not None else None
-        self._commands, self._reads = Rate(_COMMANDS, clock), Rate(_READS, clock)
+        self._commands, self._edits = Rate(_COMMANDS, clock), Rate(_EDITS, clock)
+        self._reads = Rate(_READS, clock)
         self._live = Live(station, guard, audit, clock)
         self._under_way = self._waiting = 0
 
@@ -101,8 +102,7 @@ class Api:
         """Answer, unless too much is asked; a Stop never is."""
         if request.path == STOP:
             return await change(self._station, self._audit, request)
-        rate = self._reads if request.method == "GET" else self._commands
-        if not rate.allows(request.client):
+        if not self._rate(request).allows(request.client):
             raise Refused(refusals.too_many())
         if self._under_way >= _AT_ONCE:
             raise Refused(refusals.too_busy())
@@ -113,6 +113,11 @@ class Api:
             return await change(self._station, self._audit, request)
         finally:
             self._under_way -= 1
+
+    def _rate(self, request: Request) -> Rate:
+        if request.method == "GET":
+            return self._reads
+        return self._edits if request.path.startswith("/api/plan") else self._commands
 
     async def _slow_down(self) -> None:
         """Let those who guess wait, and nobody else."""

@@ -14,13 +14,15 @@ from enum import Enum
 from hmac import compare_digest
 from ipaddress import IPv4Address, IPv6Address, ip_address
 
+from ...errors import BadInput
+from ...words import quoted
 from . import refusals
 from .http import Request
 from .refusals import Refusal
 
 _HOST = re.compile(r"(\[[0-9a-f:.]+\]|[a-z0-9_.-]+)(?::([0-9]{1,5}))?")
 _LOOPBACK = ("127.0.0.1", "localhost", "[::1]")
-_PLAIN_PORT = 80
+_PLAIN_PORT, _PORTS = 80, 65536
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -33,6 +35,18 @@ class Guard:
         str, ...
     ] = ()  # how else it is called: "station.example" or "station.example:8443"
     token: str | None = field(default=None, repr=False)
+
+
+def proper_name(text: str) -> str:
+    """Return a name that the station is to go by, as a browser says it."""
+    name = text.lower()
+    found = _HOST.fullmatch(name)
+    if found is None or not int(found.group(2) or _PLAIN_PORT) < _PORTS:
+        raise BadInput(
+            f"--name {quoted(text)}: a name is like ward.example, or ward.example:8443 where its"
+            " port is not the station's own"
+        )
+    return name
 
 
 class Asking(Enum):
@@ -109,7 +123,7 @@ def _is_ours(guard: Guard, host: str, local: str) -> bool:
     if found is None:
         return False
     name, port = found.group(1), int(found.group(2) or _PLAIN_PORT)
-    for other in map(str.lower, guard.names):
+    for other in guard.names:
         if host == other or (name == other and port in (guard.port, _PLAIN_PORT)):
             return True
     return port == guard.port and _is_own(guard.host, name, local)
