@@ -1,7 +1,7 @@
 // What actions are called on the screen, and a sign for each; those of the app's own have a star.
 
 import { svg } from "./dom.js";
-import { plain } from "./words.js";
+import { plain } from "./dom.js";
 
 const SIGNS = {
   take_photo: "M4 8h4l2-3h4l2 3h4v11H4zM12 10a3.5 3.5 0 110 7 3.5 3.5 0 010-7z",

@@ -1,7 +1,7 @@
 // What happens, line by line: it follows the newest, unless one reads further up.
 import { h } from "./dom.js";
 import { fetched } from "./fetched.js";
-import { clock, many } from "./words.js";
+import { clock, many } from "./dom.js";
 
 const KEPT = 5000; // lines that the filters can find
 const SHOWN = 1000; // lines on the page

@@ -4,7 +4,7 @@
 //   where.element   where.height (an element of its own)   where.update(target, problem, locked)
 
 import { h, put, set, shown, unique } from "./dom.js";
-import { icon } from "./icons.js";
+import { icon } from "./dom.js";
 import { number, read } from "./numbers.js";
 
 export function coordinates(map, change) {

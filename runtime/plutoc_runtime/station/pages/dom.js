@@ -1,75 +1,55 @@
-// Elements in one expression, and lists that keep their elements. Text only ever becomes text
-// nodes.
-//
-//   h("button", { class: "primary", onclick: start, disabled: true }, "Start ", 3, " missions")
-//   svg("circle", { cx: 1, cy: 2, r: 0.2 })
-//   keyed(list, missions, (m) => m.key, make, update)
-//                              // make(item) → element, update(element, item, i)
-//   put(cell, "3 of 5")        // sets the text, if it is another
-//   set(row, "hidden", true)   // sets an attribute, if it is another; null or false removes it
+// Elements, icons and words: h("button", { class: "primary", onclick }, "Start ", 3) and its sisters.
+// Text only ever becomes text nodes.
 
 const PROPERTIES = new Set(["value", "checked", "disabled", "hidden", "selected", "tabIndex"]);
+
+const kept = (children) => children.flat(3).filter((one) => ![null, undefined, false].includes(one));
 
 function build(node, props, children) {
   for (const [name, value] of Object.entries(props ?? {})) {
     if (typeof value === "function") node.addEventListener(name.slice(2), value);
     else if (PROPERTIES.has(name) && name in node) node[name] = value;
-    else if (value === true) node.setAttribute(name, "");
-    else if (value !== false && value !== null && value !== undefined) {
-      node.setAttribute(name, value);
-    }
+    else set(node, name, value === true ? "" : value);
   }
   node.append(...kept(children));
   return node;
 }
 
-function kept(children) {
-  return children.flat(3).filter((child) => ![null, undefined, false].includes(child));
-}
+export const h = (tag, props, ...children) => build(document.createElement(tag), props, children);
 
-export function h(tag, props, ...children) {
-  return build(document.createElement(tag), props, children);
-}
+export const svg = (tag, props, ...children) =>
+  build(document.createElementNS("http://www.w3.org/2000/svg", tag), props, children);
 
-export function svg(tag, props, ...children) {
-  return build(document.createElementNS("http://www.w3.org/2000/svg", tag), props, children);
-}
-
-// New children for an element.
 export function fill(node, ...children) {
   node.replaceChildren(...kept(children));
   return node;
 }
 
+// These three touch the page only where something has changed.
 export function put(node, text) {
-  const now = String(text);
-  if (node.textContent !== now) node.textContent = now;
+  if (node.textContent !== String(text)) node.textContent = text;
   return node;
 }
 
 export function set(node, name, value) {
-  if (value === null || value === undefined || value === false) {
-    if (node.hasAttribute(name)) node.removeAttribute(name);
-  } else if (node.getAttribute(name) !== String(value)) {
-    node.setAttribute(name, String(value));
-  }
+  if (value === null || value === undefined || value === false) node.removeAttribute(name);
+  else if (node.getAttribute(name) !== String(value)) node.setAttribute(name, value);
   return node;
 }
 
-// Shows or hides an element.
 export function shown(node, yes) {
   if (node.hidden === Boolean(yes)) node.hidden = !yes;
   return node;
 }
 
-const MADE = new WeakMap(); // parent → Map of key → element
+const made = new WeakMap(); // parent → Map of key → element
 
-// Makes the children of `parent` those of `items`, in their order. An element stays the same as
-// long as its key is there, so that focus, selection and transitions survive.
+// An element for each item, in their order; it stays the same as long as the item's key is there, so
+// that focus and transitions survive. make(item) → element; update(element, item, i).
 export function keyed(parent, items, key, make, update) {
-  const before = MADE.get(parent) ?? new Map();
+  const before = made.get(parent) ?? new Map();
   const now = new Map();
-  const focused = parent.contains(document.activeElement) ? document.activeElement : null;
+  const focused = document.activeElement;
   items.forEach((item, i) => {
     const node = before.get(key(item)) ?? make(item);
     now.set(key(item), node);
@@ -77,14 +57,81 @@ export function keyed(parent, items, key, make, update) {
     if (parent.children[i] !== node) parent.insertBefore(node, parent.children[i] ?? null);
   });
   while (parent.children.length > items.length) parent.lastElementChild.remove();
-  MADE.set(parent, now);
-  if (focused && focused !== document.activeElement && parent.contains(focused)) focused.focus();
+  made.set(parent, now);
+  if (parent.contains(focused)) focused.focus();
 }
 
 let last = 0;
+export const unique = (stem) => `${stem}-${(last += 1)}`;
 
-// An id for labels and descriptions.
-export function unique(stem) {
-  last += 1;
-  return `${stem}-${last}`;
+const CIRCLE = "M12 3a9 9 0 110 18 9 9 0 010-18z";
+const ICONS = {
+  plus: "M12 5v14M5 12h14",
+  up: "M12 19V6M6 11l6-6 6 6",
+  down: "M12 5v13M6 13l6 6 6-6",
+  copy: "M9 9h10v11H9zM5 15V4h10",
+  bin: "M5 7h14M10 7V4h4v3M7 7l1 13h8l1-13",
+  start: "M8 5l11 7-11 7z",
+  pause: "M9 5v14M15 5v14",
+  stop: "M6 6h12v12H6z",
+  home: "M4 11l8-7 8 7M6 10v10h12V10",
+  land: "M12 4v11M7 11l5 5 5-5M5 20h14",
+  warning: "M12 4L2.5 20h19zM12 10v5M12 17.4v.3",
+  bad: `${CIRCLE}M9 9l6 6M15 9l-6 6`,
+  good: `${CIRCLE}M8 12l3 3 5-6`,
+  info: `${CIRCLE}M12 11v6M12 7v.3`,
+  wait: `${CIRCLE}M12 7v5l3 2`,
+  lock: "M6 11h12v9H6zM8.5 11V8a3.5 3.5 0 017 0v3",
+  grip: "M9 6v.1M15 6v.1M9 12v.1M15 12v.1M9 18v.1M15 18v.1",
+  close: "M6 6l12 12M18 6L6 18",
+  import: "M12 4v11M7 10l5 5 5-5M4 16v4h16v-4",
+  export: "M12 15V4M7 9l5-5 5 5M4 16v4h16v-4",
+  map: "M4 6l5-2 6 2 5-2v14l-5 2-6-2-5 2zM9 4v14M15 6v14",
+  undo: "M9 7L4 11l5 4M4 11h10a5 5 0 010 10h-3",
+};
+
+// A sign beside words, never instead of them.
+export const icon = (name) => svg("svg", {
+  viewBox: "0 0 24 24", width: 18, height: 18, fill: "none", stroke: "currentColor",
+  "stroke-width": 2, "stroke-linecap": "round", "stroke-linejoin": "round", "aria-hidden": "true",
+}, svg("path", { d: ICONS[name] }));
+
+export const many = (n, one, more = `${one}s`) => `${n} ${n === 1 ? one : more}`;
+
+export const plain = (name) => name.replaceAll("_", " ");
+
+// 75 → "1:15"
+export function clock(time) {
+  const [all, two] = [Math.max(0, Math.floor(time)), (n) => String(n).padStart(2, "0")];
+  const [hours, minutes] = [Math.floor(all / 3600), Math.floor(all / 60) % 60];
+  return hours ? `${hours}:${two(minutes)}:${two(all % 60)}` : `${minutes}:${two(all % 60)}`;
+}
+
+// 75 → "1 min 15 s"
+export function seconds(time) {
+  const all = Math.max(0, Math.round(time));
+  if (all < 60) return `${all} s`;
+  const [n, big, small] = all < 3600 ? [all, "min", "s"] : [Math.round(all / 60), "h", "min"];
+  return `${Math.floor(n / 60)} ${big}${n % 60 ? ` ${n % 60} ${small}` : ""}`;
+}
+
+// A key for a new mission or trip.
+export function newKey() {
+  const bytes = crypto.getRandomValues(new Uint8Array(16));
+  return Array.from(bytes, (byte) => byte.toString(16).padStart(2, "0")).join("");
+}
+
+// A name that none of the others has: "Mission 1", "Mission 2".
+export function freeName(stem, names, n = 1) {
+  const name = `${stem} ${n}`;
+  return names.some((other) => other.trim() === name) ? freeName(stem, names, n + 1) : name;
+}
+
+// Who wants to know of a change: b.heard(ear) → off; b.ring(what).
+export function bell() {
+  const ears = new Set();
+  return {
+    heard: (ear) => ears.add(ear) && (() => ears.delete(ear)),
+    ring: (what) => [...ears].forEach((ear) => ear(what)),
+  };
 }

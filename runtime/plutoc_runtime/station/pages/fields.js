@@ -1,140 +1,129 @@
-// One place to fill in, whatever it holds: fields of missions and trips, parameters of actions.
-//
-//   const input = fieldFor({ name, type, label, default, units }, { evaluators, change, typing });
-//   host.append(input.element);
-//   input.update(value, { problem: "text" | "", locked: bool });   // value undefined: not given
-//
-// `change(value, typing)` is called with the new value, undefined where it is empty: then the
-// default counts. A field that somebody types in is not overwritten meanwhile.
+// One place to fill in, whatever it holds: a field of a mission or trip, a parameter of an action.
+// Quantities stay as they were written: "3 min", "40 mg"; a number alone is in SI units.
 
-import { h, put, set, shown, unique } from "./dom.js";
-import { icon } from "./icons.js";
-import { amount, TIME, written } from "./quantities.js";
-import { plain } from "./words.js";
+import { h, icon, plain, put, set, shown, unique } from "./dom.js";
 
-const sentence = (text) => text.charAt(0).toUpperCase() + text.slice(1);
-
-function defaultWords({ type, units, default: value }) {
-  if (value === null || value === undefined) return "";
-  if (type === "time") return value === 0 ? "none" : written(Number(value), TIME);
-  return units?.length ? written(Number(value), units) : String(value);
-}
-
+const FACTORS = {
+  ms: 0.001, s: 1, min: 60, h: 3600, mm: 0.001, cm: 0.01, m: 1, km: 1000, mg: 1e-6, g: 0.001, kg: 1,
+  deg: Math.PI / 180, rad: 1, "%": 0.01, "m/s": 1, "km/h": 1 / 3.6, C: 1, K: 1,
+};
+const OFFSETS = { C: 273.15 };
 const USUAL = ["s", "g", "m", "deg", "%", "m/s", "C"];
+export const TIME = ["s", "min", "h"];
 
-// The unit of a number without one: that of the default, else the usual one. It is written beside
-// the number at once, so that everybody sees what was understood.
-function unitOf(field, units) {
-  const shown = defaultWords(field).split(" ")[1];
-  return shown ?? USUAL.find((unit) => units.includes(unit)) ?? units[0];
+const amount = (text) => /^\s*([+-]?\d+(?:[.,]\d+)?)\s*([A-Za-z%/]*)\s*$/.exec(String(text));
+
+export function toSi(value) {
+  if (typeof value === "number") return value;
+  const [, number, unit] = amount(value) ?? [];
+  if (number === undefined || (unit && !(unit in FACTORS))) return null;
+  return Number(number.replace(",", ".")) * (FACTORS[unit] ?? 1) + (OFFSETS[unit] ?? 0);
 }
 
-function quantity(text, unit) {
-  const clean = text.trim();
-  if (!clean) return undefined;
-  const read = amount(clean);
-  if (!read) return clean;
-  return `${read.number} ${read.unit || unit}`;
+// In the largest unit in which it is 1 or more, else in the smallest: 180 → "3 min".
+export function written(si, units) {
+  const of = (unit) => (si - (OFFSETS[unit] ?? 0)) / FACTORS[unit];
+  const by = units.toSorted((a, b) => FACTORS[b] - FACTORS[a]);
+  const best = by.find((unit) => Math.abs(of(unit)) >= 1) ?? by.at(-1);
+  return `${Number(of(best).toPrecision(6))} ${best}`;
 }
 
-function number(text) {
-  const clean = text.trim().replace(",", ".");
-  if (!clean) return undefined;
-  return Number.isFinite(Number(clean)) ? Number(clean) : text.trim();
-}
+// As it stands in the plan, in words.
+export const inWords = (value, units = []) =>
+  typeof value === "number" && units.length ? written(value, units) : String(value);
+
+const number = (text) =>
+  Number.isFinite(Number(text.replace(",", "."))) ? Number(text.replace(",", ".")) : text;
 
 function typed(field, id, change) {
   const units = field.type === "time" ? TIME : field.units ?? [];
-  const unit = unitOf(field, units);
-  const read = field.type === "int" || field.type === "float" ? number
-    : units.length ? (text) => quantity(text, unit) : (text) => text.trim() || undefined;
+  const fallback = field.default ?? null;
+  const usual = fallback === null ? "" : fallback === 0 && field.type === "time" ? "none"
+    : inWords(fallback, units);
+  // the unit of a number without one is written beside it, so that it is seen what was understood
+  const unit = (units.length && usual.split(" ")[1]) || USUAL.find((one) => units.includes(one));
+  const numeric = field.type === "int" || field.type === "float";
+  const read = (text) => {
+    const clean = text.trim();
+    if (!clean) return undefined;
+    if (numeric) return number(clean);
+    const [, value, of] = (units.length && amount(clean)) || [];
+    return value ? `${number(value)} ${of || unit}` : clean;
+  };
   const dayTime = field.type === "time of day";
-  const fallback = defaultWords(field);
-  const example = units.length ? `such as 3 ${field.type === "time" ? "min" : unit}` : null;
   const input = h("input", {
-    id, type: dayTime ? "time" : "text", autocomplete: "off", spellcheck: "false",
-    inputmode: field.type === "int" ? "numeric" : null,
-    placeholder: fallback || example,
-    maxlength: 500,
+    id, type: dayTime ? "time" : "text", maxlength: 500, autocomplete: "off", spellcheck: "false",
+    inputmode: numeric && "decimal",
+    placeholder: usual || (unit && `such as 3 ${field.type === "time" ? "min" : unit}`),
     oninput: () => change(read(input.value), true),
-    onchange: () => {
+    onchange() {
       const value = read(input.value);
-      if (!dayTime) input.value = value === undefined ? "" : String(value);
+      input.value = value ?? "";
       change(value, false);
     },
   });
   const show = (value) => {
-    if (document.activeElement === input) return;
-    const text = value === undefined || value === null ? ""
-      : typeof value === "number" && units.length ? written(value, units) : String(value);
-    if (input.value !== text) input.value = text;
+    const text = value === undefined || value === null ? "" : inWords(value, units);
+    if (document.activeElement !== input && input.value !== text) input.value = text;
   };
   return { input, show };
 }
 
-function chosen(choices, none, id, change) {
-  const input = h("select", { id, onchange: () => change(input.value || undefined, false) },
-    none === null ? null : h("option", { value: "" }, none),
-    choices.map((choice) => h("option", { value: choice }, plain(choice))));
-  return { input, show: (value) => { input.value = value ?? ""; } };
-}
-
-function ticked(field, id, change) {
-  const input = h("input", {
-    id, type: "checkbox", onchange: () => change(input.checked, false),
-  });
-  return { input, show: (value) => { input.checked = value ?? field.default ?? false; } };
-}
-
 // How many rounds more, or on and on.
-function rounds(field, id, change) {
+function rounds(id, change) {
   const count = h("input", {
-    id, type: "number", min: 0, step: 1, inputmode: "numeric", placeholder: "0",
+    id, type: "number", min: 0, placeholder: "0",
     oninput: () => change(count.value === "" ? undefined : Number(count.value), true),
   });
   const forever = h("input", {
-    type: "checkbox",
-    onchange: () => change(forever.checked ? true : undefined, false),
+    type: "checkbox", onchange: () => change(forever.checked || undefined, false),
   });
-  const input = h("div", { class: "rounds" }, count, h("span", { class: "hint" }, "more rounds"),
+  const whole = h("div", { class: "row rounds" }, count, h("span", { class: "hint" }, "more rounds"),
     h("label", { class: "check" }, forever, "until stopped"));
   return {
-    input, invalid: count, controls: [count, forever],
+    input: count, whole, also: forever,
     show(value) {
       forever.checked = value === true;
-      count.disabled = forever.checked;
-      if (document.activeElement === count) return;
-      count.value = typeof value === "number" ? value : "";
+      count.disabled ||= forever.checked;
+      if (document.activeElement !== count) count.value = typeof value === "number" ? value : "";
     },
   };
 }
 
 function control(field, id, evaluators, change) {
-  if (field.type === "rounds") return rounds(field, id, change);
-  if (field.type === "evaluator") return chosen(evaluators, "None", id, change);
-  if (field.type === "bool") return ticked(field, id, change);
-  return typed(field, id, change);
+  if (field.type === "rounds") return rounds(id, change);
+  if (field.type === "bool") {
+    const input = h("input", { id, type: "checkbox", onchange: () => change(input.checked, false) });
+    return { input, show: (value) => { input.checked = value ?? field.default ?? false; } };
+  }
+  if (field.type !== "evaluator") return typed(field, id, change);
+  const input = h("select", { id, onchange: () => change(input.value || undefined, false) },
+    h("option", { value: "" }, "None"),
+    evaluators.map((name) => h("option", { value: name }, plain(name))));
+  return { input, show: (value) => { input.value = value ?? ""; } };
 }
 
+// field: { name, type, label?, default?, units? }; change(value, typing), undefined where it is empty.
+// → { element, input, update(value, { problem, locked }) }; what somebody types in stays meanwhile.
 export function fieldFor(field, { evaluators = [], change }) {
   const id = unique(field.name);
-  const made = control(field, id, evaluators, change);
-  const main = made.invalid ?? made.input;
-  const words = h("span", {});
-  const problem = h("p", { class: "problem", id: `${id}-problem`, hidden: true },
-    icon("warning"), words);
-  const label = h("label", { for: id }, field.label ?? sentence(plain(field.name)));
-  set(main, "aria-describedby", `${id}-problem`);
-  const element = h("div", { class: "field", "data-field": field.name },
-    label, made.input, problem);
+  const { input, whole = input, also, show } = control(field, id, evaluators, change);
+  const words = h("span");
+  const problem = h("p", { class: "problem", id: `${id}-problem` }, icon("warning"), words);
+  const name = plain(field.name);
+  const label = field.label ?? name[0].toUpperCase() + name.slice(1);
+  set(input, "aria-describedby", problem.id);
   return {
-    element, input: main,
+    input,
+    element: h("div", { class: "field", "data-field": field.name },
+      h("label", { for: id }, label), whole, problem),
     update(value, { problem: text = "", locked = false } = {}) {
-      for (const each of made.controls ?? [made.input]) each.disabled = locked;
-      made.show(value);
+      input.disabled = locked;
+      if (also) also.disabled = locked;
+      show(value);
       put(words, text);
       shown(problem, text);
-      set(main, "aria-invalid", text ? "true" : null);
+      set(input, "aria-invalid", text && "true");
     },
   };
 }

@@ -4,7 +4,7 @@ import { battery } from "./battery.js";
 import { attribute, words } from "./quick.js";
 import { sign, tone } from "./signs.js";
 import { droneWord } from "./standing.js";
-import { many } from "./words.js";
+import { many } from "./dom.js";
 
 function droneLine(context, id, category, chosen) {
   const [status, trips] = [words(), words()];

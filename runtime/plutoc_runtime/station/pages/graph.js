@@ -4,7 +4,7 @@ import { drawing } from "./graph_drawing.js";
 import { hasEnded } from "./standing.js";
 import { tokens } from "./tokens.js";
 import { END, START, finder } from "./ways.js";
-import { many } from "./words.js";
+import { many } from "./dom.js";
 
 const LIT = 2500; // ms that an edge stays lit after a mission took it
 

@@ -1,76 +1,111 @@
 // The station's page: finds out what app this is, puts the frame up, and lets the pages live in it.
-// The pages are loaded one by one: whatever is wrong with one of them, Stop works.
+// They are loaded one by one: whatever is wrong with one of them, Stop works.
 
-import { get } from "./api.js";
-import { tell } from "./commands.js";
-import { fill, h } from "./dom.js";
-import { gate } from "./gate.js";
+import { get, keepToken, takeToken, token, wait } from "./api.js";
+import { fill, h, icon, set, shown } from "./dom.js";
+import { head, hush, notices, say, tell } from "./head.js";
 import { liveFeed } from "./live.js";
-import { planKept } from "./plan.js";
-import { hush, notices, say } from "./say.js";
-import { selection } from "./selection.js";
-import { tabs } from "./tabs.js";
-import { takeToken } from "./token.js";
-import { top } from "./top.js";
+import { planKept, selection } from "./plan.js";
 
-const PAGES = [
-  { id: "missions", title: "Missions", load: () => import("./missions.js") },
-  { id: "trips", title: "Trips", load: () => import("./trips.js") },
-  { id: "monitor", title: "Monitor", load: () => import("./monitor.js") },
-  { id: "help", title: "Help", load: () => import("./help.js") },
-];
+const LOAD = {
+  missions: () => import("./missions.js"),
+  trips: () => import("./trips.js"),
+  monitor: () => import("./monitor.js"),
+  help: () => import("./help.js"),
+};
+const IDS = Object.keys(LOAD);
+const capital = (id) => id[0].toUpperCase() + id.slice(1);
 
 takeToken();
 const live = liveFeed();
 const plan = planKept();
-const context = { app: null, live, plan, say, hush, tell, selected: selection(plan), go: null };
-const made = new Map(); // id of a page → the page
-let open = null;
-let planSaid = ""; // what is wrong with keeping the plan
+const context = { app: {}, live, plan, say, hush, tell, selected: selection(plan), go };
+const pages = new Map();
+let now = "";
+let said = "";
 
-const pages = tabs(PAGES, (id) => {
-  open?.hide?.();
-  open = made.get(id) ?? null;
-  open?.show?.();
-});
-context.go = pages.go;
-const head = top(context, pages.bar);
+// A tab and its page for each; which one is open stands in the address after #.
+const buttons = IDS.map((id) => h("button", {
+  class: "tab", role: "tab", id: `tab-${id}`, "aria-controls": `page-${id}`, onclick: () => go(id),
+}, capital(id)));
+const panels = IDS.map((id) => h("section", {
+  class: "page", role: "tabpanel", id: `page-${id}`, "aria-labelledby": `tab-${id}`,
+}));
+const bar = h("div", {
+  class: "tabs", role: "tablist", "aria-label": "Pages",
+  onkeydown(event) {
+    const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
+    if (!step) return;
+    event.preventDefault();
+    const to = (IDS.indexOf(now) + step + IDS.length) % IDS.length;
+    go(IDS[to]);
+    buttons[to].focus();
+  },
+}, buttons);
 
-// Another name than the station's own is refused in words; without a token there is a place for it.
-function closed({ status, message }) {
-  fill(document.body, status === 401 ? gate()
-    : h("main", { class: "gate" }, h("p", { class: "card" }, message)));
+function go(id, quiet) {
+  const there = pages.get(now);
+  now = IDS.includes(id) ? id : IDS[0];
+  if (!quiet && location.hash !== `#${now}`) history.pushState(null, "", `#${now}`);
+  IDS.forEach((other, i) => {
+    set(buttons[i], "aria-selected", String(other === now));
+    buttons[i].tabIndex = other === now ? 0 : -1;
+    shown(panels[i], other === now);
+  });
+  there?.hide?.();
+  pages.get(now)?.show?.();
 }
 
-// → what the station says of the app, or null where it wants a token first.
-async function described() {
-  for (;;) {
-    try {
-      return await get("/api/app");
-    } catch (error) {
-      if (error.status === 401 || error.status === 403) {
-        closed(error);
-        return null;
-      }
-      say(`${error.message} Trying again.`, { bad: true });
-      await new Promise((done) => setTimeout(done, 1000));
-    }
+const top = head(context, bar);
+
+async function make(id, i) {
+  try {
+    const page = (await LOAD[id]())[id](context);
+    pages.set(id, page);
+    panels[i].append(page.element);
+    if (now === id) page.show?.();
+  } catch (error) {
+    console.error(error);
+    fill(panels[i], h("p", { class: "card" },
+      "This page could not be shown. Load it again; Stop works here, too."));
   }
 }
 
-async function make({ id, title, load }) {
-  try {
-    const page = (await load())[id](context);
-    made.set(id, page);
-    pages.panel(id).append(page.element);
-    if (pages.now() === id) {
-      open = page;
-      page.show?.();
+// Without the station's token: where to find it, and a place to put it. Any other no is shown.
+function closed({ status, message }) {
+  const input = h("input", { id: "token", type: "password", autocomplete: "off", required: true });
+  const form = h("form", {
+    class: "stack",
+    onsubmit(event) {
+      event.preventDefault();
+      keepToken(input.value.replace(/^.*#token=/, ""));
+      location.reload();
+    },
+  },
+  h("p", {}, "It was printed where the station was started, in the line that begins with ",
+    h("code", {}, "station:"), ". Open the whole address from there, or paste it here."),
+  h("div", { class: "field" }, h("label", { for: "token" }, "Address or token"), input),
+  token() && h("p", { class: "problem", role: "alert" }, icon("warning"),
+    "The station knows no such token: it makes a new one each time it is started."),
+  h("div", {}, h("button", { class: "button primary" }, "Open the station")));
+  fill(document.body, h("main", { class: "gate" }, h("div", { class: "card stack" },
+    h("h1", {}, status === 401 ? "This station asks for its token" : message),
+    status === 401 && form)));
+}
+
+// → whether we may know what app this is
+async function described() {
+  for (;;) {
+    try {
+      Object.assign(context.app, await get("/api/app"));
+      return true;
+    } catch (error) {
+      if (error.status === 401 || error.status === 403) {
+        closed(error);
+        return false;
+      }
     }
-  } catch (error) {
-    console.error(error);
-    pages.panel(id).append(h("p", { class: "card" },
-      `The page ${title} could not be shown. Load the page again; Stop works here, too.`));
+    await wait(1000);
   }
 }
 
@@ -78,50 +113,42 @@ let loading = false;
 async function loadPlan() {
   if (loading) return;
   loading = true;
-  await plan.load().catch(() => null); // asked again as long as the revisions differ
+  await plan.load().catch(() => wait(500)); // asked again as long as the revisions differ
   loading = false;
 }
 
 // The station was started again: its app may be another by now.
 async function anew() {
-  const { server, speed, sim, ...was } = context.app;
-  const app = await described();
-  if (!app) return;
-  const { server: _, speed: __, sim: ___, ...is } = app;
-  if (JSON.stringify(was) !== JSON.stringify(is)) location.reload();
-  context.app = app;
+  const shape = () => JSON.stringify({ ...context.app, server: "", sim: "", speed: "" });
+  const was = shape();
+  if (!await described()) return;
+  if (shape() !== was) location.reload();
   hush("The station was started again.");
-  await loadPlan();
-}
-
-function update(changes) {
-  head.update();
-  const { phase, plan: revision } = live.state;
-  if (revision !== undefined && revision !== plan.revision() && !plan.unsaved()) loadPlan();
-  if (phase !== "unknown") open?.update?.(live, changes);
+  loadPlan();
 }
 
 async function begin() {
-  fill(document.body, head.element, pages.element, notices);
-  const first = location.hash.slice(1);
-  pages.go(PAGES.some((page) => page.id === first) ? first : "missions", true);
-  context.app = await described();
-  if (!context.app) return;
-  live.changed.heard(update);
+  fill(document.body, top.element, h("main", {}, panels), notices);
+  go(location.hash.slice(1), true);
+  window.addEventListener("popstate", () => go(location.hash.slice(1), true));
+  if (!await described()) return;
+  live.changed.heard((changes) => {
+    top.update();
+    if (live.state.plan !== plan.revision() && !plan.unsaved()) loadPlan();
+    pages.get(now)?.update?.(live, changes);
+  });
   live.other.heard(anew);
   live.denied.heard(() => closed({ status: 401 }));
   plan.changed.heard(() => {
-    head.update();
-    if (plan.said && plan.said !== planSaid) say(plan.said, { bad: true });
-    planSaid = plan.said;
+    top.update();
+    if (plan.said && plan.said !== said) say(plan.said, { bad: true });
+    said = plan.said;
   });
-  plan.refused.heard((said) => say(said, { bad: true }));
-  window.addEventListener("beforeunload", (event) => {
-    if (plan.unsaved() && plan.trouble) event.preventDefault();
-  });
+  plan.refused.heard((text) => say(text, { bad: true }));
+  window.addEventListener("beforeunload", (event) => plan.trouble && event.preventDefault());
   live.start();
-  await Promise.all([loadPlan(), ...PAGES.map(make)]);
-  if (!plan.loaded) setTimeout(loadPlan, 1000);
+  loadPlan();
+  IDS.forEach(make);
 }
 
 begin();

@@ -3,7 +3,7 @@
 //
 //   mapPicture(app.map).then((address) => …)      null: there is none
 
-import { token } from "./token.js";
+import { token } from "./api.js";
 
 let fetched = null;
 

@@ -2,7 +2,7 @@
 import { h } from "./dom.js";
 import { attribute, words } from "./quick.js";
 import { sparkline } from "./sparkline.js";
-import { clock } from "./words.js";
+import { clock } from "./dom.js";
 
 const SHOWN = 200;
 

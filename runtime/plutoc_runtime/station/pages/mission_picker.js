@@ -1,9 +1,9 @@
 // Whose trips these are: the missions to choose from, above the map.
 
 import { fill, h, unique } from "./dom.js";
-import { icon } from "./icons.js";
-import { addMission } from "./plan_edits.js";
-import { many, newKey } from "./words.js";
+import { icon } from "./dom.js";
+import { addMission } from "./plan.js";
+import { many, newKey } from "./dom.js";
 
 export function newMission({ plan, selected }) {
   const key = newKey();

@@ -1,7 +1,7 @@
 // Photos: the piece of the floor plan that the camera saw, and what can be made out on it.
 import { h, svg } from "./dom.js";
 import { metres, spoken } from "./standing.js";
-import { clock } from "./words.js";
+import { clock } from "./dom.js";
 
 const SHOWN = 60;
 

@@ -1,24 +1,13 @@
-// The plan that everybody draws together.
-//
-//   const plan = planKept();          await plan.load();
-//   plan.missions                     [{ key, name, launched, trips, … }…]: never changed in place
-//   plan.problems                     [{ mission: key|null, trip: key|null, field, text }…]
-//   plan.edit(change)                 change: missions → missions, seen at once, saved by itself
-//   plan.edit(change, true)           the same while somebody types: saved after a moment
-//   plan.changed.heard(() => …)       the plan has changed, here or elsewhere
-//   plan.unsaved() · plan.trouble     is something not saved yet? · why, in words, or ""
-//   plan.said                         what is wrong with keeping it at the station, or ""
-//   plan.refused.heard((said) => …)   the station would not have it; the plan is as it was before
-//
-// Somebody else may change the plan meanwhile: then our changes are made to theirs, and sent again.
-// So a change must find what it changes by its key, and leave all alone where that has gone;
-// plan_edits.js has the usual ones. What is changed without a connection is kept, and sent later.
+// The plan that everybody draws together, and its usual changes. A change is a function from missions
+// to missions, which are never changed in place; it finds what it changes by key. It is seen at once
+// and saved by itself: where somebody else was quicker, it is made to theirs and sent again, and
+// without a connection it is kept and sent later.
 
-import { bell } from "./bell.js";
-import { get, send } from "./api.js";
+import { get, send, wait } from "./api.js";
+import { bell, freeName, newKey } from "./dom.js";
 
-const TYPING = 300;
-const BETWEEN = 120; // ms between two savings, also while a pin is dragged
+const TYPING = 300; // ms
+const BETWEEN = 120; // two savings, also while a pin is dragged
 
 export function planKept() {
   let base = { revision: 0, missions: [], problems: [] };
@@ -27,7 +16,7 @@ export function planKept() {
   let sending = false;
   let tries = 0;
   let sentAt = -BETWEEN;
-
+  // said: what is wrong with keeping it at the station; trouble: why it is not saved
   const plan = {
     missions: [], problems: [], said: "", trouble: "", loaded: false,
     changed: bell(), refused: bell(),
@@ -36,16 +25,8 @@ export function planKept() {
   function replay() {
     plan.missions = pending.reduce((missions, change) => change(missions), base.missions);
     plan.problems = base.problems;
+    plan.said = base.said ?? "";
     plan.changed.ring();
-  }
-
-  function take(fresh) {
-    base = fresh;
-    plan.loaded = true;
-    plan.said = fresh.said ?? "";
-    plan.trouble = "";
-    tries = 0;
-    replay();
   }
 
   function later(time) {
@@ -63,44 +44,40 @@ export function planKept() {
       const content = { revision: base.revision, missions: plan.missions };
       const { status, data } = await send("PUT", "/api/plan", content);
       if (status !== 409) pending = pending.slice(sent);
-      take(data);
-    } catch (error) {
-      refuse(error, sent);
+      plan.take(data);
+    } catch ({ status, message }) {
+      if (status === 400 || status === 413) { // the station will never have it
+        pending = pending.slice(sent);
+        replay();
+        plan.refused.ring(message);
+      } else {
+        tries = Math.min(tries + 1, 3);
+        plan.trouble = message;
+        plan.changed.ring();
+      }
     }
     sending = false;
     if (pending.length) later(tries ? Math.min(2000, 250 * 2 ** tries) : 0);
   }
 
-  function refuse(error, sent) {
-    if (error.status === 400 || error.status === 413) {
-      pending = pending.slice(sent);
-      replay();
-      plan.refused.ring(error.message);
-      return;
-    }
-    tries = Math.min(tries + 1, 3);
-    plan.trouble = error.message;
-    plan.changed.ring();
-  }
-
-  // What we have not sent yet is made to what came from the station.
-  plan.take = take;
+  plan.take = (fresh) => {
+    base = fresh;
+    plan.loaded = true;
+    plan.trouble = "";
+    tries = 0;
+    replay();
+  };
   plan.load = async () => {
-    if (!sending) {
-      const fresh = await get("/api/plan");
-      if (!sending && (!plan.loaded || fresh.revision !== base.revision)) take(fresh);
-    }
+    const fresh = await get("/api/plan");
+    if (!sending && (!plan.loaded || fresh.revision !== base.revision)) plan.take(fresh);
     if (pending.length) later(0);
   };
   plan.revision = () => base.revision;
   plan.unsaved = () => pending.length > 0;
-  // Resolves when all that was changed here is saved, or after `time` ms.
-  plan.saved = async (time = 3000) => {
-    const until = performance.now() + time;
+  // Resolves when everything is saved, or after a while.
+  plan.saved = async () => {
     if (pending.length) later(0);
-    while (pending.length && performance.now() < until) {
-      await new Promise((done) => setTimeout(done, 30));
-    }
+    for (let i = 0; pending.length && i < 100; i += 1) await wait(30);
     return !pending.length;
   };
   plan.edit = (change, typing = false) => {
@@ -110,4 +87,70 @@ export function planKept() {
     later(typing ? TYPING : 0);
   };
   return plan;
+}
+
+// Which mission is selected, on all pages alike; a tab that is loaded again remembers it.
+export function selection(plan) {
+  const NAME = "pluto-selected";
+  const selected = { key: sessionStorage.getItem(NAME), changed: bell() };
+  selected.mission = () => plan.missions.find(({ key }) => key === selected.key) ?? null;
+  selected.set = (key) => {
+    if (key === selected.key) return;
+    selected.key = key;
+    if (key === null) sessionStorage.removeItem(NAME);
+    else sessionStorage.setItem(NAME, key);
+    selected.changed.ring();
+  };
+  plan.changed.heard(() => plan.loaded && !selected.mission() && selected.set(null));
+  return selected;
+}
+
+const names = (missions) => missions.map(({ name }) => name);
+const has = (missions, key) => missions.some((mission) => mission.key === key);
+
+// change: mission → mission. Those that fly stay as they are.
+export const inMission = (key, change) => (missions) =>
+  missions.map((mission) =>
+    mission.key === key && !mission.launched ? change(mission) : mission);
+
+// undefined takes the field away
+export function withField(thing, name, value) {
+  const { [name]: _, ...rest } = thing;
+  return value === undefined ? rest : { ...thing, [name]: value };
+}
+
+export const setField = (key, name, value) =>
+  inMission(key, (mission) => withField(mission, name, value));
+
+export const addMission = (key, extra = {}) => (missions) => has(missions, key) ? missions : [
+  ...missions,
+  { key, name: freeName("Mission", names(missions), missions.length + 1), trips: [], ...extra },
+];
+
+export function copyMission(key, fresh) {
+  const keys = new Map(); // the same new keys each time that the change is made
+  const another = (old) => keys.get(old) ?? keys.set(old, newKey()).get(old);
+  return (missions) => {
+    const at = missions.findIndex((mission) => mission.key === key);
+    if (at < 0 || has(missions, fresh)) return missions;
+    const { launched, name, trips, ...rest } = missions[at];
+    return missions.toSpliced(at + 1, 0, {
+      ...rest, key: fresh, name: freeName(name.trim().replace(/ \d+$/, ""), names(missions), 2),
+      trips: trips.map((trip) => ({ ...trip, key: another(trip.key) })),
+    });
+  };
+}
+
+export const deleteMission = (key) => (missions) =>
+  missions.filter((mission) => mission.key !== key || mission.launched);
+
+export const putBack = (mission, index) => (missions) =>
+  has(missions, mission.key) ? missions : missions.toSpliced(index, 0, mission);
+
+// A list of missions or trips, with one of them at another place.
+export function moved(list, key, to) {
+  const from = list.findIndex((thing) => thing.key === key);
+  if (from < 0) return list;
+  const rest = list.toSpliced(from, 1);
+  return rest.toSpliced(Math.max(0, Math.min(to, rest.length)), 0, list[from]);
 }

@@ -1,7 +1,7 @@
 // What is wrong with a plan, at the places where it is: the station's problems by mission and trip.
 
 import { h } from "./dom.js";
-import { icon } from "./icons.js";
+import { icon } from "./dom.js";
 
 /** → { own: [{field, text}…] of the mission itself, trips: Map of key → [{field, text}…] } */
 export function problemsOf(plan, mission) {

@@ -5,7 +5,7 @@ import { details } from "./details.js";
 import { attribute, visible, words } from "./quick.js";
 import { sign, tone } from "./signs.js";
 import { missionWord } from "./standing.js";
-import { seconds } from "./words.js";
+import { seconds } from "./dom.js";
 
 export function missionRow(context, app, name, chosen) {
   const [state, why, left, trip, drone, attempt, round] = Array.from({ length: 7 }, () => words());

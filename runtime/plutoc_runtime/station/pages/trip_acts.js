@@ -3,7 +3,7 @@
 import { called } from "./action_signs.js";
 import { number } from "./numbers.js";
 import * as edits from "./trip_edits.js";
-import { newKey } from "./words.js";
+import { newKey } from "./dom.js";
 
 export function tripActs({ app, plan, selected, say, hush }, { choose, focus }) {
   const mission = () => selected.mission();

@@ -7,7 +7,7 @@ import { called } from "./action_signs.js";
 import { coordinates } from "./coordinates.js";
 import { fill, h, put, set, shown, unique } from "./dom.js";
 import { fieldFor } from "./fields.js";
-import { icon } from "./icons.js";
+import { icon } from "./dom.js";
 import { number } from "./numbers.js";
 import { problemLine, textOf } from "./problems.js";
 import { RELEASE } from "./trip_edits.js";

@@ -6,7 +6,7 @@
 
 import { actionSign } from "./action_signs.js";
 import { fill, h, keyed, put, set, shown, unique } from "./dom.js";
-import { icon } from "./icons.js";
+import { icon } from "./dom.js";
 import { number } from "./numbers.js";
 import { reorderable } from "./reorder.js";
 import { tripBody } from "./trip_body.js";

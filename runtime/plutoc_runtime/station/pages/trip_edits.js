@@ -1,8 +1,8 @@
 // The changes of a mission's trips, for `plan.edit`. What is released is always what was picked
 // before, so a release follows its pick through every change.
 
-import { inMission, moved, withField } from "./plan_edits.js";
-import { newKey } from "./words.js";
+import { inMission, moved, withField } from "./plan.js";
+import { newKey } from "./dom.js";
 
 export const PICK = "pick_item";
 export const RELEASE = "release_item";

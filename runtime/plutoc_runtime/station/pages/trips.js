@@ -5,7 +5,7 @@ import { actions } from "./actions.js";
 import { called } from "./action_signs.js";
 import { fill, h, put, shown } from "./dom.js";
 import { floorPlan } from "./floor.js";
-import { icon } from "./icons.js";
+import { icon } from "./dom.js";
 import { missionPicker } from "./mission_picker.js";
 import { ghostPin } from "./pin_ghost.js";
 import { pins } from "./pins.js";

@@ -1,9 +1,9 @@
 // What to do first where no mission is selected: trips always belong to one.
 
 import { fill, h, shown } from "./dom.js";
-import { icon } from "./icons.js";
+import { icon } from "./dom.js";
 import { newMission } from "./mission_picker.js";
-import { many } from "./words.js";
+import { many } from "./dom.js";
 
 const SHOWN = 8; // missions
 

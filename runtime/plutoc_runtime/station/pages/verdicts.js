@@ -1,6 +1,6 @@
 // What the app's evaluators said of the missions, newest first.
 import { h } from "./dom.js";
-import { clock } from "./words.js";
+import { clock } from "./dom.js";
 
 const SHOWN = 200;
 
