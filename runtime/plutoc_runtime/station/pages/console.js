@@ -1,73 +1,62 @@
 // What happens, line by line: it follows the newest, unless one reads further up.
-import { h } from "./dom.js";
-import { fetched } from "./fetched.js";
-import { clock, many } from "./dom.js";
 
-const KEPT = 5000; // lines that the filters can find
+import { clock, h, many, put, shown } from "./dom.js";
+
 const SHOWN = 1000; // lines on the page
 const TOGETHER = 50; // lines in a block of the page: those out of sight cost nothing
-const KINDS = [
-  ["", "All lines"],
-  ["info", "News"],
-  ["good", "Good news"],
-  ["bad", "Trouble"],
-  ["hook", "The app's own lines"],
-];
+const KINDS = {
+  "": "All lines", info: "News", good: "Good news", bad: "Trouble", hook: "The app's own lines",
+};
 const SIGNS = { good: "✓", bad: "!", hook: "›" };
 
-function line([, time, mission, text, kind]) {
-  return h(
-    "div",
-    { class: `log-line ${kind}` },
-    h("span", { class: "m-when" }, clock(time)),
-    h("span", { class: "m-kind", "aria-hidden": "true" }, SIGNS[kind] ?? ""),
-    mission === null ? null : h("span", { class: "m-of" }, mission),
-    h("span", { class: "m-text" }, text),
-  );
-}
+const line = ([, time, mission, text, kind]) => h("div", { class: `log-line ${kind}` },
+  h("span", { class: "when" }, clock(time)),
+  h("span", { class: "what", "aria-hidden": "true" }, SIGNS[kind]),
+  mission !== null && h("b", null, mission), h("span", null, text));
 
-export function consoleView(context) {
-  let kept = [];
+export function consoleView(context, save) {
+  const { live } = context;
+  const option = ([value, label]) => h("option", { value }, label);
+  const text = h("input", {
+    type: "search", class: "input", placeholder: "Find text", "aria-label": "Find text",
+    oninput: rewrite,
+  });
+  const of = h("select", { class: "input", "aria-label": "Of which mission", onchange: rewrite },
+    option(["", "All missions"]));
+  const kind = h("select", { class: "input", "aria-label": "Which lines", onchange: rewrite },
+    Object.entries(KINDS).map(option));
+  const lines = h("div", {
+    class: "log", role: "log", "aria-live": "off", "aria-label": "Console", tabIndex: 0,
+    onscroll: () => {
+      following = lines.scrollTop + lines.clientHeight >= lines.scrollHeight - 8;
+      if (following) unread = 0;
+      shown(newest, unread);
+    },
+  });
+  const newest = h("button", {
+    class: "button small newest", hidden: true, onclick: () => {
+      following = true;
+      follow();
+      lines.focus();
+    },
+  });
+  const missions = new Set();
   let following = true;
   let unread = 0;
   let block = null;
-  const missions = new Set();
-  const text = h("input", { type: "search", placeholder: "Find text", "aria-label": "Find text" });
-  const mission = h("select", { "aria-label": "Of which mission" }, h("option", { value: "" }, "All missions"));
-  const kind = h(
-    "select",
-    { "aria-label": "Which lines" },
-    ...KINDS.map(([value, label]) => h("option", { value }, label)),
-  );
-  const save = h("button", { type: "button", class: "button quiet small" }, "Download");
-  save.addEventListener("click", () => fetched(context, "/api/console.txt", "console.txt"));
-  const tools = h("div", { class: "console-tools" }, text, mission, kind, save);
 
-  const lines = h("div", {
-    class: "log",
-    role: "log",
-    "aria-live": "off",
-    "aria-label": "Console",
-    tabindex: "0",
-  });
-  const newest = h("button", { type: "button", class: "button newest" });
-  newest.hidden = true;
-  newest.addEventListener("click", () => {
-    lines.scrollTop = lines.scrollHeight;
-    lines.focus();
-  });
-  const element = h("div", { class: "console-body" }, lines, newest);
-
-  const passes = ([, , of, said, kind_]) =>
-    (!mission.value || of === mission.value) &&
-    (!kind.value || kind_ === kind.value) &&
-    (!text.value || `${of ?? ""} ${said}`.toLowerCase().includes(text.value.toLowerCase()));
-  const follow = () => {
-    if (following) lines.scrollTop = lines.scrollHeight;
-    newest.hidden = following || unread === 0;
-    if (!newest.hidden) newest.textContent = `${many(unread, "new line")} below`;
-  };
-  const add = (entries) => {
+  const fits = ([, , mission, said, sort]) => (!of.value || mission === of.value)
+    && (!kind.value || sort === kind.value)
+    && `${mission ?? ""} ${said}`.toLowerCase().includes(text.value.toLowerCase());
+  function follow() {
+    if (following) {
+      lines.scrollTop = lines.scrollHeight;
+      unread = 0;
+    }
+    put(newest, `${many(unread, "new line")} below`);
+    shown(newest, unread);
+  }
+  function add(entries) {
     for (const entry of entries) {
       if (!block || block.childElementCount >= TOGETHER) {
         block = h("div", { class: "log-block" });
@@ -75,49 +64,33 @@ export function consoleView(context) {
       }
       block.append(line(entry));
     }
-  };
-  const rewrite = () => {
+    while (lines.childElementCount > SHOWN / TOGETHER) lines.firstElementChild.remove();
+    follow();
+  }
+  function rewrite() {
+    block = null;
+    following = true;
+    lines.replaceChildren();
+    add(live.log.filter(fits).slice(-SHOWN));
+  }
+  function update(entries) {
+    for (const [, , mission] of entries) {
+      if (mission === null || missions.has(mission)) continue;
+      missions.add(mission);
+      of.append(option([mission, mission]));
+    }
+    const fitting = entries.filter(fits).slice(-SHOWN);
+    if (!following) unread += fitting.length;
+    add(fitting);
+  }
+  function clear() {
+    missions.clear();
+    of.replaceChildren(of.firstElementChild);
     block = null;
     lines.replaceChildren();
-    add(kept.filter(passes).slice(-SHOWN));
-    following = true;
-    unread = 0;
-    follow();
+  }
+  new ResizeObserver(follow).observe(lines);
+  return {
+    tools: [text, of, kind, save("/api/console.txt")], body: [lines, newest], update, clear,
   };
-  lines.addEventListener("scroll", () => {
-    following = lines.scrollTop + lines.clientHeight >= lines.scrollHeight - 8;
-    if (following) unread = 0;
-    newest.hidden = following || unread === 0;
-  });
-  let typing = 0;
-  text.addEventListener("input", () => {
-    clearTimeout(typing);
-    typing = setTimeout(rewrite, 150);
-  });
-  for (const each of [mission, kind]) each.addEventListener("change", rewrite);
-
-  const update = (entries) => {
-    kept.push(...entries);
-    if (kept.length > KEPT * 1.2) kept = kept.slice(-KEPT);
-    for (const entry of entries) {
-      if (entry[2] === null || missions.has(entry[2])) continue;
-      missions.add(entry[2]);
-      mission.append(h("option", { value: entry[2] }, entry[2]));
-    }
-    const fitting = entries.filter(passes).slice(-SHOWN);
-    if (!fitting.length) return;
-    add(fitting);
-    while (lines.childElementCount > SHOWN / TOGETHER) lines.firstElementChild.remove();
-    unread = following ? 0 : unread + fitting.length;
-    follow();
-  };
-  const clear = () => {
-    kept = [];
-    missions.clear();
-    mission.replaceChildren(mission.firstElementChild);
-    rewrite();
-  };
-  const resized = new ResizeObserver(() => follow());
-  resized.observe(lines);
-  return { element, tools, update, clear };
 }

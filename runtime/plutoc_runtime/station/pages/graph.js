@@ -1,113 +1,128 @@
-// The app's own graph with the missions moving through it.
-import { h } from "./dom.js";
-import { drawing } from "./graph_drawing.js";
-import { hasEnded } from "./standing.js";
-import { tokens } from "./tokens.js";
-import { END, START, finder } from "./ways.js";
-import { many } from "./dom.js";
+// The app's own graph as boxes and arrows, with the missions moving through it.
+
+import { fill, h, many, set, svg } from "./dom.js";
+import { ended } from "./standing.js";
+import { finder, tokens } from "./tokens.js";
 
 const LIT = 2500; // ms that an edge stays lit after a mission took it
+const HINT = "Numbers are missions. Point at a block, or press it, to read what it does.";
 
-export function graphView(graph, chosen) {
-  const view = drawing(graph);
-  const seats = tokens(graph, view.tokens, chosen);
-  const way = finder(graph.edges);
-  const names = new Set(graph.blocks.map((block) => block.name));
-  const stand = new Map(); // mission -> blocks
-  const hint = "Numbers are missions. Point at a block, or press it, to read what it does.";
-  const caption = h("p", { class: "caption", "aria-live": "polite" }, hint);
-  const element = h("div", { class: "graph-panel" }, view.element, caption);
+function box({ name, kind, shape, x, y, w, h: height }) {
+  const words = kind.replaceAll(/([a-z])([A-Z])/g, "$1 $2");
+  const element = h("button", { class: `block ${shape}-block` }, h("b", null, name),
+    kind && h("small", null, words));
+  const { style } = element;
+  [style.width, style.height] = [`${w}px`, `${height}px`];
+  style.transform = `translate(${x}px, ${y}px)`;
+  return element;
+}
 
-  const blockOf = new Map(graph.blocks.map((block) => [block.name, block]));
-  const say = (name) => {
-    const block = name === null ? null : blockOf.get(name);
+// The corners are rounded.
+function path(points) {
+  const near = ([x, y], [toX, toY]) => {
+    const length = Math.hypot(toX - x, toY - y) || 1;
+    const part = Math.min(8, length / 2) / length;
+    return `${x + (toX - x) * part} ${y + (toY - y) * part}`;
+  };
+  return points.map((point, i) => {
+    if (!i) return `M${point.join(" ")}`;
+    const next = points[i + 1];
+    if (!next) return `L${point.join(" ")}`;
+    return `L${near(point, points[i - 1])}Q${point.join(" ")} ${near(point, next)}`;
+  }).join("");
+}
+
+const head = (id) => svg("marker", {
+  id, orient: "auto", viewBox: "0 0 8 8", refX: 7, refY: 4, markerWidth: 8, markerHeight: 8,
+  markerUnits: "userSpaceOnUse",
+}, svg("path", { d: "M0 0L8 4L0 8z" }));
+
+export function graphView({ live, app: { graph } }, chosen) {
+  const { width, height, blocks, edges } = graph;
+  const boxes = new Map(blocks.map((block) => [block.name, box(block)]));
+  const paths = new Map(edges.map((edge) => [edge, svg("path", {
+    class: `edge ${edge.fork ? "fork" : ""} ${edge.dotted ? "dotted" : ""}`, d: path(edge.points),
+  })]));
+  const layer = h("div", { class: "tokens", "aria-hidden": "true" });
+  const labels = edges.filter((edge) => edge.label).map(({ label: [x, y], statuses }) =>
+    svg("text", { x, y, "text-anchor": "middle" }, statuses.join(", ").toLowerCase()));
+  const stage = h("div", { class: "stage" },
+    svg("svg", { width, height, "aria-hidden": "true" },
+      svg("defs", null, head("head"), head("head-lit")), ...paths.values(), labels),
+    ...boxes.values(), layer);
+  const room = h("div", { class: "room" }, stage);
+  const view = h("div", { class: "graph-view" }, room);
+  new ResizeObserver(([{ contentRect }]) => {
+    if (!contentRect.width) return;
+    const scale = Math.max(0.55, Math.min(contentRect.width / width, 1.25));
+    stage.style.transform = `scale(${scale})`;
+    room.style.width = `${width * scale}px`;
+    room.style.height = `${height * scale}px`;
+  }).observe(view);
+
+  const seats = tokens(graph, layer, chosen);
+  const way = finder(edges);
+  const stood = new Map(); // mission → { blocks, status }
+  const caption = h("p", { class: "caption" }, HINT);
+  let read = null; // the block that is read now
+
+  function say(block = read) {
+    read = block;
     if (!block) {
-      caption.replaceChildren(hint);
+      fill(caption, HINT);
       return;
     }
-    const here = seats.at(name).map((row) => row.name);
-    const who = here.length ? `${many(here.length, "mission")} here: ${here.join(", ")}.` : "";
-    caption.replaceChildren(h("strong", {}, block.name), ` ${block.doc ?? ""} ${who}`);
-  };
-  let said = null;
-  const read = (name) => {
-    said = name;
-    say(name);
-  };
-  for (const [name, box] of view.boxes) {
-    for (const kind of ["pointerenter", "focus", "click"]) {
-      box.addEventListener(kind, () => read(name));
-    }
-    for (const kind of ["pointerleave", "blur"]) box.addEventListener(kind, () => read(null));
+    const rows = seats.at(block.name);
+    const who = rows.length && ` ${many(rows.length, "mission")} here: ${rows.map((row) => row.name).join(", ")}.`;
+    fill(caption, h("strong", null, block.name), ` ${block.doc}`, who || null);
   }
-
-  const lit = new Map(); // edge -> until when
-  let timer = 0;
-  const light = (edge) => {
-    if (!lit.has(edge)) {
-      view.paths.get(edge).classList.add("lit");
-      view.paths.get(edge).setAttribute("marker-end", "url(#head-lit)");
+  for (const block of blocks) {
+    const element = boxes.get(block.name);
+    for (const kind of ["pointerenter", "focus", "click"]) {
+      element.addEventListener(kind, () => say(block));
     }
-    lit.set(edge, performance.now() + LIT);
-    timer ||= setTimeout(dim, LIT / 5);
-  };
-  const dim = () => {
-    timer = 0;
-    for (const [edge, until] of lit) {
-      if (until > performance.now()) continue;
-      view.paths.get(edge).classList.remove("lit");
-      view.paths.get(edge).setAttribute("marker-end", "url(#head)");
-      lit.delete(edge);
-    }
-    if (lit.size) timer = setTimeout(dim, LIT / 5);
-  };
-
-  // A mission that has ended stands at the end, one that has not begun at the start.
-  const blocksOf = (row) => {
-    const at = row.at.filter((name) => names.has(name));
-    if (at.length) return at;
-    const aside = hasEnded(row) ? END : row.status === "UNEXECUTED" ? START : null;
-    return aside && names.has(aside) ? [aside] : [];
-  };
-  const update = (missions) => {
+    for (const kind of ["pointerleave", "blur"]) element.addEventListener(kind, () => say(null));
+  }
+  function light(edge) {
+    const element = paths.get(edge);
+    clearTimeout(element.timer);
+    element.classList.add("lit");
+    element.timer = setTimeout(() => element.classList.remove("lit"), LIT);
+  }
+  // A mission that has not begun stands at the start.
+  function blocksOf(row) {
+    const at = row.at.filter((name) => boxes.has(name));
+    if (at.length || !boxes.has("start")) return at;
+    return row.status === "UNEXECUTED" ? ["start"] : ended(row) ? ["end"] : at;
+  }
+  function update({ missions }) {
     const moves = [];
-    const statuses = [];
-    for (const row of missions) {
-      const from = stand.get(row.name)?.blocks ?? [];
+    for (const name of missions) {
+      const row = live.missions.get(name);
+      const { blocks: from, status } = stood.get(name) ?? { blocks: [] };
       const to = blocksOf(row);
-      const same = from.join("\n") === to.join("\n");
-      if (same && stand.get(row.name)?.status === row.status) continue;
-      stand.set(row.name, { blocks: to, status: row.status });
-      if (same) statuses.push({ row, from, to, ways: new Map() });
-      else moves.push({ row, from, to, ways: waysOf(row, from, to) });
+      const same = from.join() === to.join();
+      if (same && status === row.status) continue;
+      stood.set(name, { blocks: to, status: row.status });
+      const fresh = same || !from.length ? [] : to.filter((block) => !from.includes(block));
+      moves.push({ row, from, to, ways: fresh.map((block) => [block, way(from, block)]) });
     }
-    if (!moves.length && !statuses.length) return;
-    seats.move([...statuses, ...moves], stand.size);
-    for (const { ways } of moves) for (const edges of ways.values()) edges.forEach(light);
-    for (const [name, box] of view.boxes) label(name, box);
-    if (said !== null) say(said);
-  };
-  const waysOf = (row, from, to) => {
-    const fresh = to.filter((name) => !from.includes(name));
-    return new Map(from.length ? fresh.map((name) => [name, way(from, name)]) : []);
-  };
-  const label = (name, box) => {
-    const text = `${name}, ${many(seats.at(name).length, "mission")} here`;
-    if (box.getAttribute("aria-label") !== text) box.setAttribute("aria-label", text);
-  };
-  const clear = () => {
-    stand.clear();
+    if (!moves.length) return;
+    seats.move(moves, stood.size);
+    for (const { ways } of moves) ways.forEach(([, taken]) => taken.forEach(light));
+    count();
+  }
+  function count() {
+    for (const [name, element] of boxes) {
+      set(element, "aria-label", `${name}, ${many(seats.at(name).length, "mission")} here`);
+    }
+    say();
+  }
+  function clear() {
+    stood.clear();
     seats.clear();
-    for (const [name, box] of view.boxes) label(name, box);
-  };
+    count();
+  }
   clear();
-  chosen.watch((now, before) => {
-    seats.highlight(before);
-    seats.highlight(now);
-  });
-  new ResizeObserver(([entry]) => {
-    const { width } = entry.contentRect;
-    if (width) view.fit(width, 0);
-  }).observe(view.element);
-  return { element, update, clear };
+  return { body: [view, caption], update, clear };
 }

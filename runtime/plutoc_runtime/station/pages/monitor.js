@@ -1,120 +1,139 @@
-// The page one watches: missions, map, drones, the app's graph, console and results, side by side
-// on a laptop and below each other on a tablet.
-import { air } from "./air.js";
-import { choice } from "./chosen.js";
+// The page Monitor: missions, map, drones, the app's graph, console and results, side by side on a
+// laptop and below each other on a tablet.
+
+import { download } from "./api.js";
 import { consoleView } from "./console.js";
-import { h } from "./dom.js";
-import { fleetList } from "./fleet.js";
+import { bell, fill, h, keyed, many, put, set, shown } from "./dom.js";
+import { droneList, onTheMap } from "./drones.js";
 import { floorPlan } from "./floor.js";
-import { gathered } from "./gathered.js";
 import { graphView } from "./graph.js";
-import { panel } from "./panel.js";
-import { questions } from "./questions.js";
 import { resultsView } from "./results.js";
+import { question } from "./row.js";
 import { missionTable } from "./table.js";
-import { targets } from "./targets.js";
 
 const WIDE = matchMedia("(min-width: 1060px)");
-const FEW = 8; // drones whose names have room on the map
+const OFTEN = 250; // ms: what nobody reads ten times a second is written so often
+
+// Which mission is looked at: the table, the map and the graph show the same.
+function choice({ plan, selected }) {
+  const chosen = { name: null, changed: bell() };
+  chosen.set = (name) => {
+    if (name === chosen.name) return;
+    chosen.name = name;
+    const drawn = plan.missions.find((mission) => mission.name === name);
+    if (drawn) selected.set(drawn.key);
+    chosen.changed.ring();
+  };
+  return chosen;
+}
+
+// A part of the page, which its heading folds away; what was folded stays so.
+function panel(id, title, { tools = [], body }) {
+  const key = `pluto-folded-${id}`;
+  const inside = h("div", { class: "inside", id: `${id}-inside` }, body);
+  const beside = h("div", { class: "tools" }, tools);
+  const toggle = h("button", {
+    class: "fold", "aria-controls": inside.id, onclick: () => fold(!inside.hidden),
+  }, h("span", { class: "arrow" }), title);
+  const element = h("section", { class: `panel ${id}`, "aria-label": title },
+    h("div", { class: "panel-head" }, h("h2", null, toggle), beside), inside);
+  function fold(yes) {
+    for (const each of [inside, beside]) shown(each, !yes);
+    set(toggle, "aria-expanded", String(!yes));
+    if (yes) sessionStorage.setItem(key, "yes");
+    else sessionStorage.removeItem(key);
+  }
+  fold(sessionStorage.getItem(key) !== null);
+  return element;
+}
+
+function questions(context) {
+  const [heading, list] = [h("h2"), h("div")];
+  const element = h("section", { class: "questions", role: "alert", hidden: true }, heading, list);
+  element.update = () => {
+    const rows = [...context.live.missions.values()].filter((row) => row.question);
+    keyed(list, rows, (row) => `${row.name} ${row.question.text}`, (row) => question(context, row));
+    put(heading, rows.length === 1 ? "A mission waits for you"
+      : `${many(rows.length, "mission")} wait for you`);
+    shown(element, rows.length);
+  };
+  return element;
+}
 
 export function monitor(context) {
-  const { app } = context;
-  const chosen = choice();
+  const { live, app } = context;
+  const chosen = choice(context);
   const floor = floorPlan(app.map, app.drones);
+  const save = (path) => h("button", {
+    class: "button quiet small",
+    onclick: () => download(path, path.slice(5)).catch((error) => context.say(error.message, { bad: true })),
+  }, "Download");
+  const table = missionTable(context, chosen);
+  const map = onTheMap(context, floor, chosen);
+  const drones = droneList(context, chosen);
+  const graph = app.graph && graphView(context, chosen);
+  const log = consoleView(context, save);
+  const results = resultsView(context, chosen, floor, save);
   const asked = questions(context);
-  const table = missionTable(context, app, chosen, () =>
-    context.plan.missions.length
-      ? "Nothing flies yet. Press Start, and each mission has a line here."
-      : "There are no missions yet. Make some on the Missions page first.",
-  );
-  const going = targets(floor, chosen);
-  const flying = air(floor, chosen);
-  floor.element.classList.toggle("few", app.drones.length <= FEW);
-  const fleet = fleetList(context, app, chosen);
-  const graph = app.graph && graphView(app.graph, chosen);
-  const log = consoleView(context);
-  const results = resultsView(context, app, floor, chosen);
-
-  const later = {
-    drones: gathered(fleet.update, "id"),
-    log: gathered(log.update),
-    results: gathered(results.update),
-  };
-
   const panels = {
-    table: panel("missions-panel", "Missions", { tools: [table.tools], body: [table.element] }),
-    map: panel("map-panel", "Map", { body: [floor.element] }),
-    graph: graph && panel("graph-panel", "What the app does", { body: [graph.element] }),
-    drones: panel("drones-panel", "Drones", { body: [fleet.element] }),
-    log: panel("log-panel", "Console", { tools: [log.tools], body: [log.element] }),
-    results: panel("results-panel", "Results", {
-      tools: [results.tools],
-      body: [results.element],
-    }),
+    missions: panel("watch-missions", "Missions", table),
+    map: panel("watch-map", "Map", { body: floor.element }),
+    graph: graph && panel("watch-graph", "What the app does", graph),
+    drones: panel("watch-drones", "Drones", drones),
+    log: panel("watch-log", "Console", log),
+    results: panel("watch-results", "Results", results),
   };
-  const left = h("div", { class: "column main" });
-  const right = h("div", { class: "column side" });
-  const element = h("div", { class: "monitor" }, asked.element, left, right);
-  // The order of the page is the order for the keyboard, too: so panels are moved, not painted over.
-  const arrange = () => {
-    const columns = WIDE.matches
-      ? [["table", "graph", "log"], ["map", "drones", "results"]]
-      : [["table", "map", "graph", "drones", "log", "results"], []];
-    [left, right].forEach((column, index) => {
-      const those = columns[index].map((name) => panels[name]).filter(Boolean);
-      column.append(...those.map((each) => each.element));
+  const columns = [h("div", { class: "column main" }), h("div", { class: "column side" })];
+  const element = h("div", { class: "monitor" }, asked, columns);
+  // Moved, not painted over: the order for the keyboard is the one that is seen.
+  function arrange() {
+    const order = WIDE.matches ? ["missions graph log", "map drones results"]
+      : ["missions map graph drones log results", ""];
+    order.forEach((names, i) => {
+      fill(columns[i], names.split(" ").map((name) => panels[name] ?? null));
     });
-  };
+  }
   arrange();
   WIDE.addEventListener("change", arrange);
 
   let flight = null;
-  let shown = false;
+  let visible = false;
+  let timer = 0;
   let seen = { log: 0, results: 0 };
-  const newer = (list, kind) => {
+  function newer(kind) {
+    const list = live[kind];
     const first = list.findLastIndex((entry) => entry[0] <= seen[kind]) + 1;
-    if (list.length) seen[kind] = list.at(-1)[0];
+    if (list.length) [seen[kind]] = list.at(-1);
     return list.slice(first);
-  };
-  const write = (live, missions, drones) => {
-    asked.update(missions);
-    table.update(missions, drones, live.state);
-    flying.update(drones, live.state);
-    going.update(missions, drones);
-    later.drones.add(drones);
-    graph?.update(missions);
-    later.log.add(newer(live.log, "log"));
-    later.results.add(newer(live.results, "results"));
-  };
-  const everything = (live) => write(live, [...live.missions.values()], [...live.drones.values()]);
-  const clear = () => {
-    seen = { log: 0, results: 0 };
-    chosen.set(null);
-    const views = [asked, table, flying, going, fleet, graph, log, results];
-    for (const each of [...Object.values(later), ...views]) each?.clear();
-  };
-  // What came while another page was open is made up for when this one is shown.
-  const update = (live, changes) => {
-    if (!shown) return;
+  }
+  function later() {
+    timer = 0;
+    drones.update();
+    log.update(newer("log"));
+    results.update(newer("results"));
+  }
+  function write(changes) {
     if (live.flight !== flight) {
       flight = live.flight;
-      clear();
-      everything(live);
-      return;
+      seen = { log: 0, results: 0 };
+      chosen.set(null);
+      for (const each of [table, map, drones, graph, log, results]) each?.clear();
+      changes = { missions: new Set(live.missions.keys()), drones: new Set(live.drones.keys()) };
     }
-    const those = (all, names) => [...names].map((name) => all.get(name)).filter(Boolean);
-    write(live, those(live.missions, changes.missions), those(live.drones, changes.drones));
+    for (const each of [table, map, graph]) each?.update(changes);
+    if (changes.missions.size) asked.update();
+    timer ||= setTimeout(later, OFTEN);
+  }
+  return {
+    element,
+    update: (_, changes) => visible && write(changes),
+    // What came while another page was open is made up for.
+    show() {
+      visible = true;
+      write({ missions: new Set(live.missions.keys()), drones: new Set(live.drones.keys()) });
+    },
+    hide() {
+      visible = false;
+    },
   };
-  const show = () => {
-    shown = true;
-    if (context.live.flight !== flight) {
-      flight = context.live.flight;
-      clear();
-    }
-    everything(context.live);
-  };
-  const hide = () => {
-    shown = false;
-  };
-  return { element, show, hide, update };
 }

@@ -1,62 +1,170 @@
 // What the missions brought: measurements, photos and, where the app judges, verdicts.
-import { h } from "./dom.js";
-import { fetched } from "./fetched.js";
-import { measurements } from "./measurements.js";
-import { photos } from "./photos.js";
-import { words } from "./quick.js";
-import { verdicts } from "./verdicts.js";
 
-export function resultsView(context, app, floor, chosen) {
-  const save = h("button", { type: "button", class: "button quiet small" }, "Download");
-  save.addEventListener("click", () => fetched(context, "/api/results.json", "results.json"));
-  const parts = [
-    { kind: "value", label: "Measurements", view: measurements(chosen) },
-    { kind: "photo", label: "Photos", view: photos(app.map, floor, chosen) },
-  ];
-  if (app.evaluators.length) {
-    parts.push({ kind: "verdict", label: "Verdicts", view: verdicts(chosen) });
+import { clock, h, plain, put, set, shown, svg } from "./dom.js";
+import { mapPicture } from "./map_picture.js";
+import { mark, round } from "./standing.js";
+import { sieve } from "./table.js";
+
+const LINES = 300;
+const PHOTOS = 60;
+const VALUES = 60; // in a sparkline
+const written = (value) => (typeof value === "number" ? Number(value.toPrecision(4)) : value);
+
+// How a value went, in a few pixels; a ring marks the newest.
+function sparkline(values) {
+  const [low, high] = [Math.min(...values), Math.max(...values)];
+  const points = values.map((value, i) => [4 + (i * 80) / (values.length - 1),
+    22 - (high > low ? (18 * (value - low)) / (high - low) : 9)]);
+  const [cx, cy] = points.at(-1);
+  return svg("svg", { class: "spark", width: 88, height: 26, "aria-hidden": "true" },
+    svg("polyline", { points: points.join(" ") }), svg("circle", { cx, cy, r: 2.6 }));
+}
+
+// A line for each place of each mission where something was measured, the newest first.
+function measurements(chosen) {
+  const body = h("tbody");
+  const lines = new Map();
+  const make = (mission, trip) => {
+    const cells = Array.from({ length: 3 }, () => h("td", { class: "num" }));
+    const element = h("tr", null,
+      h("th", { scope: "row" }, h("button", { class: "link", onclick: () => chosen.set(mission) }, mission)),
+      h("td", null, trip), ...cells);
+    return { element, cells, mission, values: [] };
+  };
+  const highlight = () => {
+    for (const { element, mission } of lines.values()) mark(element, mission === chosen.name);
+  };
+  chosen.changed.heard(highlight);
+  return {
+    element: h("table", { class: "table" }, h("thead", null, h("tr", null,
+      ["Mission", "Trip", "Newest", "How it went", "At"].map((name) => h("th", { scope: "col" }, name)))), body),
+    add(entries) {
+      for (const [, time, mission, trip, , , , , value] of entries.slice(-LINES)) {
+        const key = JSON.stringify([mission, trip]);
+        if (!lines.has(key)) lines.set(key, make(mission, trip));
+        const { element, cells, values } = lines.get(key);
+        if (typeof value === "number") values.push(value);
+        values.splice(0, values.length - VALUES);
+        put(cells[0], written(value));
+        if (values.length > 1) cells[1].replaceChildren(sparkline(values));
+        put(cells[2], clock(time));
+        body.prepend(element);
+      }
+      while (body.rows.length > LINES) body.lastElementChild.remove();
+      highlight();
+    },
+    clear() {
+      lines.clear();
+      body.replaceChildren();
+    },
+  };
+}
+
+// The piece of the floor plan that the camera saw.
+function ground(map, { position: [x, y], width, height }) {
+  const [across, up] = map.size;
+  const picture = svg("image", { width: across, height: up, preserveAspectRatio: "none" });
+  mapPicture(map).then((address) => address && set(picture, "href", address));
+  return svg("svg", {
+    class: "ground", "aria-hidden": "true",
+    viewBox: `${x - width / 2} ${up - y - height / 2} ${width} ${height}`,
+  }, svg("rect", { width: across, height: up }), picture);
+}
+
+function photos({ app }, chosen, floor) {
+  const list = h("ul", { class: "photos" });
+  const layer = floor.layer("photo-frame");
+  const frame = ({ position: [x, y], width, height }) => layer.replaceChildren(
+    svg("rect", { x: x - width / 2, y: y - height / 2, width, height }));
+  const card = ([, time, mission, trip, , , , , photo]) => {
+    const [x, y] = photo.position;
+    const sees = photo.sees.map(plain).join(", ");
+    const sharp = ["blurred", "a little blurred", "sharp"][Math.min(2, Math.floor(photo.sharpness * 3))];
+    const act = () => frame(photo);
+    const away = () => layer.replaceChildren();
+    return h("li", null, h("button", {
+      class: "photo", "data-sees": Boolean(sees), "data-sharp": sharp,
+      onpointerenter: act, onfocus: act, onpointerleave: away, onblur: away,
+      onclick: () => {
+        chosen.set(mission);
+        floor.reveal(x, y);
+      },
+    }, ground(app.map, photo), h("b", null, sees || "nothing special"), h("span", null, `${mission}, ${trip}`),
+    h("small", null, `${clock(time)} at ${round(x)}, ${round(y)}, ${sharp}`)));
+  };
+  return {
+    element: list,
+    add(entries) {
+      list.prepend(...entries.slice(-PHOTOS).map(card).reverse());
+      while (list.childElementCount > PHOTOS) list.lastElementChild.remove();
+    },
+    clear: () => list.replaceChildren(),
+  };
+}
+
+function verdicts(chosen) {
+  const list = h("ul", { class: "verdicts" });
+  return {
+    element: list,
+    add(entries) {
+      list.prepend(...entries.slice(-LINES).map(([, time, mission, , , , , , text]) => h("li", null,
+        h("span", { class: "when" }, clock(time)),
+        h("button", { class: "link", onclick: () => chosen.set(mission) }, mission), h("span", null, text))).reverse());
+      while (list.childElementCount > LINES) list.lastElementChild.remove();
+    },
+    clear: () => list.replaceChildren(),
+  };
+}
+
+export function resultsView(context, chosen, floor, save) {
+  const parts = {
+    Measurements: { kind: "value", none: "Nothing has been measured yet.", ...measurements(chosen) },
+    Photos: { kind: "photo", none: "No photo has been taken yet.", ...photos(context, chosen, floor) },
+  };
+  if (context.app.evaluators.length) {
+    parts.Verdicts = { kind: "verdict", none: "No mission has been judged yet.", ...verdicts(chosen) };
   }
-  const list = h("div", { class: "sifts", role: "group", "aria-label": "Which results" });
-  const inside = h("div", { class: "results-body" });
-  let picked = false; // by a person
-  for (const part of parts) {
-    part.count = words("0");
-    part.number = 0;
-    const count = h("span", { class: "m-count" }, part.count.node);
-    part.button = h("button", { type: "button", class: "sift" }, `${part.label} `, count);
-    part.button.addEventListener("click", () => {
-      picked = true;
-      open(part);
-    });
-    list.append(part.button);
-    inside.append(part.view.element);
-  }
-  const open = (part) => {
-    for (const each of parts) {
-      each.button.setAttribute("aria-pressed", String(each === part));
-      each.view.element.hidden = each !== part;
+  const all = Object.entries(parts);
+  const empty = h("p", { class: "empty" });
+  let now = "";
+  const show = () => {
+    for (const [name, { element, none, number }] of all) {
+      shown(element, name === now && number);
+      if (name !== now) continue;
+      shown(empty, !number);
+      put(empty, none);
     }
   };
-  open(parts[0]);
-
-  const update = (entries) => {
-    for (const part of parts) {
+  let picked = false;
+  const tabs = sieve(Object.keys(parts), "Which results", (name) => {
+    now = name;
+    picked = true;
+    show();
+  });
+  function update(entries) {
+    for (const [name, part] of all) {
       const own = entries.filter((entry) => entry[7] === part.kind);
       if (!own.length) continue;
-      const first = part.number === 0;
       part.number += own.length;
-      part.count.show(String(part.number));
-      part.view.update(own);
-      // What there is first is shown first, until somebody chooses.
-      if (first && !picked && parts.every((each) => each === part || !each.number)) open(part);
+      tabs.count(name, part.number);
+      part.add(own);
+      if (!picked && !parts[now].number) tabs.pick(name);
     }
-  };
-  const clear = () => {
-    for (const part of parts) {
+    show();
+  }
+  function clear() {
+    for (const [name, part] of all) {
       part.number = 0;
-      part.count.show("0");
-      part.view.clear();
+      tabs.count(name, 0);
+      part.clear();
     }
+    show();
+  }
+  clear();
+  tabs.pick("Measurements");
+  picked = false;
+  return {
+    tools: [tabs, save("/api/results.json")], body: [empty, all.map(([, part]) => part.element)],
+    update, clear,
   };
-  return { element: inside, tools: h("div", { class: "filters" }, list, save), update, clear };
 }

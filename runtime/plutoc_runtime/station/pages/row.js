@@ -1,113 +1,150 @@
-// One mission in the table: its cells, which write only what changed, and what opens below them.
-import { h } from "./dom.js";
-import { battery } from "./battery.js";
-import { details } from "./details.js";
-import { attribute, visible, words } from "./quick.js";
-import { sign, tone } from "./signs.js";
-import { missionWord } from "./standing.js";
-import { seconds } from "./dom.js";
+// One mission in the table, and what opens below it: its trips, and what one can do with them.
 
-export function missionRow(context, app, name, chosen) {
-  const [state, why, left, trip, drone, attempt, round] = Array.from({ length: 7 }, () => words());
-  const number = words();
-  const mark = sign();
+import { h, keyed, plain, put, seconds, set, shown } from "./dom.js";
+import { battery, ended, mark, round, standing } from "./standing.js";
+
+// For what cannot be undone: the first press asks in place, the second one does it.
+function sureButton(label, act) {
+  const button = h("button", { class: "button quiet small" }, label);
+  const ask = (yes) => {
+    set(button, "data-sure", yes);
+    put(button, yes ? `Really ${label.toLowerCase()}?` : label);
+  };
+  button.addEventListener("blur", () => ask(false));
+  button.addEventListener("click", () => {
+    if (button.dataset.sure) act();
+    ask(!button.dataset.sure);
+  });
+  return button;
+}
+
+const ANSWERS = { done: "It was done", "not-done": "It was not done", "go-on": "Go on" };
+
+// What only a person can know, with its answers as buttons.
+export function question(context, { name: mission, question: { text, answers } }) {
+  const buttons = answers.map((answer) => {
+    const decide = () => context.tell("decide", { mission, answer });
+    if (answer === "cancel") return sureButton("Cancel mission", decide);
+    return h("button", { class: "button", onclick: decide }, ANSWERS[answer] ?? answer);
+  });
+  return h("div", { class: "question" },
+    h("p", null, h("strong", null, mission, ": "), text), h("div", { class: "row" }, buttons));
+}
+
+function tripLine(send, prioritised, name) {
+  let priority = 1;
+  const [nth, what, weight] = [h("span", { class: "nth" }), h("small"), h("output")];
+  const stands = standing();
+  const step = (by, sign, label) => h("button", {
+    class: "button quiet icon", "aria-label": `${label} the priority of trip ${name}`,
+    onclick: () => send("prioritise", { trip: name, priority: priority + by }),
+  }, sign);
+  const weighs = h("span", { class: "weighs" }, "Priority", step(-1, "−", "Lower"), weight,
+    step(1, "+", "Raise"));
+  const skip = h("button", {
+    class: "button quiet small", "aria-label": `Skip trip ${name}`,
+    onclick: () => send("skip", { trip: name }),
+  }, "Skip");
+  const element = h("li", null, nth, h("span", { class: "called" }, name, what), stands, weighs, skip);
+  element.show = ({ trip: [, status, x, y, number, action], index, current, over }) => {
+    priority = number ?? 1;
+    put(nth, `${index + 1}.`);
+    put(what, `${plain(action)} at ${round(x)}, ${round(y)}`);
+    stands.show(status);
+    set(element, "aria-current", current && "step");
+    const open = !over && status !== "COMPLETED" && status !== "SKIPPED";
+    put(weight, priority);
+    shown(weighs, open && prioritised && number !== null);
+    shown(skip, open);
+  };
+  return element;
+}
+
+function details(context, name) {
+  const send = (command, given) => context.tell(command, { mission: name, ...given });
+  const prioritised = context.app.fields.trip.some((field) => field.name === "priority");
+  let paused = false;
+  const pause = h("button", {
+    class: "button small", onclick: () => send(paused ? "go-on" : "pause"),
+  });
+  const buttons = h("div", { class: "row" }, pause,
+    sureButton("Cancel mission", () => send("cancel")));
+  const why = h("p", { class: "reason" });
+  const list = h("ol", { class: "trip-lines" });
+  const element = h("div", { class: "details" }, why, list, buttons);
+  element.show = (row) => {
+    const over = ended(row);
+    paused = row.status === "PAUSED";
+    put(pause, paused ? "Go on" : "Pause");
+    shown(pause, !row.question);
+    shown(buttons, !over);
+    put(why, row.reason || row.wait);
+    // A line belongs to its trip: what one is about to press never becomes another trip's.
+    const seen = new Map();
+    const lines = row.trips.map((trip, index) => {
+      seen.set(trip[0], (seen.get(trip[0]) ?? 0) + 1);
+      const key = `${seen.get(trip[0])} ${trip[0]}`;
+      return { key, trip, index, current: index === row.current && !over, over };
+    });
+    keyed(list, lines, (line) => line.key, (line) => tripLine(send, prioritised, line.trip[0]),
+      (line, item) => line.show(item));
+  };
+  return element;
+}
+
+export function missionRow(context, name, chosen) {
+  const { retries, rounds } = context.app;
+  const [number, why, trip, drone] = ["token", "why", "", ""].map((kind) => h("span", { class: kind }));
+  const stands = standing();
   const charge = battery();
-  const fill = h("span", { class: "part-done" });
-  const opener = h(
-    "button",
-    { type: "button", class: "opener", "aria-expanded": "false" },
-    h("span", { class: "arrow", "aria-hidden": "true" }),
-    h("span", { class: "m-token", "aria-hidden": "true" }, number.node),
-    h("span", { class: "called" }, name),
-  );
-  const cell = (kind, ...inside) => h("div", { class: `m-cell c-${kind}`, role: "cell" }, ...inside);
-  const whyLine = h("div", { class: "m-why" }, why.node, left.node);
-  const statusWord = h("span", { class: "m-status" }, mark.element, state.node);
+  const bar = h("i");
+  const opener = h("button", {
+    class: "opener", "aria-expanded": "false",
+    onclick: () => chosen.set(chosen.name === name ? null : name),
+  }, h("span", { class: "arrow" }), number, h("span", { class: "called" }, name));
   const cells = [
-    cell("name", opener),
-    cell("state", statusWord, whyLine),
-    cell("trip", trip.node, h("span", { class: "track", "aria-hidden": "true" }, fill)),
-    cell("drone", drone.node, " ", charge.element),
-  ];
-  if (app.retries) cells.push(cell("attempt", attempt.node));
-  if (app.rounds) cells.push(cell("round", round.node));
-  const line = h("div", { class: "mission-row", role: "row", "data-mission": name }, ...cells);
+    [opener], [stands, why], [trip, h("span", { class: "track" }, bar)], [drone, " ", charge],
+    ...(retries ? [[""]] : []), ...(rounds ? [[""]] : []),
+  ].map((inside) => h("div", { class: "cell", role: "cell" }, inside));
+  const line = h("div", { class: "mission-row", role: "row", "data-mission": name }, cells);
   const element = h("div", { class: "entry", role: "none" }, line);
   line.addEventListener("click", (event) => {
     if (!event.target.closest(".opener")) opener.click();
   });
-  opener.addEventListener("click", () => chosen.set(chosen.get() === name ? null : name));
-
-  const write = {
-    status: attribute(line, "data-status"),
-    tone: attribute(statusWord, "data-tone"),
-    why: visible(whyLine),
-    title: attribute(whyLine, "title"),
-    attempt: attribute(line, "data-again"),
-  };
-  let row = null;
   let more = null;
-  let progress = null;
-
-  const show = (next, time, batteryOf) => {
-    row = next;
-    number.show(String(row.index + 1));
-    mark.show(row.status);
-    write.status(row.status);
-    write.tone(tone(row.status));
-    state.show(missionWord(row.status));
-    why.show(row.reason || row.wait || "");
-    write.title(row.reason || row.wait || null);
-    trip.show(whereItIs(row));
-    const share = row.total ? row.done / row.total : 0;
-    if (share !== progress) {
-      progress = share;
-      fill.style.width = `${share * 100}%`;
-    }
-    drone.show(row.drone ?? "–");
-    charge.show(row.drone === null ? null : batteryOf(row.drone));
-    attempt.show(String(row.attempt));
-    write.attempt(row.attempt > 1 ? "yes" : null);
-    round.show(String(row.round + 1));
-    tick(time);
+  let share = null;
+  element.show = (row, live) => {
+    element.row = row;
+    put(number, row.index + 1);
+    stands.show(row.status);
+    set(line, "data-status", row.status);
+    element.tick(live);
+    const current = row.trips[row.current];
+    put(trip, current ? `${row.current + 1} of ${row.total}: ${current[0]}`
+      : `${row.done} of ${row.total} done`);
+    if (share !== row.done / row.total) bar.style.width = `${100 * (share = row.done / row.total)}%`;
+    put(drone, row.drone ?? "–");
+    element.charge(live);
+    if (retries) put(cells[4], row.attempt);
+    if (rounds) put(cells[retries ? 5 : 4], row.round + 1);
     more?.show(row);
   };
+  element.charge = ({ drones }) => charge.show(drones.get(element.row.drone)?.battery ?? null);
   // What changes with the time alone.
-  const tick = (time) => {
-    const waits = row.until !== null && row.until > time;
-    left.show(waits ? ` (${seconds(row.until - time)} left)` : "");
-    write.why(Boolean(row.reason || row.wait || waits));
+  element.tick = ({ state: { time } }) => {
+    const { reason, wait, until } = element.row;
+    put(why, `${reason || wait}${until > time ? ` (${seconds(until - time)})` : ""}`);
   };
-  const open = (opened) => {
-    opener.setAttribute("aria-expanded", String(opened));
-    element.classList.toggle("open", opened);
-    more?.element.remove();
-    more = null;
-    if (!opened) return;
-    more = details(context, app, name);
-    if (row) more.show(row);
-    const inside = h("div", { role: "cell", "aria-colspan": String(cells.length) }, more.element);
-    more.element = h("div", { class: "m-more", role: "row" }, inside);
-    element.append(more.element);
+  element.open = (yes) => {
+    set(opener, "aria-expanded", String(yes));
+    mark(element, yes);
+    if (yes === Boolean(more)) return;
+    more?.closest("[role=row]").remove();
+    more = yes ? details(context, name) : null;
+    if (!more) return;
+    more.show(element.row);
+    element.append(h("div", { role: "row" },
+      h("div", { role: "cell", "aria-colspan": String(cells.length) }, more)));
   };
-  return {
-    name,
-    element,
-    opener,
-    show,
-    tick,
-    open,
-    get data() {
-      return row;
-    },
-    battery: (id, value) => row?.drone === id && charge.show(value),
-  };
+  return element;
 }
-
-function whereItIs(row) {
-  if (!row.total) return "No trips";
-  const current = row.current === null ? null : row.trips[row.current];
-  if (!current) return `${row.done} of ${row.total} done`;
-  return `${row.current + 1} of ${row.total}: ${current[0]}`;
-}
-

@@ -1,47 +1,67 @@
-// How missions, trips and drones stand, in words for people. The signs beside them: signs.js.
+// How missions, trips and drones stand: a word with a sign, so that colour alone never says it.
 
-const MISSION = {
-  UNEXECUTED: "Not started",
-  RUNNING: "Flying",
-  STANDBY: "Waiting",
-  COMPLETED: "Completed",
-  FAILED: "Failed",
-  PAUSED: "Paused",
-  CANCELLED: "Cancelled",
-  UNCERTAIN: "Needs you",
-  HELD: "Needs you",
-};
-const TRIP = {
-  WAITING: "To do",
-  EXECUTING: "Flying",
-  COMPLETED: "Done",
-  FAILED: "Failed",
-  SKIPPED: "Skipped",
-};
-const DRONE = {
-  FREE: "Ready",
-  BUSY: "Flying",
-  RETURNING: "Coming home",
-  CHARGING: "Charging",
-  RECOVERING: "Recovering",
-  LOST: "Lost",
-  OFFLINE: "Off line",
+import { fill, h, icon, put, set, shown } from "./dom.js";
+
+const STANDS = {
+  UNEXECUTED: ["Not started", "wait", "calm"],
+  RUNNING: ["Flying", "start", "busy"],
+  STANDBY: ["Waiting", "wait", "calm"],
+  COMPLETED: ["Completed", "good", "good"],
+  FAILED: ["Failed", "bad", "bad"],
+  PAUSED: ["Paused", "pause", "warn"],
+  CANCELLED: ["Cancelled", "close", "calm"],
+  UNCERTAIN: ["Needs you", "warning", "warn"],
+  HELD: ["Needs you", "warning", "warn"],
+  WAITING: ["To do", "wait", "calm"],
+  EXECUTING: ["Flying", "start", "busy"],
+  SKIPPED: ["Skipped", "close", "calm"],
+  FREE: ["Ready", "good", "good"],
+  BUSY: ["Flying", "start", "busy"],
+  RETURNING: ["Coming home", "home", "busy"],
+  CHARGING: ["Charging", "wait", "calm"],
+  RECOVERING: ["Recovering", "wait", "warn"],
+  LOST: ["Lost", "warning", "bad"],
+  OFFLINE: ["Switched off", "info", "calm"],
+  RETIRED: ["Retired", "close", "calm"],
 };
 
-export const missionWord = (status) => MISSION[status] ?? status;
-export const tripWord = (status) => TRIP[status] ?? status;
-export const droneWord = (row) => (row.retired ? "Retired" : DRONE[row.status] ?? row.status);
+export const ended = ({ status }) => ["COMPLETED", "FAILED", "CANCELLED"].includes(status);
+export const needsYou = ({ status }) => status === "UNCERTAIN" || status === "HELD";
+export const round = (number) => Math.round(number * 100) / 100;
 
-const ENDED = new Set(["COMPLETED", "FAILED", "CANCELLED"]);
-const FOR_A_PERSON = new Set(["UNCERTAIN", "HELD"]);
-export const hasEnded = (row) => ENDED.has(row.status);
-export const needsYou = (row) => Boolean(row.question) || FOR_A_PERSON.has(row.status);
-
-export const percent = (share) => `${Math.round(share * 100)} %`;
-export const metres = (n) => String(Math.round(n * 100) / 100);
-
-// take_photo -> "Take photo": the name of an action at the start of a phrase.
-export function spoken(name) {
-  const words = String(name).replaceAll("_", " ");
-  return words.charAt(0).toUpperCase() + words.slice(1);
+// An element whose `show(status)` writes another one.
+export function standing() {
+  const element = h("span", { class: "standing" });
+  element.show = (status) => {
+    if (element.dataset.status === status) return;
+    element.dataset.status = status;
+    const [word, sign, tone] = STANDS[status] ?? [status, "info", "calm"];
+    set(element, "data-tone", tone);
+    fill(element, icon(sign), word);
+  };
+  return element;
 }
+
+export const level = (charge) => (charge < 0.2 ? "low" : charge < 0.4 ? "middle" : "full");
+
+// A small bar with its percentage; `show(null)` where nothing is known.
+export function battery() {
+  const bar = h("i");
+  const text = h("span");
+  const element = h("span", { class: "battery", hidden: true },
+    h("span", { class: "bar", "aria-hidden": "true" }, bar), text);
+  let before = null;
+  element.show = (charge) => {
+    const whole = charge === null || charge === undefined ? null : Math.round(charge * 100);
+    if (whole === before) return;
+    before = whole;
+    shown(element, whole !== null);
+    bar.style.width = `${whole}%`;
+    set(element, "data-level", level(whole / 100));
+    put(text, `${whole} %`);
+  };
+  return element;
+}
+
+// A row or a line that shows the chosen mission.
+export const mark = (element, yes) => set(element, "data-chosen", yes && "yes");

@@ -1,121 +1,147 @@
-// A row a mission: sorted, filtered, and only ever written where something changed.
-import { h } from "./dom.js";
-import { filters } from "./filters.js";
-import { inOrder } from "./quick.js";
+// A row a mission: sorted, filtered, and only written where something changed.
+
+import { h, keyed, put, set, shown } from "./dom.js";
 import { missionRow } from "./row.js";
-import { ORDERS, ordered } from "./sorting.js";
+import { ended, needsYou } from "./standing.js";
 
-export function missionTable(context, app, chosen, nothing) {
+const URGENT = ["FAILED", "PAUSED", "RUNNING", "STANDBY", "UNEXECUTED", "COMPLETED", "CANCELLED"];
+const COLUMNS = {
+  Mission: (row) => row.index,
+  State: (row) => (needsYou(row) ? -1 : URGENT.indexOf(row.status)),
+  Trip: (row) => row.done / (row.total || 1),
+  Drone: (row) => row.drone ?? "\uffff",
+  Attempt: (row) => row.attempt,
+  Round: (row) => row.round,
+};
+const FILTERS = {
+  All: () => true,
+  "Under way": (row) => !ended(row) && !needsYou(row),
+  "Waiting for you": needsYou,
+  Failed: (row) => row.status === "FAILED",
+};
+const MANY = 12; // missions: of more, one wants to find one by its name
+
+// Some buttons of which one is pressed; `count(name, n)` writes how many there are behind one.
+export function sieve(names, label, picked) {
+  const buttons = new Map(names.map((name) => [name, h("button", {
+    class: "sift", "aria-pressed": "false", onclick: () => pick(name),
+  }, name, h("span", { class: "count" }, "0"))]));
+  const element = h("div", { role: "group", "aria-label": label }, ...buttons.values());
+  const pick = (name) => {
+    for (const [other, button] of buttons) set(button, "aria-pressed", String(other === name));
+    picked(name);
+  };
+  element.pick = pick;
+  element.count = (name, number) => {
+    put(buttons.get(name).lastChild, number);
+    set(buttons.get(name), "data-any", number > 0);
+  };
+  return element;
+}
+
+export function missionTable(context, chosen) {
+  const { live, app } = context;
   const rows = new Map();
-  const byDrone = new Map();
-  const charges = new Map();
-  const body = h("div", { class: "rows", role: "rowgroup" });
+  const body = h("div", { role: "rowgroup" });
   const empty = h("p", { class: "empty" });
-  let order = { key: "index", down: false };
-  let time = 0;
-
-  const columns = [["index", "Mission"], ["status", "State"], ["progress", "Trip"]];
-  columns.push(["drone", "Drone"]);
-  if (app.retries) columns.push(["attempt", "Attempt"]);
-  if (app.rounds) columns.push(["round", "Round"]);
-  const heads = columns.map(([key, label]) => {
-    const arrow = h("span", { class: "sorted", "aria-hidden": "true" });
-    const button = h("button", { type: "button", title: ORDERS[key].title }, label, arrow);
-    const cell = h("div", { class: "m-cell", role: "columnheader" }, button);
-    button.addEventListener("click", () => {
-      order = { key, down: order.key === key && !order.down };
-      arrange();
-    });
-    return { key, cell };
+  const find = h("input", {
+    type: "search", class: "input", placeholder: "Find a mission", "aria-label": "Find a mission",
+    oninput: () => sift(), hidden: true,
   });
-  const head = h("div", { class: "mission-row", role: "row" }, ...heads.map((each) => each.cell));
-  const table = h(
-    "div",
-    { class: "watch-table", role: "table", "aria-label": "Missions" },
-    h("div", { class: "table-head", role: "rowgroup" }, head),
-    body,
-  );
-  table.classList.toggle("has-retries", app.retries);
-  table.classList.toggle("has-rounds", app.rounds);
-  const shown = filters(() => sift());
+  let filter = FILTERS.All;
+  const filters = sieve(Object.keys(FILTERS), "Which missions", (name) => {
+    filter = FILTERS[name];
+    sift();
+  });
+  const columns = Object.keys(COLUMNS).filter((name) => (name !== "Attempt" || app.retries)
+    && (name !== "Round" || app.rounds));
+  let [by, down] = ["Mission", false];
+  const heads = columns.map((name) => h("div", { role: "columnheader" }, h("button", {
+    onclick: () => {
+      [by, down] = [name, by === name && !down];
+      arrange();
+    },
+  }, name)));
+  const table = h("div", {
+    class: `watch-table columns-${columns.length}`, role: "table", "aria-label": "Missions",
+  }, h("div", { class: "table-head", role: "rowgroup" },
+    h("div", { class: "mission-row", role: "row" }, heads)), body);
 
-  const arrange = () => {
-    for (const { key, cell } of heads) {
-      const sorted = key === order.key ? (order.down ? "descending" : "ascending") : "none";
-      cell.setAttribute("aria-sort", sorted);
+  function arrange() {
+    heads.forEach((head, i) => {
+      set(head, "aria-sort", columns[i] !== by ? "none" : down ? "descending" : "ascending");
+    });
+    const order = COLUMNS[by];
+    const sorted = [...rows.values()].sort((a, b) => {
+      const [first, second] = [order(a.row), order(b.row)];
+      const less = first < second ? -1 : Number(first > second);
+      return (down ? -less : less) || a.row.index - b.row.index;
+    });
+    keyed(body, sorted, (row) => row, (row) => row);
+  }
+  function sift() {
+    const text = find.value.trim().toLowerCase();
+    const all = [...rows.values()];
+    let seen = 0;
+    for (const row of all) {
+      const fits = filter(row.row) && row.row.name.toLowerCase().includes(text);
+      seen += fits;
+      shown(row, fits);
     }
-    inOrder(body, ordered([...rows.values()], order).map((row) => row.element));
-  };
-  // Which rows the filter lets through.
-  const sift = () => {
-    let visible = 0;
-    for (const row of rows.values()) {
-      const passes = shown.passes(row.data);
-      visible += passes;
-      if (row.element.hidden === passes) row.element.hidden = !passes;
+    for (const [name, test] of Object.entries(FILTERS)) {
+      filters.count(name, all.filter(({ row }) => test(row)).length);
     }
-    empty.hidden = visible > 0;
-    empty.textContent = rows.size ? "No mission is like that now." : nothing();
-  };
-
-  let again = 0;
+    shown(find, all.length > MANY || text);
+    shown(empty, !seen);
+    if (seen) return;
+    put(empty, all.length ? "No mission is like that now."
+      : context.plan.missions.length ? "Press Start, and each mission has a line here."
+        : "There are no missions yet. Make some on the page Missions.");
+  }
+  let soon = 0;
   // While somebody is in the table, rows do not change places under their hands.
-  const arrangeSoon = () => {
-    if (order.key === "index" || again) return;
-    again = setTimeout(() => {
-      again = 0;
+  function arrangeSoon() {
+    soon ||= setTimeout(() => {
+      soon = 0;
       if (body.contains(document.activeElement) || body.matches(":hover")) arrangeSoon();
       else arrange();
     }, 1000);
-  };
-
-  const batteryOf = (id) => charges.get(id) ?? null;
-  const update = (missions, drones, state) => {
+  }
+  let time = 0;
+  function update({ missions, drones }) {
     const before = rows.size;
-    for (const drone of drones) {
-      charges.set(drone.id, drone.battery);
-      byDrone.get(drone.id)?.battery(drone.id, drone.battery);
+    for (const name of missions) {
+      if (!rows.has(name)) rows.set(name, missionRow(context, name, chosen));
+      rows.get(name).show(live.missions.get(name), live);
     }
-    for (const mission of missions) {
-      let row = rows.get(mission.name);
-      if (!row) {
-        row = missionRow(context, app, mission.name, chosen);
-        rows.set(mission.name, row);
-      }
-      if (row.data?.drone && byDrone.get(row.data.drone) === row) byDrone.delete(row.data.drone);
-      row.show(mission, state.time, batteryOf);
-      if (mission.drone !== null) byDrone.set(mission.drone, row);
+    for (const id of drones) {
+      const row = rows.get(live.drones.get(id).mission);
+      if (row?.row.drone === id) row.charge(live);
     }
-    if (Math.floor(state.time) !== time) {
-      time = Math.floor(state.time);
-      for (const row of rows.values()) if (row.data.until !== null) row.tick(state.time);
+    if (time !== (time = Math.floor(live.state.time))) {
+      for (const row of rows.values()) if (row.row.until !== null) row.tick(live);
     }
     if (rows.size !== before) arrange();
-    else if (missions.length) arrangeSoon();
-    if (missions.length || !rows.size) {
-      shown.count([...rows.values()].map((row) => row.data));
-      sift();
-    }
-  };
-  const clear = () => {
-    for (const each of [rows, byDrone, charges]) each.clear();
-    body.replaceChildren();
-  };
-
-  chosen.watch((name, before) => {
-    rows.get(before)?.open(false);
-    const row = rows.get(name);
-    row?.open(true);
-    if (row && !row.element.contains(document.activeElement)) {
-      row.element.scrollIntoView({ block: "nearest" });
-    }
+    else if (missions.size && by !== "Mission") arrangeSoon();
+    if (missions.size || !rows.size) sift();
+  }
+  function clear() {
+    rows.clear();
+    arrange();
+    sift();
+  }
+  chosen.changed.heard(() => {
+    for (const [name, row] of rows) row.open(name === chosen.name);
+    const row = rows.get(chosen.name);
+    if (row && !row.contains(document.activeElement)) row.scrollIntoView({ block: "nearest" });
   });
   body.addEventListener("keydown", (event) => {
     const step = { ArrowDown: 1, ArrowUp: -1 }[event.key];
     if (!step || !event.target.matches(".opener")) return;
+    event.preventDefault();
     const openers = [...body.querySelectorAll(".entry:not([hidden]) .opener")];
     openers[openers.indexOf(event.target) + step]?.focus();
-    event.preventDefault();
   });
-  return { element: h("div", { class: "scrolls" }, table, empty), tools: shown.element, update, clear };
+  filters.pick("All");
+  return { tools: [find, filters], body: [table, empty], update, clear };
 }
