@@ -58,7 +58,7 @@ export function keyed(parent, items, key, make, update) {
   });
   while (parent.children.length > items.length) parent.lastElementChild.remove();
   made.set(parent, now);
-  if (parent.contains(focused)) focused.focus();
+  if (focused !== document.activeElement && parent.contains(focused)) focused.focus();
 }
 
 let last = 0;
