@@ -7,11 +7,10 @@ from dataclasses import dataclass
 from itertools import combinations, pairwise
 from typing import Any
 
-from plutoc_runtime.station.graph.ground import Piece, Point
-from plutoc_runtime.station.graph.layout import Laid, Placed
-
-Area = tuple[float, float, float, float]
-"""Left, top, right, bottom."""
+from plutoc_runtime.station.graph.grid import Point
+from plutoc_runtime.station.graph.layout import Laid
+from plutoc_runtime.station.graph.routes import Piece
+from plutoc_runtime.station.graph.words import Area
 
 STAND = 13.0
 LETTER = 5.4
@@ -29,16 +28,11 @@ class Pictured:
     """What the statuses beside arrows cover, about."""
 
     @property
-    def boxes(self) -> list[Area]:
-        """What the boxes cover."""
-        return [area(box) for box in self.laid.boxes]
-
-    @property
     def stands(self) -> list[Area]:
         """Where missions stand: at the foot of each box."""
         return [
             ((left + right) / 2 - STAND, bottom, (left + right) / 2 + STAND, bottom + STAND)
-            for left, _, right, bottom in self.boxes
+            for left, _, right, bottom in self.laid.boxes
         ]
 
 
@@ -50,22 +44,19 @@ def pictured(plain: Mapping[str, Any]) -> Pictured:
         width=plain["width"],
         height=plain["height"],
         boxes=tuple(
-            Placed(x=one["x"], y=one["y"], w=one["w"], h=one["h"]) for one in plain["blocks"]
+            (one["x"], one["y"], one["x"] + one["w"], one["y"] + one["h"])
+            for one in plain["blocks"]
         ),
         ways=tuple(tuple((x, y) for x, y in one["points"]) for one in edges),
-        labels=tuple((one["label"][0], one["label"][1]) if one["label"] else None for one in edges),
+        words=tuple((one["label"][0], one["label"][1]) if one["label"] else None for one in edges),
     )
     words = [
         _words(at, LETTER * len(", ".join(one["statuses"])))
-        for one, at in zip(edges, laid.labels, strict=True)
+        for one, at in zip(edges, laid.words, strict=True)
         if at is not None
     ]
     ways = [(number[one["from"]], number[one["to"]]) for one in edges]
     return Pictured(laid=laid, ways=ways, words=words)
-
-
-def area(box: Placed) -> Area:
-    return box.x, box.y, box.x + box.w, box.y + box.h
 
 
 def _words(at: Point, width: float) -> Area:
@@ -84,7 +75,7 @@ def covered(piece: Piece) -> Area:
 
 def mistakes(laid: Laid, ways: Sequence[tuple[int, int]]) -> Iterator[str]:
     """Yield what must never be: boxes over boxes, ways through boxes, loose ends, slanted ways."""
-    boxes = [area(box) for box in laid.boxes]
+    boxes = laid.boxes
     for (a, one), (b, other) in combinations(enumerate(boxes), 2):
         if overlap(one, other):
             yield f"box {a} lies over box {b}"

@@ -39,7 +39,7 @@ def test_an_example_is_drawn_so_that_all_can_be_read(name: str, app: Checked) ->
     assert list(mistakes(picture.laid, picture.ways)) == []
     assert list(lying_together(picture.laid)) == []
     assert not any(overlap(one, other) for one, other in combinations(picture.words, 2)), name
-    assert not any(overlap(one, box) for one in picture.words for box in picture.boxes), name
+    assert not any(overlap(one, box) for one in picture.words for box in picture.laid.boxes), name
     ends = [(x, y - 6, x, y + 6) for way in picture.laid.ways for x, y in (way[0], way[-1])]
     assert not any(overlap(stand, end) for stand in picture.stands for end in ends), name
 
@@ -105,9 +105,9 @@ def test_any_boxes_and_ways_are_drawn(
     """Loops, ways from a box to itself, many between two, boxes that nothing leads to."""
     sizes, ways, widths = tangle
     laid = drawn(sizes, ways, widths)
-    assert [(box.w, box.h) for box in laid.boxes] == sizes
+    assert [(right - x, bottom - y) for x, y, right, bottom in laid.boxes] == [pytest.approx(size) for size in sizes]
     assert list(mistakes(laid, ways)) == []
-    assert [at is not None for at in laid.labels] == [width > 0 for width in widths]
+    assert [at is not None for at in laid.words] == [width > 0 for width in widths]
     assert laid == drawn(sizes, ways, widths)
 
 

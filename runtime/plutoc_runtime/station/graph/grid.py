@@ -1,21 +1,32 @@
 """Where boxes stand: layers side by side in rows, of which every other one is read backwards.
 
-So the last of a row stands above the first of the next, and a way back is seldom long.
+So the last of a row stands above the first of the next, and a way back is seldom long. Between columns
+are gaps, and between rows channels: there ways run, and never through a box.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from enum import Enum
 
 BETWEEN = 26.0
 """Between boxes of one layer."""
-WIDE, HIGH = 560.0, 400.0
-"""The panel that the picture shall fit into without being made smaller."""
-GAP, CHANNEL = 40.0, 44.0
-"""What is about needed between columns, and between rows."""
-_MOST_ROWS = 12
-_SOME = 3
+
+Point = tuple[float, float]
+Line = tuple[bool, int]
+"""A gap (True) or a channel (False), by its number: the first is before the first column or row."""
+Room = tuple[float, float]
+"""Of a gap or a channel: what lies before its first track, and from there to its end."""
+
+
+class Side(Enum):
+    """A side of a box, and which way is out there."""
+
+    LEFT = (-1, 0)
+    RIGHT = (1, 0)
+    TOP = (0, -1)
+    BOTTOM = (0, 1)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -44,35 +55,37 @@ class Grid:
     rows: tuple[float, ...]
 
 
-def grids(layers: Sequence[Sequence[int]], sizes: Sequence[tuple[float, float]]) -> list[Grid]:
-    """Return the places of boxes of these sizes, in a few numbers of rows: those that fit best."""
-    tries = [_folded(layers, sizes, rows) for rows in range(1, min(_MOST_ROWS, len(layers)) + 1)]
-    tries.sort(key=lambda tried: -fit(*_about(tried)))  # of equally good ones the first
-    return tries[:_SOME]
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Frame:
+    """Where the lines of a grid are, and the middles of its columns and rows."""
+
+    gaps: tuple[float, ...]
+    columns: tuple[float, ...]
+    width: float
+    channels: tuple[float, ...]
+    rows: tuple[float, ...]
+    height: float
+
+    def door(self, spot: Spot, side: Side, aside: float = 0.0) -> Point:
+        """Return where a way leaves a box that is so far from the middle of that side."""
+        x, y = side.value
+        across, down = (0.0, aside) if x else (aside, 0.0)
+        return (
+            self.columns[spot.column] + x * spot.w / 2 + across,
+            self.rows[spot.row] + spot.y + y * spot.h / 2 + down,
+        )
 
 
-def fit(width: float, height: float) -> float:
-    """Return how large a picture of this size can be shown in the panel."""
-    return min(1.0, WIDE / width, HIGH / height)
-
-
-def _about(tried: Grid) -> tuple[float, float]:
-    """Return how large it is, as far as that can be said without the ways."""
-    width = sum(tried.columns) + GAP * (len(tried.columns) + 0.5)
-    return width, sum(tried.rows) + CHANNEL * (len(tried.rows) + 0.5)
-
-
-def _folded(
+def folded(
     layers: Sequence[Sequence[int]], sizes: Sequence[tuple[float, float]], rows: int
 ) -> Grid:
-    across = -(-len(layers) // rows)
-    rows = -(-len(layers) // across)
-    columns, heights = [0.0] * across, [0.0] * rows
+    """Return the places of boxes of these sizes, in so many rows at most."""
+    long = -(-len(layers) // rows)
+    columns, heights = [0.0] * long, [0.0] * -(-len(layers) // long)
     spots: dict[int, Spot] = {}
     for number, layer in enumerate(layers):
-        row, place = divmod(number, across)
-        onward = -1 if row % 2 else 1
-        column = place if onward > 0 else across - 1 - place
+        row, place = divmod(number, long)
+        column = long - 1 - place if row % 2 else place
         height = sum(sizes[box][1] for box in layer) + BETWEEN * (len(layer) - 1)
         columns[column] = max([columns[column], *(sizes[box][0] for box in layer)])
         heights[row] = max(heights[row], height)
@@ -87,11 +100,26 @@ def _folded(
                 h=h,
                 top=box == layer[0],
                 bottom=box == layer[-1],
-                onward=onward,
+                onward=-1 if row % 2 else 1,
             )
             y += h + BETWEEN
-    return Grid(
-        spots=tuple(spots[box] for box in sorted(spots)),
-        columns=tuple(columns),
-        rows=tuple(heights),
-    )
+    every = tuple(spots[box] for box in sorted(spots))
+    return Grid(spots=every, columns=tuple(columns), rows=tuple(heights))
+
+
+def framed(grid: Grid, gaps: Iterable[Room], channels: Iterable[Room]) -> Frame:
+    """Return where everything is if gaps and channels have this room."""
+    gap, columns, width = _ruled(grid.columns, gaps)
+    channel, rows, height = _ruled(grid.rows, channels)
+    return Frame(gaps=gap, columns=columns, width=width, channels=channel, rows=rows, height=height)
+
+
+def _ruled(
+    sizes: Sequence[float], rooms: Iterable[Room]
+) -> tuple[tuple[float, ...], tuple[float, ...], float]:
+    at, lines, middles = 0.0, list[float](), list[float]()
+    for (before, behind), size in zip(rooms, (*sizes, 0.0), strict=True):
+        lines.append(at + before)
+        middles.append(at + before + behind + size / 2)
+        at += before + behind + size
+    return tuple(lines), tuple(middles[:-1]), at

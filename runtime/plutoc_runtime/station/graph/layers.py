@@ -15,82 +15,48 @@ def layers(count: int, ways: Ways) -> list[list[int]]:
 
     A way that leads back to a box before it does not count; all others lead to a later layer.
     """
-    onward = _onward(count, ways)
-    depth = _depths(count, onward)
-    found: list[list[int]] = [[] for _ in range(max(depth, default=-1) + 1)]
-    for box in range(count):
-        found[depth[box]].append(box)
-    _untangle(found, onward)
-    return [layer for layer in found if layer]
-
-
-def _onward(count: int, ways: Ways) -> list[tuple[int, int]]:
-    """Return the ways that close no loop, found by walking from the first box."""
-    leaving: list[list[int]] = [[] for _ in range(count)]
+    leaving, before, after = ([list[int]() for _ in range(count)] for _ in range(3))
     for source, target in ways:
         leaving[source].append(target)
-    begun, ended = [False] * count, [False] * count
-    kept: list[tuple[int, int]] = []
-    for first in range(count):
-        if begun[first]:
-            continue
-        begun[first] = True
-        path = [(first, iter(leaving[first]))]
-        while path:
-            box, rest = path[-1]
-            target = next(rest, -1)
-            if target < 0:
-                ended[box] = True
-                path.pop()
-            elif ended[target]:
-                kept.append((box, target))
-            elif not begun[target]:
-                begun[target] = True
-                kept.append((box, target))
-                path.append((target, iter(leaving[target])))
-    return list(dict.fromkeys(kept))
+    met: set[int] = set()
+    left: dict[int, int] = {}
+    """How many steps there are to each box from which all ways were gone, the last one first."""
 
-
-def _depths(count: int, onward: Ways) -> list[int]:
-    """Return the length of the longest way to each box."""
-    depth, waiting = [0] * count, [0] * count
-    leaving: list[list[int]] = [[] for _ in range(count)]
-    for source, target in onward:
-        leaving[source].append(target)
-        waiting[target] += 1
-    ready = [box for box in range(count) if not waiting[box]]
-    for box in ready:
+    def walk(box: int) -> None:
+        met.add(box)
         for target in leaving[box]:
-            depth[target] = max(depth[target], depth[box] + 1)
-            waiting[target] -= 1
-            if not waiting[target]:
-                ready.append(target)
-    return depth
+            if target not in met:
+                walk(target)
+            if target in left:
+                after[box].append(target)
+                before[target].append(box)
+        left[box] = 0
+
+    for box in range(count):
+        if box not in met:
+            walk(box)
+    found: list[list[int]] = [[] for _ in range(count)]
+    for box in reversed(list(left)):
+        found[left[box]].append(box)
+        for target in after[box]:
+            left[target] = max(left[target], left[box] + 1)
+    return _untangled([sorted(layer) for layer in found if layer], before, after)
 
 
-def _untangle(found: list[list[int]], onward: Ways) -> None:
-    """Put each box near the middle of those that it is joined with, again and again."""
-    before: dict[int, list[int]] = {}
-    after: dict[int, list[int]] = {}
-    for source, target in onward:
-        before.setdefault(target, []).append(source)
-        after.setdefault(source, []).append(target)
-    at: dict[int, float] = {}
-    for layer in found:
-        at.update(_spread(layer))
-    for sweep in range(_SWEEPS):
-        joined = before if sweep % 2 == 0 else after
-        for layer in found if sweep % 2 == 0 else reversed(found):
-            wanted = {
-                box: _middle([at[one] for one in joined.get(box, ())], at[box]) for box in layer
-            }
-            layer.sort(key=wanted.__getitem__)
+def _untangled(
+    found: list[list[int]], before: list[list[int]], after: list[list[int]]
+) -> list[list[int]]:
+    """Return the layers with each box near the middle of those that it is joined with."""
+    at = {box: place for layer in found for box, place in _spread(layer)}
+    for joined, order in ((before, found), (after, found[::-1])) * (_SWEEPS // 2):
+        for layer in order:
+            for box in layer:
+                if joined[box]:
+                    at[box] = sum(at[one] for one in joined[box]) / len(joined[box])
+            layer.sort(key=at.__getitem__)
             at.update(_spread(layer))
+    return found
 
 
-def _spread(layer: list[int]) -> dict[int, float]:
-    return {box: number - (len(layer) - 1) / 2 for number, box in enumerate(layer)}
-
-
-def _middle(places: list[float], otherwise: float) -> float:
-    return sum(places) / len(places) if places else otherwise
+def _spread(layer: list[int]) -> list[tuple[int, float]]:
+    return [(box, place - (len(layer) - 1) / 2) for place, box in enumerate(layer)]

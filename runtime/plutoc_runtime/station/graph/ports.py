@@ -3,123 +3,78 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from math import inf
 
-from .grid import Grid, Spot
-from .ground import Side
+from .grid import Line, Spot
 from .routes import Route
 
 _STEP = 2.0
-_ASIDE = 4.0
-"""How far from the middle a way wants to leave that turns to that side."""
-_BESIDE, _STAND = 18.0, 14.0
-"""The same above and below boxes, and what is left free there: in the middle missions stand."""
 _NEAR = (8.0, 6.0)
 """What shall be between two ways, and what must do where there is little room."""
-_PASSING = 6.0
-"""How far a way can be from the middle that goes on between other boxes: less than `CLEAR`."""
 _CORNER = 7.0
 """What is left free of a side at each end."""
+_ASIDE, _BESIDE, _STAND = 4.0, 18.0, 14.0
+"""How far from the middle of a side a way wants to be that turns to one side; the same above and below
+boxes; and what is left free there, where missions stand."""
+
+Zone = tuple[Line, int]
+"""Where two ends of ways can lie over each other: a line, at a row or a column."""
+Stub = tuple[Zone, float, float, float]
+"""An end of a way: its zone, where the middle of its side is there, how far from that it can be, and how
+far it wants to be."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Ports:
-    """Of one way: how far from the middle of a box's side it leaves there, and enters there."""
-
-    leaving: float
-    entering: float
-
-
-@dataclass(frozen=True, slots=True)
-class _Stub:
-    """The piece of a way next to a box. Those in one zone, whose spans meet, must lie apart."""
-
-    zone: tuple[bool, int, int]
-    span: tuple[float, float]
-    base: float
-    """Where the middle of the side is, across."""
-    half: float
-    wanted: float
+def ports(found: Sequence[Route]) -> list[tuple[float, float]]:
+    """Return how far from the middles of sides each way leaves and enters; simple ones choose first."""
+    busy: dict[Zone, list[float]] = {}
+    given: dict[int, tuple[float, float]] = {}
+    for number in sorted(range(len(found)), key=lambda one: len(found[one].lines)):
+        offsets = [_placed(stub, busy) for stub in _stubs(found[number])]
+        given[number] = offsets[0], offsets[-1]
+    return [given[number] for number in range(len(found))]
 
 
-_Busy = dict[tuple[bool, int, int], list[tuple[tuple[float, float], float]]]
-"""In each zone the spans of stubs, and where they are."""
-
-
-def ports(grid: Grid, ways: Sequence[tuple[int, int]], found: Sequence[Route]) -> list[Ports]:
-    """Return the ports of each way; straight ones choose first, then those that bend least."""
-    busy: _Busy = {}
-    given: dict[int, Ports] = {}
-    for number in sorted(range(len(ways)), key=lambda one: (len(found[one].lines), one)):
-        route = found[number]
-        source, target = (grid.spots[box] for box in ways[number])
-        if not route.lines:
-            stub = _straight(source, target, route)
-            offset = _placed(stub, busy)
-            given[number] = Ports(leaving=offset, entering=offset)
-            continue
-        offsets = [_placed(stub, busy) for stub in _stubs(source, target, route)]
-        given[number] = Ports(leaving=offsets[0], entering=offsets[1])
-    return [given[number] for number in range(len(ways))]
-
-
-def _placed(stub: _Stub, busy: _Busy) -> float:
-    """Return how far from the middle a stub shall be: as near to where it wants as others let it."""
-    there = busy.setdefault(stub.zone, [])
-    steps = int(max(stub.half - _CORNER, 0.0) / _STEP)
+def _placed(stub: Stub, busy: dict[Zone, list[float]]) -> float:
+    """Return the place of an end: as near to where it wants to be as others let it."""
+    zone, base, most, wanted = stub
+    steps = int(most / _STEP)
     offsets = [_STEP * step for step in range(-steps, steps + 1)]
-    middle = 0.0 if stub.zone[0] else _STAND
-    offsets.sort(key=lambda one: (abs(one) < middle, abs(one - stub.wanted), abs(one), one))
-    low, high = stub.span
-    others = [at for span, at in there if span[0] <= high and low <= span[1]]
-    room = {one: min((abs(stub.base + one - at) for at in others), default=inf) for one in offsets}
-    offset = next(
-        (one for near in _NEAR for one in offsets if room[one] >= near),
-        max(offsets, key=room.__getitem__),
-    )
-    there.append((stub.span, stub.base + offset))
+    middle = 0.0 if zone[0][0] else _STAND
+    offsets.sort(key=lambda one: (abs(one) < middle, abs(one - wanted), abs(one)))
+    there = busy.setdefault(zone, [])
+    room = {one: min((abs(base + one - at) for at in there), default=inf) for one in offsets}
+    free = [one for near in _NEAR for one in offsets if room[one] >= near]
+    offset = free[0] if free else max(offsets, key=room.__getitem__)
+    there.append(base + offset)
     return offset
 
 
-def _straight(source: Spot, target: Spot, route: Route) -> _Stub:
-    if route.leaving.flat:
-        low, high = sorted((source.column, target.column))
-        return _Stub(
-            (True, source.row, 0),
-            (low + 1, high),
-            source.y,
-            _half(min(source.h, target.h), high > low + 1),
-            0.0,
+def _stubs(route: Route) -> Iterator[Stub]:
+    """Yield the ends of a way: one where it is straight, else two."""
+    source, target = route.source, route.target
+    if not route.lines:
+        across = route.leaving.value[0]
+        line = (
+            (True, max(source.column, target.column))
+            if across
+            else (False, max(source.row, target.row))
         )
-    channel = max(source.row, target.row)
-    wanted = _BESIDE * (target.row - source.row)
-    return _Stub((False, channel, source.column), (0, 0), 0.0, min(source.w, target.w) / 2, wanted)
-
-
-def _stubs(source: Spot, target: Spot, route: Route) -> Iterator[_Stub]:
-    """Yield the two ends of a way that bends."""
-    for spot, side, line, other, toward in (
-        (source, route.leaving, route.lines[0], target, route.lines[1:2]),
-        (target, route.entering, route.lines[-1], source, route.lines[-2:-1]),
+        narrow = min(source, target, key=lambda one: one.h if across else one.w)
+        yield _stub(line, narrow, 0.0 if across else _BESIDE * (target.row - source.row))
+        return
+    for spot, lines, other in (
+        (source, route.lines, target),
+        (target, route.lines[::-1], source),
     ):
-        if side.flat:
-            nearest = spot.column + (side is Side.RIGHT)
-            low, high = sorted((nearest, line[1]))
-            there = (other.row - spot.row, other.y - spot.y)
-            ahead = toward[0][1] - 0.5 - spot.row if toward else there[0] or there[1]
-            half = _half(spot.h, high > low)
-            yield _Stub((True, spot.row, 0), (low, high), spot.y, half, _toward(ahead, _ASIDE))
-        else:
-            where = toward[0][1] - 0.5 if toward else other.column
-            zone = (False, line[1], spot.column)
-            yield _Stub(zone, (0, 0), 0.0, spot.w / 2, _toward(where - spot.column, _BESIDE))
+        line = lines[0]
+        here, there = (spot.row, other.row) if line[0] else (spot.column, other.column)
+        ahead = (lines[1][1] - 0.5 if len(lines) > 1 else there) - here
+        ahead = ahead or (other.y - spot.y if line[0] else 0.0)
+        far = _ASIDE if line[0] else _BESIDE
+        yield _stub(line, spot, 0.0 if not ahead else far if ahead > 0 else -far)
 
 
-def _half(high: float, passing: bool) -> float:
-    """Return how much of a side there is for a stub, from the middle."""
-    return min(high / 2, _PASSING + _CORNER) if passing else high / 2
-
-
-def _toward(ahead: float, far: float) -> float:
-    return 0.0 if not ahead else far if ahead > 0 else -far
+def _stub(line: Line, spot: Spot, wanted: float) -> Stub:
+    if line[0]:
+        return (line, spot.row), spot.y, spot.h / 2 - _CORNER, wanted
+    return (line, spot.column), 0.0, spot.w / 2 - _CORNER, wanted
