@@ -18,7 +18,7 @@ def served() -> list[Path]:
 
 
 def test_all_pages_together_are_less_than_sixty_kilobytes_gzipped() -> None:
-    """Each by itself, as they are sent."""
+    """Each by itself, as it lies in the package: nothing is packed together for the browser."""
     weights = {path.name: len(gzip.compress(path.read_bytes(), mtime=0)) for path in served()}
     assert "index.html" in weights
     assert sum(weights.values()) < MOST, weights
