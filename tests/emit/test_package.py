@@ -106,6 +106,21 @@ def test_package_is_clean_for_ruff(options: list[str], tmp_path: Path) -> None:
     assert "All checks passed" in found
 
 
+def test_simulating_loads_nothing_of_the_station(tmp_path: Path) -> None:
+    """Nor of the web: what only `serve` needs costs the other commands nothing."""
+    folder = write(package_of(PLAIN), tmp_path)
+    mission = 'name = "M"\ntrip = [{ action = "measure", target = [1.0, 2.0] }]'
+    (folder / "missions.toml").write_text(f"[[mission]]\n{mission}\n")
+    code = (
+        "import sys; from plain.flow import APP; from plain._runtime.cli import main;"
+        "code = main(APP, ['simulate', 'missions.toml']); print(code, *sys.modules)"
+    )
+    code_and_modules = run(folder, "-c", code).splitlines()[-1].split()
+    assert code_and_modules[0] == "0"
+    assert "plain._runtime.session" in code_and_modules
+    assert not [one for one in code_and_modules if ".station" in one or "uvicorn" in one]
+
+
 def test_importing_the_package_loads_next_to_nothing(tmp_path: Path) -> None:
     """Its types come when they are asked for, and none of them brings asyncio or argparse."""
     folder = write(package_of(ALFALFA), tmp_path)
