@@ -1,5 +1,4 @@
-// Elements, icons and words: h("button", { class: "primary", onclick }, "Start ", 3) and its sisters.
-// Text only ever becomes text nodes.
+// Elements, icons and words: h("p", { class: "hint", onclick }, "Text"). Text only ever becomes text.
 
 const PROPERTIES = new Set(["value", "checked", "disabled", "hidden", "selected", "tabIndex"]);
 
@@ -61,33 +60,52 @@ export function keyed(parent, items, key, make, update) {
   if (focused !== document.activeElement && parent.contains(focused)) focused.focus();
 }
 
+// Its children change their order by dragging: with the mouse anywhere on one, with a finger on its
+// grip, as elsewhere a finger scrolls.
+export function reorderable(list, moved) {
+  let drag = null;
+  list.addEventListener("pointerdown", ({ target, pointerType, pointerId: id, button, clientY }) => {
+    const from = [...list.children].findIndex((item) => item.contains(target));
+    if (from < 0 || button || target.closest("button, input, select, a")) return;
+    if (pointerType !== "mouse" && !target.closest(".grip")) return;
+    drag = { item: list.children[from], from, to: null, y: clientY, id };
+  });
+  list.addEventListener("pointermove", ({ clientY: y }) => {
+    if (!drag || (drag.to === null && Math.abs(y - drag.y) < 6)) return; // still a click
+    const { item, id } = drag;
+    list.setPointerCapture(id);
+    item.classList.add("dragged");
+    const others = [...list.children].filter((other) => other !== item);
+    const boxes = others.map((other) => other.getBoundingClientRect());
+    const at = boxes.findIndex(({ top, height }) => y < top + height / 2);
+    drag.to = at < 0 ? others.length : at;
+    if (list.children[drag.to] !== item) list.insertBefore(item, others[drag.to] ?? null);
+  });
+  const end = () => {
+    if (!drag) return;
+    const { item, from, to } = drag;
+    drag = null;
+    item.classList.remove("dragged");
+    if (to !== null) moved(from, to);
+  };
+  list.addEventListener("pointerup", end);
+  list.addEventListener("pointercancel", end);
+}
+
 let last = 0;
 export const unique = (stem) => `${stem}-${(last += 1)}`;
 
-const CIRCLE = "M12 3a9 9 0 110 18 9 9 0 010-18z";
 const ICONS = {
   plus: "M12 5v14M5 12h14",
-  up: "M12 19V6M6 11l6-6 6 6",
-  down: "M12 5v13M6 13l6 6 6-6",
-  copy: "M9 9h10v11H9zM5 15V4h10",
-  bin: "M5 7h14M10 7V4h4v3M7 7l1 13h8l1-13",
   start: "M8 5l11 7-11 7z",
-  pause: "M9 5v14M15 5v14",
-  stop: "M6 6h12v12H6z",
   home: "M4 11l8-7 8 7M6 10v10h12V10",
   land: "M12 4v11M7 11l5 5 5-5M5 20h14",
   warning: "M12 4L2.5 20h19zM12 10v5M12 17.4v.3",
-  bad: `${CIRCLE}M9 9l6 6M15 9l-6 6`,
-  good: `${CIRCLE}M8 12l3 3 5-6`,
-  info: `${CIRCLE}M12 11v6M12 7v.3`,
-  wait: `${CIRCLE}M12 7v5l3 2`,
+  bad: "M12 3a9 9 0 110 18 9 9 0 010-18zM9 9l6 6M15 9l-6 6",
+  info: "M12 3a9 9 0 110 18 9 9 0 010-18zM12 11v6M12 7v.3",
   lock: "M6 11h12v9H6zM8.5 11V8a3.5 3.5 0 017 0v3",
   grip: "M9 6v.1M15 6v.1M9 12v.1M15 12v.1M9 18v.1M15 18v.1",
   close: "M6 6l12 12M18 6L6 18",
-  import: "M12 4v11M7 10l5 5 5-5M4 16v4h16v-4",
-  export: "M12 15V4M7 9l5-5 5 5M4 16v4h16v-4",
-  map: "M4 6l5-2 6 2 5-2v14l-5 2-6-2-5 2zM9 4v14M15 6v14",
-  undo: "M9 7L4 11l5 4M4 11h10a5 5 0 010 10h-3",
 };
 
 // A sign beside words, never instead of them.

@@ -13,15 +13,8 @@ export const TIME = ["s", "min", "h"];
 
 const amount = (text) => /^\s*([+-]?\d+(?:[.,]\d+)?)\s*([A-Za-z%/]*)\s*$/.exec(String(text));
 
-export function toSi(value) {
-  if (typeof value === "number") return value;
-  const [, number, unit] = amount(value) ?? [];
-  if (number === undefined || (unit && !(unit in FACTORS))) return null;
-  return Number(number.replace(",", ".")) * (FACTORS[unit] ?? 1) + (OFFSETS[unit] ?? 0);
-}
-
 // In the largest unit in which it is 1 or more, else in the smallest: 180 → "3 min".
-export function written(si, units) {
+function written(si, units) {
   const of = (unit) => (si - (OFFSETS[unit] ?? 0)) / FACTORS[unit];
   const by = units.toSorted((a, b) => FACTORS[b] - FACTORS[a]);
   const best = by.find((unit) => Math.abs(of(unit)) >= 1) ?? by.at(-1);
@@ -123,7 +116,7 @@ export function fieldFor(field, { evaluators = [], change }) {
       show(value);
       put(words, text);
       shown(problem, text);
-      set(input, "aria-invalid", text && "true");
+      set(input, "aria-invalid", text ? "true" : null);
     },
   };
 }

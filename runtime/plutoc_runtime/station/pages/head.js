@@ -18,7 +18,7 @@ export function say(text, { undo = null, bad = false } = {}) {
   const back = () => { away(); undo(); };
   fill(place, h("div", { class: bad ? "notice bad" : "notice" },
     icon(bad ? "bad" : "info"), h("p", {}, text),
-    undo && h("button", { class: "button small", onclick: back }, icon("undo"), "Undo"),
+    undo && h("button", { class: "button small", onclick: back }, "Undo"),
     h("button", { class: "button quiet icon", "aria-label": "Close this message", onclick: away },
       icon("close"))));
   if (bad) return;
@@ -59,9 +59,9 @@ const DOWN = { rtl: "the drones fly home", land: "the drones land where they are
 const PHASES = { // kind of chip, sign, words
   idle: ["info", "info", "Ready"],
   flying: ["good", "start", "Flying"],
-  stopping: ["warn", "wait", "Stopping"],
-  stopped: ["warn", "pause", "Stopped"],
-  over: ["info", "good", "All missions have ended"],
+  stopping: ["warn", "warning", "Stopping"],
+  stopped: ["warn", "warning", "Stopped"],
+  over: ["info", "info", "All missions have ended"],
   interrupted: ["warn", "warning", "Interrupted"],
 };
 
@@ -124,14 +124,14 @@ export function head({ live, plan, go, app }, bar) {
   });
   const resume = button("primary", "start", "Resume",
     async () => await tell("resume") && go("monitor"));
-  const away = button("", "bin", "Put away", () => tell("discard"));
+  const away = button("", "close", "Put away", () => tell("discard"));
   const home = button("danger", "home", "Stop: fly home", () => stop("rtl"));
   const land = button("danger", "land", "Stop: land now", () => stop("land"));
   set(start, "aria-describedby", "why");
 
   function update() {
     const { state } = live;
-    const [kind, sign, words] = PHASES[state.phase] ?? ["", "wait", "Connecting"];
+    const [kind, sign, words] = PHASES[state.phase] ?? ["", "info", "Connecting"];
     const known = state.phase in PHASES;
     const flies = state.phase === "flying" || state.phase === "stopping";
     const waits = state.phase === "stopped" || state.phase === "interrupted";

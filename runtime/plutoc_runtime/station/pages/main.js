@@ -1,17 +1,16 @@
 // The station's page: finds out what app this is, puts the frame up, and lets the pages live in it.
 // They are loaded one by one: whatever is wrong with one of them, Stop works.
 
-import { get, keepToken, takeToken, token, wait } from "./api.js";
+import { get, keepToken, liveFeed, takeToken, token, wait } from "./api.js";
 import { fill, h, icon, set, shown } from "./dom.js";
 import { head, hush, notices, say, tell } from "./head.js";
-import { liveFeed } from "./live.js";
 import { planKept, selection } from "./plan.js";
 
 const LOAD = {
   missions: () => import("./missions.js"),
   trips: () => import("./trips.js"),
   monitor: () => import("./monitor.js"),
-  help: () => import("./help.js"),
+  help: () => import("./missions.js"),
 };
 const IDS = Object.keys(LOAD);
 const capital = (id) => id[0].toUpperCase() + id.slice(1);

@@ -1,19 +1,15 @@
 // The page Missions: the list, the selected mission beside it, and what to do first. Nothing asks
-// before it acts; what was deleted can be brought back.
+// before it acts; what was deleted can be brought back. And the page Help.
 
 import { download, send } from "./api.js";
-import { fill, h, icon, keyed, many, newKey, plain, put, set, shown, unique } from "./dom.js";
+import {
+  fill, h, icon, keyed, many, newKey, plain, put, reorderable, set, shown, unique,
+} from "./dom.js";
 import { fieldFor, inWords, TIME } from "./fields.js";
 import { addMission, copyMission, deleteMission, moved, putBack, setField } from "./plan.js";
-import { reorderable } from "./reorder.js";
 
-const SHOWN = 12; // trips in short
-
-const button = (sign, text, onclick, kind = "") =>
-  h("button", { class: `button ${kind}`, onclick }, icon(sign), h("span", {}, text));
-const arrow = (sign, text, onclick) =>
-  h("button", { class: "button icon", "aria-label": text, title: text, onclick }, icon(sign));
-const number = () => h("span", { class: "mission-number num" });
+const button = (text, onclick, kind = "", sign = "") =>
+  h("button", { class: `button ${kind}`, onclick }, sign && icon(sign), h("span", {}, text));
 
 // The missions in their order, one of them selected.
 function missionList(fields, { select, open, rename, remove, move }) {
@@ -46,7 +42,7 @@ function missionList(fields, { select, open, rename, remove, move }) {
   });
 
   const make = () => h("li", { class: "mission", role: "option", id: unique("mission") },
-    h("span", { class: "grip" }, icon("grip")), number(),
+    h("span", { class: "grip" }, icon("grip")), h("span", { class: "mission-number num" }),
     h("span", { class: "mission-words" }, h("strong"), h("span", { class: "hint" })),
     h("span", { class: "chip" }));
 
@@ -93,8 +89,15 @@ function missionList(fields, { select, open, rename, remove, move }) {
   };
 }
 
+const SHOWN = 6; // problems
+
+function tripName({ trips }, key) {
+  const at = trips.findIndex((trip) => trip.key === key);
+  return at < 0 ? "" : `Trip ${trips[at].name ?? at + 1}: `;
+}
+
 // The selected mission: its name, the fields that the app's graph needs, its trips in short.
-function missionPanel({ app, plan }, { open, copy, remove, step }) {
+function missionPanel({ app, plan }, { open, copy, remove }) {
   let now = null;
   const inputs = [{ name: "name", type: "text" }, ...app.fields.mission].map((field) =>
     [field.name, fieldFor(field, {
@@ -104,7 +107,7 @@ function missionPanel({ app, plan }, { open, copy, remove, step }) {
           typing),
     })]);
   const [[, title], ...others] = inputs;
-  const trips = button("map", "Set trips", () => open(now.key), "primary");
+  const trips = button("Set trips", () => open(now.key), "primary");
   title.element.addEventListener("keydown", (event) => {
     if (event.key !== "Enter") return;
     event.preventDefault();
@@ -114,33 +117,19 @@ function missionPanel({ app, plan }, { open, copy, remove, step }) {
     "It has been started: it can be changed again when it has ended.");
   const said = h("div", { class: "stack" });
   const count = h("h3");
-  const list = h("ol", { class: "trips-short" });
-  const more = h("p", { class: "hint" });
-  const up = arrow("up", "Move up", () => step(now.key, -1));
-  const down = arrow("down", "Move down", () => step(now.key, 1));
-  const bin = button("bin", "Delete", () => remove(now.key));
-  const wrong = (text) => text && h("span", { class: "problem" }, icon("warning"), text);
-
-  function tripLine({ trip, i, text }) {
-    const place = trip.target && ` at ${trip.target[0].toFixed(1)}, ${trip.target[1].toFixed(1)} m`;
-    return h("li", {}, put(number(), i + 1), h("span", { class: "mission-words" },
-      h("b", {}, trip.name ?? `Trip ${i + 1}`), " ",
-      h("span", { class: "muted" }, plain(trip.action), place ?? " without a place yet"),
-      wrong(text)));
-  }
-
+  const short = h("p", { class: "hint" });
+  const bin = button("Delete", () => remove(now.key));
   return {
     element: h("section", { class: "card mission-panel stack", "aria-label": "Selected mission" },
       locked, title.element, said,
       others.length > 0 && h("div", { class: "fields" }, others.map(([, input]) => input.element)),
-      h("div", { class: "row" }, count, h("span", { class: "spread" }, trips)), list, more,
-      h("div", { class: "row" }, up, down, h("span", { class: "row spread" },
-        button("copy", "Copy", () => copy(now.key)), bin))),
+      h("div", { class: "row" }, count, h("span", { class: "spread" }, trips)), short,
+      h("div", { class: "row" }, button("Copy", () => copy(now.key)), bin)),
     rename() {
       title.input.focus();
       title.input.select();
     },
-    update(mission, problems, index, total) {
+    update(mission, problems) {
       if (now?.key !== mission.key) title.input.blur();
       now = mission;
       const of = problems.filter((problem) => problem.mission === mission.key);
@@ -148,19 +137,15 @@ function missionPanel({ app, plan }, { open, copy, remove, step }) {
         const problem = of.find(({ trip, field }) => !trip && field === name)?.text;
         input.update(mission[name], { problem, locked: mission.launched });
       }
-      const general = mission.trips.length > 0 && of.find(({ trip, field }) => !trip && !field);
-      fill(said, wrong(general && general.text));
+      const told = of.filter(({ trip, field }) =>
+        mission.trips.length && (trip || !inputs.some(([name]) => name === field)));
+      fill(said, told.slice(0, SHOWN).map(({ trip, text }) =>
+        h("p", { class: "problem" }, icon("warning"), tripName(mission, trip) + text)));
       put(count, mission.trips.length ? many(mission.trips.length, "trip") : "Trips");
       put(trips.lastChild, mission.launched ? "See trips" : "Set trips");
-      const lines = mission.trips.slice(0, SHOWN).map((trip, i) =>
-        ({ trip, i, text: of.find((problem) => problem.trip === trip.key)?.text }));
-      keyed(list, lines, JSON.stringify, tripLine);
-      put(more, !mission.trips.length
-        ? "No trips yet. “Set trips” opens the map: drag actions onto it there."
-        : mission.trips.length > SHOWN ? `and ${mission.trips.length - SHOWN} more` : "");
+      put(short, mission.trips.map(({ action }) => plain(action)).join(", ")
+        || "No trips yet. “Set trips” opens the map: drag actions onto it there.");
       shown(locked, mission.launched);
-      up.disabled = index === 0;
-      down.disabled = index === total - 1;
       bin.disabled = mission.launched;
     },
   };
@@ -223,12 +208,11 @@ const welcome = (buttons, help) => h("section", { class: "card welcome stack" },
   h("p", { class: "muted" }, "A mission is a series of trips: a drone flies to a place, and does "
     + "something there. Three steps, and it flies:"),
   h("ol", { class: "welcome-steps" }, [
-    ["plus", "Add a mission", "Give it a name. Add as many as you like: they fly side by side, as "
+    ["Add a mission", "Give it a name. Add as many as you like: they fly side by side, as "
       + "far as there are drones."],
-    ["map", "Set its trips", "Drag actions from the list onto the map, in the order of the trips."],
-    ["start", "Press Start", "Watch it on the page Monitor. The two Stop buttons act at once."],
-  ].map(([sign, title, text], i) => h("li", {}, h("span", { class: "welcome-sign" }, icon(sign)),
-    h("h3", {}, `${i + 1}. ${title}`), h("p", { class: "muted" }, text)))),
+    ["Set its trips", "Drag actions from the list onto the map, in the order of the trips."],
+    ["Press Start", "Watch it on the page Monitor. The two Stop buttons act at once."],
+  ].map(([title, text], i) => h("li", {}, h("h3", {}, `${i + 1}. ${title}`), h("p", { class: "muted" }, text)))),
   h("div", { class: "row" }, buttons), help);
 
 export function missions(context) {
@@ -274,29 +258,26 @@ export function missions(context) {
   const list = missionList(app.fields.mission, {
     select: selected.set, open, rename: () => panel.rename(), remove, move,
   });
-  const panel = missionPanel(context, {
-    open, copy, remove, step: (key, by) => move(key, place(key) + by),
-  });
+  const panel = missionPanel(context, { open, copy, remove });
   const none = h("section", { class: "card nothing-selected stack" },
     h("h2", {}, "No mission is selected"),
     h("p", {}, "Select a mission in the list first, or add one. Here you then give it a name and "
       + "set its trips."),
     h("p", { class: "hint" }, "A double-click on a mission opens its trips."));
-  const files = [["import", "Import file", importFile], ["export", "Export file", exportFile]]
-    .map(([sign, text, act]) => button(sign, text, () => act(context), "small"));
   const first = welcome([
-    button("plus", "Add the first mission", add, "primary"),
-    h("button", { class: "button", onclick: () => example(context) }, "Use the example plan"),
-    button("import", "Import a missions file", () => importFile(context)),
+    button("Add the first mission", add, "primary", "plus"),
+    button("Use the example plan", () => example(context)),
+    button("Import a missions file", () => importFile(context)),
   ], h("p", { class: "hint" }, "More is on the page ", h("a", { href: "#help" }, "Help"), "."));
   const split = h("div", { class: "missions-split" },
     h("section", { class: "card mission-side", "aria-label": "All missions" },
       h("div", { class: "row" }, h("h2", {}, "Missions"), h("span", { class: "spread" },
-        button("plus", "Add mission", add, "primary"))),
+        button("Add mission", add, "primary", "plus"))),
       list.element,
       h("p", { class: "hint" }, "Select one to fill it in. To move it, drag it or press ",
         h("kbd", { class: "key" }, "Alt ↑"), " ", h("kbd", { class: "key" }, "Alt ↓"), "."),
-      h("div", { class: "row" }, files)),
+      h("div", { class: "row" }, button("Import file", () => importFile(context), "small"),
+        button("Export file", () => exportFile(context), "small"))),
     h("div", {}, panel.element, none));
 
   function draw() {
@@ -307,10 +288,46 @@ export function missions(context) {
     shown(panel.element, mission);
     shown(none, !mission);
     list.update(all, mission && mission.key, plan.problems);
-    if (mission) panel.update(mission, plan.problems, all.indexOf(mission), all.length);
+    if (mission) panel.update(mission, plan.problems);
   }
 
   plan.changed.heard(draw);
   selected.changed.heard(draw);
   return { element: h("div", {}, first, split), show: draw };
 }
+
+const part = (title, rows, hint) => h("section", { class: "card stack" }, h("h2", {}, title),
+  h("dl", {}, rows.filter(Boolean).map(([term, text]) =>
+    [h("dt", {}, term), h("dd", {}, text)])),
+  hint && h("p", { class: "hint" }, hint));
+
+const keys = (...names) => names.map((name) => [h("kbd", { class: "key" }, name), " "]);
+
+export const help = () => ({
+  element: h("div", { class: "help" },
+    part("From a plan to a flight", [
+      ["1. Missions", "Add a mission and give it a name. Missions fly side by side, as far as there "
+        + "are drones."],
+      ["2. Trips", "Drag actions onto the map, in the order in which they are to be done. Pins can "
+        + "be dragged to another place."],
+      ["3. Start", "The page Monitor shows each mission, each drone, and what was measured and "
+        + "photographed. Missions that you add meanwhile are started by pressing Start again."],
+    ], "Nothing flies before somebody presses Start. When you close this page, the missions fly on; "
+      + "whoever opens the station sees the same."),
+    part("Stopping", [
+      ["Stop: fly home", "All drones fly back to where they started, and land there."],
+      ["Stop: land now", "All drones land where they are, also after the other Stop."],
+      ["Resume", "Every mission goes on where it was stopped."],
+      ["Put away", "What was stopped is not flown any more. Its plan stays."],
+    ], "Both Stops act at once, and keep trying when the connection is lost. The page Monitor stops "
+      + "a single mission."),
+    part("Keys", [
+      [keys("←", "→"), "On the tabs: another page"],
+      [keys("↑", "↓"), "In the list of missions: select another"],
+      [keys("Alt ↑", "Alt ↓"), "Move the mission or trip up or down in its list"],
+      [keys("Enter", "F2"), "In the list of missions: set the trips, change the name"],
+      [keys("Delete"), "Delete the mission or trip; Undo brings it back"],
+      [keys("←", "↑", "→", "↓"), "On a pin: move it by 0.1 m, with Shift by 1 m. On the map: move "
+        + "the view"],
+    ])),
+});

@@ -8,7 +8,7 @@ import { actionSign } from "./action_signs.js";
 import { fill, h, keyed, put, set, shown, unique } from "./dom.js";
 import { icon } from "./dom.js";
 import { number } from "./numbers.js";
-import { reorderable } from "./reorder.js";
+import { reorderable } from "./dom.js";
 import { tripBody } from "./trip_body.js";
 
 export function tripCards(app, act) {
