@@ -47,8 +47,8 @@ def test_with_the_extra_it_serves_the_app_that_was_compiled(package: Path, tmp_p
     programs = fresh(tmp_path / "venv")
     succeed(programs / "pip", "install", "--quiet", f"{package}[station]")
     program = programs / "drugs_distribution"
-    command = [program, "serve", "--sim", "--port", "0", "--folder", tmp_path, "--fleet", FLEET]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as serving:
+    words = ["serve", "--sim", "--port", "0", "--folder", str(tmp_path), "--fleet", str(FLEET)]
+    with subprocess.Popen([str(program), *words], stdout=subprocess.PIPE, text=True) as serving:
         try:
             assert serving.stdout is not None
             address = serving.stdout.readline().removeprefix("station: ").strip()
