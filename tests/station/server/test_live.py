@@ -77,6 +77,12 @@ def test_a_page_of_another_site_is_not_let_in(headers: dict[str, str]) -> None:
     assert line.refused and not line.opened and ask.station.told == 0
 
 
+def test_one_connects_at_one_address_only() -> None:
+    ask, line = asked(), ALine(SEEN)
+    asyncio.run(ask.api.live(line, request("GET", "/api/start")))
+    assert line.refused and ask.station.untouched and ask.station.told == 0
+
+
 @pytest.mark.parametrize("token", [None, "", "guess", 1])
 def test_the_first_message_bears_the_token(token: object) -> None:
     ask = asked(token="sesame")

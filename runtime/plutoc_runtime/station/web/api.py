@@ -14,7 +14,7 @@ from .behind import Station
 from .dressing import dressed
 from .guard import Asking, Guard, refusal
 from .http import MISTAKES, Line, Malformed, Reply, Request
-from .live import Live
+from .live import LIVE, Live
 from .rates import Rate
 from .refusals import Refusal, Refused
 from .static import handed_out, pages, picture
@@ -94,7 +94,7 @@ class Api:
         if request.path == "/map" and self._picture is not None:
             return handed_out(self._picture, request)
         _route(request)
-        if request.path == "/api/live":
+        if request.path == LIVE:
             return await self._live.poll(request)
         return await self._within_limits(request)
 

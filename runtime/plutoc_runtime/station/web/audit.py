@@ -21,8 +21,8 @@ _LARGEST = 4 * 1024 * 1024
 _LONGEST = 200
 _MOST = 20
 """Characters of a text, and entries of a list, that are written down."""
-_REFUSED = 10.0
-"""Lines a second about what was refused: a stranger must not push out what was done."""
+_REFUSED, _AT_ONCE = 1.0, 20.0
+"""Lines a second about what was refused, and at once: nobody is to push out what was done."""
 
 
 class Audit:
@@ -36,7 +36,7 @@ class Audit:
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self._file, self._now = file, now
-        self._refusals = Rate(_REFUSED, clock)
+        self._refusals = Rate(_REFUSED, clock, _AT_ONCE)
         self._left_out = 0
 
     def done(self, request: Request, given: Mapping[str, object], status: int, said: str) -> None:

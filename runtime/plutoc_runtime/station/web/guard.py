@@ -23,6 +23,8 @@ from .refusals import Refusal
 _HOST = re.compile(r"(\[[0-9a-f:.]+\]|[a-z0-9_.-]+)(?::([0-9]{1,5}))?")
 _LOOPBACK = ("127.0.0.1", "localhost", "[::1]")
 _PLAIN_PORT, _PORTS = 80, 65536
+_USUAL = re.compile(r":(80|443)$")
+"""The ports that browsers leave out."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -39,7 +41,7 @@ class Guard:
 
 def proper_name(text: str) -> str:
     """Return a name that the station is to go by, as a browser says it."""
-    name = text.lower()
+    name = _USUAL.sub("", text.lower())
     found = _HOST.fullmatch(name)
     if found is None or not int(found.group(2) or _PLAIN_PORT) < _PORTS:
         raise BadInput(

@@ -19,6 +19,9 @@ from .rates import Rate
 from .refusals import Refused
 from .strict_json import parsed_object
 
+LIVE = "/api/live"
+"""Where pages connect."""
+
 _AT_ONCE = 32
 """Pages that are kept up to date."""
 _WAITING = 32
@@ -85,6 +88,8 @@ class Live:
     async def _admit(self, line: Line, request: Request) -> None:
         """Let somebody in who may be, and hang up with a reason on whoever talks nonsense."""
         why = refusal(self._guard, request, Asking.LIVE)
+        if why is None and request.path != LIVE:
+            why = refusals.no_such_page()
         if why is None and (self._over or self._waiting >= _WAITING):
             why = refusals.too_busy()
         if why is not None:

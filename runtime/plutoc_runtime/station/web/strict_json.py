@@ -13,7 +13,8 @@ DEEPEST = 32
 _LARGEST = 2**53
 """Beyond it a browser's numbers are no longer whole."""
 
-_TOKEN = re.compile(r'"(?:[^"\\]|\\.)*"|[\[{]|[\]}]', re.DOTALL)
+_TOKEN = re.compile(r'"(?:[^"\\]+|\\.)*+"?|[\[{]|[\]}]', re.DOTALL)
+"""A text, or a bracket outside of any. A text that does not end is one, too: it is passed over once."""
 _HALF = re.compile(r"\\u[dD][89a-fA-F]")
 """How one half of a character, or both, may be written."""
 

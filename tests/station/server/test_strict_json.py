@@ -1,0 +1,77 @@
+"""JSON from strangers."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from plutoc_runtime.station.web.http import Malformed
+from plutoc_runtime.station.web.strict_json import DEEPEST, parsed, parsed_object
+
+SOUND = st.recursive(
+    st.none()
+    | st.booleans()
+    | st.integers(-(2**53), 2**53)
+    | st.floats(allow_nan=False, allow_infinity=False)
+    | st.text(),
+    lambda inner: st.lists(inner) | st.dictionaries(st.text(), inner),
+    max_leaves=20,
+)
+
+
+@settings(derandomize=True, deadline=None)
+@given(data=SOUND, is_ascii=st.booleans())
+def test_what_is_sound_is_read_as_it_was_written(data: object, is_ascii: bool) -> None:
+    assert parsed(json.dumps(data, ensure_ascii=is_ascii).encode()) == data
+
+
+@settings(derandomize=True, deadline=None)
+@given(text=st.text(alphabet='{}[]",:\\u0d8019.eE-+ aN', max_size=40))
+def test_what_is_not_is_malformed_and_nothing_else(text: str) -> None:
+    try:
+        data = parsed(text)
+    except Malformed:
+        return
+    assert json.loads(text) == data
+    json.dumps(data, allow_nan=False, ensure_ascii=False).encode()
+
+
+def test_it_may_be_so_deep_and_no_deeper() -> None:
+    assert parsed("[" * DEEPEST + "]" * DEEPEST)
+    with pytest.raises(Malformed, match="nested deeper"):
+        parsed("[" * (DEEPEST + 1) + "]" * (DEEPEST + 1))
+    assert parsed('["' + "[" * 1000 + '\\"{"]') == ["[" * 1000 + '"{']
+    assert parsed("[" + "[]," * 1000 + "[]]") == [[]] * 1001
+
+
+MUCH = 1_000_000
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        '"' + '\\"' * (MUCH // 2),
+        '"' * MUCH,
+        '"\\' * (MUCH // 2),
+        "[" * MUCH,
+        '{"a":' * (MUCH // 5),
+        '"' + "\\" * MUCH,
+        "1" * MUCH,
+        "1." + "0" * MUCH + "e",
+        '"' + "\\ud800" * (MUCH // 6) + '"',
+        "[" + "{}," * (MUCH // 3),
+    ],
+    ids=range(10),
+)
+def test_much_nonsense_is_found_out_as_fast_as_it_is_read(text: str) -> None:
+    with pytest.raises(Malformed):
+        parsed(text)
+
+
+def test_only_an_object_is_one() -> None:
+    assert parsed_object('{"a": 1}') == {"a": 1}
+    with pytest.raises(Malformed, match="object in braces"):
+        parsed_object("[1]")
