@@ -69,9 +69,13 @@ export function onTheMap({ live }, floor, chosen) {
       mark(goal.element, name === chosen.name);
     }
     Object.assign(goal, { row, flies: trip[1] === "EXECUTING" });
-    floor.move(goal.element, trip[2], trip[3]);
-    set(goal.line, "x2", trip[2]);
-    set(goal.line, "y2", trip[3]);
+    const [, , x, y] = trip;
+    if (goal.x !== x || goal.y !== y) {
+      floor.move(goal.element, x, y);
+      set(goal.line, "x2", x);
+      set(goal.line, "y2", y);
+      Object.assign(goal, { x, y });
+    }
     lead(goal);
   }
   // The line from its drone, while that is on its way.
@@ -142,6 +146,7 @@ function droneLine({ tell, app, live }, id, chosen) {
     const word = row.retired ? "Bring back" : "Retire";
     put(act, word);
     set(act, "aria-label", `${word} drone ${id}`);
+    shown(act, live.state.phase === "flying");
     mark(element, row.mission && row.mission === chosen.name);
   };
   return element;
@@ -149,8 +154,12 @@ function droneLine({ tell, app, live }, id, chosen) {
 
 export function droneList(context, chosen) {
   const list = h("ul", { class: "drone-lines" });
-  const update = () => keyed(list, [...context.live.drones.values()], (row) => row.id,
-    (row) => droneLine(context, row.id, chosen), (line, row) => line.show(row));
+  const empty = h("p", { class: "empty" }, "The drones are here as soon as missions fly.");
+  const update = () => {
+    keyed(list, [...context.live.drones.values()], (row) => row.id,
+      (row) => droneLine(context, row.id, chosen), (line, row) => line.show(row));
+    shown(empty, !list.childElementCount);
+  };
   chosen.changed.heard(update);
-  return { body: [list], update, clear: update };
+  return { body: [empty, list], update, clear: update };
 }

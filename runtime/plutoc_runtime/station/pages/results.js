@@ -143,7 +143,7 @@ export function resultsView(context, chosen, floor, save) {
   });
   function update(entries) {
     for (const [name, part] of all) {
-      const own = entries.filter((entry) => entry[7] === part.kind);
+      const own = entries.filter((entry) => entry[7] === part.kind && entry[8] !== null);
       if (!own.length) continue;
       part.number += own.length;
       tabs.count(name, part.number);

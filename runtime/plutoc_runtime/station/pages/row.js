@@ -69,22 +69,20 @@ function details(context, name) {
   });
   const buttons = h("div", { class: "row" }, pause,
     sureButton("Cancel mission", () => send("cancel")));
-  const why = h("p", { class: "reason" });
   const list = h("ol", { class: "trip-lines" });
-  const element = h("div", { class: "details" }, why, list, buttons);
+  const element = h("div", { class: "details" }, list, buttons);
   element.show = (row) => {
-    const over = ended(row);
+    const over = ended(row) || context.live.state.phase !== "flying";
     paused = row.status === "PAUSED";
     put(pause, paused ? "Go on" : "Pause");
     shown(pause, !row.question);
     shown(buttons, !over);
-    put(why, row.reason || row.wait);
     // A line belongs to its trip: what one is about to press never becomes another trip's.
     const seen = new Map();
     const lines = row.trips.map((trip, index) => {
       seen.set(trip[0], (seen.get(trip[0]) ?? 0) + 1);
       const key = `${seen.get(trip[0])} ${trip[0]}`;
-      return { key, trip, index, current: index === row.current && !over, over };
+      return { key, trip, index, current: index === row.current && !ended(row), over };
     });
     keyed(list, lines, (line) => line.key, (line) => tripLine(send, prioritised, line.trip[0]),
       (line, item) => line.show(item));

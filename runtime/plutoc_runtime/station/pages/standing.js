@@ -21,7 +21,7 @@ const STANDS = {
   CHARGING: ["Charging", "wait", "calm"],
   RECOVERING: ["Recovering", "wait", "warn"],
   LOST: ["Lost", "warning", "bad"],
-  OFFLINE: ["Switched off", "info", "calm"],
+  OFFLINE: ["Not connected", "info", "calm"],
   RETIRED: ["Retired", "close", "calm"],
 };
 

@@ -107,7 +107,7 @@ export function missionTable(context, chosen) {
       else arrange();
     }, 1000);
   }
-  let time = 0;
+  let [time, phase] = [0, ""];
   function update({ missions, drones }) {
     const before = rows.size;
     for (const name of missions) {
@@ -117,6 +117,10 @@ export function missionTable(context, chosen) {
     for (const id of drones) {
       const row = rows.get(live.drones.get(id).mission);
       if (row?.row.drone === id) row.charge(live);
+    }
+    if (phase !== live.state.phase) {
+      ({ phase } = live.state);
+      rows.get(chosen.name)?.show(live.missions.get(chosen.name), live);
     }
     if (time !== (time = Math.floor(live.state.time))) {
       for (const row of rows.values()) if (row.row.until !== null) row.tick(live);
