@@ -320,7 +320,7 @@ def test_the_address_is_what_one_types() -> None:
 def test_without_the_extra_it_says_how_to_come_by_it(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "starlette.requests", None)
     with pytest.raises(BadInput, match=r"pip install 'alfalfa\[station\]'"):
-        borrowed("alfalfa")
+        borrowed("alfalfa_")
 
 
 def test_a_station_comes_back_to_its_port_at_once() -> None:

@@ -121,9 +121,10 @@ def borrowed(app: str) -> Borrowed:
         websockets = import_module("starlette.websockets")
         import_module("uvicorn.protocols.websockets.websockets_sansio_impl")
     except ImportError:
+        package = app.rstrip("_")  # no package's name ends so
         raise BadInput(
             "serve needs a web server, the extra `station` of this package:"
-            f" pip install {in_shell(f'{app}[station]')}"
+            f" pip install {in_shell(f'{package}[station]')}"
         ) from None
     return Borrowed(
         request=requests.Request,
