@@ -1,8 +1,10 @@
-// Elements, icons and words: h("p", { class: "hint", onclick }, "Text"). Text only ever becomes text.
+// Elements, icons, words and fields: h("p", { class: "hint", onclick }, "Text").
+// Text only ever becomes text nodes.
 
 const PROPERTIES = new Set(["value", "checked", "disabled", "hidden", "selected", "tabIndex"]);
 
-const kept = (children) => children.flat(3).filter((one) => ![null, undefined, false].includes(one));
+const kept = (children) =>
+  children.flat(3).filter((one) => ![null, undefined, false].includes(one));
 
 function build(node, props, children) {
   for (const [name, value] of Object.entries(props ?? {})) {
@@ -43,8 +45,8 @@ export function shown(node, yes) {
 
 const made = new WeakMap(); // parent → Map of key → element
 
-// An element for each item, in their order; it stays the same as long as the item's key is there, so
-// that focus and transitions survive. make(item) → element; update(element, item, i).
+// An element for each item, in their order; it stays the same as long as the item's key is there,
+// so that focus and transitions survive. make(item) → element; update(element, item, i).
 export function keyed(parent, items, key, make, update) {
   const before = made.get(parent) ?? new Map();
   const now = new Map();
@@ -60,15 +62,16 @@ export function keyed(parent, items, key, make, update) {
   if (focused !== document.activeElement && parent.contains(focused)) focused.focus();
 }
 
-// Its children change their order by dragging: with the mouse anywhere on one, with a finger on its
-// grip, as elsewhere a finger scrolls.
+// Its children change their order by dragging: with the mouse anywhere on one, with a finger on
+// its grip, as elsewhere a finger scrolls.
 export function reorderable(list, moved) {
   let drag = null;
-  list.addEventListener("pointerdown", ({ target, pointerType, pointerId: id, button, clientY }) => {
+  list.addEventListener("pointerdown", (event) => {
+    const { target, pointerType, pointerId: id, button, clientY: y } = event;
     const from = [...list.children].findIndex((item) => item.contains(target));
     if (from < 0 || button || target.closest("button, input, select, a")) return;
     if (pointerType !== "mouse" && !target.closest(".grip")) return;
-    drag = { item: list.children[from], from, to: null, y: clientY, id };
+    drag = { item: list.children[from], from, to: null, y, id };
   });
   list.addEventListener("pointermove", ({ clientY: y }) => {
     if (!drag || (drag.to === null && Math.abs(y - drag.y) < 6)) return; // still a click
@@ -108,6 +111,8 @@ const ICONS = {
   wait: "M12 3a9 9 0 110 18 9 9 0 010-18zM12 7v5l3 2",
   pause: "M9 5v14M15 5v14",
   grip: "M9 6v.1M15 6v.1M9 12v.1M15 12v.1M9 18v.1M15 18v.1",
+  import: "M12 4v11M7 10l5 5 5-5M4 16v4h16v-4",
+  export: "M12 15V4M7 9l5-5 5 5M4 16v4h16v-4",
   close: "M6 6l12 12M18 6L6 18",
 };
 
@@ -115,7 +120,7 @@ const ICONS = {
 export const icon = (name) => svg("svg", {
   viewBox: "0 0 24 24", width: 18, height: 18, fill: "none", stroke: "currentColor",
   "stroke-width": 2, "stroke-linecap": "round", "stroke-linejoin": "round", "aria-hidden": "true",
-}, svg("path", { d: ICONS[name] }));
+}, svg("path", { d: ICONS[name] ?? name }));
 
 export const many = (n, one, more = `${one}s`) => `${n} ${n === 1 ? one : more}`;
 
@@ -131,9 +136,8 @@ export function clock(time) {
 // 75 → "1 min 15 s"
 export function seconds(time) {
   const all = Math.max(0, Math.round(time));
-  if (all < 60) return `${all} s`;
-  const [n, big, small] = all < 3600 ? [all, "min", "s"] : [Math.round(all / 60), "h", "min"];
-  return `${Math.floor(n / 60)} ${big}${n % 60 ? ` ${n % 60} ${small}` : ""}`;
+  const [minutes, rest] = [Math.floor(all / 60), all % 60];
+  return `${minutes ? `${minutes} min ` : ""}${rest || !minutes ? `${rest} s` : ""}`.trim();
 }
 
 // A key for a new mission or trip.
@@ -154,5 +158,127 @@ export function bell() {
   return {
     heard: (ear) => ears.add(ear) && (() => ears.delete(ear)),
     ring: (what) => [...ears].forEach((ear) => ear(what)),
+  };
+}
+
+// Fields: a mission's, a trip's, a parameter of an action. Quantities stay as they were written,
+// "3 min", "40 mg"; a number alone is in SI units.
+const FACTORS = {
+  ms: 0.001, s: 1, min: 60, h: 3600, mm: 0.001, cm: 0.01, m: 1, km: 1000, mg: 1e-6, g: 0.001, kg: 1,
+  deg: Math.PI / 180, rad: 1, "%": 0.01, "m/s": 1, "km/h": 1 / 3.6, C: 1, K: 1,
+};
+const OFFSETS = { C: 273.15 };
+const USUAL = ["s", "g", "m", "deg", "%", "m/s", "C"];
+const TIME = ["s", "min", "h"];
+
+const amount = (text) => /^\s*([+-]?\d+(?:[.,]\d+)?)\s*([A-Za-z%/]*)\s*$/.exec(String(text));
+
+// In the largest unit in which it is 1 or more, else in the smallest: 180 → "3 min".
+function written(si, units) {
+  const of = (unit) => (si - (OFFSETS[unit] ?? 0)) / FACTORS[unit];
+  const by = units.toSorted((a, b) => FACTORS[b] - FACTORS[a]);
+  const best = by.find((unit) => Math.abs(of(unit)) >= 1) ?? by.at(-1);
+  return `${Number(of(best).toPrecision(6))} ${best}`;
+}
+
+// As it stands in the plan, in words.
+const inWords = (value, units = []) =>
+  typeof value === "number" && units.length ? written(value, units) : String(value);
+
+const number = (text) =>
+  Number.isFinite(Number(text.replace(",", "."))) ? Number(text.replace(",", ".")) : text;
+
+function typed(field, id, change) {
+  const units = field.type === "time" ? TIME : field.units ?? [];
+  const fallback = field.default ?? null;
+  const usual = fallback === null ? "" : fallback === 0 && field.type === "time" ? "none"
+    : inWords(fallback, units);
+  // the unit of a number without one is written beside it, so that it is seen what was understood
+  const unit = (units.length && usual.split(" ")[1]) || USUAL.find((one) => units.includes(one));
+  const numeric = field.type === "int" || field.type === "float";
+  const read = (text) => {
+    const clean = text.trim();
+    if (!clean) return undefined;
+    if (numeric) return number(clean);
+    const [, value, of] = (units.length && amount(clean)) || [];
+    return value ? `${number(value)} ${of || unit}` : clean;
+  };
+  const dayTime = field.type === "time of day";
+  const input = h("input", {
+    id, type: dayTime ? "time" : "text", maxlength: 500, autocomplete: "off", spellcheck: "false",
+    inputmode: numeric && "decimal",
+    placeholder: usual || (unit && `such as 3 ${field.type === "time" ? "min" : unit}`),
+    oninput: () => change(read(input.value), true),
+    onchange() {
+      const value = read(input.value);
+      input.value = value ?? "";
+      change(value, false);
+    },
+  });
+  const show = (value) => {
+    const text = value === undefined || value === null ? "" : inWords(value, units);
+    if (document.activeElement !== input && input.value !== text) input.value = text;
+  };
+  return { input, show };
+}
+
+// How many rounds more, or on and on.
+function rounds(id, change) {
+  const count = h("input", {
+    id, type: "number", min: 0, placeholder: "0",
+    oninput: () => change(count.value === "" ? undefined : Number(count.value), true),
+  });
+  const forever = h("input", {
+    type: "checkbox", onchange: () => change(forever.checked || undefined, false),
+  });
+  const whole = h("div", { class: "row rounds" }, count,
+    h("span", { class: "hint" }, "more rounds"),
+    h("label", { class: "check" }, forever, "until stopped"));
+  return {
+    input: count, whole, also: forever,
+    show(value) {
+      forever.checked = value === true;
+      count.disabled ||= forever.checked;
+      if (document.activeElement !== count) count.value = typeof value === "number" ? value : "";
+    },
+  };
+}
+
+function control(field, id, evaluators, change) {
+  if (field.type === "rounds") return rounds(id, change);
+  if (field.type === "bool") {
+    const onchange = () => change(input.checked, false);
+    const input = h("input", { id, type: "checkbox", onchange });
+    return { input, show: (value) => { input.checked = value ?? field.default ?? false; } };
+  }
+  if (field.type !== "evaluator") return typed(field, id, change);
+  const input = h("select", { id, onchange: () => change(input.value || undefined, false) },
+    h("option", { value: "" }, "None"),
+    evaluators.map((name) => h("option", { value: name }, plain(name))));
+  return { input, show: (value) => { input.value = value ?? ""; } };
+}
+
+// field: { name, type, label?, default?, units? }; change(value, typing), undefined: empty
+// → { element, input, update(value, { problem, locked }) }; what somebody types in stays meanwhile.
+export function fieldFor(field, { evaluators = [], change }) {
+  const id = unique(field.name);
+  const { input, whole = input, also, show } = control(field, id, evaluators, change);
+  const words = h("span");
+  const problem = h("p", { class: "problem", id: `${id}-problem` }, icon("warning"), words);
+  const name = plain(field.name);
+  const label = field.label ?? name[0].toUpperCase() + name.slice(1);
+  set(input, "aria-describedby", problem.id);
+  return {
+    input,
+    element: h("div", { class: "field", "data-field": field.name },
+      h("label", { for: id }, label), whole, problem),
+    update(value, { problem: text = "", locked = false } = {}) {
+      input.disabled = locked;
+      if (also) also.disabled = locked;
+      show(value);
+      put(words, text);
+      shown(problem, text);
+      set(input, "aria-invalid", text ? "true" : null);
+    },
   };
 }

@@ -5,14 +5,14 @@ import { download, send } from "./api.js";
 import {
   fill, h, icon, keyed, many, newKey, plain, put, reorderable, set, shown, unique,
 } from "./dom.js";
-import { fieldFor, inWords, TIME } from "./fields.js";
+import { fieldFor } from "./dom.js";
 import { addMission, copyMission, deleteMission, moved, putBack, setField } from "./plan.js";
 
 const button = (text, onclick, kind = "", sign = "") =>
   h("button", { class: `button ${kind}`, onclick }, sign && icon(sign), h("span", {}, text));
 
 // The missions in their order, one of them selected.
-function missionList(fields, { select, open, rename, remove, move }) {
+function missionList({ select, open, rename, remove, move }) {
   let missions = [];
   let selected = null;
   const act = (what) => ({ target }) => {
@@ -56,13 +56,10 @@ function missionList(fields, { select, open, rename, remove, move }) {
 
   function update(node, mission, i, problems) {
     const [, count, words, chip] = node.children;
-    const given = fields.filter(({ name }) => (mission[name] ?? null) !== null)
-      .map(({ name, label, type }) => `${label.toLowerCase()} ${mission[name] === true
-        ? "until stopped" : plain(inWords(mission[name], type === "time" ? TIME : []))}`);
-    const trips = mission.trips.length ? many(mission.trips.length, "trip") : "no trips yet";
     put(count, i + 1);
     put(words.firstChild, mission.name.trim() || "Without a name");
-    put(words.lastChild, [trips, ...given].join(" · "));
+    put(words.lastChild, mission.trips.length ? many(mission.trips.length, "trip")
+      : "no trips yet");
     const [text, kind, sign] = mark(mission, problems);
     if (chip.dataset.text !== text) {
       chip.dataset.text = text;
@@ -151,14 +148,8 @@ function missionPanel({ app, plan }, { open, copy, remove }) {
   };
 }
 
-// Takes away what came, and brings back what went; what was done since then stays.
-function back(before, after) {
-  const [was, came] = [before, after].map((list) => new Set(list.map(({ key }) => key)));
-  return (missions) => [
-    ...missions.filter(({ key }) => was.has(key) || !came.has(key)),
-    ...before.filter(({ key }) => !came.has(key) && !missions.some((one) => one.key === key)),
-  ];
-}
+const without = (missions, others) =>
+  missions.filter(({ key }) => !others.some((other) => other.key === key));
 
 // The station makes another plan of it; where somebody was quicker, on top of theirs.
 async function another({ plan, say, selected }, ask, said) {
@@ -175,7 +166,10 @@ async function another({ plan, say, selected }, ask, said) {
   }
   const after = plan.missions;
   selected.set(after.find(({ launched }) => !launched)?.key ?? null);
-  say(said, { undo: () => plan.edit(back(before, after)) });
+  const came = without(after, before); // what was done since then stays
+  say(said, {
+    undo: () => plan.edit((now) => [...without(now, came), ...without(before, now)]),
+  });
 }
 
 const example = (context) => another(context,
@@ -212,11 +206,12 @@ const welcome = (buttons, help) => h("section", { class: "card welcome stack" },
       + "far as there are drones."],
     ["Set its trips", "Drag actions from the list onto the map, in the order of the trips."],
     ["Press Start", "Watch it on the page Monitor. The two Stop buttons act at once."],
-  ].map(([title, text], i) => h("li", {}, h("h3", {}, `${i + 1}. ${title}`), h("p", { class: "muted" }, text)))),
+  ].map(([title, text], i) =>
+    h("li", {}, h("h3", {}, `${i + 1}. ${title}`), h("p", { class: "muted" }, text)))),
   h("div", { class: "row" }, buttons), help);
 
 export function missions(context) {
-  const { app, plan, selected, say, go } = context;
+  const { plan, selected, say, go } = context;
 
   const made = (change) => {
     const key = newKey();
@@ -255,7 +250,7 @@ export function missions(context) {
     context.hush(`${selected.mission()?.name} is number ${place(key) + 1} now.`);
   }
 
-  const list = missionList(app.fields.mission, {
+  const list = missionList({
     select: selected.set, open, rename: () => panel.rename(), remove, move,
   });
   const panel = missionPanel(context, { open, copy, remove });
@@ -306,21 +301,21 @@ const keys = (...names) => names.map((name) => [h("kbd", { class: "key" }, name)
 export const help = () => ({
   element: h("div", { class: "help" },
     part("From a plan to a flight", [
-      ["1. Missions", "Add a mission and give it a name. Missions fly side by side, as far as there "
-        + "are drones."],
+      ["1. Missions", "Add a mission and give it a name. Missions fly side by side, as far as "
+        + "there are drones."],
       ["2. Trips", "Drag actions onto the map, in the order in which they are to be done. Pins can "
         + "be dragged to another place."],
       ["3. Start", "The page Monitor shows each mission, each drone, and what was measured and "
         + "photographed. Missions that you add meanwhile are started by pressing Start again."],
-    ], "Nothing flies before somebody presses Start. When you close this page, the missions fly on; "
-      + "whoever opens the station sees the same."),
+    ], "Nothing flies before somebody presses Start. When you close this page, the missions fly "
+      + "on; whoever opens the station sees the same."),
     part("Stopping", [
       ["Stop: fly home", "All drones fly back to where they started, and land there."],
       ["Stop: land now", "All drones land where they are, also after the other Stop."],
       ["Resume", "Every mission goes on where it was stopped."],
       ["Put away", "What was stopped is not flown any more. Its plan stays."],
-    ], "Both Stops act at once, and keep trying when the connection is lost. The page Monitor stops "
-      + "a single mission."),
+    ], "Both Stops act at once, and keep trying when the connection is lost. The page Monitor "
+      + "stops a single mission."),
     part("Keys", [
       [keys("←", "→"), "On the tabs: another page"],
       [keys("↑", "↓"), "In the list of missions: select another"],

@@ -1,7 +1,6 @@
-// The plan that everybody draws together, and its usual changes. A change is a function from missions
-// to missions, which are never changed in place; it finds what it changes by key. It is seen at once
-// and saved by itself: where somebody else was quicker, it is made to theirs and sent again, and
-// without a connection it is kept and sent later.
+// The plan that everybody draws together, and its usual changes: functions from missions to
+// missions (never changed in place) that find what they change by key. One is seen at once and
+// saved by itself; where somebody was quicker, on top of theirs; without a connection, later.
 
 import { get, send, wait } from "./api.js";
 import { bell, freeName, newKey } from "./dom.js";
