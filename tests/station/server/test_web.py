@@ -313,7 +313,7 @@ def test_the_address_is_what_one_types() -> None:
     assert address(Guard(host="127.0.0.1", port=8765)) == "http://127.0.0.1:8765/"
     assert address(Guard(host="::1", port=80, token="a")) == "http://[::1]:80/#token=a"
     named = Guard(host="127.0.0.1", port=1, names=("ward.example",), token="a")
-    assert address(named) == "http://ward.example/#token=a"
+    assert address(named) == "http://127.0.0.1:1/#token=a"
     assert "0.0.0.0" not in address(Guard(host="0.0.0.0", port=8765, token="a"))
 
 

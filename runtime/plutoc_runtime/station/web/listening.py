@@ -9,7 +9,7 @@ from ipaddress import ip_address
 
 from ...errors import BadInput
 from ...words import quoted
-from .guard import Guard, is_loopback
+from .guard import Guard
 
 _BACKLOG = 128
 _PORTS = 65536
@@ -51,8 +51,6 @@ def address(guard: Guard) -> str:
 
 
 def _name(guard: Guard) -> str:
-    if guard.names and is_loopback(guard.host):  # something stands before it: they know its port
-        return guard.names[0]
     host = _own() if _is_every(guard.host) else guard.host
     return f"[{host}]:{guard.port}" if ":" in host else f"{host}:{guard.port}"
 
