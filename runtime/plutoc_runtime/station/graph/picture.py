@@ -8,7 +8,7 @@ from dataclasses import asdict
 from .layout import drawn
 from .read import Box, Graph
 
-_NAME, _KIND, _LABEL = 7.8, 5.8, 5.6
+_NAME, _KIND, _LABEL = 8.2, 6.0, 6.2
 """How wide a letter is, on average: of a name, of a kind, of the statuses beside an arrow."""
 _BORDER, _NARROW, _WIDE, _HIGH = 20.0, 72.0, 210.0, 44.0
 _PILL = (62.0, 32.0)
