@@ -1,139 +1,157 @@
 // The actions that can be put on the floor plan: dragged there, or taken in hand by pressing one and
 // put down by pressing a place on the map or by writing x and y.
-//
-//   const list = actions(app, floor, { add(action, [x, y]), hover(action, [x, y] | null) });
-//   list.element      list.lock(true) where nothing may be added
 
-import { dragOnto } from "./action_drag.js";
-import { actionSign, called } from "./action_signs.js";
-import { fill, h, set, unique } from "./dom.js";
-import { snapped } from "./pin_hands.js";
-import { read } from "./numbers.js";
+import { fill, h, icon, plain, set } from "./dom.js";
+import { snapped } from "./pins.js";
 
+const SIGNS = {
+  take_photo: "M4 8h4l2-3h4l2 3h4v11H4zM12 10a3.5 3.5 0 110 7 3.5 3.5 0 010-7z",
+  measure: "M10 4.5a2 2 0 014 0v9.2a4 4 0 11-4 0zM12 9v7.5",
+  pick_item: "M5 15v5h14v-5M12 15V4M7 9l5-5 5 5",
+  release_item: "M5 15v5h14v-5M12 4v11M7 10l5 5 5-5",
+};
+const STAR = "M12 4l2.3 5.2 5.7.6-4.2 3.9 1.2 5.6-5-2.9-5 2.9 1.2-5.6L4 9.8l5.7-.6z";
+
+// "take_photo" is "Take photo".
+export const called = (name) => plain(name).replace(/^./, (first) => first.toUpperCase());
+export const actionSign = (name) => icon(SIGNS[name] ?? STAR);
+
+// act: { add(action, target), hover(action, target | null) }
 export function actions(app, floor, act) {
-  const chips = new Map();
+  const { picture } = floor;
   let inHand = null;
-  let locked = false;
+  let pressed = null; // where a press on the map began: a drag moves the map
 
-  for (const action of app.actions) {
+  const chips = app.actions.map((action) => {
     // Not a <button>: those cannot be dragged in every browser.
     const chip = h("div", {
-      class: "action", role: "button", tabindex: 0, draggable: "true", "data-action": action.name,
-      "aria-pressed": "false",
+      class: "action button", role: "button", tabindex: 0, draggable: "true",
+      "data-action": action.name, onclick: () => take(inHand === action ? null : action),
+      onkeydown(event) {
+        if (event.key !== "Enter" && event.key !== " ") return;
+        event.preventDefault();
+        take(action);
+        x.focus();
+      },
     }, actionSign(action.name), called(action.name));
-    chip.addEventListener("click", () => take(inHand === action ? null : action));
-    chip.addEventListener("keydown", (event) => {
-      if (event.key !== "Enter" && event.key !== " ") return;
+    byMouse(floor, chip, action, act, () => take(null));
+    byFinger(floor, chip, action, act, () => take(null));
+    return chip;
+  });
+  const said = h("p", { class: "hint" });
+  const [x, y] = ["x", "y"].map((axis) =>
+    h("input", {
+      class: "input", inputmode: "decimal", required: true, pattern: "-?\\d+([.,]\\d+)?",
+      title: "metres, such as 2.5", "aria-label": axis,
+    }));
+  const form = h("form", {
+    class: "row",
+    onsubmit(event) {
       event.preventDefault();
-      take(action);
-      if (inHand) where.x.focus();
-    });
-    dragOnto(floor, chip, {
-      locked: () => locked,
-      begin: () => take(null),
-      hover: (target) => act.hover(action, target),
-      drop: (target) => act.add(action, target),
-    });
-    chips.set(action, chip);
-  }
-
-  const said = h("p", { class: "in-hand-said" });
-  const where = placeForm((target) => {
-    act.add(inHand, target);
-    back();
-  }, () => back());
-  const line = h("div", { class: "in-hand" }, said, where.element);
-  const element = h("section", { class: "actions card", "aria-label": "Actions" },
-    h("div", { class: "action-list", role: "group", "aria-label": "Actions to put on the map" },
-      ...chips.values()), line);
+      act.add(inHand, [x, y].map(({ value }) => Number(value.replace(",", "."))));
+      form.reset();
+      back();
+    },
+  }, "x", x, "y", y, "m", h("button", { class: "button primary" }, "Add"),
+  h("button", { class: "button quiet", type: "button", onclick: back }, "Cancel"));
+  const element = h("section", {
+    class: "card actions", "aria-label": "Actions",
+    onkeydown: ({ key }) => key === "Escape" && inHand && back(),
+  }, h("div", { class: "row", role: "group", "aria-label": "Actions to put on the map" }, chips),
+  h("div", { class: "in-hand row" }, said, form));
 
   function take(action) {
-    inHand = locked ? null : action;
-    for (const [other, chip] of chips) set(chip, "aria-pressed", String(other === inHand));
-    floor.element.classList.toggle("aiming", inHand !== null);
-    where.element.hidden = inHand === null;
-    if (inHand) fill(said, h("strong", {}, called(inHand.name)), ": press a place on the map, or write");
-    else {
-      fill(said, "Drag an action onto the map. Or press it, then press where on the map.");
-      act.hover(null, null);
-    }
+    inHand = action;
+    chips.forEach((chip, at) => set(chip, "aria-pressed", String(app.actions[at] === inHand)));
+    picture.classList.toggle("aiming", inHand);
+    form.hidden = !inHand;
+    fill(said, inHand ? [h("strong", {}, called(inHand.name)), ": press a place on the map, or write"]
+      : "Drag an action onto the map. Or press it, then press where on the map.");
+    if (!inHand) act.hover(null, null);
   }
 
-  /** Put it back, and go back to where it lies: the form that had the focus is gone. */
+  // Puts it back, and the focus with it, as the form that had it is gone.
   function back() {
-    const chip = chips.get(inHand);
+    const chip = chips[app.actions.indexOf(inHand)];
     take(null);
     chip.focus();
   }
 
-  aim(floor, () => inHand, {
-    hover: (target) => act.hover(inHand, target),
-    drop(target) {
-      act.add(inHand, target);
-      take(null);
-    },
-    away: () => take(null),
-  });
-  element.addEventListener("keydown", (event) => {
-    if (event.key === "Escape" && inHand) back();
-  });
-  take(null);
-  return {
-    element,
-    lock(now) {
-      if (now === locked) return;
-      locked = now;
-      for (const chip of chips.values()) set(chip, "draggable", String(!locked));
-      take(null);
-    },
-  };
-}
-
-/** With an action in hand, a press on the map (not a drag, which moves it) puts it down. */
-function aim(floor, inHand, act) {
-  let pressed = null;
-  const { picture } = floor;
-  picture.addEventListener("pointerdown", (event) => {
-    pressed = event.isPrimary ? { x: event.clientX, y: event.clientY } : null;
-  });
+  picture.addEventListener("pointerdown", (event) => { pressed = event.isPrimary && event; });
   picture.addEventListener("pointermove", (event) => {
-    if (inHand() && event.pointerType === "mouse") act.hover(snapped(floor, event));
+    if (inHand && event.pointerType === "mouse") act.hover(inHand, snapped(floor, event));
   });
   picture.addEventListener("pointerup", (event) => {
-    if (!inHand() || !pressed) return;
-    if (Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) < 6) {
-      act.drop(snapped(floor, event));
-    }
-    pressed = null;
+    if (!inHand || !pressed) return;
+    if (Math.hypot(event.clientX - pressed.clientX, event.clientY - pressed.clientY) > 6) return;
+    act.add(inHand, snapped(floor, event));
+    take(null);
   });
-  picture.addEventListener("keydown", (event) => {
-    if (event.key === "Escape" && inHand()) act.away();
-  });
+  picture.addEventListener("keydown", ({ key }) => key === "Escape" && inHand && back());
+  take(null);
+  return { element, putBack: () => take(null) };
 }
 
-function placeForm(add, cancel) {
-  const coordinate = (name) => {
-    const id = unique("at");
-    const input = h("input", { id, class: "input coordinate", inputmode: "decimal", autocomplete: "off" });
-    return { input, parts: [h("label", { for: id }, name), input] };
-  };
-  const [x, y] = [coordinate("x"), coordinate("y")];
-  const element = h("form", { class: "place-form", hidden: true }, ...x.parts, ...y.parts, "m",
-    h("button", { class: "button primary", type: "submit" }, "Add"),
-    h("button", { class: "button quiet", type: "button", onclick: cancel }, "Cancel"));
-  element.addEventListener("submit", (event) => {
+// The browser's own drag and drop.
+function byMouse(floor, chip, action, act, begin) {
+  const { picture } = floor;
+  let dragging = false; // only what was taken here may be dropped
+  const over = (kind, heard) => picture.addEventListener(kind, (event) => {
+    if (!dragging) return;
     event.preventDefault();
-    const target = [x.input, y.input].map((input) => {
-      const value = read(input.value);
-      set(input, "aria-invalid", value === null ? "true" : null);
-      return value;
-    });
-    const wrong = target.indexOf(null);
-    if (wrong >= 0) [x.input, y.input][wrong].focus();
-    else {
-      add(target);
-      x.input.value = y.input.value = "";
-    }
+    heard(snapped(floor, event), event);
   });
-  return { element, x: x.input };
+  chip.addEventListener("dragstart", ({ dataTransfer }) => {
+    dragging = true;
+    dataTransfer.setData("text/plain", chip.textContent);
+    dataTransfer.effectAllowed = "copy";
+    begin();
+  });
+  chip.addEventListener("dragend", () => {
+    dragging = false;
+    act.hover(action, null);
+  });
+  over("dragover", (target) => act.hover(action, target));
+  over("dragleave", (_, event) => picture.contains(event.relatedTarget) || act.hover(action, null));
+  over("drop", (target) => act.add(action, target));
+}
+
+// The same for fingers and pens, for which browsers have no drag and drop.
+function byFinger(floor, chip, action, act, begin) {
+  let from = null;
+  let ghost = null;
+  const target = (event) => {
+    const box = floor.picture.getBoundingClientRect();
+    return event.clientX > box.left && event.clientX < box.right && event.clientY > box.top
+      && event.clientY < box.bottom ? snapped(floor, event) : null;
+  };
+  chip.addEventListener("pointerdown", (event) => {
+    if (event.pointerType === "mouse") return;
+    chip.draggable = false; // else a long press begins the browser's own
+    from = event;
+    chip.setPointerCapture(event.pointerId);
+  });
+  chip.addEventListener("pointermove", (event) => {
+    if (!from) return;
+    if (!ghost) {
+      if (Math.hypot(event.clientX - from.clientX, event.clientY - from.clientY) < 8) return;
+      begin();
+      ghost = chip.cloneNode(true);
+      ghost.classList.add("ghost");
+      document.body.append(ghost);
+    }
+    ghost.style.transform = `translate(${event.clientX + 12}px, ${event.clientY - 56}px)`;
+    act.hover(action, target(event));
+  });
+  const end = (event) => {
+    const wasDragged = ghost;
+    ghost?.remove();
+    chip.setAttribute("draggable", "true");
+    from = ghost = null;
+    if (!wasDragged) return;
+    act.hover(action, null);
+    if (event.type === "pointerup" && target(event)) act.add(action, target(event));
+  };
+  chip.addEventListener("pointerup", end);
+  chip.addEventListener("pointercancel", end);
 }

@@ -1,7 +1,7 @@
 // What the missions brought: measurements, photos and, where the app judges, verdicts.
 
 import { clock, h, plain, put, set, shown, svg } from "./dom.js";
-import { mapPicture } from "./map_picture.js";
+import { mapPicture } from "./floor_ground.js";
 import { mark, round } from "./standing.js";
 import { sieve } from "./table.js";
 
@@ -64,11 +64,12 @@ function measurements(chosen) {
 function ground(map, { position: [x, y], width, height }) {
   const [across, up] = map.size;
   const picture = svg("image", { width: across, height: up, preserveAspectRatio: "none" });
+  const lines = Array.from({ length: Math.ceil(across + up) }, (_, i) => `M${i} 0V${up}M0 ${up - i}H${across}`);
   mapPicture(map).then((address) => address && set(picture, "href", address));
   return svg("svg", {
     class: "ground", "aria-hidden": "true",
     viewBox: `${x - width / 2} ${up - y - height / 2} ${width} ${height}`,
-  }, svg("rect", { width: across, height: up }), picture);
+  }, svg("rect", { width: across, height: up }), picture, svg("path", { d: lines.join("") }));
 }
 
 function photos({ app }, chosen, floor) {

@@ -1,42 +1,42 @@
-// The page Trips: actions above the floor plan, the trips of the selected mission beside it. What is
-// done to a pin is seen at its card at once, and the other way round: both show one list.
+// The page Trips: actions above the floor plan, the trips of the selected mission beside it. Pins and
+// cards show one list, in which a pin is already where it is being dragged.
 
-import { actions } from "./actions.js";
-import { called } from "./action_signs.js";
-import { fill, h, put, shown } from "./dom.js";
+import { actions, called } from "./actions.js";
+import { fill, h, icon, many, newKey, put, shown, unique } from "./dom.js";
 import { floorPlan } from "./floor.js";
-import { icon } from "./dom.js";
-import { missionPicker } from "./mission_picker.js";
-import { ghostPin } from "./pin_ghost.js";
-import { pins } from "./pins.js";
-import { nearestHome, whyNot } from "./places.js";
-import { problemLine, problemsOf } from "./problems.js";
-import { tripActs } from "./trip_acts.js";
-import { tripCards } from "./trip_cards.js";
-import { picks } from "./trip_edits.js";
-import { nothingToSet } from "./trips_hints.js";
+import { metres, pins } from "./pins.js";
+import { addMission } from "./api.js";
+import { picks, tripActs } from "./trip_acts.js";
+import { problemLine, tripCards } from "./trip_cards.js";
+
+const nameOf = ({ name }) => name.trim() || "Without a name";
 
 export function trips(context) {
   const { app, plan, selected } = context;
   let chosen = null; // the key of a trip
-  let draft = null; // { key, target } of a pin while it is dragged
+  let draft = null; // { key, target }: a pin while it is dragged
+  let fresh = null; // { words, target }: where an action would be put now
   let asked = 0;
 
   const floor = floorPlan(app.map, app.drones);
-  const choose = (key) => {
+  function choose(key) {
     if (key === chosen) return;
     chosen = key;
     const trip = selected.mission()?.trips.find((one) => one.key === key);
-    if (trip?.target) floor.reveal(trip.target[0], trip.target[1]);
+    if (trip?.target) floor.reveal(...trip.target);
     draw();
-  };
-  const act = tripActs(context, { choose, focus: (key) => cards.focus(key) });
-  const picker = missionPicker(context, { others: () => draw() });
-  const ghost = ghostPin(floor, app.map);
-  const palette = actions(app, floor, { add: act.add, hover: ghost.show });
-  const cards = tripCards(app, { ...act, choose });
+  }
+  const act = { ...tripActs(context, choose, (key) => cards.focus(key)), choose };
+  const palette = actions(app, floor, {
+    add: act.add,
+    hover(action, target) {
+      fresh = target && { target, words: `${metres(target)} m` };
+      draw();
+    },
+  });
+  const cards = tripCards(app, act);
   const shownPins = pins(floor, {
-    choose,
+    ...act,
     drag(key, target) {
       draft = target && { key, target };
       draw();
@@ -45,94 +45,134 @@ export function trips(context) {
       draft = null;
       act.place(key, target);
     },
-    remove: act.remove,
-    open: (key) => cards.fillIn(key),
+    open: cards.fillIn,
   });
-  ghost.raise();
 
-  const title = h("h2", {});
-  const troubles = h("div", { class: "stack" });
-  const why = h("p", { class: "row locked" }, icon("lock"),
-    h("span", {}, "This mission has been started, so its trips stay as they are. On the page ",
-      h("button", { type: "button", class: "link", onclick: () => context.go("monitor") }, "Monitor"),
-      " you can skip a trip, pause the mission or cancel it."));
-  const empty = h("p", { class: "hint no-trips" },
-    "No trips yet. Drag an action onto the map: that makes a trip. Its number is its turn.");
-  const order = h("p", { class: "hint" }, "Drag a card, or press ", h("kbd", { class: "key" }, "Alt ↑"),
-    " ", h("kbd", { class: "key" }, "Alt ↓"), ", to change the order. The line on the map shows the "
-      + "order; drones find their own way around no-fly areas.");
+  const newMission = (kind) => h("button", {
+    class: `button ${kind}`,
+    onclick() {
+      const key = newKey();
+      plan.edit(addMission(key));
+      selected.set(key);
+    },
+  }, icon("plus"), "New mission");
+  const id = unique("mission");
+  const picker = h("select", { id, class: "input", onchange: () => selected.set(picker.value || null) });
+  const tick = h("input", { type: "checkbox", onchange: () => draw() });
+  const others = h("label", { class: "check spread" }, tick, "Show other missions");
+  const bar = h("div", { class: "row mission-bar" }, h("label", { for: id }, "Mission"), picker,
+    newMission(""), others);
+
+  const title = h("h2");
+  const why = h("p", { class: "hint" }, icon("lock"), " This mission has been started, so its trips stay "
+    + "as they are. On the page Monitor you can skip a trip, pause the mission or cancel it.");
+  const troubles = h("div");
+  const hint = h("p", { class: "hint" });
   const side = h("section", { class: "card trips-side", "aria-label": "Trips of the mission" },
-    title, why, troubles, empty, cards.element, order);
-  const hint = nothingToSet(context);
-  const main = h("div", { class: "trips-main" }, palette.element,
-    h("div", { class: "trips-floor" }, floor.element));
-  const element = h("div", { class: "trips" }, picker.element,
-    h("div", { class: "trips-split" }, main, hint.element, side));
+    title, why, troubles, cards.element, hint);
+  const first = h("section", { class: "card stack trips-first", "aria-label": "What to do first" });
+  const element = h("div", { class: "trips" }, bar, h("div", { class: "trips-split" },
+    h("div", { class: "trips-main" }, palette.element, h("div", { class: "trips-floor" }, floor.element)),
+    first, side));
 
-  function abouts(mission, found) {
-    const from = picks(mission.trips);
-    return mission.trips.map((kept, at) => {
-      const dragged = draft?.key === kept.key;
-      const height = kept.target?.slice(2) ?? [];
-      const trip = dragged ? { ...kept, target: [...draft.target, ...height] } : kept;
-      const all = found.trips.get(kept.key) ?? [];
-      const here = trip.target ? whyNot(app.map, trip.target) : "";
-      const pick = from.get(kept.key);
-      const isTold = (field) => ((dragged || here) && field === "target")
-        || (pick !== undefined && field?.startsWith("item.")); // the trip that picks it tells that
-      const problems = all.filter(({ field }) => !isTold(field));
-      const place = here || problems.find(({ field }) => field === "target")?.text || "";
-      const trouble = [place, ...problems.map(({ text }) => text)].find(Boolean) ?? "";
-      return {
-        key: trip.key, trip, number: at + 1, target: trip.target, place, problems, trouble,
-        words: trip.name ? `${called(trip.action)} · ${trip.name}` : called(trip.action), dragged,
-        pickedIn: pick === undefined ? null : pick + 1,
-      };
-    });
+  // What the page checks by itself, while something is dragged; the station has the last word.
+  function whyNot([x, y]) {
+    const [width, height] = app.map.size;
+    if (x < 0 || y < 0 || x > width || y > height) return "Outside the map";
+    return app.map.no_fly.some((area) => isInside(x, y, area)) ? "In a no-fly area" : "";
   }
 
-  function draw() {
-    asked ||= requestAnimationFrame(now);
+  function aboutOf(kept, at, mission, from) {
+    const dragged = draft?.key === kept.key && draft.target;
+    const target = dragged ? [...dragged, ...kept.target.slice(2)] : kept.target;
+    const pick = from.get(kept.key);
+    const problems = plan.problems.filter(({ trip, field }) => trip === kept.key
+      && !(dragged && field === "target")
+      && !(pick !== undefined && field?.startsWith("item."))); // the trip that picks it tells that
+    if (dragged && whyNot(dragged)) problems.unshift({ field: "target", text: whyNot(dragged) });
+    const words = dragged ? problems[0]?.field === "target" ? problems[0].text : `${metres(dragged)} m`
+      : kept.name ? `${called(kept.action)} · ${kept.name}` : called(kept.action);
+    return {
+      key: kept.key, trip: kept, number: at + 1, target, words, problems,
+      trouble: problems[0]?.text ?? "", pickedIn: pick === undefined ? null : pick + 1,
+    };
   }
 
   function now() {
     asked = 0;
     const mission = selected.mission();
     const locked = !mission || mission.launched;
-    const found = problemsOf(plan, mission?.key);
-    const list = mission ? abouts(mission, found) : [];
+    const from = picks(mission?.trips ?? []);
+    const list = (mission?.trips ?? []).map((trip, at) => aboutOf(trip, at, mission, from));
     if (!list.some(({ key }) => key === chosen)) chosen = null;
-    const first = list.find(({ target }) => target)?.target;
-    picker.update();
-    hint.update();
-    palette.lock(locked);
-    for (const part of [side, palette.element]) shown(part, mission);
-    shownPins.update({ trips: list, chosen, locked, home: first && nearestHome(app.drones, first) });
-    shownPins.others(picker.othersShown() || !mission ? places(mission) : []);
-    if (!mission) return;
-    put(title, `Trips of ${mission.name.trim() || "a mission without a name"}`);
+    showPins(list, mission, locked);
+    shown(bar, plan.missions.length);
+    shown(others, plan.missions.length > 1);
+    fill(picker, h("option", { value: "", hidden: mission }, "Choose a mission"), plan.missions.map((one) =>
+      h("option", { value: one.key }, `${nameOf(one)} (${many(one.trips.length, "trip")})`)));
+    picker.value = mission?.key ?? "";
+    shown(first, plan.loaded && !mission);
+    shown(side, mission);
+    shown(palette.element, !locked);
+    if (locked && fresh) palette.putBack();
+    if (!mission) {
+      fill(first, whatFirst());
+      return;
+    }
+    put(title, `Trips of ${nameOf(mission)}`);
     shown(why, mission.launched);
-    shown(palette.element, !mission.launched);
-    shown(empty, !list.length);
-    shown(order, list.length > 1 && !locked && chosen === null);
-    fill(troubles, found.own.filter(({ field }) => field !== "name" && list.length)
-      .map(({ text }) => problemLine(text)));
-    cards.update({ trips: list, chosen, locked });
+    fill(troubles, list.length > 0 && plan.problems.filter(({ mission: key, trip, field }) =>
+      key === mission.key && !trip && field !== "name").map(({ text }) => problemLine(text)));
+    put(hint, locked || chosen ? "" : !list.length
+      ? "No trips yet. Drag an action onto the map: that makes a trip."
+      : "Drag a card, or press Alt with ↑ or ↓, to change the order. The line on the map shows the "
+        + "order; drones find their own way around no-fly areas.");
+    cards.update(list, chosen, locked);
   }
 
-  const places = (mission) => plan.missions.filter((other) => other !== mission)
-    .flatMap((other) => other.trips.map((trip, at) =>
-      [`${other.name}, trip ${trip.name ?? at + 1}`, trip.target]))
-    .filter(([, target]) => target);
+  function showPins(list, mission, locked) {
+    const start = list.find(({ target }) => target)?.target;
+    const far = ({ home: [x, y] }) => Math.hypot(x - start[0], y - start[1]);
+    const nearest = start && app.drones.toSorted((a, b) => far(a) - far(b))[0];
+    const trouble = fresh && whyNot(fresh.target);
+    const more = fresh ? [{ ...fresh, key: "new", number: "+", trouble, words: trouble || fresh.words }] : [];
+    shownPins.update({ trips: [...list, ...more], chosen, locked, home: nearest?.home });
+    shownPins.showOthers(mission && !tick.checked ? [] : plan.missions.filter((one) => one !== mission)
+      .flatMap((one) => one.trips.map((trip, at) => [`${nameOf(one)}, trip ${trip.name ?? at + 1}`, trip.target]))
+      .filter(([, target]) => target));
+  }
 
+  const whatFirst = () => plan.missions.length ? [
+    h("h2", {}, "First choose a mission"),
+    h("p", {}, "Trips belong to a mission. Whose trips do you want to set?"),
+    plan.missions.slice(0, 8).map((one) =>
+      h("button", { class: "button", onclick: () => selected.set(one.key) }, nameOf(one))),
+  ] : [
+    h("h2", {}, "First make a mission"),
+    h("p", {}, "A mission is a list of trips; a trip is a flight to a place, and what is done there. Make "
+      + "a mission, then drag actions onto the map."),
+    newMission("primary"),
+  ];
+
+  function draw() {
+    asked ||= requestAnimationFrame(now);
+  }
   plan.changed.heard(draw);
   selected.changed.heard(() => {
-    chosen = null;
-    draft = null;
+    chosen = draft = null;
     draw();
   });
   const head = document.querySelector(".top");
   new ResizeObserver(() => element.style.setProperty("--above", `${head.offsetHeight}px`)).observe(head);
   now();
   return { element, show: draw };
+}
+
+function isInside(x, y, corners) {
+  let within = false;
+  corners.forEach(([ax, ay], at) => {
+    const [bx, by] = corners.at(at - 1);
+    if ((ay > y) !== (by > y) && x < ax + ((y - ay) * (bx - ax)) / (by - ay)) within = !within;
+  });
+  return within;
 }
