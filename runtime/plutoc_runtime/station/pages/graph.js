@@ -113,8 +113,9 @@ export function graphView({ live, app: { graph } }, chosen) {
     count();
   }
   function count() {
-    for (const [name, element] of boxes) {
-      set(element, "aria-label", `${name}, ${many(seats.at(name).length, "mission")} here`);
+    for (const { name, doc } of blocks) {
+      const here = `${many(seats.at(name).length, "mission")} here`;
+      set(boxes.get(name), "aria-label", `${name}: ${doc} ${here}`);
     }
     say();
   }

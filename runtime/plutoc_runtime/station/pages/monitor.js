@@ -96,7 +96,7 @@ export function monitor(context) {
   arrange();
   WIDE.addEventListener("change", arrange);
 
-  let flight = null;
+  let [flight, rows] = [null, null];
   let visible = false;
   let timer = 0;
   let seen = { log: 0, results: 0 };
@@ -113,14 +113,17 @@ export function monitor(context) {
     results.update(newer("results"));
   }
   function write(changes) {
-    if (live.flight !== flight) {
-      flight = live.flight;
+    const again = live.flight === flight ? chosen.name : null;
+    const anew = live.missions !== rows; // another flight, or the station was started again
+    if (anew) {
+      [flight, rows] = [live.flight, live.missions];
       seen = { log: 0, results: 0 };
       chosen.set(null);
       for (const each of [table, map, drones, graph, log, results]) each?.clear();
       changes = { missions: new Set(live.missions.keys()), drones: new Set(live.drones.keys()) };
     }
     for (const each of [table, map, graph]) each?.update(changes);
+    if (anew && rows.has(again)) chosen.set(again);
     if (changes.missions.size) asked.update();
     timer ||= setTimeout(later, OFTEN);
   }
