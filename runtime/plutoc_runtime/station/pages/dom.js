@@ -122,6 +122,9 @@ export const icon = (name) => svg("svg", {
   "stroke-width": 2, "stroke-linecap": "round", "stroke-linejoin": "round", "aria-hidden": "true",
 }, svg("path", { d: ICONS[name] ?? name }));
 
+export const button = (text, onclick, kind = "", sign = "") =>
+  h("button", { class: `button ${kind}`, onclick }, sign && icon(sign), h("span", {}, text));
+
 export const many = (n, one, more = `${one}s`) => `${n} ${n === 1 ? one : more}`;
 
 export const plain = (name) => name.replaceAll("_", " ");

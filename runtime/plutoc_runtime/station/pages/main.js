@@ -1,9 +1,10 @@
 // The station's page: messages, the head with Start and the two Stops, and the pages, which are
 // loaded one by one: whatever is wrong with one of them, Stop works.
 
-import { command, get, keepToken, liveFeed, takeToken, token, wait } from "./api.js";
-import { clock, fill, h, icon, many, put, set, shown } from "./dom.js";
-import { planKept, selection } from "./plan.js";
+import {
+  command, get, keepToken, liveFeed, planKept, selection, takeToken, token, wait,
+} from "./api.js";
+import { button, clock, fill, h, icon, many, put, set, shown } from "./dom.js";
 
 const loudly = h("div", { role: "alert" });
 const politely = h("div", { role: "status" });
@@ -19,7 +20,7 @@ function say(text, { undo = null, bad = false } = {}) {
   const back = () => { away(); undo(); };
   fill(place, h("div", { class: bad ? "notice bad" : "notice" },
     icon(bad ? "bad" : "info"), h("p", {}, text),
-    undo && h("button", { class: "button small", onclick: back }, "Undo"),
+    undo && button("Undo", back, "small"),
     h("button", { class: "button quiet icon", "aria-label": "Close this message", onclick: away },
       icon("close"))));
   if (bad) return;
@@ -101,9 +102,7 @@ function head({ live, plan, go, app }, bar) {
   let able = false;
   let last = "";
 
-  const button = (kind, sign, text, onclick) =>
-    h("button", { class: `button ${kind}`, onclick }, icon(sign), h("span", {}, text));
-  const start = button("primary", "start", "Start", async () => {
+  const start = button("Start", async () => {
     if (!able) {
       if (why.textContent) say(why.textContent);
       return;
@@ -112,12 +111,12 @@ function head({ live, plan, go, app }, bar) {
       say("The plan is not saved yet, so it was not started.", { bad: true });
     } else if (await tell("start", { revision: plan.revision() })) go("monitor");
     plan.load().catch(() => null);
-  });
-  const resume = button("primary", "start", "Resume",
-    async () => await tell("resume") && go("monitor"));
-  const away = button("", "close", "Put away", () => tell("discard"));
-  const home = button("danger", "home", "Stop: fly home", () => stop("rtl"));
-  const land = button("danger", "land", "Stop: land now", () => stop("land"));
+  }, "primary", "start");
+  const resume = button("Resume", async () => await tell("resume") && go("monitor"), "primary",
+    "start");
+  const away = button("Put away", () => tell("discard"));
+  const home = button("Stop: fly home", () => stop("rtl"), "danger", "home");
+  const land = button("Stop: land now", () => stop("land"), "danger", "land");
   set(start, "aria-describedby", "why");
 
   function update() {
@@ -251,7 +250,7 @@ function closed({ status, message }) {
   h("div", { class: "field" }, h("label", { for: "token" }, "Address or token"), input),
   token() && h("p", { class: "problem", role: "alert" }, icon("warning"),
     "The station knows no such token: it makes a new one each time it is started."),
-  h("div", {}, h("button", { class: "button primary" }, "Open the station")));
+  h("div", {}, button("Open the station", null, "primary")));
   fill(document.body, h("main", { class: "gate" }, h("div", { class: "card stack" },
     h("h1", {}, status === 401 ? "This station asks for its token" : message),
     status === 401 && form)));

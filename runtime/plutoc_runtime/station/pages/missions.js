@@ -1,15 +1,12 @@
 // The page Missions: the list, the selected mission beside it, and what to do first. Nothing asks
 // before it acts; what was deleted can be brought back. And the page Help.
 
-import { download, send } from "./api.js";
 import {
-  fill, h, icon, keyed, many, newKey, plain, put, reorderable, set, shown, unique,
+  addMission, copyMission, deleteMission, download, moved, putBack, send, setField,
+} from "./api.js";
+import {
+  button, fieldFor, fill, h, icon, keyed, many, newKey, plain, put, reorderable, set, shown, unique,
 } from "./dom.js";
-import { fieldFor } from "./dom.js";
-import { addMission, copyMission, deleteMission, moved, putBack, setField } from "./plan.js";
-
-const button = (text, onclick, kind = "", sign = "") =>
-  h("button", { class: `button ${kind}`, onclick }, sign && icon(sign), h("span", {}, text));
 
 // The missions in their order, one of them selected.
 function missionList({ select, open, rename, remove, move }) {
@@ -60,7 +57,7 @@ function missionList({ select, open, rename, remove, move }) {
     put(words.firstChild, mission.name.trim() || "Without a name");
     put(words.lastChild, mission.trips.length ? many(mission.trips.length, "trip")
       : "no trips yet");
-    const [text, kind, sign] = mark(mission, problems);
+    const [text = "", kind, sign] = mark(mission, problems);
     if (chip.dataset.text !== text) {
       chip.dataset.text = text;
       set(chip, "class", `chip ${kind}`);
@@ -151,15 +148,14 @@ function missionPanel({ app, plan }, { open, copy, remove }) {
 const without = (missions, others) =>
   missions.filter(({ key }) => !others.some((other) => other.key === key));
 
-// The station makes another plan of it; where somebody was quicker, on top of theirs.
 async function another({ plan, say, selected }, ask, said) {
   await plan.saved();
   const before = plan.missions;
   try {
-    let { status, data } = await ask(plan.revision());
-    if (status === 409) ({ status, data } = await ask(data.revision));
-    if (status === 409) throw new Error(data.said ?? "Somebody else changed the plan: try again.");
+    const { status, data } = await ask(plan.revision());
+    if (!data.missions) throw new Error(data.said);
     plan.take(data);
+    if (status === 409) throw new Error("Somebody else changed the plan meanwhile: try again.");
   } catch (error) {
     say(error.message, { bad: true });
     return;
