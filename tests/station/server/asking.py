@@ -45,7 +45,7 @@ class APlan:
             raise BadInput("missions is no list")
         self.missions, self.revision = missions, revision + 1
 
-    def import_toml(self, text: str, revision: int) -> None:
+    async def import_file(self, text: str, revision: int) -> None:
         if "=" not in text:
             raise BadInput("line 1: expected =")
         self.replace(revision, [text])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from asyncio import to_thread
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from itertools import islice
 from pathlib import Path
@@ -84,7 +85,17 @@ class Plan:
     def import_toml(self, text: str, revision: object, file: str = NAME) -> None:
         """Take the missions of a file, instead of those that were not launched."""
         self._check_current(revision)
-        given = self._shaped(shapes_of(text, self._app, self._fleet.airspace, file))
+        self._take(shapes_of(text, self._app, self._fleet.airspace, file), revision)
+
+    async def import_file(self, text: str, revision: object) -> None:
+        """Do the same while others go on: reading a large file takes seconds."""
+        self._check_current(revision)
+        given = await to_thread(shapes_of, text, self._app, self._fleet.airspace)
+        self._take(given, revision)
+
+    def _take(self, read: Sequence[Shape], revision: object) -> None:
+        self._check_current(revision)
+        given = self._shaped(read)
         # a plan that was handed out while it flew holds those missions, too
         flying = [as_in_a_file(one) for one in self._missions if one["launched"]]
         new = [mission for mission in given if as_in_a_file(mission) not in flying]

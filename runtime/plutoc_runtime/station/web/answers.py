@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Coroutine, Mapping
 
 from ...errors import BadInput
 from ..commands import NEEDS
@@ -64,15 +64,17 @@ async def change(station: Station, audit: Audit, request: Request) -> Reply:
             given = parsed_object(body)
             revision, missions = _whole(given, "revision"), given.pop("missions", None)
             _nothing_else(given)
-            return await _edited(plan, audit, request, lambda: plan.replace(revision, missions))
+            edit = _at_once(lambda: plan.replace(revision, missions))
+            return await _edited(plan, audit, request, edit)
         case "/api/plan/import":
             revision, text = asked_number(request.query, "revision"), _text(body)
-            return await _edited(plan, audit, request, lambda: plan.import_toml(text, revision))
+            return await _edited(plan, audit, request, plan.import_file(text, revision))
         case "/api/plan/example":
             given = parsed_object(body)
             revision = _whole(given, "revision")
             _nothing_else(given)
-            return await _edited(plan, audit, request, lambda: plan.example(revision))
+            edit = _at_once(lambda: plan.example(revision))
+            return await _edited(plan, audit, request, edit)
         case path:
             given = parsed_object(body)
             return await _commanded(station, audit, request, path.removeprefix("/api/"), given)
@@ -94,10 +96,16 @@ async def _commanded(
     return in_words(status, said)
 
 
-async def _edited(plan: Plan, audit: Audit, request: Request, edit: Callable[[], None]) -> Reply:
+async def _at_once(edit: Callable[[], None]) -> None:
+    edit()
+
+
+async def _edited(
+    plan: Plan, audit: Audit, request: Request, edit: Coroutine[None, None, None]
+) -> Reply:
     """Change the plan; who has seen an older one is given the newest."""
     try:
-        edit()
+        await edit
         status = 200
     except Stale:
         status = 409

@@ -19,7 +19,7 @@ class Plan(Protocol):
     def replace(self, revision: int, missions: object) -> None:
         """Put missions in its place."""
 
-    def import_toml(self, text: str, revision: int) -> None:
+    async def import_file(self, text: str, revision: int) -> None:
         """Put those of a missions file in its place."""
 
     def example(self, revision: int) -> None:
