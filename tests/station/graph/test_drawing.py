@@ -78,6 +78,9 @@ def test_every_app_has_a_picture_without_mistakes() -> None:
         picture = picture_of(graph_of(app))
         assert list(mistakes(picture.laid, picture.ways)) == [], app.graph.source.text
         assert list(lying_together(picture.laid)) == [], app.graph.source.text
+        for left, top, right, bottom in picture.words:
+            assert left >= 0 and top >= -1, app.graph.source.text
+            assert right <= picture.laid.width and bottom <= picture.laid.height + 1
 
 
 SIZES = st.tuples(st.sampled_from((62.0, 90.0, 210.0)), st.sampled_from((32.0, 44.0)))
@@ -105,7 +108,9 @@ def test_any_boxes_and_ways_are_drawn(
     """Loops, ways from a box to itself, many between two, boxes that nothing leads to."""
     sizes, ways, widths = tangle
     laid = drawn(sizes, ways, widths)
-    assert [(right - x, bottom - y) for x, y, right, bottom in laid.boxes] == [pytest.approx(size) for size in sizes]
+    assert [(right - x, bottom - y) for x, y, right, bottom in laid.boxes] == [
+        pytest.approx(size) for size in sizes
+    ]
     assert list(mistakes(laid, ways)) == []
     assert [at is not None for at in laid.words] == [width > 0 for width in widths]
     assert laid == drawn(sizes, ways, widths)

@@ -22,6 +22,8 @@ _TURN = 0.12
 _MARGIN, _APART, _ROOM, _ROOM_BELOW, _AIR = 10.0, 8.0, 16.0, 24.0, 10.0
 """Around the picture; between two ways; between a box and a way along it, where an arrow's head must have
 its place; the same below a box, where missions stand; beside words."""
+_FAR = 1e5
+"""Further than any picture reaches."""
 _ABOUT_GAP, _ABOUT_CHANNEL = (20.0, 20.0), (22.0, 22.0)
 """The room that a gap and a channel will have, more or less."""
 
@@ -93,8 +95,19 @@ def _laid(grid: Grid, chosen: Sequence[Route], widths: Sequence[float]) -> Laid:
         height=frame.height,
         boxes=tuple(boxes),
         ways=tuple(ways),
-        words=tuple(words(ways, widths, boxes)),
+        words=tuple(words(ways, widths, [*boxes, *_outside(frame)])),
     )
+
+
+def _outside(frame: Frame) -> list[Area]:
+    """Return what is around the picture."""
+    right, bottom = frame.width, frame.height
+    return [
+        (-_FAR, -_FAR, _FAR, 0.0),
+        (-_FAR, -_FAR, 0.0, _FAR),
+        (right, -_FAR, _FAR, _FAR),
+        (-_FAR, bottom, _FAR, _FAR),
+    ]
 
 
 def _rooms(
