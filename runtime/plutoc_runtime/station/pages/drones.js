@@ -1,7 +1,7 @@
 // The drones, live on the floor plan with where they are going, and as a list.
 
 import { h, keyed, many, put, set, shown, svg } from "./dom.js";
-import { battery, ended, level, mark, standing } from "./standing.js";
+import { battery, ended, level, mark, standing } from "./row.js";
 
 const TRAIL = 30; // seconds
 const APART = 0.12; // metres between two points of a trail
@@ -46,7 +46,8 @@ function targetMark(floor, row, chosen) {
 }
 
 export function onTheMap({ live }, floor, chosen) {
-  const layers = ["way", "trails", "to-target", "targets", "drones"].map((name) => floor.layer(name));
+  const names = ["way", "trails", "to-target", "targets", "drones"];
+  const layers = names.map((name) => floor.layer(name));
   const [way, trails, lines, targets, drones] = layers;
   const marks = new Map();
   const goals = new Map(); // mission → where it goes now
@@ -94,7 +95,8 @@ export function onTheMap({ live }, floor, chosen) {
       ...stops.map((trip) => floor.mark(trip[2], trip[3], svg("circle", { r: 4 }))));
     for (const [name, goal] of goals) mark(goal.element, name === chosen.name);
     for (const [id, { element, trail }] of marks) {
-      for (const each of [element, trail]) mark(each, row && live.drones.get(id).mission === row.name);
+      const its = row && live.drones.get(id).mission === row.name;
+      for (const each of [element, trail]) mark(each, its);
     }
   }
   const choose = (id) => live.drones.get(id).mission && chosen.set(live.drones.get(id).mission);
@@ -135,8 +137,9 @@ function droneLine({ tell, app, live }, id, chosen) {
     class: "button quiet small",
     onclick: () => tell(now().retired ? "bring-back" : "retire", { drone: id }),
   });
-  const element = h("li", null, h("span", { class: "called" }, id, category && h("small", null, category)),
-    h("span", { class: "doing" }, stands, mission), charge, trips, act);
+  const called = h("span", { class: "called" }, id, category && h("small", null, category));
+  const element = h("li", null, called, h("span", { class: "doing" }, stands, mission), charge,
+    trips, act);
   element.show = (row) => {
     stands.show(row.retired ? "RETIRED" : row.status);
     charge.show(row.battery);

@@ -66,7 +66,13 @@ export function monitor(context) {
   const floor = floorPlan(app.map, app.drones);
   const save = (path) => h("button", {
     class: "button quiet small",
-    onclick: () => download(path, path.slice(5)).catch((error) => context.say(error.message, { bad: true })),
+    onclick: async () => {
+      try {
+        await download(path, path.split("/").pop());
+      } catch (error) {
+        context.say(error.message, { bad: true });
+      }
+    },
   }, "Download");
   const table = missionTable(context, chosen);
   const map = onTheMap(context, floor, chosen);

@@ -1,14 +1,18 @@
 // What the missions brought: measurements, photos and, where the app judges, verdicts.
 
 import { clock, h, plain, put, set, shown, svg } from "./dom.js";
-import { mapPicture } from "./floor_ground.js";
-import { mark, round } from "./standing.js";
+import { mapPicture } from "./floor.js";
+import { mark, round } from "./row.js";
 import { sieve } from "./table.js";
 
 const LINES = 300;
 const PHOTOS = 60;
 const VALUES = 60; // in a sparkline
 const written = (value) => (typeof value === "number" ? Number(value.toPrecision(4)) : value);
+
+// The name of a mission, which one presses to see it everywhere.
+const link = (chosen, mission) =>
+  h("button", { class: "link", onclick: () => chosen.set(mission) }, mission);
 
 // How a value went, in a few pixels; a ring marks the newest.
 function sparkline(values) {
@@ -27,17 +31,18 @@ function measurements(chosen) {
   const make = (mission, trip) => {
     const cells = Array.from({ length: 3 }, () => h("td", { class: "num" }));
     const element = h("tr", null,
-      h("th", { scope: "row" }, h("button", { class: "link", onclick: () => chosen.set(mission) }, mission)),
+      h("th", { scope: "row" }, link(chosen, mission)),
       h("td", null, trip), ...cells);
     return { element, cells, mission, values: [] };
   };
+  const heads = ["Mission", "Trip", "Newest", "How it went", "At"].map((name) =>
+    h("th", { scope: "col" }, name));
   const highlight = () => {
     for (const { element, mission } of lines.values()) mark(element, mission === chosen.name);
   };
   chosen.changed.heard(highlight);
   return {
-    element: h("table", { class: "table" }, h("thead", null, h("tr", null,
-      ["Mission", "Trip", "Newest", "How it went", "At"].map((name) => h("th", { scope: "col" }, name)))), body),
+    element: h("table", { class: "table" }, h("thead", null, h("tr", null, heads)), body),
     add(entries) {
       for (const [, time, mission, trip, , , , , value] of entries.slice(-LINES)) {
         const key = JSON.stringify([mission, trip]);
@@ -64,7 +69,8 @@ function measurements(chosen) {
 function ground(map, { position: [x, y], width, height }) {
   const [across, up] = map.size;
   const picture = svg("image", { width: across, height: up, preserveAspectRatio: "none" });
-  const lines = Array.from({ length: Math.ceil(across + up) }, (_, i) => `M${i} 0V${up}M0 ${up - i}H${across}`);
+  const lines = Array.from({ length: Math.ceil(Math.max(across, up)) }, (_, i) =>
+    `M${i} 0V${up}M0 ${up - i}H${across}`);
   mapPicture(map).then((address) => address && set(picture, "href", address));
   return svg("svg", {
     class: "ground", "aria-hidden": "true",
@@ -80,7 +86,7 @@ function photos({ app }, chosen, floor) {
   const card = ([, time, mission, trip, , , , , photo]) => {
     const [x, y] = photo.position;
     const sees = photo.sees.map(plain).join(", ");
-    const sharp = ["blurred", "a little blurred", "sharp"][Math.min(2, Math.floor(photo.sharpness * 3))];
+    const sharp = photo.sharpness < 0.4 ? "blurred" : photo.sharpness < 0.7 ? "soft" : "sharp";
     const act = () => frame(photo);
     const away = () => layer.replaceChildren();
     return h("li", null, h("button", {
@@ -90,7 +96,8 @@ function photos({ app }, chosen, floor) {
         chosen.set(mission);
         floor.reveal(x, y);
       },
-    }, ground(app.map, photo), h("b", null, sees || "nothing special"), h("span", null, `${mission}, ${trip}`),
+    }, ground(app.map, photo), h("b", null, sees || "nothing special"),
+    h("span", null, `${mission}, ${trip}`),
     h("small", null, `${clock(time)} at ${round(x)}, ${round(y)}, ${sharp}`)));
   };
   return {
@@ -110,7 +117,7 @@ function verdicts(chosen) {
     add(entries) {
       list.prepend(...entries.slice(-LINES).map(([, time, mission, , , , , , text]) => h("li", null,
         h("span", { class: "when" }, clock(time)),
-        h("button", { class: "link", onclick: () => chosen.set(mission) }, mission), h("span", null, text))).reverse());
+        link(chosen, mission), h("span", null, text))).reverse());
       while (list.childElementCount > LINES) list.lastElementChild.remove();
     },
     clear: () => list.replaceChildren(),
@@ -118,12 +125,13 @@ function verdicts(chosen) {
 }
 
 export function resultsView(context, chosen, floor, save) {
+  const part = (kind, none, view) => ({ kind, none, ...view });
   const parts = {
-    Measurements: { kind: "value", none: "Nothing has been measured yet.", ...measurements(chosen) },
-    Photos: { kind: "photo", none: "No photo has been taken yet.", ...photos(context, chosen, floor) },
+    Measurements: part("value", "Nothing has been measured yet.", measurements(chosen)),
+    Photos: part("photo", "No photo has been taken yet.", photos(context, chosen, floor)),
   };
   if (context.app.evaluators.length) {
-    parts.Verdicts = { kind: "verdict", none: "No mission has been judged yet.", ...verdicts(chosen) };
+    parts.Verdicts = part("verdict", "No mission has been judged yet.", verdicts(chosen));
   }
   const all = Object.entries(parts);
   const empty = h("p", { class: "empty" });

@@ -1,7 +1,71 @@
-// One mission in the table, and what opens below it: its trips, and what one can do with them.
+// How missions, trips and drones stand; one mission in the table, and what opens below it.
 
-import { h, keyed, plain, put, seconds, set, shown } from "./dom.js";
-import { battery, ended, mark, round, standing } from "./standing.js";
+import { fill, h, icon, keyed, plain, put, seconds, set, shown } from "./dom.js";
+
+// A word with a sign, so that colour alone never says it.
+const STANDS = {
+  UNEXECUTED: ["Not started", "wait", "calm"],
+  RUNNING: ["Flying", "start", "busy"],
+  STANDBY: ["Waiting", "wait", "calm"],
+  COMPLETED: ["Completed", "good", "good"],
+  FAILED: ["Failed", "bad", "bad"],
+  PAUSED: ["Paused", "pause", "warn"],
+  CANCELLED: ["Cancelled", "close", "calm"],
+  UNCERTAIN: ["Needs you", "warning", "warn"],
+  HELD: ["Needs you", "warning", "warn"],
+  WAITING: ["To do", "wait", "calm"],
+  EXECUTING: ["Flying", "start", "busy"],
+  SKIPPED: ["Skipped", "close", "calm"],
+  FREE: ["Ready", "good", "good"],
+  BUSY: ["Flying", "start", "busy"],
+  RETURNING: ["Coming home", "home", "busy"],
+  CHARGING: ["Charging", "wait", "calm"],
+  RECOVERING: ["Recovering", "wait", "warn"],
+  LOST: ["Lost", "warning", "bad"],
+  OFFLINE: ["Not connected", "info", "calm"],
+  RETIRED: ["Retired", "close", "calm"],
+};
+
+export const ended = ({ status }) => ["COMPLETED", "FAILED", "CANCELLED"].includes(status);
+export const needsYou = ({ status }) => status === "UNCERTAIN" || status === "HELD";
+export const round = (number) => Math.round(number * 100) / 100;
+
+// An element whose `show(status)` writes another one.
+export function standing() {
+  const element = h("span", { class: "standing" });
+  element.show = (status) => {
+    if (element.dataset.status === status) return;
+    element.dataset.status = status;
+    const [word, sign, tone] = STANDS[status] ?? [status, "info", "calm"];
+    set(element, "data-tone", tone);
+    fill(element, icon(sign), word);
+  };
+  return element;
+}
+
+export const level = (charge) => (charge < 0.2 ? "low" : charge < 0.4 ? "middle" : "full");
+
+// A small bar with its percentage; `show(null)` where nothing is known.
+export function battery() {
+  const bar = h("i");
+  const text = h("span");
+  const element = h("span", { class: "battery", hidden: true },
+    h("span", { class: "bar", "aria-hidden": "true" }, bar), text);
+  let before = null;
+  element.show = (charge) => {
+    const whole = charge === null || charge === undefined ? null : Math.round(charge * 100);
+    if (whole === before) return;
+    before = whole;
+    shown(element, whole !== null);
+    bar.style.width = `${whole}%`;
+    set(element, "data-level", level(whole / 100));
+    put(text, `${whole} %`);
+  };
+  return element;
+}
+
+// A row or a line that shows the chosen mission.
+export const mark = (element, yes) => set(element, "data-chosen", yes && "yes");
 
 // For what cannot be undone: the first press asks in place, the second one does it.
 function sureButton(label, act) {
@@ -45,7 +109,8 @@ function tripLine(send, prioritised, name) {
     class: "button quiet small", "aria-label": `Skip trip ${name}`,
     onclick: () => send("skip", { trip: name }),
   }, "Skip");
-  const element = h("li", null, nth, h("span", { class: "called" }, name, what), stands, weighs, skip);
+  const element = h("li", null, nth, h("span", { class: "called" }, name, what), stands, weighs,
+    skip);
   element.show = ({ trip: [, status, x, y, number, action], index, current, over }) => {
     priority = number ?? 1;
     put(nth, `${index + 1}.`);
@@ -92,7 +157,8 @@ function details(context, name) {
 
 export function missionRow(context, name, chosen) {
   const { retries, rounds } = context.app;
-  const [number, why, trip, drone] = ["token", "why", "", ""].map((kind) => h("span", { class: kind }));
+  const span = (kind) => h("span", { class: kind });
+  const [number, why, trip, drone] = ["token", "why", "", ""].map(span);
   const stands = standing();
   const charge = battery();
   const bar = h("i");
@@ -120,7 +186,7 @@ export function missionRow(context, name, chosen) {
     const current = row.trips[row.current];
     put(trip, current ? `${row.current + 1} of ${row.total}: ${current[0]}`
       : `${row.done} of ${row.total} done`);
-    if (share !== row.done / row.total) bar.style.width = `${100 * (share = row.done / row.total)}%`;
+    if (share !== (share = row.done / row.total)) bar.style.width = `${100 * share}%`;
     put(drone, row.drone ?? "–");
     element.charge(live);
     if (retries) put(cells[4], row.attempt);
@@ -130,8 +196,9 @@ export function missionRow(context, name, chosen) {
   element.charge = ({ drones }) => charge.show(drones.get(element.row.drone)?.battery ?? null);
   // What changes with the time alone.
   element.tick = ({ state: { time } }) => {
-    const { reason, wait, until } = element.row;
-    put(why, `${reason || wait}${until > time ? ` (${seconds(until - time)})` : ""}`);
+    const { status, reason, wait, until } = element.row;
+    const because = reason || (status === "PAUSED" ? "" : wait);
+    put(why, `${because}${until > time ? ` (${seconds(until - time)})` : ""}`);
   };
   element.open = (yes) => {
     set(opener, "aria-expanded", String(yes));

@@ -1,8 +1,7 @@
 // A row a mission: sorted, filtered, and only written where something changed.
 
 import { h, keyed, put, set, shown } from "./dom.js";
-import { missionRow } from "./row.js";
-import { ended, needsYou } from "./standing.js";
+import { ended, missionRow, needsYou } from "./row.js";
 
 const URGENT = ["FAILED", "PAUSED", "RUNNING", "STANDBY", "UNEXECUTED", "COMPLETED", "CANCELLED"];
 const COLUMNS = {
@@ -136,8 +135,7 @@ export function missionTable(context, chosen) {
   }
   chosen.changed.heard(() => {
     for (const [name, row] of rows) row.open(name === chosen.name);
-    const row = rows.get(chosen.name);
-    if (row && !row.contains(document.activeElement)) row.scrollIntoView({ block: "nearest" });
+    rows.get(chosen.name)?.scrollIntoView({ block: "nearest" });
   });
   body.addEventListener("keydown", (event) => {
     const step = { ArrowDown: 1, ArrowUp: -1 }[event.key];
