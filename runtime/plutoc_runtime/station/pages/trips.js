@@ -1,13 +1,11 @@
-// The page Trips: actions above the floor plan, the trips of the selected mission beside it. Pins and
-// cards show one list, in which a pin is already where it is being dragged.
+// The page Trips: actions above the floor plan, the trips of the selected mission beside it. Pins
+// and cards show one list, in which a pin is already where it is being dragged.
 
-import { actions, called } from "./actions.js";
-import { fill, h, icon, many, newKey, put, shown, unique } from "./dom.js";
-import { floorPlan } from "./floor.js";
-import { metres, pins } from "./pins.js";
 import { addMission } from "./api.js";
-import { picks, tripActs } from "./trip_acts.js";
-import { problemLine, tripCards } from "./trip_cards.js";
+import { button, fill, h, icon, many, newKey, put, shown, unique } from "./dom.js";
+import { floorPlan } from "./floor.js";
+import { actions, called, metres, pins } from "./placing.js";
+import { picks, problemLine, tripActs, tripCards } from "./trip_cards.js";
 
 const nameOf = ({ name }) => name.trim() || "Without a name";
 
@@ -48,32 +46,31 @@ export function trips(context) {
     open: cards.fillIn,
   });
 
-  const newMission = (kind) => h("button", {
-    class: `button ${kind}`,
-    onclick() {
-      const key = newKey();
-      plan.edit(addMission(key));
-      selected.set(key);
-    },
-  }, icon("plus"), "New mission");
+  const newMission = (kind) => button("New mission", () => {
+    const key = newKey();
+    plan.edit(addMission(key));
+    selected.set(key);
+  }, kind, "plus");
   const id = unique("mission");
-  const picker = h("select", { id, class: "input", onchange: () => selected.set(picker.value || null) });
+  const picker = h("select", {
+    id, class: "input", onchange: () => selected.set(picker.value || null),
+  });
   const tick = h("input", { type: "checkbox", onchange: () => draw() });
   const others = h("label", { class: "check spread" }, tick, "Show other missions");
   const bar = h("div", { class: "row mission-bar" }, h("label", { for: id }, "Mission"), picker,
     newMission(""), others);
 
   const title = h("h2");
-  const why = h("p", { class: "hint" }, icon("lock"), " This mission has been started, so its trips stay "
-    + "as they are. On the page Monitor you can skip a trip, pause the mission or cancel it.");
+  const why = h("p", { class: "hint" }, icon("lock"), " This mission has been started, so its "
+    + "trips stay as they are. On the page Monitor you can skip a trip, pause the mission or cancel it.");
   const troubles = h("div");
   const hint = h("p", { class: "hint" });
   const side = h("section", { class: "card trips-side", "aria-label": "Trips of the mission" },
     title, why, troubles, cards.element, hint);
   const first = h("section", { class: "card stack trips-first", "aria-label": "What to do first" });
   const element = h("div", { class: "trips" }, bar, h("div", { class: "trips-split" },
-    h("div", { class: "trips-main" }, palette.element, h("div", { class: "trips-floor" }, floor.element)),
-    first, side));
+    h("div", { class: "trips-main" }, palette.element,
+      h("div", { class: "trips-floor" }, floor.element)), first, side));
 
   // What the page checks by itself, while something is dragged; the station has the last word.
   function whyNot([x, y]) {
@@ -89,9 +86,10 @@ export function trips(context) {
     const problems = plan.problems.filter(({ trip, field }) => trip === kept.key
       && !(dragged && field === "target")
       && !(pick !== undefined && field?.startsWith("item."))); // the trip that picks it tells that
-    if (dragged && whyNot(dragged)) problems.unshift({ field: "target", text: whyNot(dragged) });
-    const words = dragged ? problems[0]?.field === "target" ? problems[0].text : `${metres(dragged)} m`
-      : kept.name ? `${called(kept.action)} · ${kept.name}` : called(kept.action);
+    const here = dragged && whyNot(dragged);
+    if (here) problems.unshift({ field: "target", text: here });
+    const words = dragged ? here || `${metres(dragged)} m`
+      : [called(kept.action), ...(kept.name ? [kept.name] : [])].join(" · ");
     return {
       key: kept.key, trip: kept, number: at + 1, target, words, problems,
       trouble: problems[0]?.text ?? "", pickedIn: pick === undefined ? null : pick + 1,
@@ -108,8 +106,9 @@ export function trips(context) {
     showPins(list, mission, locked);
     shown(bar, plan.missions.length);
     shown(others, plan.missions.length > 1);
-    fill(picker, h("option", { value: "", hidden: mission }, "Choose a mission"), plan.missions.map((one) =>
-      h("option", { value: one.key }, `${nameOf(one)} (${many(one.trips.length, "trip")})`)));
+    fill(picker, h("option", { value: "", hidden: mission }, "Choose a mission"),
+      plan.missions.map((one) =>
+        h("option", { value: one.key }, `${nameOf(one)} (${many(one.trips.length, "trip")})`)));
     picker.value = mission?.key ?? "";
     shown(first, plan.loaded && !mission);
     shown(side, mission);
@@ -125,8 +124,8 @@ export function trips(context) {
       key === mission.key && !trip && field !== "name").map(({ text }) => problemLine(text)));
     put(hint, locked || chosen ? "" : !list.length
       ? "No trips yet. Drag an action onto the map: that makes a trip."
-      : "Drag a card, or press Alt with ↑ or ↓, to change the order. The line on the map shows the "
-        + "order; drones find their own way around no-fly areas.");
+      : "Drag a card, or press Alt with ↑ or ↓, to change the order. The line on the map shows "
+        + "it; drones find their own way around no-fly areas.");
     cards.update(list, chosen, locked);
   }
 
@@ -135,22 +134,22 @@ export function trips(context) {
     const far = ({ home: [x, y] }) => Math.hypot(x - start[0], y - start[1]);
     const nearest = start && app.drones.toSorted((a, b) => far(a) - far(b))[0];
     const trouble = fresh && whyNot(fresh.target);
-    const more = fresh ? [{ ...fresh, key: "new", number: "+", trouble, words: trouble || fresh.words }] : [];
+    const more = fresh
+      ? [{ ...fresh, key: "new", number: "+", trouble, words: trouble || fresh.words }] : [];
     shownPins.update({ trips: [...list, ...more], chosen, locked, home: nearest?.home });
-    shownPins.showOthers(mission && !tick.checked ? [] : plan.missions.filter((one) => one !== mission)
-      .flatMap((one) => one.trips.map((trip, at) => [`${nameOf(one)}, trip ${trip.name ?? at + 1}`, trip.target]))
-      .filter(([, target]) => target));
+    const faint = mission && !tick.checked ? [] : plan.missions.filter((one) => one !== mission);
+    shownPins.showOthers(faint.flatMap((one) => one.trips.map(({ name, target }, at) =>
+      [`${nameOf(one)}, trip ${name ?? at + 1}`, target])).filter(([, target]) => target));
   }
 
   const whatFirst = () => plan.missions.length ? [
     h("h2", {}, "First choose a mission"),
     h("p", {}, "Trips belong to a mission. Whose trips do you want to set?"),
-    plan.missions.slice(0, 8).map((one) =>
-      h("button", { class: "button", onclick: () => selected.set(one.key) }, nameOf(one))),
+    plan.missions.slice(0, 8).map((one) => button(nameOf(one), () => selected.set(one.key))),
   ] : [
     h("h2", {}, "First make a mission"),
-    h("p", {}, "A mission is a list of trips; a trip is a flight to a place, and what is done there. Make "
-      + "a mission, then drag actions onto the map."),
+    h("p", {}, "A mission is a list of trips; a trip is a flight to a place, and what is done "
+      + "there. Make a mission, then drag actions onto the map."),
     newMission("primary"),
   ];
 
@@ -162,8 +161,6 @@ export function trips(context) {
     chosen = draft = null;
     draw();
   });
-  const head = document.querySelector(".top");
-  new ResizeObserver(() => element.style.setProperty("--above", `${head.offsetHeight}px`)).observe(head);
   now();
   return { element, show: draw };
 }
