@@ -1,6 +1,6 @@
 // Putting trips on the floor plan. Actions are dragged there, or taken in hand by pressing one and
-// put down by pressing a place or writing x and y. Pins, joined in their order, are dragged by steps
-// of 0.1 m (0.01 m with Shift), or moved with the arrow keys.
+// put down by pressing a place or writing x and y. Pins, joined in their order, are dragged in
+// steps of 0.1 m (0.01 m with Shift), or moved with the arrow keys.
 
 import { button, fill, h, icon, keyed, plain, put, set, svg } from "./dom.js";
 

@@ -62,7 +62,7 @@ export function trips(context) {
 
   const title = h("h2");
   const why = h("p", { class: "hint" }, icon("lock"), " This mission has been started, so its "
-    + "trips stay as they are. On the page Monitor you can skip a trip, pause the mission or cancel it.");
+    + "trips stay as they are. On the page Monitor you can skip a trip, or pause or cancel it.");
   const troubles = h("div");
   const hint = h("p", { class: "hint" });
   const side = h("section", { class: "card trips-side", "aria-label": "Trips of the mission" },

@@ -1,0 +1,207 @@
+"""Trips are drawn on the floor plan: pins, their cards and the plan always say the same."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from functools import partial
+from typing import Any
+
+import pytest
+from playwright.sync_api import Locator, Page, expect
+
+from tests.station.browser.conftest import Serve, Visit
+from tests.station.browser.exercise import Place
+from tests.station.browser.installed import App
+from tests.station.browser.serving import Station, until
+from tests.station.browser.steps import (
+    action_called,
+    add_mission,
+    card_of,
+    drag,
+    on_the_screen,
+    pin_of,
+    start,
+)
+
+WALL = (6.0, 8.0)
+"""In the first no-fly area of the ward."""
+
+
+def trips(station: Station) -> list[dict[str, Any]]:
+    """Return the trips of the only mission, as the station has them."""
+    return list(station.get("/api/plan")["missions"][0]["trips"])
+
+
+def has(station: Station, count: int) -> bool:
+    """Say whether the only mission has so many trips."""
+    return len(trips(station)) == count
+
+
+def targets(station: Station) -> list[list[float]]:
+    """Return where they go."""
+    return [trip["target"] for trip in trips(station)]
+
+
+def take(page: Page, place: Place) -> None:
+    """Press the mouse on the map."""
+    page.mouse.move(*on_the_screen(page, place))
+    page.mouse.down()
+
+
+def drawn(ward: Station, visit: Visit, *actions: tuple[str, Place]) -> tuple[Station, Page]:
+    """Draw a mission of these trips, and nothing else, at a station where nothing flies."""
+    return ward, draw(ward, visit, *actions)
+
+
+def draw(station: Station, visit: Visit, *actions: tuple[str, Place]) -> Page:
+    """Draw a mission of these trips, and nothing else."""
+    revision = station.get("/api/plan")["revision"]
+    assert station.put("/api/plan", {"revision": revision, "missions": []})[0] == 200
+    page = visit(station)
+    add_mission(page, "Drawn")
+    for count, (action, place) in enumerate(actions, 1):
+        drag(page, action, place)
+        until(partial(has, station, count), "the trip is kept")
+    return page
+
+
+@pytest.fixture(scope="module")
+def ward(apps: dict[str, App], tmp_path_factory: pytest.TempPathFactory) -> Iterator[Station]:
+    """Serve a station for all that only draw."""
+    folder = tmp_path_factory.mktemp("ward")
+    station = Station(
+        app=apps["drugs_distribution"], folder=folder / "0", options=("--speed", "20")
+    )
+    station.folder.mkdir()
+    station.start()
+    yield station
+    station.end()
+
+
+def test_a_pin_goes_with_the_mouse_in_steps_of_ten_centimetres_and_of_one_with_shift(
+    ward: Station, visit: Visit
+) -> None:
+    station, page = drawn(ward, visit, ("take_photo", (3.0, 8.0)))
+    take(page, (3.0, 8.0))
+    page.mouse.move(*on_the_screen(page, (9.04, 2.16)), steps=5)
+    page.mouse.up()
+    until(lambda: targets(station) == [[9.0, 2.2]], "it snaps to 0.1 m")
+    take(page, (9.0, 2.2))
+    page.keyboard.down("Shift")
+    page.mouse.move(*on_the_screen(page, (4.0, 3.0)), steps=5)
+    page.mouse.move(*on_the_screen(page, (10.0, 1.5)), steps=5)
+    page.mouse.up()
+    page.keyboard.up("Shift")
+    until(lambda: targets(station) != [[9.0, 2.2]], "it is moved")
+    [[x, y]] = targets(station)
+    assert abs(x - 10.0) < 0.05
+    assert abs(y - 1.5) < 0.05
+
+
+def test_the_arrow_keys_move_a_pin_and_delete_removes_it_and_undo_brings_it_back(
+    ward: Station, visit: Visit
+) -> None:
+    station, page = drawn(ward, visit, ("take_photo", (3.0, 8.0)), ("measure", (9.0, 2.0)))
+    pin_of(page, 1).focus()
+    page.keyboard.press("ArrowRight")
+    page.keyboard.press("Shift+ArrowDown")
+    until(lambda: targets(station)[0] == [3.1, 7.0], "it has moved")
+    before = trips(station)
+    page.keyboard.press("Delete")
+    until(lambda: len(trips(station)) == 1, "it is gone")
+    page.get_by_role("button", name="Undo").click()
+    until(lambda: trips(station) == before, "it is back where it was")
+
+
+def test_a_pin_over_a_no_fly_area_says_so_while_it_is_still_held(
+    ward: Station, visit: Visit
+) -> None:
+    station, page = drawn(ward, visit, ("take_photo", (3.0, 8.0)))
+    take(page, (3.0, 8.0))
+    page.mouse.move(*on_the_screen(page, WALL), steps=5)
+    expect(pin_of(page, 1)).to_have_accessible_name(re.compile("In a no-fly area"))
+    expect(card_of(page, 1)).to_contain_text("In a no-fly area")
+    page.mouse.move(*on_the_screen(page, (-0.3, 8.0)), steps=5)
+    expect(pin_of(page, 1)).to_have_accessible_name(re.compile("Outside the map"))
+    assert targets(station) == [[3.0, 8.0]], "nothing is kept before it is let go"
+    page.keyboard.press("Escape")
+    expect(pin_of(page, 1)).not_to_have_accessible_name(re.compile("Problem"))
+    page.mouse.up()
+    assert targets(station) == [[3.0, 8.0]]
+
+
+def test_what_is_released_is_what_was_picked_before_it(ward: Station, visit: Visit) -> None:
+    """In name and in mass, whatever is written later, and however the trips are ordered."""
+    station, page = drawn(
+        ward,
+        visit,
+        ("pick_item", (2.5, 4.0)),
+        ("take_photo", (9.0, 5.0)),
+        ("release_item", (16.0, 2.5)),
+    )
+    card_of(page, 1).get_by_role("button", name="Pick item").click()
+    card = card_of(page, 1)
+    card.get_by_label("Item", exact=True).fill("pills")
+    card.get_by_label("Mass").fill("8")
+    card.get_by_label("Mass").press("Tab")
+    item = {"name": "pills", "mass": "8 g"}
+    until(lambda: [one["item"] for one in trips(station)] == [item, None, item], "both have it")
+    card_of(page, 3).get_by_role("button", name="Release item").click()
+    expect(card_of(page, 3)).to_contain_text("Puts down “pills” (8 g), which trip 1 picks.")
+    page.keyboard.press("Alt+ArrowUp")
+    until(lambda: [one["item"] for one in trips(station)] == [item, item, None], "it is second now")
+    assert station.get("/api/plan")["problems"] == []
+
+
+def test_trips_at_one_place_have_pins_side_by_side(ward: Station, visit: Visit) -> None:
+    _, page = drawn(ward, visit, ("take_photo", (16.0, 2.5)), ("measure", (16.0, 2.5)))
+    first, second = middle(pin_of(page, 1)), middle(pin_of(page, 2))
+    assert abs(first[0] - on_the_screen(page, (16.0, 2.5))[0]) < 2
+    assert second[0] - first[0] > 20
+    pin_of(page, 1).click()
+    expect(card_of(page, 1)).to_have_class(re.compile("chosen"))
+
+
+def test_the_map_is_zoomed_about_the_pointer_and_goes_with_the_hand(
+    ward: Station, visit: Visit
+) -> None:
+    _, page = drawn(ward, visit)
+    x, y = on_the_screen(page, (9.0, 5.0))
+    page.mouse.move(x, y)
+    page.mouse.wheel(0, -600)
+    until(lambda: scale(page) > 90, "it is larger")
+    now = on_the_screen(page, (9.0, 5.0))
+    assert abs(now[0] - x) < 3
+    assert abs(now[1] - y) < 3
+    page.mouse.down()
+    page.mouse.move(x + 60, y + 40, steps=4)
+    page.mouse.up()
+    until(lambda: on_the_screen(page, (9.0, 5.0))[0] - now[0] > 55, "it went along")
+    page.get_by_role("button", name="Whole map").first.click()
+    until(lambda: scale(page) < 60, "all is seen again")
+
+
+def test_trips_of_a_mission_that_was_started_can_be_read_and_not_changed(
+    serve: Serve, visit: Visit
+) -> None:
+    station = serve("drugs_distribution", "--speed", "1")
+    page = draw(station, visit, ("take_photo", (3.0, 8.0)))
+    start(page)
+    until(lambda: station.get("/api/plan")["missions"][0]["launched"], "it flies")
+    page.get_by_role("tab", name="Trips").click()
+    expect(page.get_by_text("This mission has been started")).to_be_visible()
+    expect(action_called(page, "take_photo")).to_be_hidden()
+    expect(card_of(page, 1).get_by_label("x (m)")).to_be_disabled()
+
+
+def scale(page: Page) -> float:
+    """Return how many pixels a metre takes."""
+    return on_the_screen(page, (1.0, 0.0))[0] - on_the_screen(page, (0.0, 0.0))[0]
+
+
+def middle(pin: Locator) -> tuple[float, float]:
+    """Return the middle of a pin's disc."""
+    box = pin.locator(".disc").bounding_box()
+    assert box is not None
+    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
