@@ -304,19 +304,16 @@ export function planKept() {
   return plan;
 }
 
-// Which mission is selected, on all pages alike; a tab that is loaded again remembers it.
+// Which mission is selected, on all pages alike.
 export function selection(plan) {
-  const NAME = "pluto-selected";
-  const selected = { key: sessionStorage.getItem(NAME), changed: bell() };
+  const selected = { key: null, changed: bell() };
   selected.mission = () => plan.missions.find(({ key }) => key === selected.key) ?? null;
   selected.set = (key) => {
     if (key === selected.key) return;
     selected.key = key;
-    if (key === null) sessionStorage.removeItem(NAME);
-    else sessionStorage.setItem(NAME, key);
     selected.changed.ring();
   };
-  plan.changed.heard(() => plan.loaded && !selected.mission() && selected.set(null));
+  plan.changed.heard(() => selected.mission() || selected.set(null));
   return selected;
 }
 

@@ -67,7 +67,7 @@ const PHASES = { // kind of chip, sign, words
   interrupted: ["warn", "warning", "Interrupted"],
 };
 
-// → [the button's words, whether it can be pressed, what to say beside it]
+// → the button's words, whether it can be pressed, what to say beside it
 function startWords({ phase, busy, how }, plan) {
   const flying = phase === "flying";
   const todo = plan.missions.filter((mission) => !flying || !mission.launched);
@@ -245,8 +245,8 @@ function closed({ status, message }) {
       location.reload();
     },
   },
-  h("p", {}, "It was printed where the station was started, in the line that begins with ",
-    h("code", {}, "station:"), ". Open the whole address from there, or paste it here."),
+  h("p", {}, "It stands in the address that was printed when the station was started: open that, ",
+    "or paste it here."),
   h("div", { class: "field" }, h("label", { for: "token" }, "Address or token"), input),
   token() && h("p", { class: "problem", role: "alert" }, icon("warning"),
     "The station knows no such token: it makes a new one each time it is started."),
