@@ -18,13 +18,14 @@ const FILTERS = {
   "Waiting for you": needsYou,
   Failed: (row) => row.status === "FAILED",
 };
+const HEAD = 41; // pixels of the heads, which stay above the rows
 const MANY = 12; // missions: of more, one wants to find one by its name
 
 // Some buttons of which one is pressed; `count(name, n)` writes how many there are behind one.
 export function sieve(names, label, picked) {
   const buttons = new Map(names.map((name) => [name, h("button", {
     class: "sift", "aria-pressed": "false", onclick: () => pick(name),
-  }, name, h("span", { class: "count" }, "0"))]));
+  }, name, " ", h("span", { class: "count" }, "0"))]));
   const element = h("div", { role: "group", "aria-label": label }, ...buttons.values());
   const pick = (name) => {
     for (const [other, button] of buttons) set(button, "aria-pressed", String(other === name));
@@ -97,6 +98,14 @@ export function missionTable(context, chosen) {
       : context.plan.missions.length ? "Press Start, and each mission has a line here."
         : "There are no missions yet. Make some on the page Missions.");
   }
+  // The list is scrolled, never the page: who presses a number in the graph goes on seeing it.
+  function reveal(row) {
+    const list = body.closest(".inside");
+    if (!row || !list) return;
+    const [top, under] = [row.offsetTop - HEAD, row.offsetTop + row.offsetHeight];
+    if (under > list.scrollTop + list.clientHeight) list.scrollTop = under - list.clientHeight;
+    if (top < list.scrollTop) list.scrollTop = top;
+  }
   let soon = 0;
   // While somebody is in the table, rows do not change places under their hands.
   function arrangeSoon() {
@@ -135,7 +144,7 @@ export function missionTable(context, chosen) {
   }
   chosen.changed.heard(() => {
     for (const [name, row] of rows) row.open(name === chosen.name);
-    rows.get(chosen.name)?.scrollIntoView({ block: "nearest" });
+    reveal(rows.get(chosen.name));
   });
   body.addEventListener("keydown", (event) => {
     const step = { ArrowDown: 1, ArrowUp: -1 }[event.key];
