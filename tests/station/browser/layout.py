@@ -21,7 +21,11 @@ HIDDEN_BUTTONS = """
       if (scrolls && (x < edge.left || x > edge.right || y < edge.top || y > edge.bottom)) clipped = true;
     }
     if (clipped) continue;
+    if (document.elementFromPoint(x, y)?.closest("[role=status], [role=alert]")) continue; // it goes
     const top = document.elementFromPoint(x, y);
+    let stays = false; // what is scrolled goes under a head that stays
+    for (let up = top; up; up = up.parentElement) stays ||= getComputedStyle(up).position === "sticky";
+    if (stays) continue;
     const same = one.contains(top) || top?.contains(one) || top?.closest("label")?.control === one;
     if (!same) said.push(`${one.outerHTML.slice(0, 120)} lies under ${top?.outerHTML.slice(0, 120)}`);
   }
@@ -31,6 +35,7 @@ HIDDEN_BUTTONS = """
 
 SMALL_TARGETS = """
 (least) => [...document.querySelectorAll("button, [role=button], [role=tab], select, input")]
+  .filter((one) => getComputedStyle(one).display !== "inline") // a word of a sentence
   .filter((one) => one.checkVisibility({ opacityProperty: true, visibilityProperty: true }))
   .map((one) => [one, (one.closest("label") ?? one).getBoundingClientRect()])
   .filter(([, box]) => box.width && box.height)

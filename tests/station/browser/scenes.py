@@ -12,6 +12,7 @@ from tests.station.browser.steps import (
     A_FLIGHT,
     missions_listed,
     open_page,
+    pin_of,
     row_of,
     select_mission,
     start,
@@ -35,11 +36,13 @@ def scenes(page: Page, station: Station) -> Iterator[str]:
     select_mission(page, "Mission 3")
     yield "missions"
     open_page(page, "Trips")
+    pin_of(page, 1).click()  # opens its card
     yield "trips"
     start(page)
     expect(page.get_by_role("tab", name="Monitor")).to_have_attribute("aria-selected", "true")
     row_of(page, "Mission 3").get_by_role("button", name="Mission 3").click()
     until(lambda: ("pick_item", "Mission 3/1/0") in station.done(), "the pills are picked")
+    expect(page.get_by_text("3 missions started")).to_have_count(0)  # said, and gone
     yield "monitor"
     for name in ("Missions", "Trips"):
         open_page(page, name)

@@ -106,6 +106,33 @@ def test_the_graph_says_of_each_block_what_it_does_and_who_is_there(
     expect(graph.locator(".token.picked").first).to_have_text("3")
 
 
+WAYS = """
+async ([graph, ways]) => {
+  const { finder } = await import("/pages/graph.js");
+  const way = finder(graph);
+  return ways.map((given) => way(...given).map((edge) => edge.to).join(" "));
+}
+"""
+
+
+def test_only_arrows_are_lit_that_the_mission_can_have_taken(serve: Serve, visit: Visit) -> None:
+    """A mission is seen ten times a second only, and may pass several blocks in between."""
+    station = serve("alfalfa")
+    flight = ["watch", "timer"]
+    expected = {
+        ("COMPLETED", "end", "COMPLETED"): "first judge again end",
+        ("COMPLETED", "allocate", "STANDBY"): "first judge allocate",
+        ("COMPLETED", "wait", "STANDBY"): "first judge again wait",
+        ("STANDBY", "allocate", "STANDBY"): "first allocate",
+        ("FAILED", "allocate", "STANDBY"): "first retry allocate",
+        ("FAILED", "end", "FAILED"): "first retry end",
+        ("STANDBY", "end", "CANCELLED"): "",
+    }
+    ways = [[flight, *given] for given in expected]
+    found = visit(station).evaluate(WAYS, [station.get("/api/app")["graph"], ways])
+    assert found == list(expected.values())
+
+
 def test_lines_are_found_in_the_console_and_all_are_downloaded(
     flying: tuple[Station, Page], tmp_path: Path
 ) -> None:
