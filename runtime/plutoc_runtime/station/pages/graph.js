@@ -10,19 +10,32 @@ const FOLLOWED = 30; // missions: of more, nobody could follow one, so none glid
 const still = matchMedia("(prefers-reduced-motion: reduce)");
 const HINT = "Numbers are missions. Point at a block, or press it, to read what it does.";
 
-// finder(edges)(from, to) → the edges of the shortest way from any of the blocks `from` to `to`.
-function finder(edges) {
-  return (from, to) => {
-    const came = new Map(from.map((block) => [block, []]));
-    for (const [block, way] of came) { // it grows while it is read: the nearest come first
+// finder(graph)(from, status, to, final) → the edges of the shortest way from one of the blocks
+// `from`, left with a status, to `to`, reached with the final one; [] where no way fits, so that
+// nothing is lit that cannot have been. Any block but a gate can turn what comes into that status.
+export function finder({ blocks, edges }) {
+  const gates = blocks.filter((block) => block.shape === "gate").map((block) => block.name);
+  return (from, status, to, final) => {
+    const found = new Map(from.map((block) => [`${block} ${status}`, { block, status, way: [] }]));
+    for (const { block, status: now, way } of found.values()) { // it grows: the nearest come first
       for (const edge of edges) {
-        if (edge.from !== block) continue;
-        if (edge.to === to) return [...way, edge];
-        if (!came.has(edge.to)) came.set(edge.to, [...way, edge]);
+        if (edge.from !== block || !edge.statuses.includes(now)) continue;
+        if (edge.to === to && now === final) return [...way, edge];
+        for (const next of gates.includes(edge.to) ? [now] : [now, final]) {
+          const [key, longer] = [`${edge.to} ${next}`, [...way, edge]];
+          if (!found.has(key)) found.set(key, { block: edge.to, status: next, way: longer });
+        }
       }
     }
     return [];
   };
+}
+
+// With which status a mission left where it was: what came of its trip, if it flew one.
+function leftWith(before, row) {
+  if (before.status !== "RUNNING") return before.status;
+  if (row.status === "FAILED" || row.attempt > before.attempt) return "FAILED";
+  return row.round > before.round || before.done + 1 >= before.total ? "COMPLETED" : "STANDBY";
 }
 
 function glide(token, edges) {
@@ -46,7 +59,9 @@ function tokens(graph, layer, chosen) {
   // Where the i-th of n tokens sits, in the middle of the block's lower edge.
   function seat(block, i, n) {
     const step = Math.min(SIZE + 2, Math.max(block.w + 36, 132) / n);
-    const [x, y] = [block.x + block.w / 2 + step * (i - (n - 1) / 2), block.y + block.h + 4];
+    const half = (step * (n - 1) + SIZE) / 2;
+    const middle = Math.min(Math.max(block.x + block.w / 2, half), graph.width - half);
+    const [x, y] = [middle + step * (i - (n - 1) / 2), block.y + block.h + 4];
     return `translate(${x - SIZE / 2}px, ${y - SIZE / 2}px)`;
   }
   function token(key, text, props) {
@@ -169,8 +184,8 @@ export function graphView({ live, app: { graph } }, chosen) {
   }).observe(view);
 
   const seats = tokens(graph, layer, chosen);
-  const way = finder(edges);
-  const stood = new Map(); // mission → { blocks, status }
+  const way = finder(graph);
+  const stood = new Map(); // mission → its row before, and the blocks where it was
   const caption = h("p", { class: "caption" }, HINT);
   let read = null; // the block that is read now
 
@@ -208,13 +223,14 @@ export function graphView({ live, app: { graph } }, chosen) {
     const moves = [];
     for (const name of missions) {
       const row = live.missions.get(name);
-      const { blocks: from, status } = stood.get(name) ?? { blocks: [] };
+      const { blocks: from, before } = stood.get(name) ?? { blocks: [] };
       const to = blocksOf(row);
+      stood.set(name, { blocks: to, before: row });
       const same = from.join() === to.join();
-      if (same && status === row.status) continue;
-      stood.set(name, { blocks: to, status: row.status });
-      const fresh = same || !from.length ? [] : to.filter((block) => !from.includes(block));
-      moves.push({ row, from, to, ways: fresh.map((block) => [block, way(from, block)]) });
+      if (same && before?.status === row.status) continue;
+      const fresh = before ? to.filter((block) => !from.includes(block)) : [];
+      moves.push({ row, from, to, ways: fresh.map((block) =>
+        [block, way(from, leftWith(before, row), block, row.status)]) });
     }
     if (!moves.length) return;
     seats.move(moves, stood.size);

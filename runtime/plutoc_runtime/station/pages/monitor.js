@@ -2,12 +2,11 @@
 // laptop and below each other on a tablet.
 
 import { download } from "./api.js";
-import { consoleView } from "./console.js";
 import { bell, fill, h, keyed, many, put, set, shown } from "./dom.js";
 import { droneList, onTheMap } from "./drones.js";
 import { floorPlan } from "./floor.js";
 import { graphView } from "./graph.js";
-import { resultsView } from "./results.js";
+import { consoleView, resultsView } from "./results.js";
 import { question } from "./row.js";
 import { missionTable } from "./table.js";
 
