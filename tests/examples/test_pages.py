@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import importlib.util
 import re
+import shlex
 from pathlib import Path
 from types import ModuleType
 
 import pytest
 
 from plutoc.cli import main
+from plutoc_runtime.cli.options import parse
+from tests.runtime.files.an_app import APP
 
 ROOT = Path(__file__).parents[2]
 
@@ -53,6 +56,34 @@ def test_links_lead_somewhere(page: Path) -> None:
     )
     for link in re.findall(r"\]\(([^)#\s]+)", text):
         assert "://" in link or (page.parent / link).exists(), link
+
+
+APPS = ["my_app", *(path.name for path in sorted(ROOT.glob("examples/*/")))]
+TYPED = [
+    (file, command)
+    for file in sorted([*ROOT.glob("docs/tutorial/*.md"), *ROOT.glob("examples/*/README.md")])
+    for app, command in re.findall(r"^\$ (\w+) (.*)$", file.read_text("utf-8"), re.MULTILINE)
+    if app in APPS
+]
+SAID = [f"{file.relative_to(ROOT)}: {command}" for file, command in TYPED]
+
+
+@pytest.mark.parametrize(("file", "command"), TYPED, ids=SAID)
+def test_command_of_a_page_is_one_of_the_app(file: Path, command: str) -> None:
+    """The app takes what a reader is told to type, and the files that it names are there."""
+    assert parse(APP, shlex.split(command)).command
+    folder = file.parent if file.name == "README.md" else ROOT / "examples/drugs_distribution"
+    if folder.name == "tutorial":
+        folder = ROOT / "plutoc/cli/starter"
+    for name in re.findall(r"\b\w+\.toml\b", command):
+        assert (folder / name).exists(), name
+
+
+def test_every_example_says_how_it_is_served() -> None:
+    """With the extra that this needs, under the app's own name."""
+    for page in ROOT.glob("examples/*/README.md"):
+        name, text = page.parts[-2], page.read_text(encoding="utf-8")
+        assert f'$ pip install "./{name}[station]"\n$ {name} serve --sim' in text, name
 
 
 def test_outdated_picture_is_replaced(tmp_path: Path) -> None:
