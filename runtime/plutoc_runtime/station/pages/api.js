@@ -73,8 +73,8 @@ export async function download(path, name) {
   setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 }
 
-// The page asks for what is newer than it has seen, and gets the newest, once: nothing queues up.
-// By WebSocket, or by plain requests where that fails.
+// The page asks for what is newer than it has seen, and gets the newest, once: nothing queues up;
+// by plain requests where the WebSocket fails.
 const KEPT = 5000; // lines and results
 const SILENCE = 4000; // ms; the station answers after a second at the latest
 const POLLS = 30; // so many plain requests before the WebSocket is tried again
@@ -83,7 +83,7 @@ const NO_TOKEN = 4401;
 // A hidden page takes its time.
 const leisure = () => document.hidden && wait(1000);
 
-// Both resolve when the line is gone, with how many messages came.
+// Resolves when the line is gone, with how many messages came.
 function throughSocket(wanted, take, denied) {
   return new Promise((done) => {
     let count = 0;

@@ -58,14 +58,10 @@ function missionList({ select, open, rename, remove, move }) {
     put(words.lastChild, mission.trips.length ? many(mission.trips.length, "trip")
       : "no trips yet");
     const [text = "", kind, sign] = mark(mission, problems);
-    if (chip.dataset.text !== text) {
-      chip.dataset.text = text;
-      set(chip, "class", `chip ${kind}`);
-      fill(chip, sign && icon(sign), text);
-    }
-    shown(chip, text);
+    set(chip, "class", `chip ${kind}`);
+    fill(shown(chip, text), sign && icon(sign), text);
     const now = mission.key === selected;
-    if (now && node.getAttribute("aria-selected") !== "true") {
+    if (now && node.ariaSelected !== "true") {
       requestAnimationFrame(() => node.scrollIntoView({ block: "nearest" }));
     }
     set(node, "aria-selected", String(now));
@@ -81,13 +77,6 @@ function missionList({ select, open, rename, remove, move }) {
         (node, mission, i) => update(node, mission, i, problems));
     },
   };
-}
-
-const SHOWN = 6; // problems
-
-function tripName({ trips }, key) {
-  const at = trips.findIndex((trip) => trip.key === key);
-  return at < 0 ? "" : `Trip ${trips[at].name ?? at + 1}: `;
 }
 
 // The selected mission: its name, the fields that the app's graph needs, its trips in short.
@@ -133,8 +122,10 @@ function missionPanel({ app, plan }, { open, copy, remove }) {
       }
       const told = of.filter(({ trip, field }) =>
         mission.trips.length && (trip || !inputs.some(([name]) => name === field)));
-      fill(said, told.slice(0, SHOWN).map(({ trip, text }) =>
-        h("p", { class: "problem" }, icon("warning"), tripName(mission, trip) + text)));
+      fill(said, told.slice(0, 5).map(({ trip, text }) => {
+        const at = mission.trips.findIndex(({ key }) => key === trip) + 1;
+        return h("p", { class: "problem" }, icon("warning"), at ? `Trip ${at}: ${text}` : text);
+      }));
       put(count, mission.trips.length ? many(mission.trips.length, "trip") : "Trips");
       put(trips.lastChild, mission.launched ? "See trips" : "Set trips");
       put(short, mission.trips.map(({ action }) => plain(action)).join(", ")
