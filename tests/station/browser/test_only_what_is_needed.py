@@ -32,7 +32,7 @@ def test_an_app_without_clock_repeater_timer_or_priorities_shows_none_of_their_f
 ) -> None:
     mission, trip, columns = fields(visit(serve("drugs_distribution")))
     assert mission == {"Name"}
-    assert trip == {"Mission", "Name", "Action", "x (m)", "y (m)", "Quantity"}
+    assert trip == {"Mission", "Name", "x (m)", "y (m)", "Height (m)", "Quantity"}
     assert columns == {"Mission", "State", "Trip", "Drone"}
 
 
