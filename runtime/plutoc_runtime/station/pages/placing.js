@@ -29,8 +29,8 @@ export function pins(floor, act) {
 
   function make({ key }) {
     const pin = svg("g", { role: "button", tabindex: 0, "data-own": "", "data-key": key },
-      svg("circle", { class: "reach", r: 20 }), svg("circle", { class: "halo", r: 18 }),
-      svg("circle", { class: "disc", r: 12.5 }), svg("text", { y: 4.5 }),
+      svg("circle", { class: "halo", r: 20 }), svg("circle", { class: "disc", r: 12.5 }),
+      svg("text", { y: 4.5 }),
       svg("path", { class: "pin-sign", d: "M11 -20L19 -5H3ZM11 -15v5M11 -8v.5" }),
       svg("g", { class: "pin-words" },
         svg("rect", { rx: 9, height: 20, y: 20 }), svg("text", { y: 34 })));
@@ -59,7 +59,7 @@ export function pins(floor, act) {
       set(pin, "aria-label", `Trip ${trip.number}: ${trip.words}, at ${metres([x, y])} metres.`
         + (trip.trouble && ` Problem: ${trip.trouble}`)
         + (locked ? "" : " Arrow keys move it, Delete removes it, Enter opens its card."));
-      put(pin.children[3], trip.number);
+      put(pin.children[2], trip.number);
       const [plate, words] = pin.lastChild.children;
       put(words, trip.words);
       const width = trip.words.length * 7.2 + 14; // more or less

@@ -43,7 +43,8 @@ export function tripActs({ plan, selected, say, hush }, choose, focus) {
 
   return {
     add(action, target) {
-      const { trips } = mission();
+      const trips = mission()?.trips;
+      if (!trips) return;
       const count = trips.filter((trip) => trip.action === PICK).length;
       // how heavy an item is, only people know
       const item = action.item ? { name: count ? `item ${count + 1}` : "item" } : null;
@@ -65,7 +66,8 @@ export function tripActs({ plan, selected, say, hush }, choose, focus) {
       hush(`It is trip ${to + 1} now.`);
     },
     copy(key) {
-      const { name: _, ...trip } = mission().trips[at(key)]; // no two trips have one name
+      const { name: _, ...trip } = mission().trips[at(key)] ?? {}; // no two trips have one name
+      if (!trip.key) return;
       const fresh = { ...trip, key: newKey() };
       put(fresh, at(key) + 1);
       choose(fresh.key);
@@ -74,6 +76,7 @@ export function tripActs({ plan, selected, say, hush }, choose, focus) {
       const where = mission();
       const index = at(key);
       const trip = where.trips[index];
+      if (!trip) return; // somebody else was faster
       edit((trips) => trips.filter((other) => other.key !== key));
       const next = mission().trips[index] ?? mission().trips.at(-1);
       choose(next?.key ?? null);

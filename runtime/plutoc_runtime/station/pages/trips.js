@@ -15,6 +15,7 @@ export function trips(context) {
   let draft = null; // { key, target }: a pin while it is dragged
   let fresh = null; // { words, target }: where an action would be put now
   let asked = 0;
+  let told = "";
 
   const floor = floorPlan(app.map, app.drones);
   function choose(key) {
@@ -106,18 +107,20 @@ export function trips(context) {
     showPins(list, mission, locked);
     shown(bar, plan.missions.length);
     shown(others, plan.missions.length > 1);
-    fill(picker, h("option", { value: "", hidden: mission }, "Choose a mission"),
-      plan.missions.map((one) =>
-        h("option", { value: one.key }, `${nameOf(one)} (${many(one.trips.length, "trip")})`)));
+    const choices = plan.missions.map((one) =>
+      [one.key, `${nameOf(one)} (${many(one.trips.length, "trip")})`]);
+    if (told !== JSON.stringify([choices, !mission])) { // else a list that is open would close
+      told = JSON.stringify([choices, !mission]);
+      fill(picker, h("option", { value: "", hidden: mission }, "Choose a mission"),
+        choices.map(([value, text]) => h("option", { value }, text)));
+      fill(first, mission ? [] : whatFirst());
+    }
     picker.value = mission?.key ?? "";
     shown(first, plan.loaded && !mission);
     shown(side, mission);
     shown(palette.element, !locked);
     if (locked && fresh) palette.putBack();
-    if (!mission) {
-      fill(first, whatFirst());
-      return;
-    }
+    if (!mission) return;
     put(title, `Trips of ${nameOf(mission)}`);
     shown(why, mission.launched);
     fill(troubles, list.length > 0 && plan.problems.filter(({ mission: key, trip, field }) =>
