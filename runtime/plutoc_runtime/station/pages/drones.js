@@ -1,7 +1,7 @@
 // The drones, live on the floor plan with where they are going, and as a list.
 
 import { h, keyed, many, put, set, shown, svg } from "./dom.js";
-import { battery, ended, level, mark, standing } from "./row.js";
+import { battery, ended, level, mark, standing } from "./table.js";
 
 const TRAIL = 30; // seconds
 const APART = 0.12; // metres between two points of a trail

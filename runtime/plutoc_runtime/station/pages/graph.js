@@ -1,7 +1,7 @@
 // The app's own graph as boxes and arrows, with the missions moving through it.
 
 import { fill, h, many, put, set, svg } from "./dom.js";
-import { ended } from "./row.js";
+import { ended } from "./table.js";
 
 const LIT = 2500; // ms that an edge stays lit after a mission took it
 const SEATS = 6; // tokens at a block; of more, the others are counted
@@ -58,7 +58,7 @@ function tokens(graph, layer, chosen) {
 
   // Where the i-th of n tokens sits, in the middle of the block's lower edge.
   function seat(block, i, n) {
-    const step = Math.min(SIZE + 2, Math.max(block.w + 36, 132) / n);
+    const step = Math.min(SIZE + 2, Math.max(block.w + 36, 110) / n);
     const half = (step * (n - 1) + SIZE) / 2;
     const middle = Math.min(Math.max(block.x + block.w / 2, half), graph.width - half);
     const [x, y] = [middle + step * (i - (n - 1) / 2), block.y + block.h + 4];

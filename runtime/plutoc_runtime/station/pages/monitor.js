@@ -7,8 +7,7 @@ import { droneList, onTheMap } from "./drones.js";
 import { floorPlan } from "./floor.js";
 import { graphView } from "./graph.js";
 import { consoleView, resultsView } from "./results.js";
-import { question } from "./row.js";
-import { missionTable } from "./table.js";
+import { missionTable, question } from "./table.js";
 
 const WIDE = matchMedia("(min-width: 1060px)");
 const OFTEN = 250; // ms: what nobody reads ten times a second is written so often

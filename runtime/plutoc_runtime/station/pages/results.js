@@ -2,8 +2,7 @@
 
 import { clock, h, many, plain, put, set, shown, svg } from "./dom.js";
 import { mapPicture } from "./floor.js";
-import { mark, round } from "./row.js";
-import { sieve } from "./table.js";
+import { mark, round, sieve } from "./table.js";
 
 const SHOWN = 1000; // lines on the page
 const TOGETHER = 50; // lines in a block of the page: those out of sight cost nothing
