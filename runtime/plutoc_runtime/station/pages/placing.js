@@ -61,8 +61,8 @@ export function pins(floor, act) {
         + (locked ? "" : " Arrow keys move it, Delete removes it, Enter opens its card."));
       put(pin.children[2], trip.number);
       const [plate, words] = pin.lastChild.children;
-      put(words, trip.words);
-      const width = trip.words.length * 7.2 + 14; // more or less
+      put(words, trip.words.length > 28 ? `${trip.words.slice(0, 27)}…` : trip.words);
+      const width = words.textContent.length * 7.2 + 14; // more or less
       set(plate, "width", width);
       set(plate, "x", -width / 2);
     });
