@@ -47,6 +47,7 @@ class Visit(Protocol):
         scheme: Scheme = "light",
         touch: bool = False,
         port: int = 0,
+        path: str = "",
         prepare: Callable[[Page], object] | None = None,
     ) -> Page: ...
 
@@ -125,6 +126,7 @@ def visit(browser: Browser, watch: Watch) -> Iterator[Visit]:
         scheme: Scheme = "light",
         touch: bool = False,
         port: int = 0,
+        path: str = "",
         prepare: Callable[[Page], object] | None = None,
     ) -> Page:
         context = browser.new_context(
@@ -139,7 +141,8 @@ def visit(browser: Browser, watch: Watch) -> Iterator[Visit]:
         page = context.new_page()
         if prepare is not None:
             prepare(page)
-        page.goto(station.url.replace(str(station.port), str(port or station.port)))
+        address = f"http://127.0.0.1:{station.port}{path}" if path else station.url
+        page.goto(address.replace(str(station.port), str(port or station.port)))
         return page
 
     yield visit

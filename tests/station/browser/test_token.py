@@ -1,0 +1,48 @@
+"""Where others than this machine's users may come, one must know the token that was printed."""
+
+from __future__ import annotations
+
+from playwright.sync_api import expect
+
+from tests.station.browser.conftest import Serve, Visit
+from tests.station.browser.exercise import put_in
+from tests.station.browser.serving import until
+from tests.station.browser.steps import missions_listed, sees_all, start
+from tests.station.browser.watched import Watch
+
+
+def test_whoever_opens_the_printed_address_flies_and_the_token_leaves_the_address(
+    serve: Serve, visit: Visit
+) -> None:
+    """The floor plan is seen, too: it needs the token as well."""
+    station = serve("drugs_distribution", "--name", "ward.example")
+    assert "#token=" in station.url
+    put_in(station)
+    page = visit(station)
+    expect(missions_listed(page)).to_have_count(3)
+    assert "token" not in page.url
+    start(page)
+    sees_all(page, "Completed")
+    expect(page.locator("image[href^='blob:']").first).to_be_attached()
+    page.reload()
+    expect(page.get_by_role("tab", name="Monitor")).to_be_visible()
+    assert station.audit()
+
+
+def test_without_the_token_one_sees_where_to_find_it_and_can_paste_the_whole_address(
+    serve: Serve, visit: Visit, watch: Watch
+) -> None:
+    watch.expected += ["401"]
+    station = serve("drugs_distribution", "--name", "ward.example")
+    put_in(station)
+    page = visit(station, path="/")
+    expect(page.get_by_role("heading")).to_contain_text("token")
+    expect(page.get_by_text("Mission 1")).to_have_count(0)
+    field = page.get_by_label("Address or token")
+    field.fill("wrong")
+    page.get_by_role("button", name="Open the station").click()
+    expect(page.get_by_role("alert").filter(has_text="no such token")).to_be_visible()
+    field.fill(station.url)
+    page.get_by_role("button", name="Open the station").click()
+    expect(missions_listed(page)).to_have_count(3)
+    until(lambda: station.phase == "idle", "nothing has happened")
