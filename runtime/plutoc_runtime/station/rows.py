@@ -25,20 +25,24 @@ def mission_row(
     """Return what there is to see of a mission; `fleet` says what all drones are doing."""
     done, todo = mission.completed_trips, mission.trips
     at = blocks_of(state, app.flow) if state is not None else ()
+    status = mission.status
+    ends = status in ENDED
+    if ends and state is not None:  # its trips are done; what comes of it, a block has yet to say
+        status, ends = Status.STANDBY, False
     until = _until(state, now)
     current = todo[0] if todo else None
     drone = _drone_of(mission, state)
     return {
         "name": mission.name,
         "index": mission.index,
-        "status": mission.status.value,
+        "status": status.value,
         "reason": mission.reason,
         "trips": [_trip(trip) for trip in (*done, *todo)],
         "current": len(done) if todo else None,
         "done": len(done),
         "total": len(done) + len(todo),
         "drone": drone.id if drone is not None else None,
-        "at": [END] if mission.status in ENDED else list(at),
+        "at": [END] if ends else list(at),
         "wait": "" if state is None else _why_it_waits(app, state, at, until, fleet),
         "until": until,
         "attempt": current.attempt if current is not None else 1,
@@ -172,6 +176,8 @@ def _why_it_waits(
         return "waits until its time has come"
     if state.allocated is None and at and at[0] in app.resumes:
         return f"waits for a drone ({fleet})"
+    if at and mission.status in ENDED:
+        return f"waits for what {at[0]} says"
     return ""
 
 
