@@ -128,7 +128,7 @@ function missionPanel({ app, plan }, { open, copy, remove }) {
       }));
       put(count, mission.trips.length ? many(mission.trips.length, "trip") : "Trips");
       put(trips.lastChild, mission.launched ? "See trips" : "Set trips");
-      put(short, mission.trips.map(({ action }) => plain(action)).join(", ")
+      put(short, mission.trips.slice(0, 20).map(({ action }) => plain(action)).join(", ")
         || "No trips yet. “Set trips” opens the map: drag actions onto it there.");
       shown(locked, mission.launched);
       bin.disabled = mission.launched;
