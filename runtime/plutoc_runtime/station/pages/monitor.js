@@ -9,7 +9,7 @@ import { graphView } from "./graph.js";
 import { consoleView, resultsView } from "./results.js";
 import { missionTable, question } from "./table.js";
 
-const WIDE = matchMedia("(min-width: 1060px)");
+const WIDE = matchMedia("(min-width: 1160px)");
 const OFTEN = 250; // ms: what nobody reads ten times a second is written so often
 
 // Which mission is looked at: the table, the map and the graph show the same.
