@@ -245,11 +245,11 @@ function closed({ status, message }) {
       location.reload();
     },
   },
-  h("p", {}, "It stands in the address that was printed when the station was started: open that, ",
-    "or paste it here."),
+  h("p", {}, "It stands in the address that the station printed when it began: open that, or ",
+    "paste it here."),
   h("div", { class: "field" }, h("label", { for: "token" }, "Address or token"), input),
   token() && h("p", { class: "problem", role: "alert" }, icon("warning"),
-    "The station knows no such token: it makes a new one each time it is started."),
+    "The station knows no such token."),
   h("div", {}, button("Open the station", null, "primary")));
   fill(document.body, h("main", { class: "gate" }, h("div", { class: "card stack" },
     h("h1", {}, status === 401 ? "This station asks for its token" : message),
