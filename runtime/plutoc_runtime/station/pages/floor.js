@@ -274,7 +274,22 @@ export function scaleBar() {
       set(text, "x", 1 + metres * scale / 2);
       text.textContent = `${metres} m`;
       set(element, "width", Math.ceil(metres * scale) + 4);
-      set(element, "aria-label", `This long are ${metres} metres`);
+      set(element, "aria-label", `Scale bar: ${metres} metres`);
     },
   };
+}
+
+// What is wrong with a place while something is dragged there; the station has the last word.
+export function whyNot({ size: [width, height], no_fly: areas }, [x, y]) {
+  if (x < 0 || y < 0 || x > width || y > height) return "Outside the map";
+  return areas.some((area) => isInside(x, y, area)) ? "In a no-fly area" : "";
+}
+
+function isInside(x, y, corners) {
+  let within = false;
+  corners.forEach(([ax, ay], at) => {
+    const [bx, by] = corners.at(at - 1);
+    if ((ay > y) !== (by > y) && x < ax + ((y - ay) * (bx - ax)) / (by - ay)) within = !within;
+  });
+  return within;
 }
