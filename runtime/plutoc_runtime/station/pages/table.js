@@ -306,8 +306,9 @@ export function missionTable(context, chosen) {
     shown(empty, !seen);
     if (seen) return;
     put(empty, all.length ? "No mission is like that now."
-      : context.plan.missions.length ? "Press Start, and each mission has a line here."
-        : "There are no missions yet. Make some on the page Missions.");
+      : live.state.phase !== "idle" ? "The missions are about to begin."
+        : context.plan.missions.length ? "Press Start, and each mission has a line here."
+          : "There are no missions yet. Make some on the page Missions.");
   }
   // The list is scrolled, never the page: who presses a number in the graph goes on seeing it.
   function reveal(row) {
