@@ -37,7 +37,7 @@ if TYPE_CHECKING:
     from ..app import App
     from .options import Options
 
-AGAIN = "serve goes on with what was interrupted"
+AGAIN = "serve shows what was interrupted, and Resume goes on with it"
 
 
 def serve(app: App, options: Options) -> int:
@@ -64,7 +64,7 @@ async def _serve(
     with listening(options.host, _port(options, settings)) as listener:
         guard = _guard(options, settings, port_of(listener))
         api = Api(station, guard, Audit(settings.own_folder / "audit.log"))
-        station.begin()
+        station.begin(options.going_on)
         if options.going_on and station.phase is Phase.INTERRUPTED:
             station.resume()
 
@@ -116,7 +116,12 @@ class _Leaving:
 def _settings(app: App, options: Options) -> Settings:
     fleet, text = load_fleet(app, options)
     folder = options.folder or place.folder_of(app.name)
-    image = floor_plan(options.fleet.parent, fleet.image) if options.fleet and fleet.image else None
+    image = None
+    if options.fleet and fleet.image:
+        try:
+            image = floor_plan(options.fleet.parent, fleet.image)
+        except BadInput as error:
+            raise BadInput(f"{options.fleet}: {error}") from None
     settings = Settings(
         folder=folder,
         fleet=fleet,
@@ -128,7 +133,10 @@ def _settings(app: App, options: Options) -> Settings:
         speed=options.speed,
     )
     try:
-        settings.own_folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+        folder.mkdir(mode=0o700, parents=True, exist_ok=True)  # nobody else's, and so all in it
+        settings.own_folder.mkdir(mode=0o700, exist_ok=True)
+        if not os.access(settings.own_folder, os.W_OK | os.X_OK):
+            raise PermissionError(0, "it may only be read")
     except OSError as error:
         raise BadInput(
             f"{folder}: the station cannot keep anything there: {error.strerror}"

@@ -6,6 +6,7 @@ from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from ..cli import output
+from ..cli.flights import how_to_go_on
 from ..cli.taken_up import TakenUp, take_up
 from ..errors import BadInput
 from ..journal import place
@@ -14,14 +15,19 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from ..app import App
+    from ..files.fleet import FleetFile
     from .settings import Settings
 
 AWAY = "put_away"
 """The file that names the last journal with which nobody wants to go on."""
 
 
-def found(app: App, settings: Settings) -> TakenUp | None:
-    """Return the newest journal of the station's folder, opened, if it can be gone on with."""
+def found(app: App, settings: Settings, going_on: bool = False) -> TakenUp | None:
+    """Return the newest journal of the station's folder, opened, if it can be gone on with.
+
+    A flight over another map would be drawn over this one, and misread: it is left alone, unless
+    this station was started to go on with it.
+    """
     journal = place.newest_in(settings.folder)
     if journal is None or journal.name == _put_away(settings):
         return None
@@ -33,7 +39,19 @@ def found(app: App, settings: Settings) -> TakenUp | None:
     if taken.is_over or taken.header["sim"] != settings.sim:
         taken.store.close()
         return None
+    if not going_on and _drawn(taken.fleet) != _drawn(settings.fleet):
+        taken.store.close()
+        output.tell(
+            "the last flight is not shown: it has another map, or other drones, than this station;"
+            f" serve with the fleet file with which it began. Without it, {how_to_go_on(app, journal)}"
+        )
+        return None
     return taken
+
+
+def _drawn(fleet: FleetFile) -> object:
+    """Return what people see of a fleet file."""
+    return fleet.airspace, [(one.id, one.category, one.home) for one in fleet.drones]
 
 
 def put_away(settings: Settings, journal: Path) -> None:

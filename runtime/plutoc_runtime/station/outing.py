@@ -36,7 +36,10 @@ FLEET_EACH = 1.0
 class Outing:
     """A journal, whoever lives it, and what everybody sees of it."""
 
-    def __init__(self, flight: Flight, ended: Callable[[], object]) -> None:
+    def __init__(
+        self, flight: Flight, ended: Callable[[], object], seen: Callable[[], object]
+    ) -> None:
+        """Begin; `seen` is called when drones were heard of, `ended` when it lives no more."""
         self.flight = flight
         self.id = flight.journal.name
         self.feed = Feed()
@@ -51,9 +54,10 @@ class Outing:
         self.trouble = ""
         """Why it could not go on."""
         self.task: asyncio.Task[None] | None = None
-        self._ended = ended
+        self._ended, self._seen = ended, seen
         self._last_seen = self._drones_at_home(())
         self._fleet, self._fleet_at = "", -FLEET_EACH
+        self._left_at = 0.0
 
     @property
     def lives(self) -> bool:
@@ -104,13 +108,14 @@ class Outing:
             self.end, self.records = lived.end, lived.records
         finally:
             store.close()
-            self._last_seen = self._drones_at_the_end()
+            self._last_seen, self._left_at = self._drones_at_the_end(), self.now
             self.one = None
             if self.trouble:
                 self._say(self.trouble, "bad")
 
     def _born(self, one: OneLife) -> None:
         self.one = one
+        one.when_seen(self._seen)
 
     def _say(self, text: str, kind: str = "bad") -> None:
         self.feed.say(self.now, text, kind)
@@ -120,7 +125,10 @@ class Outing:
         """Seconds since it first began, in its own time."""
         if self.life is not None:
             return self.life.session.core.kernel.time()
-        return self.records.time if self.records is not None else 0.0
+        known = self.records.time if self.records is not None else 0.0
+        return max(
+            known, self._left_at
+        )  # no clock goes back: drones still came home after all that
 
     # What everybody sees
 

@@ -16,7 +16,7 @@ from ..cli.flights import Flight
 from ..cli.taken_up import take_up
 from ..errors import BadInput
 from ..gateway.starting import stop_directly
-from ..journal import place
+from ..journal import lock, place
 from ..journal.header import header
 from ..journal.store import Store
 from ..remote_control import perform
@@ -71,13 +71,13 @@ class Station:
         """What goes on."""
         return phase_of(self.outing)
 
-    def begin(self) -> None:
+    def begin(self, going_on: bool = False) -> None:
         """Show the flight that an earlier station, or `fly`, has not brought to its end."""
-        taken = leftover.found(self._app, self._settings)
+        taken = leftover.found(self._app, self._settings, going_on)
         if taken is None:
             self.plan.unlock()
             return
-        self.outing = Outing(taken.flight(self._settings.speed), self._over)
+        self.outing = Outing(taken.flight(self._settings.speed), self._over, self._scene.hurry)
         self.outing.read(taken.known)
         taken.store.close()
         self._lock_what_flies()
@@ -193,7 +193,7 @@ class Station:
             seed=settings.seed,
             faults=Faults(**settings.faults),
         )
-        self.outing = Outing(flight, self._over)
+        self.outing = Outing(flight, self._over, self._scene.hurry)
         self.outing.begin(store, None)
 
     def resume(self) -> str:
@@ -212,6 +212,11 @@ class Station:
     async def _discard(self) -> str:
         if self.phase not in (Phase.STOPPED, Phase.INTERRUPTED) or self.outing is None:
             raise BadInput("there is nothing to put away")
+        elsewhere = lock.holder(self.outing.journal)
+        if elsewhere is not None:
+            raise BadInput(
+                f"somebody has gone on with it elsewhere (process {elsewhere}): end it there first"
+            )
         folder = place.gateway_folder(self.outing.journal)
         with suppress(BadInput):  # nothing flies any more, as it should be
             await asyncio.to_thread(stop_directly, folder, Down.LAND, STOP_WITHIN)

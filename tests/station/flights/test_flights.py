@@ -7,11 +7,13 @@ import os
 import signal
 from collections.abc import Callable
 from contextlib import closing
+from dataclasses import replace
 from itertools import count
 from typing import Any
 
 import pytest
 
+from plutoc_runtime.journal.lock import Lock
 from plutoc_runtime.journal.reader import Reader
 from tests.station.browser.serving import Station, until
 from tests.station.flights.conftest import Serve
@@ -233,3 +235,65 @@ def test_a_port_that_is_taken_is_said_so(serve: Serve, tmp_path: Any) -> None:
     other = Station(app=station.app, folder=elsewhere, options=station.options, port=station.port)
     with pytest.raises(AssertionError, match=f"port {station.port} is taken"):
         other.start()
+
+
+def test_a_flight_over_another_map_is_not_drawn_over_this_one(serve: Serve, tmp_path: Any) -> None:
+    station = serve()
+    tell(station, "start")
+    until(flies(station), "something flies")
+    station.end()
+    app = station.app
+    fleet = tmp_path / "fleet.toml"
+    text = app.fleet.read_text().replace("18.0, 10.0", "18.0, 11.0")
+    fleet.write_text(text.replace('image = "map.svg"', ""))
+    station.app = replace(app, fleet=fleet)
+    station.start()
+    assert station.phase == "idle"
+    assert "the last flight is not shown: it has another map" in station.said()
+    station.end()
+    station.app = app
+    station.start()
+    assert station.phase == "stopped"
+
+
+def test_what_somebody_has_gone_on_with_elsewhere_cannot_be_put_away(serve: Serve) -> None:
+    station = serve()
+    tell(station, "start")
+    until(flies(station), "something flies")
+    tell(station, "stop", how="land")
+    comes_to(station, "stopped")
+    elsewhere = Lock.take(station.journals()[0])
+    try:
+        said = refused(station, "discard")[1]
+        assert said.startswith("somebody has gone on with it elsewhere")
+    finally:
+        elsewhere.release()
+    assert tell(station, "discard") == "put away; its journal is kept"
+
+
+def test_the_clock_does_not_go_back_when_all_drones_are_down(serve: Serve) -> None:
+    station = serve()
+    tell(station, "start")
+    until(flies(station), "something flies")
+    tell(station, "stop", how="rtl")
+    times = [station.now()["state"]["time"]]
+
+    def is_stopped() -> bool:
+        state = station.now()["state"]
+        times.append(state["time"])
+        return bool(state["phase"] == "stopped")
+
+    until(is_stopped, "the station is stopped")
+    assert times == sorted(times)
+
+
+def test_nobody_else_may_look_into_the_folder_of_a_station(serve: Serve) -> None:
+    station = serve("drugs_distribution")
+    folder = station.folder / "one" / "more"
+    other = replace(station, folder=folder, port=0)
+    folder.parent.mkdir()
+    other.start()
+    try:
+        assert folder.stat().st_mode & 0o777 == 0o700
+    finally:
+        other.end()
