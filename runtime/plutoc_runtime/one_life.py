@@ -116,6 +116,11 @@ class OneLife:
             self._kernel.post(self._durable, self._store.seq)
         return end
 
+    def when_seen(self, watcher: Callable[[], object]) -> None:
+        """Call this whenever something was heard of the drones."""
+        if self._link is not None:
+            self._link.when_seen(watcher)
+
     async def close(self) -> None:
         """Let nothing of this life go on; the drones hover, or what was asked of them goes on."""
         self._kernel.close()

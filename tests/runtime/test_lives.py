@@ -40,6 +40,9 @@ AIRSPACE = Airspace(cruise_height=1.0)
 class Near(Link):
     """A link to a gateway in this process, which ends with it."""
 
+    def when_seen(self, watcher: Callable[[], object]) -> None:
+        """Nobody watches."""
+
     async def goodbye(self) -> None:
         """Nobody need be told."""
 

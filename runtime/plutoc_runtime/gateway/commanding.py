@@ -34,6 +34,10 @@ class Commanding(Navigation, Protocol):
 class Reached(Commanding, Protocol):
     """The same, of a gateway in another process."""
 
+    def when_seen(self, watcher: Callable[[], object]) -> None:
+        """Call this whenever something was heard of the drones."""
+        ...
+
     async def goodbye(self) -> None:
         """Let the gateway end, once all drones are down; nothing is lost by that."""
         ...

@@ -64,6 +64,7 @@ class RemoteLink:
         self._count = 0
         self._is_lost = False
         self._heard = 0.0
+        self._watcher: Callable[[], object] | None = None
         self._tasks: list[asyncio.Task[None]] = []
 
     async def link(self, epoch: int, patience: float) -> None:
@@ -93,6 +94,8 @@ class RemoteLink:
                 if message is None or "lost" in message:
                     break
                 self._see(message.get("seen", {}))
+                if self._watcher is not None:
+                    self._watcher()
                 if set(message) != {"seen"}:
                     self._kernel.post(self._hear, message)
         self._end()
@@ -234,6 +237,10 @@ class RemoteLink:
 
     def heartbeat(self) -> None:
         """Say that the brain is alive: this link does so by itself."""
+
+    def when_seen(self, watcher: Callable[[], object]) -> None:
+        """Call this whenever something was heard of the drones."""
+        self._watcher = watcher
 
     # How it ends
 

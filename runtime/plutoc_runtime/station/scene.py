@@ -18,8 +18,11 @@ if TYPE_CHECKING:
     from .outing import Outing
     from .plan.plan import Plan
 
-TICK = 0.1
-"""Seconds between two looks at what has changed."""
+LATEST = 0.12
+"""Seconds between two looks at what has changed, when nobody says that there is something new."""
+
+SOONEST = 0.08
+"""Seconds between two looks, however much is new: the drones are heard of ten times a second."""
 
 PATIENCE = 1.0
 """Seconds after which whoever asks is answered, though nothing has changed."""
@@ -40,6 +43,7 @@ class Scene:
         self._station = station
         self._number, self._state = 0, ""
         self._tick: asyncio.Future[None] | None = None
+        self._timer: asyncio.TimerHandle | None = None
         self._ticked_at = 0.0
 
     async def newer(self, flight: str, seen: int, log: int, results: int) -> str:
@@ -62,11 +66,20 @@ class Scene:
         loop = asyncio.get_running_loop()
         if self._tick is None:
             self._tick = loop.create_future()
-            loop.call_at(self._ticked_at + TICK, self._look)
+            self._timer = loop.call_at(self._ticked_at + LATEST, self._look)
         await asyncio.shield(self._tick)
+
+    def hurry(self) -> None:
+        """The drones were just heard of: look now, and what is seen of them is new."""
+        late = asyncio.get_running_loop().time() - self._ticked_at
+        if self._timer is not None and late >= SOONEST:
+            self._look()
 
     def _look(self) -> None:
         tick, self._tick = self._tick, None
+        if self._timer is not None:
+            self._timer.cancel()
+            self._timer = None
         self._ticked_at = asyncio.get_running_loop().time()
         number = self._number + 1
         outing, state = self._station.outing, self._state_now()
