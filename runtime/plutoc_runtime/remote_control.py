@@ -68,10 +68,6 @@ class Control(Protocol):
         """Let a retired drone be handed out again."""
         ...
 
-    def remember(self, id: str, command: str) -> None:
-        """Put on record that a command is carried out: nobody shall carry it out twice."""
-        ...
-
     def decide(self, mission: str, answer: str) -> str:
         """Settle what only a person can know: `done`, `not-done`, `go-on` or `cancel`."""
         ...

@@ -44,6 +44,15 @@ class Told:
             raise BadInput(f"there is no mission {mission}")
         return self._said("decide", mission, answer)
 
+    def prioritise(self, mission: str, trip: str, priority: int) -> str:
+        return self._said("prioritise", mission, trip, priority)
+
+    def retire(self, drone: str) -> str:
+        return self._said("retire", drone)
+
+    def bring_back(self, drone: str) -> str:
+        return self._said("bring back", drone)
+
     def _said(self, *call: object) -> str:
         self.calls.append(call)
         return f"did {call[0]}"
@@ -73,6 +82,12 @@ def note(tmp_path: Path) -> Path:
     ("request_", "call"),
     [
         ({"command": "stop", "how": "rtl"}, ("stop", Down.HOME)),
+        (
+            {"command": "prioritise", "mission": "North", "trip": "A", "priority": 5},
+            ("prioritise", "North", "A", 5),
+        ),
+        ({"command": "retire", "drone": "cf1"}, ("retire", "cf1")),
+        ({"command": "bring-back", "drone": "cf1"}, ("bring back", "cf1")),
         ({"command": "stop", "how": "land"}, ("stop", Down.LAND)),
         ({"command": "pause", "mission": None}, ("pause", None)),
         ({"command": "go-on", "mission": "North"}, ("go on", "North")),
