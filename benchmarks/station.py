@@ -24,13 +24,13 @@ from measuring.options import at_least_one
 from watching.flight import compiled, fleet, plan
 from watching.idler import idler
 from watching.server import Server, seconds_of, serve
-from watching.tabs import Tab, browser, first_paint, opened
+from watching.tabs import Tab, browser, first_visit, main_threads, opened
 
 Numbers = dict[str, float]
 
 PAGES = Path(__file__).parents[1] / "runtime" / "plutoc_runtime" / "station" / "pages"
 SETTLE = 5.0
-"""Seconds until what has just begun is steady."""
+"""Seconds until what has just begun is steady; never longer than what is measured then."""
 
 
 def weight() -> float:
@@ -61,17 +61,16 @@ def watched(server: Server, found: Browser, tabs: int, seconds: float) -> Number
     """Measure with so many browsers: first what they cost, then how old what they show is."""
     url = server.url + "/"
     quiet = [opened(found, url, listening=False) for _ in range(tabs)]
-    time.sleep(SETTLE)
-    before = [tab.busy for tab in quiet]
-    begun = time.perf_counter()
+    time.sleep(min(SETTLE, seconds))
+    before, begun = main_threads(found), time.perf_counter()
     numbers = {"server, watched, %": share(lambda: server.used, seconds)}
-    took = time.perf_counter() - begun
-    busy = [100 * (tab.busy - was) / took for tab, was in zip(quiet, before, strict=True)]
+    after, took = main_threads(found), time.perf_counter() - begun
+    busy = [100 * (used - before[process]) / took for process, used in after.items()]
     numbers["main thread of a browser, most, %"] = max(busy)
     for tab in quiet:
         tab.page.context.close()
     listening = [opened(found, url, listening=True) for _ in range(tabs)]
-    time.sleep(SETTLE)
+    time.sleep(min(SETTLE, seconds))
     numbers.update(_ages(listening, seconds))
     for tab in listening:
         tab.page.context.close()
@@ -96,7 +95,7 @@ def neglected(server: Server, seconds: float) -> Numbers:
     """Measure what a client costs that never reads, and what it sees at last."""
     memory = server.memory
     with idler(server.url) as back:
-        time.sleep(SETTLE)
+        time.sleep(min(SETTLE, seconds))
         used = share(lambda: server.used, seconds)
         grown = server.memory - memory
         newest = server.ask("/api/live?flight=&seen=0&log=0&results=0")["n"]
@@ -125,11 +124,14 @@ def measure(given: argparse.Namespace, say: Callable[[str], None]) -> Numbers:
         server = serve(source, folder / "fleet.toml", folder / "station")
         try:
             tell({"from serve to its address, s": server.started_in})
-            tell({"from there to the first paint, s": first_paint(server.url + "/")})
+            visit = first_visit(server.url + "/")
+            tell({"from there to the first paint, s": visit.painted})
+            tell({"over the line for a first visit, kB": visit.kilobytes})
+            tell({"requests of a first visit": visit.requests})
             missions = {"revision": server.ask("/api/plan")["revision"]}
             server.ask("/api/plan", {**missions, "missions": plan(given.missions)}, "PUT")
             airborne(server, given.drones)
-            time.sleep(SETTLE)
+            time.sleep(min(SETTLE, given.seconds))
             gateway = server.gateway()
             tell({"server, nobody looks, %": share(lambda: server.used, given.seconds)})
             if gateway is not None:

@@ -71,5 +71,5 @@ def compiled(folder: Path) -> Path:
     (folder / "watched.pluto").write_text(SOURCE)
     compiler = [sys.executable, "-m", "plutoc", "compile", str(folder / "watched.pluto")]
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
-    subprocess.run(compiler, check=True, env=environment)
+    subprocess.run(compiler, check=True, env=environment, stdout=subprocess.DEVNULL)
     return folder / "watched" / "src"

@@ -18,32 +18,33 @@ ASK = json.dumps({"flight": "", "seen": 0, "log": 0, "results": 0})
 @contextmanager
 def idler(url: str) -> Iterator[Callable[[], int]]:
     """Ask ten times a second without ever reading; the function returns, and gives the newest."""
-    line = _line(url)
     over = Event()
-    asking = Thread(target=_ask, args=(line, over), daemon=True)
-    asking.start()
+    with _line(url) as line:
+        asking = Thread(target=_ask, args=(line, over), daemon=True)
+        asking.start()
 
-    def back() -> int:
-        """Return the version that a client sees who reads again, cut off or not."""
-        over.set()
-        asking.join()
-        line.close()
-        with _line(url) as again:
-            again.send(ASK)
-            version: int = json.loads(again.recv(timeout=10))["n"]
-            return version
+        def back() -> int:
+            """Return the version that a client sees who reads again, cut off or not."""
+            over.set()
+            asking.join()
+            with _line(url) as again:
+                again.send(ASK)
+                version: int = json.loads(again.recv(timeout=10))["n"]
+                return version
 
-    try:
-        yield back
-    finally:
-        over.set()
-        asking.join()
-        line.close_socket()
+        try:
+            yield back
+        finally:
+            over.set()
+            asking.join()
 
 
-def _line(url: str) -> ClientConnection:
+@contextmanager
+def _line(url: str) -> Iterator[ClientConnection]:
     address = url.replace("http://", "ws://") + "/api/live"
-    return connect(address, additional_headers={"X-Pluto": "1"}, max_queue=1, close_timeout=1)
+    own = {"X-Pluto": "1"}
+    with connect(address, additional_headers=own, max_queue=1, close_timeout=1) as line:
+        yield line
 
 
 def _ask(line: ClientConnection, over: Event) -> None:

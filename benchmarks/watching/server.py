@@ -56,6 +56,8 @@ class Server:
     def end(self) -> None:
         """Land all, and leave no process behind."""
         gateway = self.gateway()
+        if self.process.stdout is not None:
+            self.process.stdout.close()
         self.process.terminate()
         try:
             self.process.wait(60)
@@ -87,9 +89,10 @@ def serve(source: Path, fleet: Path, folder: Path) -> Server:
     raise SystemExit(f"the station has ended with {process.wait()}")
 
 
-def seconds_of(process: int) -> float:
-    """Return the seconds of CPU that a process has used."""
-    fields = Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()
+def seconds_of(process: int, thread: int | None = None) -> float:
+    """Return the seconds of CPU that a process has used, or one thread of it."""
+    of = f"/proc/{process}/stat" if thread is None else f"/proc/{process}/task/{thread}/stat"
+    fields = Path(of).read_text().rpartition(")")[2].split()
     return (int(fields[11]) + int(fields[12])) / TICKS
 
 

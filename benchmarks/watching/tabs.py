@@ -12,7 +12,9 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
 
-from playwright.sync_api import Browser, CDPSession, Page, sync_playwright
+from playwright.sync_api import Browser, Page, sync_playwright
+
+from .server import seconds_of
 
 ARGUMENTS = [
     "--no-sandbox",
@@ -54,19 +56,26 @@ class Tab:
     """A page of the station."""
 
     page: Page
-    devtools: CDPSession
-
-    @property
-    def busy(self) -> float:
-        """Seconds of CPU that its main thread has used."""
-        metrics = self.devtools.send("Performance.getMetrics")["metrics"]
-        found: dict[str, float] = {one["name"]: one["value"] for one in metrics}
-        return found["TaskDuration"]
 
     def ages(self) -> tuple[list[int], int]:
         """Return the milliseconds of age since this was last asked, and the updates in all."""
         found: dict[str, Any] = self.page.evaluate("() => window.__ages()")
         return found["ages"], found["updates"]
+
+
+def main_threads(browser: Browser) -> dict[int, float]:
+    """Return the seconds of CPU that each page's main thread has used, by its process.
+
+    DevTools would tell of seconds on the clock, which a busy machine makes longer.
+    """
+    devtools = browser.new_browser_cdp_session()
+    processes = devtools.send("SystemInfo.getProcessInfo")["processInfo"]
+    devtools.detach()
+    return {
+        one["id"]: seconds_of(one["id"], one["id"])  # the first thread has the process's number
+        for one in processes
+        if one["type"] == "renderer"
+    }
 
 
 @contextmanager
@@ -85,20 +94,32 @@ def opened(browser: Browser, url: str, *, listening: bool) -> Tab:
     page = context.new_page()
     if listening:
         page.add_init_script(LISTEN)
-    devtools = context.new_cdp_session(page)
-    # Of CPU, not of the clock: a busy machine makes nobody's main thread busier.
-    devtools.send("Performance.setTimeDomain", {"timeDomain": "threadTicks"})
-    devtools.send("Performance.enable")
     page.goto(url)
     page.get_by_role("tab", name="Monitor").or_(page.get_by_role("link", name="Monitor")).click()
-    return Tab(page=page, devtools=devtools)
+    return Tab(page=page)
 
 
-def first_paint(url: str) -> float:
-    """Return the seconds until a browser that has just started shows something."""
+@dataclass(frozen=True, slots=True)
+class FirstVisit:
+    """What a browser that has just started gets to see."""
+
+    painted: float
+    """Seconds from asking for the page to the first paint."""
+    kilobytes: float
+    """Of all that came over the line for it, heads included."""
+    requests: int
+
+
+def first_visit(url: str) -> FirstVisit:
+    """Open the page in a browser that has never been here, until nothing more is asked for."""
     with browser() as found:
         page = found.new_page()
+        devtools = page.context.new_cdp_session(page)
+        came: list[float] = []
+        devtools.on("Network.loadingFinished", lambda told: came.append(told["encodedDataLength"]))
+        devtools.send("Network.enable")
         page.goto(url)
         page.wait_for_function(f"({PAINTED})() !== undefined")
+        page.get_by_role("button", name="Use the example plan").wait_for()
         milliseconds: float = page.evaluate(PAINTED)
-        return milliseconds / 1000
+        return FirstVisit(milliseconds / 1000, sum(came) / 1000, len(came))
