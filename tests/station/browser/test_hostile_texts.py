@@ -8,7 +8,7 @@ from playwright.sync_api import Page, expect
 
 from tests.station.browser.conftest import Serve, Visit
 from tests.station.browser.serving import Station
-from tests.station.browser.steps import open_page, sees_all, start
+from tests.station.browser.steps import missions_listed, open_page, sees_all, start
 
 SCRIPT = "<img src=x onerror=window.ran=1>"
 HOSTILE = (
@@ -100,8 +100,7 @@ def test_a_text_that_turns_the_writing_around_is_refused_or_kept_where_it_is(
     station = serve("drugs_distribution")
     put(station, ("safe \u202egpj.exe", "zero\u200bwidth", "line\u2028end"))
     page = visit(station)
-    texts = page.get_by_role("option").all_inner_texts()
-    assert len(texts) == 3
+    expect(missions_listed(page)).to_have_count(3)
     problems = [one["text"] for one in station.get("/api/plan")["problems"]]
     isolated = page.evaluate(
         "() => [...document.querySelectorAll('[role=option] strong')]"

@@ -14,7 +14,7 @@ from tests.station.browser.cable import Cable
 from tests.station.browser.conftest import Serve, Visit
 from tests.station.browser.exercise import COMPLETED, DONE, put_in
 from tests.station.browser.serving import Station, until
-from tests.station.browser.steps import open_page, sees_all, start
+from tests.station.browser.steps import add_mission, drag, open_page, sees_all, start
 from tests.station.browser.watched import Watch
 
 
@@ -154,6 +154,52 @@ def test_an_answer_that_is_lost_skips_one_trip_and_not_two(
     assert asked[0] == asked[1]
     (mission,) = (row for row in station.now()["missions"] if row["name"] == "Mission 1")
     assert [trip[1] for trip in mission["trips"]] == ["COMPLETED", "COMPLETED"]
+
+
+def test_an_answer_that_is_lost_draws_nothing_twice(
+    serve: Serve, visit: Visit, watch: Watch
+) -> None:
+    watch.expected += ["ERR_", "Failed to load resource"]
+    station = serve("drugs_distribution")
+    page = visit(station)
+    asked: list[str] = []
+    page.route("**/api/plan", lambda route: _lose_first(route, asked))
+    with page.expect_response(lambda answer: answer.url.endswith("/api/plan") and answer.ok):
+        add_mission(page, "Once")
+    page.unroute_all()
+    drag(page, "measure", (3.0, 5.0))
+    assert len(asked) > 1
+    until(lambda: trips_of(station) == {"Once": 1}, "it is kept, and its trip")
+
+
+def test_what_is_drawn_without_a_network_is_kept_and_saved_when_it_is_back(
+    serve: Serve, visit: Visit, watch: Watch
+) -> None:
+    watch.expected += ["WebSocket", "ERR_", "Failed to load resource"]
+    station = serve("drugs_distribution")
+    cable = Cable(station.port)
+    page = visit(station, port=cable.port)
+    add_mission(page, "Before")
+    until(lambda: named(station) == ["Before"], "it is kept")
+    cable.cut()
+    add_mission(page, "Meanwhile")
+    drag(page, "measure", (3.0, 5.0))
+    expect(page.get_by_text("Not saved yet")).to_be_visible()
+    assert named(station) == ["Before"]
+    cable.mend()
+    until(lambda: named(station) == ["Before", "Meanwhile"], "it is saved by itself")
+    expect(page.get_by_text("Not saved yet")).to_be_hidden()
+    cable.close()
+
+
+def trips_of(station: Station) -> dict[str, int]:
+    """Return how many trips each mission of the plan has."""
+    return {one["name"]: len(one["trips"]) for one in station.get("/api/plan")["missions"]}
+
+
+def named(station: Station) -> list[str]:
+    """Return what the missions of the plan are called."""
+    return [mission["name"] for mission in station.get("/api/plan")["missions"]]
 
 
 def _lose_first(route: Route, asked: list[str]) -> None:
