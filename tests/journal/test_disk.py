@@ -85,7 +85,7 @@ def full(process: subprocess.Popen[str], path: Path) -> list[str]:
     written = len(rows) - (rows[-1:] == [WHY])
     assert rows[:written] == [text(number) for number in range(1, written + 1)]
     assert f"{path}: the journal cannot be written: " in why
-    assert f"All {written} rows up to now are safe" in why
+    assert f"What was written before, {written} rows, is safe" in why
     assert not place.beside(path, ".reserve").exists()
     return [why, words]
 

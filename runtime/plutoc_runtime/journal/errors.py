@@ -97,8 +97,9 @@ def cannot_open(path: Path, error: Exception) -> JournalError:
 def cannot_write(path: Path, error: Exception, seq: int) -> JournalError:
     """A commit failed: from now on nothing is acknowledged."""
     return JournalError(
-        f"{path}: the journal cannot be written: {why(error)}. All {counted(seq, 'row')} up to now"
-        " are safe, and nothing later counts: make room or mend the disk, then resume"
+        f"{path}: the journal cannot be written: {why(error)}. What was written before,"
+        f" {counted(seq, 'row')}, is safe, and nothing later counts: make room or mend the disk, then"
+        " resume"
     )
 
 

@@ -7,12 +7,13 @@ import json
 import traceback
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import closing
+from contextlib import closing, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..cli import output
 from ..cli.flights import Flight, Watcher, lives
+from ..cli.flown import records_in
 from ..errors import BadInput
 from ..journal.reader import Reader
 from ..kernel import WHATEVER
@@ -112,6 +113,12 @@ class Outing:
             self.one = None
             if self.trouble:
                 self._say(self.trouble, "bad")
+                self._show_what_counts()
+
+    def _show_what_counts(self) -> None:
+        """What could not be written down has not happened: show what the journal says."""
+        with suppress(BadInput, OSError):
+            self.records = records_in(self.flight.app, self.flight.journal)
 
     def _born(self, one: OneLife) -> None:
         self.one = one
@@ -126,9 +133,7 @@ class Outing:
         if self.life is not None:
             return self.life.session.core.kernel.time()
         known = self.records.time if self.records is not None else 0.0
-        return max(
-            known, self._left_at
-        )  # no clock goes back: drones still came home after all that
+        return max(known, self._left_at)  # that of those who saw the drones down does not go back
 
     # What everybody sees
 

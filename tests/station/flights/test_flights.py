@@ -9,6 +9,7 @@ from collections.abc import Callable
 from contextlib import closing
 from dataclasses import replace
 from itertools import count
+from resource import RLIM_INFINITY, RLIMIT_FSIZE, prlimit
 from typing import Any
 
 import pytest
@@ -297,3 +298,19 @@ def test_nobody_else_may_look_into_the_folder_of_a_station(serve: Serve) -> None
         assert folder.stat().st_mode & 0o777 == 0o700
     finally:
         other.end()
+
+
+def test_what_could_not_be_written_down_is_not_shown_to_have_happened(serve: Serve) -> None:
+    station = serve("drugs_distribution", "--speed", "10")
+    tell(station, "start")
+    until(flies(station), "something flies")
+    prlimit(station.pid, RLIMIT_FSIZE, (60_000, RLIM_INFINITY))  # room to read it, none to go on
+    comes_to(station, "interrupted")
+    seen = station.now()
+    assert "the journal cannot be written" in seen["state"]["said"]
+    assert {mission["status"] for mission in seen["missions"]} == {"STANDBY"}
+    prlimit(station.pid, RLIMIT_FSIZE, (RLIM_INFINITY, RLIM_INFINITY))
+    tell(station, "resume")
+    comes_to(station, "over")
+    assert set(station.statuses().values()) == {"COMPLETED"}
+    assert each_trip_was_done_once(station)

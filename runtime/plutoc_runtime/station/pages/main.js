@@ -68,7 +68,7 @@ const PHASES = { // kind of chip, sign, words
 };
 
 // → the button's words, whether it can be pressed, what to say beside it
-function startWords({ phase, busy, how }, plan) {
+function startWords({ phase, busy, how, said: trouble }, plan) {
   const flying = phase === "flying";
   const todo = plan.missions.filter((mission) => !flying || !mission.launched);
   const bad = plan.problems.filter(({ mission: key }) =>
@@ -78,7 +78,7 @@ function startWords({ phase, busy, how }, plan) {
   const why = busy
     || (phase === "stopping" && DOWN[how])
     || (phase === "stopped" && "Resume goes on with every mission where it was.")
-    || (phase === "interrupted" && "A flight was broken off. Resume goes on with it.")
+    || (phase === "interrupted" && (trouble || "A flight was broken off. Resume goes on with it."))
     || (!todo.length && (flying ? "All missions are started. More can be added at any time."
       : "Nothing to start yet: add a mission first."))
     || (bad.length > 0 && `${todo.find(({ key }) => key === bad[0].mission)?.name ?? "The plan"} – `
