@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -41,14 +42,20 @@ def recovered(store: Store) -> Recovered:
 
 
 async def live(
-    setting: Setting, store: Store, stops: Stops, known: Recovered | None = None
+    setting: Setting,
+    store: Store,
+    stops: Stops,
+    known: Recovered | None = None,
+    born: Callable[[OneLife], object] | None = None,
 ) -> Lived:
     """Let the app live until all is over, until it is stopped, or until its gateway dies.
 
-    `known` is what the journal says, if it has been read already.
+    `known` is what the journal says, if it has been read already; `born` is told of the life.
     """
     known = known or recovered(store)
     one = OneLife(setting, store, known.records, known.time(setting.speed))
+    if born is not None:
+        born(one)
     try:
         return await one.live(stops)
     finally:

@@ -52,6 +52,7 @@ class OneLife:
         self._writer = Writer(store, partial(self._post, self._durable), self._unwritable)
         self._stops: Stops | None = None
         self._link: Reached | None = None
+        self._watcher: Callable[[], object] | None = None
         self.life: Life | None = None
         """What is lived, once the gateway is reached."""
         self._end: Signal[End] = Signal()
@@ -65,6 +66,8 @@ class OneLife:
         setting, kernel, self._stops = self._setting, self._kernel, stops
         lost = partial(self._end.set, End.LOST)
         self._link = link = await setting.connect(kernel, self._store.epoch, lost)
+        if self._watcher is not None:
+            link.when_seen(self._watcher)
         self.life = life = Life(
             setting.app,
             setting.fleet,
@@ -79,8 +82,6 @@ class OneLife:
         life.session.engine.patient = setting.patient
         life.control.stopped.watch(lambda _: self._end.set(End.STOPPED))
         stops.stop_now = self._stop
-        if setting.born is not None:
-            setting.born(self)
         async with listening(setting.note, self.answer):
             try:
                 end = await self._lived(life, stops)
@@ -118,8 +119,7 @@ class OneLife:
 
     def when_seen(self, watcher: Callable[[], object]) -> None:
         """Call this whenever something was heard of the drones."""
-        if self._link is not None:
-            self._link.when_seen(watcher)
+        self._watcher = watcher
 
     async def close(self) -> None:
         """Let nothing of this life go on; the drones hover, or what was asked of them goes on."""

@@ -15,7 +15,6 @@ if TYPE_CHECKING:
     from .gateway.commanding import Reached
     from .journal.fold import Records
     from .model import Drone, Mission
-    from .one_life import OneLife
     from .realtime import RealTime
     from .standing import Down
     from .trace import Event
@@ -50,8 +49,6 @@ class Setting:
     speed: float = 1.0
     patient: bool = False
     """Whether it goes on for as long as a mission waits for a person's decision."""
-    born: Callable[[OneLife], object] | None = None
-    """Told of each life when it begins."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

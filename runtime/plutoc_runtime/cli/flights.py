@@ -135,14 +135,13 @@ async def lives(
         note=note_of(flight.journal),
         tell=watcher.tell,
         speed=flight.speed,
-        born=watcher.born,
         patient=watcher.patient,
     )
     deaths, done = 0, -1
     while True:
         stops.asked = stops.asked or stop_mark.found(flight.journal)
         with closing(store):
-            lived = await live(setting, store, stops, known)
+            lived = await live(setting, store, stops, known, watcher.born)
         known = None
         if lived.end is not End.LOST:
             return lived

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from ..errors import BadInput
 from ..words import quoted
-from .web.http import Malformed
 
 _MISSION, _TRIP = {"mission": (str,)}, {"trip": (str,)}
 _ALL = {"mission": (str, type(None))}
@@ -30,6 +30,10 @@ HOWS = ("rtl", "land")
 
 LARGEST = 1_000_000_000
 """No priority is further from 0, here as in a missions file."""
+
+
+class Malformed(BadInput):
+    """A command that nobody can make sense of, whatever flies: it lacks a name, or has two."""
 
 
 def checked(name: str, given: Mapping[str, object]) -> dict[str, object]:

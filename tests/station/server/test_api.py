@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from plutoc_runtime.errors import BadInput
+from plutoc_runtime.station.commands import Malformed
 from plutoc_runtime.station.web.answers import ADDRESSES
-from plutoc_runtime.station.web.http import Malformed
 
 from .asking import OURS, AStation, asked, request, said, without
 

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from plutoc_runtime.station.web.http import Malformed
+from plutoc_runtime.station.commands import Malformed
 from plutoc_runtime.station.web.strict_json import DEEPEST, parsed, parsed_object
 
 SOUND = st.recursive(

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Coroutine, Mapping
 
 from ...errors import BadInput
-from ..commands import NEEDS
+from ..commands import NEEDS, Malformed
 from ..plan.errors import Stale
 from . import refusals
 from .audit import Audit
 from .behind import Plan, Station
-from .http import Malformed, Reply, Request, json_reply, text_reply
+from .http import Reply, Request, json_reply, text_reply
 from .http import said as in_words
 from .refusals import Refused
 from .strict_json import parsed_object

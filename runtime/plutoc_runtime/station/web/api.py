@@ -7,13 +7,14 @@ import time
 from collections.abc import Awaitable, Callable
 from dataclasses import replace
 
+from ..commands import Malformed
 from . import refusals
 from .answers import ADDRESSES, change, read
 from .audit import Audit
 from .behind import Station
 from .dressing import dressed
 from .guard import Asking, Guard, refusal
-from .http import MISTAKES, Line, Malformed, Reply, Request
+from .http import MISTAKES, Line, Reply, Request
 from .live import LIVE, Live
 from .rates import Rate
 from .refusals import Refusal, Refused

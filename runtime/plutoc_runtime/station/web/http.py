@@ -11,14 +11,8 @@ from dataclasses import dataclass, field
 from math import isfinite
 from typing import Protocol
 
-from ...errors import BadInput
-
 Read = Callable[[], Awaitable[bytes]]
 """Reads a body to its end, within limits: raises `Refused`."""
-
-
-class Malformed(BadInput):
-    """A command that nobody can make sense of, whatever flies: it lacks a name, or has two."""
 
 
 async def nothing() -> bytes:

@@ -9,12 +9,13 @@ import asyncio
 from collections.abc import Callable
 from contextlib import suppress
 
+from ..commands import Malformed
 from . import refusals
 from .answers import asked_number
 from .audit import Audit
 from .behind import Newest
 from .guard import Asking, Guard, knows, refusal
-from .http import MISTAKES, Closed, Line, Malformed, Reply, Request
+from .http import MISTAKES, Closed, Line, Reply, Request
 from .rates import Rate
 from .refusals import Refused
 from .strict_json import parsed_object

@@ -7,7 +7,7 @@ import re
 from math import isfinite
 from typing import NoReturn
 
-from .http import Malformed
+from ..commands import Malformed
 
 DEEPEST = 32
 _LARGEST = 2**53
