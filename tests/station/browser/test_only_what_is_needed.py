@@ -7,6 +7,7 @@ from playwright.sync_api import Page, expect
 from tests.station.browser.conftest import Serve, Visit
 from tests.station.browser.steps import (
     add_mission,
+    card_of,
     drag,
     labels,
     open_page,
@@ -19,8 +20,10 @@ def fields(page: Page) -> tuple[set[str], set[str], set[str]]:
     """Draw a mission with one trip and start it; return what can be filled in, and the columns."""
     add_mission(page, "Look")
     drag(page, "measure", (3.0, 5.0))
+    expect(card_of(page, 1).get_by_label("Name")).to_be_visible()
     trip = labels(page)
     open_page(page, "Missions")
+    expect(page.get_by_role("button", name="Set trips")).to_be_visible()
     mission = labels(page)
     start(page)
     expect(row_of(page, "Look")).to_be_visible()
