@@ -97,7 +97,8 @@ export function question(context, { name: mission, question: { text, answers } }
 
 function tripLine(send, prioritised, name) {
   let priority = 1;
-  const [nth, what, weight] = [h("span", { class: "nth" }), h("small"), h("output")];
+  const [nth, called, what] = [h("span", { class: "nth" }), h("span"), h("small")];
+  const weight = h("output");
   const stands = standing();
   const step = (by, sign, label) => h("button", {
     class: "button quiet icon", "aria-label": `${label} the priority of trip ${name}`,
@@ -109,11 +110,12 @@ function tripLine(send, prioritised, name) {
     class: "button quiet small", "aria-label": `Skip trip ${name}`,
     onclick: () => send("skip", { trip: name }),
   }, "Skip");
-  const element = h("li", null, nth, h("span", { class: "called" }, name, what), stands, weighs,
-    skip);
+  const element = h("li", null, nth, h("span", { class: "called" }, called, what), stands,
+    weighs, skip);
   element.show = ({ trip: [, status, x, y, number, action], index, current, over }) => {
     priority = number ?? 1;
     put(nth, `${index + 1}.`);
+    put(called, name === String(index + 1) ? "" : name);
     put(what, `${plain(action)} at ${round(x)}, ${round(y)}`);
     stands.show(status);
     set(element, "aria-current", current && "step");
@@ -184,7 +186,9 @@ function missionRow(context, name, chosen) {
     set(line, "data-status", row.status);
     element.tick(live);
     const current = row.trips[row.current];
-    put(trip, current ? `${row.current + 1} of ${row.total}: ${current[0]}`
+    const nth = String(row.current + 1); // the name of a trip that was given none
+    put(trip, current
+      ? `${nth} of ${row.total}: ${current[0] === nth ? plain(current[5]) : current[0]}`
       : `${row.done} of ${row.total} done`);
     if (share !== (share = row.done / row.total)) bar.style.width = `${100 * share}%`;
     put(drone, row.drone ?? "–");
