@@ -1,0 +1,81 @@
+"""One flight after another, and what one can do about those that fly or were stopped."""
+
+from __future__ import annotations
+
+from playwright.sync_api import expect
+
+from tests.station.browser.conftest import Serve, Visit
+from tests.station.browser.exercise import COMPLETED, put_in
+from tests.station.browser.serving import until
+from tests.station.browser.steps import (
+    add_mission,
+    drag,
+    missions_listed,
+    open_page,
+    row_of,
+    sees_all,
+    start,
+)
+
+
+def test_a_mission_that_is_drawn_while_others_fly_is_started_beside_them(
+    serve: Serve, visit: Visit
+) -> None:
+    station = serve("drugs_distribution")
+    put_in(station)
+    page = visit(station)
+    start(page)
+    add_mission(page, "Late")
+    drag(page, "take_photo", (3.0, 5.0))
+    expect(page.get_by_role("button", name="Start 1 new mission")).to_be_visible()
+    start(page)
+    sees_all(page, "Completed", (*COMPLETED, "Late"))
+    assert station.statuses() == {**COMPLETED, "Late": "COMPLETED"}
+    assert len(station.journals()) == 1
+
+
+def test_the_whole_plan_flies_again_when_all_has_ended_and_nothing_old_is_shown(
+    serve: Serve, visit: Visit
+) -> None:
+    station = serve("drugs_distribution")
+    put_in(station)
+    page = visit(station)
+    start(page)
+    until(lambda: station.phase == "over", "the first flight is over")
+    sees_all(page, "Completed")
+    start(page)
+    expect(row_of(page, "Mission 1")).not_to_contain_text("Completed")
+    until(lambda: len(station.journals()) == 2, "another flight has begun")
+    sees_all(page, "Completed")
+    assert set(station.done().values()) == {2}
+
+
+def test_what_was_stopped_is_put_away_and_the_plan_begins_anew(serve: Serve, visit: Visit) -> None:
+    """Its missions can be changed again."""
+    station = serve("drugs_distribution")
+    put_in(station)
+    page = visit(station)
+    start(page)
+    until(lambda: station.phase == "flying", "it flies")
+    page.get_by_role("button", name="Stop: land now").click()
+    page.get_by_role("button", name="Put away").click()
+    until(lambda: station.phase == "idle", "it is put away")
+    open_page(page, "Missions")
+    missions_listed(page).first.click()
+    page.get_by_role("button", name="Delete").click()
+    expect(missions_listed(page)).to_have_count(2)
+    start(page)
+    sees_all(page, "Completed", ("Mission 2", "Mission 3"))
+
+
+def test_landing_now_is_heard_while_all_fly_home(serve: Serve, visit: Visit) -> None:
+    station = serve("drugs_distribution", "--speed", "5")
+    put_in(station)
+    page = visit(station)
+    start(page)
+    until(lambda: any(one["x"] > 6 for one in station.now()["drones"]), "one is far away")
+    page.get_by_role("button", name="Stop: fly home").click()
+    page.get_by_role("button", name="Stop: land now").click()
+    until(lambda: station.phase == "stopped", "all are down")
+    assert any(one["x"] > 2 for one in station.now()["drones"])
+    expect(page.get_by_role("button", name="Resume")).to_be_visible()
