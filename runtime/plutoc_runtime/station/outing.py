@@ -57,7 +57,8 @@ class Outing:
         self.task: asyncio.Task[None] | None = None
         self._ended, self._seen = ended, seen
         self._last_seen = self._drones_at_home(())
-        self._fleet, self._fleet_at = "", -FLEET_EACH
+        self._fleet: dict[str, str] = {}
+        self._fleet_at = -FLEET_EACH
         self._left_at = 0.0
 
     @property
@@ -145,7 +146,7 @@ class Outing:
         life, put, changed = self.life, self.missions.put, False
         if life is not None and life.missions:
             states = {state.mission.name: state for state in life.session.engine.states}
-            now, fleet, app = self.now, self._what_the_fleet_does(), self.flight.app
+            now, fleet, app = self.now, self._what_the_fleet_does, self.flight.app
             for mission in life.missions:
                 row = rows.mission_row(app, mission, states.get(mission.name), now, fleet)
                 changed |= put(mission.name, row, number)
@@ -185,15 +186,17 @@ class Outing:
             for drone in self.life.session.drones
         ]
 
-    def _what_the_fleet_does(self) -> str:
+    def _what_the_fleet_does(self, action: str) -> str:
         """Say why missions wait for drones; not anew at every look, for there may be many."""
         now = asyncio.get_running_loop().time()
-        if now - self._fleet_at >= FLEET_EACH and self.life is not None:
-            drones = self.life.session.drones
-            count = Counter(drone.status for drone in drones)
+        if now - self._fleet_at >= FLEET_EACH:
+            self._fleet, self._fleet_at = {}, now
+        if action not in self._fleet and self.life is not None:
+            able = (one for one in self.life.session.drones if one.category.can(action))
+            count = Counter(drone.status for drone in able)
             said = (f"{count[s]} {s.value.lower()}" for s in DroneStatus if count[s])
-            self._fleet, self._fleet_at = ", ".join(said), now
-        return self._fleet
+            self._fleet[action] = ", ".join(said)
+        return self._fleet.get(action, "")
 
     @property
     def journal(self) -> Path:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ..control import ANSWERS
@@ -20,9 +20,13 @@ Row = dict[str, object]
 
 
 def mission_row(
-    app: App, mission: Mission[Any], state: State | None, now: float, fleet: str
+    app: App,
+    mission: Mission[Any],
+    state: State | None,
+    now: float,
+    fleet: Callable[[str], str],
 ) -> Row:
-    """Return what there is to see of a mission; `fleet` says what all drones are doing."""
+    """Return what there is to see of a mission; `fleet` says what those do that can do an action."""
     done, todo = mission.completed_trips, mission.trips
     at = blocks_of(state, app.flow) if state is not None else ()
     status = mission.status
@@ -163,7 +167,11 @@ def _until(state: State | None, now: float) -> float | None:
 
 
 def _why_it_waits(
-    app: App, state: State, at: Sequence[str], until: float | None, fleet: str
+    app: App,
+    state: State,
+    at: Sequence[str],
+    until: float | None,
+    fleet: Callable[[str], str],
 ) -> str:
     mission = state.mission
     if mission.status is Status.PAUSED:
@@ -175,7 +183,7 @@ def _why_it_waits(
     if until is not None:
         return "waits until its time has come"
     if state.allocated is None and at and at[0] in app.resumes:
-        return f"waits for a drone ({fleet})"
+        return f"waits for a drone ({fleet(mission.current.action)})"
     if at and mission.status in ENDED:
         return f"waits for what {at[0]} says"
     return ""

@@ -2,18 +2,28 @@
 
 from __future__ import annotations
 
+from collections.abc import Coroutine, Generator
 from dataclasses import dataclass
 from typing import Any, cast
 
 from plutoc_runtime.app import App
 from plutoc_runtime.core import Core
-from plutoc_runtime.model import Mission
+from plutoc_runtime.model import Mission, Trip
 from plutoc_runtime.state import State
 from plutoc_runtime.station.rows import mission_row
-from plutoc_runtime.status import COMPLETED, Status
+from plutoc_runtime.status import COMPLETED, STANDBY, Status
+
+
+class Long:
+    """Something for which one waits."""
+
+    def __await__(self) -> Generator[None, None, None]:
+        yield
 
 
 async def flow(_: object) -> Status:
+    # allocate = DroneAllocator
+    await Long()
     return COMPLETED
 
 
@@ -25,8 +35,15 @@ class Resuming:
     resumes: tuple[str, ...] = ("allocate",)
 
 
+@dataclass
+class Waiting:
+    """As much of a task as says where it is."""
+
+    coroutine: Coroutine[Any, Any, Status]
+
+
 def row(mission: Mission[Any], state: State | None) -> dict[str, object]:
-    return mission_row(cast("App", Resuming()), mission, state, 10.0, "1 free")
+    return mission_row(cast("App", Resuming()), mission, state, 10.0, str)
 
 
 def test_a_mission_whose_last_trip_is_judged_has_not_ended() -> None:
@@ -43,3 +60,15 @@ def test_a_mission_that_has_ended_is_at_the_end() -> None:
     mission.status = COMPLETED
     seen = row(mission, None)
     assert (seen["status"], seen["at"], seen["wait"]) == ("COMPLETED", ["end"], "")
+
+
+def test_a_mission_waits_for_a_drone_that_can_do_its_next_trip() -> None:
+    trip = Trip(name="1", action="measure", target=(1.0, 1.0, 1.0))
+    mission = Mission[Any](name="a", trips=[trip])
+    mission.status = STANDBY
+    state = State(cast("Core", None), mission, print, print)
+    coroutine = flow(mission)
+    coroutine.send(None)
+    state.task = cast("Any", Waiting(coroutine))
+    assert row(mission, state)["wait"] == "waits for a drone (measure)"
+    coroutine.close()
