@@ -256,7 +256,7 @@ function control(field, id, evaluators, change) {
   }
   if (field.type !== "evaluator") return typed(field, id, change);
   const input = h("select", { id, onchange: () => change(input.value || undefined, false) },
-    h("option", { value: "" }, "None"),
+    h("option", { value: "" }, "The app’s own"),
     evaluators.map((name) => h("option", { value: name }, plain(name))));
   return { input, show: (value) => { input.value = value ?? ""; } };
 }
