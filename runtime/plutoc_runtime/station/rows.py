@@ -60,8 +60,8 @@ def recorded_row(name: str, record: Record) -> Row:
     """Return the same of a mission that nothing but a journal tells of."""
     done, todo = record["done"], record["todo"]
     status, reason = record["status"], record["reason"]
-    if status == "RUNNING":  # it did, and does no longer
-        status = "STANDBY"
+    if status == "RUNNING" or (Status(status) in ENDED and not record["ended"]):
+        status = "STANDBY"  # it flew, and does no longer; or what comes of it is not said yet
     for what, aside in _ASIDE.items():
         if record[what] is not None and not record["ended"]:
             status, reason = aside.value, record[what]

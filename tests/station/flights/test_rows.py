@@ -6,11 +6,13 @@ from collections.abc import Coroutine, Generator
 from dataclasses import dataclass
 from typing import Any, cast
 
+import pytest
+
 from plutoc_runtime.app import App
 from plutoc_runtime.core import Core
 from plutoc_runtime.model import Mission, Trip
 from plutoc_runtime.state import State
-from plutoc_runtime.station.rows import mission_row
+from plutoc_runtime.station.rows import mission_row, recorded_row
 from plutoc_runtime.status import COMPLETED, STANDBY, Status
 
 
@@ -72,3 +74,21 @@ def test_a_mission_waits_for_a_drone_that_can_do_its_next_trip() -> None:
     state.task = cast("Any", Waiting(coroutine))
     assert row(mission, state)["wait"] == "waits for a drone (measure)"
     coroutine.close()
+
+
+@pytest.mark.parametrize(
+    ("status", "ended", "shown"),
+    [
+        ("RUNNING", False, ("STANDBY", ["judge"])),
+        ("COMPLETED", False, ("STANDBY", ["judge"])),
+        ("COMPLETED", True, ("COMPLETED", ["end"])),
+    ],
+)
+def test_what_was_judged_when_its_station_died_has_not_ended_either(
+    status: str, ended: bool, shown: object
+) -> None:
+    record: dict[str, Any] = {"done": [], "todo": [], "status": status, "reason": ""}
+    record |= {"ended": ended, "at": "judge", "index": 0, "attempts": 1, "round": 0}
+    record |= dict.fromkeys(("question", "held", "paused"))
+    seen = recorded_row("a", record)
+    assert (seen["status"], seen["at"]) == shown
