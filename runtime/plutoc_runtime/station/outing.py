@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from ..life import Life
     from ..one_life import OneLife
 
-FLEET_EACH = 1.0
+FLEET_EACH = 3.0
 """Seconds after which those who wait are told anew what the drones are doing."""
 
 
