@@ -6,6 +6,7 @@ To the station it is as if the browser had asked itself: the address in what is 
 from __future__ import annotations
 
 import socket
+from collections.abc import Callable
 from contextlib import suppress
 from threading import Event, Thread
 
@@ -21,7 +22,13 @@ class Cable:
         self._through = Event()
         self._through.set()
         self._cut = False
-        Thread(target=self._accept, daemon=True).start()
+        self._threads: list[Thread] = []
+        self._run(self._accept)
+
+    def _run(self, work: Callable[..., None], *args: object) -> None:
+        thread = Thread(target=work, args=args, daemon=True)
+        self._threads.append(thread)
+        thread.start()
 
     def cut(self) -> None:
         """Break every connection, and let none through."""
@@ -42,9 +49,16 @@ class Cable:
 
     def close(self) -> None:
         """Take it away."""
-        self.cut()
         self._through.set()
+        with suppress(OSError):
+            self._listener.shutdown(socket.SHUT_RDWR)  # or it would wait for the next one for ever
+        self._threads[0].join()
         self._listener.close()
+        self.cut()
+        for thread in self._threads:
+            thread.join()
+        for line in self._lines:
+            line.close()
 
     def _accept(self) -> None:
         with suppress(OSError):
@@ -60,8 +74,8 @@ class Cable:
                     continue
                 self._lines += [near, far]
                 here, there = str(self.port).encode(), str(self._far).encode()
-                Thread(target=self._pump, args=(near, far, here, there), daemon=True).start()
-                Thread(target=self._pump, args=(far, near, b"", b""), daemon=True).start()
+                self._run(self._pump, near, far, here, there)
+                self._run(self._pump, far, near, b"", b"")
 
     def _pump(self, out_of: socket.socket, into: socket.socket, old: bytes, new: bytes) -> None:
         with suppress(OSError):
