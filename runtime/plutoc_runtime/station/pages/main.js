@@ -13,8 +13,9 @@ const notices = h("div", { class: "notices" }, loudly, politely, silently);
 
 let timer = 0;
 
-// Bad ones stay until they are put away; undo: a function.
-function say(text, { undo = null, bad = false } = {}) {
+// Bad ones stay until they are put away, or something settles them; undo: a function.
+function say(text, { undo = null, bad = false, settles = false } = {}) {
+  if (settles) fill(loudly);
   const place = bad ? loudly : politely;
   const away = () => fill(place);
   const back = () => { away(); undo(); };
@@ -57,7 +58,7 @@ async function stop(how) {
   clearTimeout(alarm);
 }
 
-const DOWN = { rtl: "the drones fly home", land: "the drones land where they are" };
+const DOWN = { rtl: "The drones fly home.", land: "The drones land where they are." };
 const PHASES = { // kind of chip, sign, words
   idle: ["info", "info", "Ready"],
   flying: ["good", "start", "Flying"],

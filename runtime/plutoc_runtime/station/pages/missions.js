@@ -155,6 +155,7 @@ async function another({ plan, say, selected }, ask, said) {
   selected.set(after.find(({ launched }) => !launched)?.key ?? null);
   const came = without(after, before); // what was done since then stays
   say(said, {
+    settles: true,
     undo: () => plan.edit((now) => [...without(now, came), ...without(before, now)]),
   });
 }
