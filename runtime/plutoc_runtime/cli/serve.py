@@ -149,7 +149,7 @@ def _plan(app: App, options: Options, settings: Settings) -> Plan:
     if options.plan is not None:
         if plan.is_empty:
             plan.import_toml(text_of(options.plan), plan.revision, str(options.plan))
-        else:
+        elif not options.going_on:  # nobody has just said so
             output.tell(f"the plan that was drawn here stays: {options.plan} is not read")
     return plan
 
@@ -206,13 +206,15 @@ def _supervised(app: App, options: Options, settings: Settings) -> int:
 
     def done() -> int:
         journal = place.newest_in(settings.folder)
-        return finished(records_in(app, journal)) if journal is not None else 0
+        with suppress(BadInput):  # it is damaged, or another app's: the station says so
+            return finished(records_in(app, journal)) if journal is not None else 0
+        return 0
 
     return supervise(
         Supervised(
             name=app.name,
             first=first,
-            again=lambda: [*first, "--going-on"],
+            again=lambda: [*(word for word in first if word != "--open"), "--going-on"],
             finished=done,
             how_to_go_on=AGAIN,
         )

@@ -9,6 +9,7 @@ from collections.abc import Callable
 from contextlib import closing
 from dataclasses import replace
 from itertools import count
+from pathlib import Path
 from resource import RLIM_INFINITY, RLIMIT_FSIZE, prlimit
 from typing import Any
 
@@ -314,3 +315,13 @@ def test_what_could_not_be_written_down_is_not_shown_to_have_happened(serve: Ser
     comes_to(station, "over")
     assert set(station.statuses().values()) == {"COMPLETED"}
     assert each_trip_was_done_once(station)
+
+
+def test_a_journal_that_nobody_can_read_keeps_no_station_from_being_served(
+    serve: Serve, tmp_path: Path
+) -> None:
+    (tmp_path / "station0").mkdir()
+    (tmp_path / "station0" / "old.journal").write_bytes(b"no journal at all")
+    station = serve("drugs_distribution", "--supervise")
+    assert "the last flight cannot be shown" in station.said()
+    assert station.phase == "idle"
