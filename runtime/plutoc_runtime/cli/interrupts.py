@@ -62,7 +62,8 @@ class Interrupts:
 
     def _told(self, number: int, _: FrameType | None) -> None:
         if self.code is not None:
-            output.tell(f"leaving at once: the gateway lands the drones; {self._how}")
+            if self._journal() is not None:
+                output.tell(f"leaving at once: the gateway lands the drones; {self._how}")
             os._exit(128 + number)
         self.code = 128 + number
         if self._journal() is not None:
