@@ -1,4 +1,7 @@
-"""In which block an error arose: `flow.py` quotes a block's declaration above each call of it."""
+"""In which block a mission is: `flow.py` quotes a block's declaration above each call of it.
+
+So it can be told of an error that arose, and of a coroutine that waits.
+"""
 
 from __future__ import annotations
 

@@ -110,12 +110,16 @@ def _in_order(records: Records) -> list[tuple[str, Record]]:
     return sorted(records.missions.items(), key=lambda item: int(item[1]["index"]))
 
 
-def _row(name: str, record: Record) -> MissionRow:
-    status, reason = Status(record["status"]), str(record["reason"])
-    for what, aside in _ASIDE.items():
+def aside(record: Record) -> tuple[Status, str] | None:
+    """Return how a mission stands that waits for a person, and what for; None: it does not."""
+    for what, status in _ASIDE.items():
         if record[what] is not None and not record["ended"]:
-            status, reason = aside, str(record[what])
-            break
+            return status, record[what] if what in ANSWERS else ""
+    return None
+
+
+def _row(name: str, record: Record) -> MissionRow:
+    status, reason = aside(record) or (Status(record["status"]), str(record["reason"]))
     done, todo = len(record["done"]), len(record["todo"])
     return MissionRow(name, status, done, todo, record["round"], record["attempts"], reason)
 

@@ -62,6 +62,11 @@ class Outing:
         self._left_at = 0.0
 
     @property
+    def journal(self) -> Path:
+        """Where it is written down."""
+        return self.flight.journal
+
+    @property
     def lives(self) -> bool:
         """Whether it goes on now."""
         return self.task is not None and not self.task.done()
@@ -197,8 +202,3 @@ class Outing:
             said = (f"{count[s]} {s.value.lower()}" for s in DroneStatus if count[s])
             self._fleet[action] = ", ".join(said)
         return self._fleet.get(action, "")
-
-    @property
-    def journal(self) -> Path:
-        """Where it is written down."""
-        return self.flight.journal

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
+from ..cli.flown import aside
 from ..control import ANSWERS
 from ..status import Status, TripStatus
 from ..transitions import PRIORITY
@@ -59,19 +60,15 @@ def mission_row(
 def recorded_row(name: str, record: Record) -> Row:
     """Return the same of a mission that nothing but a journal tells of."""
     done, todo = record["done"], record["todo"]
-    status, reason = record["status"], record["reason"]
-    if status == "RUNNING" or (Status(status) in ENDED and not record["ended"]):
-        status = "STANDBY"  # it flew, and does no longer; or what comes of it is not said yet
-    for what, aside in _ASIDE.items():
-        if record[what] is not None and not record["ended"]:
-            status, reason = aside.value, record[what]
-            break
+    status, reason = aside(record) or (Status(record["status"]), str(record["reason"]))
+    if status is Status.RUNNING or (status in ENDED and not record["ended"]):
+        status = Status.STANDBY  # it flew, and does no longer; or what comes of it is not said yet
     at = [END] if record["ended"] else [record["at"]] if record["at"] else []
     return {
         "name": name,
         "index": record["index"],
-        "status": status,
-        "reason": reason if isinstance(reason, str) else "",
+        "status": status.value,
+        "reason": reason,
         "trips": [_recorded_trip(trip, "COMPLETED") for trip in done]
         + [_recorded_trip(trip, "WAITING") for trip in todo],
         "current": len(done) if todo else None,
@@ -192,6 +189,3 @@ def _why_it_waits(
 def _question(status: Status, text: str) -> Row | None:
     answers = ANSWERS.get(status)
     return None if answers is None else {"text": text, "answers": list(answers)}
-
-
-_ASIDE = {"question": Status.UNCERTAIN, "held": Status.HELD, "paused": Status.PAUSED}

@@ -267,10 +267,9 @@ class Station:
             self.leaves.set()
 
     def _over(self) -> None:
-        """A flight has begun or ended: let the plan be drawn anew, and whoever waits for it go."""
-        if self.phase in (Phase.IDLE, Phase.OVER):
-            self.plan.unlock()
-        if self._leaving and self.phase not in (Phase.FLYING, Phase.STOPPING):
+        """Nothing flies any more: let the plan be drawn anew, and whoever waits for it go."""
+        self._lock_what_flies()
+        if self._leaving:
             self.leaves.set()
 
     # What everybody sees
