@@ -43,7 +43,7 @@ class Scene:
         self._station = station
         self._number, self._state = 0, ""
         self._tick: asyncio.Future[None] | None = None
-        self._timer: asyncio.TimerHandle | None = None
+        self._timer: asyncio.Handle | None = None
         self._ticked_at = 0.0
 
     async def newer(self, flight: str, seen: int, log: int, results: int) -> str:
@@ -70,10 +70,14 @@ class Scene:
         await asyncio.shield(self._tick)
 
     def hurry(self) -> None:
-        """The drones were just heard of: look now, and what is seen of them is new."""
-        late = asyncio.get_running_loop().time() - self._ticked_at
-        if self._timer is not None and late >= SOONEST:
-            self._look()
+        """The drones were just heard of: look now, and what is seen of them is new.
+
+        Not within this call: whoever hears of drones must not fall by what is shown of them.
+        """
+        loop = asyncio.get_running_loop()
+        if self._timer is not None and loop.time() - self._ticked_at >= SOONEST:
+            self._timer.cancel()
+            self._timer = loop.call_soon(self._look)
 
     def _look(self) -> None:
         tick, self._tick = self._tick, None
@@ -81,15 +85,21 @@ class Scene:
             self._timer.cancel()
             self._timer = None
         self._ticked_at = asyncio.get_running_loop().time()
+        try:
+            self._note_what_is_new()
+        finally:  # whoever waits is answered, whatever could not be shown
+            if tick is not None:
+                tick.set_result(None)
+
+    def _note_what_is_new(self) -> None:
         number = self._number + 1
         outing, state = self._station.outing, self._state_now()
         changed = state != self._state
+        self._state = state
         if outing is not None:
             changed |= outing.look(number)
         if changed:
-            self._number, self._state = number, state
-        if tick is not None:
-            tick.set_result(None)
+            self._number = number
 
     def _state_now(self) -> str:
         outing = self._station.outing

@@ -173,7 +173,7 @@ export function mapPicture({ image }) {
   return fetched;
 }
 
-export function ground(map) {
+function ground(map) {
   const [width, height] = map.size;
   const hatch = svg("pattern", {
     id: unique("no-fly"), class: "hatch", patternUnits: "userSpaceOnUse", width: 10, height: 10,
@@ -242,7 +242,7 @@ function lines(scale, apart, from, to, length) {
   return found;
 }
 
-export function rulers([width, height]) {
+function rulers([width, height]) {
   const element = svg("g", { class: "rulers", "aria-hidden": "true" });
   const tick = (x, y, d, text, place) =>
     svg("g", { transform: `translate(${x} ${y})` }, svg("path", { d }), svg("text", place, text));
@@ -262,7 +262,7 @@ export function rulers([width, height]) {
   };
 }
 
-export function scaleBar() {
+function scaleBar() {
   const line = svg("path");
   const text = svg("text", { y: 9 });
   const element = svg("svg", { class: "scale-bar", height: 20, role: "img" }, line, text);

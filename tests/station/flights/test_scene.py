@@ -1,0 +1,52 @@
+"""What everybody sees goes on, though something of it cannot be shown."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from typing import Any
+
+from plutoc_runtime.station.plan.plan import Plan
+from plutoc_runtime.station.scene import Scene
+from tests.runtime.files.an_app import APP
+from tests.station.plan.drawing import FLEET
+
+
+class Unseen:
+    """A flight at which nobody can look."""
+
+    id, journal, trouble = "a.journal", "a.journal", ""
+    lives, life, end, records, now = False, None, None, None, 0.0
+
+    def look(self, number: int) -> bool:
+        """Be a mistake of ours."""
+        raise ZeroDivisionError
+
+
+class Shown:
+    """A station with such a flight."""
+
+    def __init__(self) -> None:
+        self.described: dict[str, object] = {"server": "x"}
+        self.outing: Any = Unseen()
+        self.plan = Plan(APP, FLEET, None)
+
+
+def test_a_mistake_in_what_is_shown_leaves_nobody_waiting_nor_who_heard_of_the_drones() -> None:
+    complaints: list[object] = []
+
+    async def scenario() -> dict[str, Any]:
+        asyncio.get_running_loop().set_exception_handler(lambda _, about: complaints.append(about))
+        shown = Shown()
+        scene = Scene(shown)
+        waiting = asyncio.ensure_future(scene.newer("", 0, 0, 0))
+        await asyncio.sleep(0)
+        scene.hurry()
+        async with asyncio.timeout(5):
+            await asyncio.sleep(0)
+            shown.outing = None
+            told: dict[str, Any] = json.loads(await waiting)
+        return told
+
+    assert asyncio.run(scenario())["state"]["phase"] == "idle"
+    assert len(complaints) == 1
