@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from ..journal.store import Store
     from ..life import Life
     from ..one_life import OneLife
+    from ..trace import Event
 
 FLEET_EACH = 3.0
 """Seconds after which those who wait are told anew what the drones are doing."""
@@ -100,7 +101,7 @@ class Outing:
         self.task.add_done_callback(lambda _: self._ended())
 
     async def _live(self, store: Store, known: Recovered | None) -> None:
-        watcher = Watcher(tell=self.feed.take, say=self._say, born=self._born, patient=True)
+        watcher = Watcher(tell=self._hear, say=self._say, born=self._born, patient=True)
         try:
             lived = await lives(self.flight, store, self.stops, known, watcher)
         except BadInput as error:
@@ -129,6 +130,10 @@ class Outing:
     def _born(self, one: OneLife) -> None:
         self.one = one
         one.when_seen(self._seen)
+
+    def _hear(self, event: Event) -> None:
+        """Tell everybody, but not within the instant that flies: it must not fall by a console."""
+        asyncio.get_running_loop().call_soon(self.feed.take, event)
 
     def _say(self, text: str, kind: str = "bad") -> None:
         self.feed.say(self.now, text, kind)
