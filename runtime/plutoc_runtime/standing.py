@@ -30,6 +30,8 @@ class Standing:
 
     None: this kind of drone cannot tell.
     """
+    problems: tuple[str, ...] = ()
+    """Why it may not fly now, a sentence each."""
 
 
 class JobState(Enum):

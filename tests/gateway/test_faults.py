@@ -26,16 +26,16 @@ def over_the_radio(field: Field) -> Radio:
 
 
 def test_commands_and_reports_take_a_while_on_a_slow_radio() -> None:
-    """The job takes its 16 s, and five more; each message counts."""
+    """The job takes its 16 s, and five more for each of its three commands."""
     field, heard = Field(), list[float]()
     radio = over_the_radio(field)
     field.gateway.link(1).fly(Task(), lambda _: heard.append(field.kernel.now))
     field.advance(100)
-    assert (heard, radio.late) == ([21.0], 2)
+    assert (heard, radio.late) == ([31.0], 6)
 
 
 def test_what_is_on_its_way_can_be_broken_off() -> None:
-    """A job that has not arrived never does; one whose report is on its way was done."""
+    """A command that has not arrived never does; an action whose answer is on its way was done."""
     field, heard = Field(), list[object]()
     over_the_radio(field)
     link = field.gateway.link(1)
@@ -45,7 +45,7 @@ def test_what_is_on_its_way_can_be_broken_off() -> None:
     field.advance(50)
     assert (heard, field.navigation.flown("cf1")) == ([], 0)
     link.fly(Task(), heard.append)
-    field.advance(19)
+    field.advance(29)
     link.break_off("cf1")
     field.advance(50)
     assert heard == []

@@ -155,7 +155,7 @@ def test_mishaps_stay_what_they_were(tmp_path: Path, what: Failure) -> None:
     assert field.navigation.telemetry("cf1").landed
     error = failure(field.virtual, field.navigation.takeoff("cf1", 1.2))
     assert error.failure is what
-    assert fly(field.virtual, field.navigation.recover("cf1")) is (what is not Failure.CRASH)
+    assert fly(field.virtual, field.gateway.recover("cf1")) is (what is not Failure.CRASH)
 
 
 def test_what_was_drawn_to_go_wrong_goes_wrong_all_the_same(tmp_path: Path) -> None:

@@ -17,10 +17,12 @@ from .descent import Craft, Descent
 from .envelope import Envelope
 from .jobs import Jobs
 from .link import Link
+from .pilots import Pilots
 
 if TYPE_CHECKING:
     from ..airspace import Airspace
     from ..navigation import Navigation
+    from .controls import Controls
     from .given import Report
     from .ledger import Ledger
 
@@ -35,7 +37,7 @@ class Gateway:
     def __init__(
         self,
         kernel: Kernel,
-        navigation: Navigation,
+        controls: Controls,
         drones: Sequence[Craft],
         airspace: Airspace,
         *,
@@ -43,11 +45,12 @@ class Gateway:
         apart: float = 0.5,
         patience: float | None = None,
     ) -> None:
-        self.kernel, self.navigation = kernel, navigation
+        self.kernel = kernel
+        self.navigation: Navigation = Pilots(kernel, controls, drones, airspace)
         self.envelope = Envelope(airspace)
         self.drones, self._airspace, self._apart = tuple(drones), airspace, apart
         self._keys = {drone.id: FLEET + 1 + drone.index for drone in drones}
-        self.jobs = Jobs(kernel, navigation, self._keys, self.envelope, ledger)
+        self.jobs = Jobs(kernel, self.navigation, self._keys, self.envelope, ledger)
         self._link: Link | None = None
         self.line: Callable[[Report], Report] | None = None
         """What lies between a brain and its reports in a simulation: it wraps whoever hears them."""

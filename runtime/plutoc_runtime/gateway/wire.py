@@ -116,6 +116,7 @@ def standing_data(standing: Standing) -> dict[str, object]:
         "boot": standing.boot,
         "carrying": standing.carrying,
         "done": None if done is None else {id: value_data(value) for id, value in done.items()},
+        "problems": standing.problems,
     }
 
 
@@ -123,7 +124,8 @@ def standing_of(data: Message) -> Standing:
     """Return a drone's answer."""
     done = data["done"]
     values = None if done is None else {id: value_of(value) for id, value in done.items()}
-    return Standing(**{**data, "location": point_of(data["location"]), "done": values})
+    known = {"location": point_of(data["location"]), "problems": tuple(data["problems"])}
+    return Standing(**{**data, **known, "done": values})
 
 
 def roll_data(roll: RollCall) -> dict[str, object]:

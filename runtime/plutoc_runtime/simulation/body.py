@@ -84,6 +84,8 @@ class Body:
         """How often it was switched off and on again."""
         self.done: dict[str, object] = {}
         """What it remembers: the jobs whose action it did, with what that gave."""
+        self.settings: dict[str, float] = {}
+        """What an action of the app's own has set on it."""
         self.on_change: Callable[[], object] | None = None
         """Told when something of it has changed that time alone does not change."""
         self.left_alone = False
@@ -197,7 +199,7 @@ class Body:
 
     def reboot(self) -> None:
         """Switch it off and on again: it forgets what it has done."""
-        self.boot, self.done = self.boot + 1, {}
+        self.boot, self.done, self.settings = self.boot + 1, {}, {}
 
     def check(self, now: float) -> None:
         """Raise why it takes no commands, if it takes none."""

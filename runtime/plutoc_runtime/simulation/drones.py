@@ -8,10 +8,9 @@ from math import dist, inf
 from typing import TYPE_CHECKING
 
 from ..actions import BUILT_IN, PICK, RELEASE, Plain
-from ..energy import CLIMB_SPEED, flight_seconds
+from ..energy import CLIMB_SPEED
 from ..errors import Failure, FlightFailed
-from ..kernel import Cancelled, Kernel, Kind, Task
-from ..navigation import permitted_way
+from ..kernel import Kernel, Kind
 from ..signals import Signal
 from ..words import place
 from .body import Body, SimulatedDrone
@@ -48,10 +47,6 @@ class SimulatedNavigation:
     ) -> None:
         self._kernel, self._world, self._airspace = kernel, world, airspace
         self._faults, self._seed = faults, seed
-        self._jobs: dict[str, Task[None]] = {}
-        """The jobs under way, by the drones' ids."""
-        self._rescues: dict[str, Task[bool]] = {}
-        """The latest rescue of each drone."""
         self.record = record
         """Told of everything that drones do to the world, right before it is so."""
         self.bodies = {drone.id: Body(drone, kernel.time) for drone in drones}
@@ -92,48 +87,29 @@ class SimulatedNavigation:
             body.over, body.command, body.cut_short = None, "", why
             over.fail(why)
 
-    def fly(self, job: Job, report: Callable[[object], None]) -> None:
-        """Take off, fly to the job's stops and do its action; then report."""
-        self._jobs[job.drone] = self._kernel.spawn(
-            self._done(job, report), self.bodies[job.drone].key, f"{job.drone} flies {job.id}"
-        )
-
     def break_off(self, drone: str) -> None:
         """Stop whatever a drone does, and hover."""
-        for task in (self._jobs.pop(drone, None), self._rescues.pop(drone, None)):
-            if task is not None:
-                task.cancel()
         body = self.bodies[drone]
         if body.over is not None:
             body.halt(self._kernel.now)
-            self._interrupt(body, _broken_off(drone))
+            self._interrupt(body, broken_off(drone))
 
-    async def _done(self, job: Job, report: Callable[[object], None]) -> None:
-        drone, body = job.drone, self.bodies[job.drone]
-        result: object = None
-        seconds = flight_seconds(
-            body.drone.category, self._airspace, body.location, job.stops, job.seconds
-        )
-        try:
-            order = Order(id=job.id, seconds=seconds)
-            await self.takeoff(drone, self._airspace.cruise_height, order)
-            for stop in job.stops:
-                for point in permitted_way(self._airspace, drone, body.location, stop):
-                    await self.go_to(drone, point)
-            if job.action is not None:
-                job.begins()
-                result = await self.act(drone, job.action, job.parameters, job.item, job.id)
-        except FlightFailed as error:
-            result = error
-        del self._jobs[drone]
-        report(result)
+    def why_not(self, drone: str, action: str, parameters: Mapping[str, Plain]) -> str | None:
+        """Return why a drone cannot do a built-in action: simulated ones can do all."""
+        return None if action in BUILT_IN else f"{drone} has no action {action}"
 
-    async def takeoff(self, drone: str, height: float, order: Order | None = None) -> None:
-        """Rise to a height; one that flies stays where it is, but what goes wrong is drawn anew."""
+    def begins(self, drone: str, job: Job | None, seconds: float) -> None:
+        """A flight begins: what will go wrong is drawn anew."""
+        body, now = self.bodies[drone], self._kernel.now
+        body.check(now)
+        order = None if job is None else Order(id=job.id, seconds=seconds)
+        body.begin(draw(self._faults, self._seed, order), now)
+
+    async def takeoff(self, drone: str, height: float) -> None:
+        """Rise to a height; one that flies stays where it is."""
         body = self.bodies[drone]
         now = self._kernel.now
         body.check(now)
-        body.begin(draw(self._faults, self._seed, order), now)
         if body.landed:
             x, y, _ = body.location
             body.lift_off(now)
@@ -191,6 +167,22 @@ class SimulatedNavigation:
             raise action_failed(body, "the action failed", f"{drone} could not do it")
         await self._pass(body, inf, "to hover")
 
+    async def read(self, drone: str, name: str) -> float:
+        """Return what was written under this name, or else what is measured here by this name."""
+        body = self._in_the_air(drone)
+        if name in body.settings:
+            return body.settings[name]
+        return self._world.measure(name, body.location, self._kernel.now)
+
+    async def write(self, drone: str, name: str, value: float) -> None:
+        """Keep a value under this name."""
+        self._in_the_air(drone).settings[name] = value
+
+    async def cut(self, drone: str) -> None:
+        """Switch its motors off: it falls, if it flies."""
+        if not self.bodies[drone].landed:
+            self.strike(drone, Failure.CRASH)
+
     async def land(self, drone: str) -> None:
         """Land here; does nothing for a drone that stands on the ground."""
         body = self.bodies[drone]
@@ -199,55 +191,33 @@ class SimulatedNavigation:
             x, y, _ = body.location
             body.touch_down(await self._move(body, (x, y, 0.0), CLIMB_SPEED, "to land"))
 
-    async def recover(self, drone: str) -> bool:
-        """Bring a drone home after a failed flight, landed; False: it is lost.
-
-        Whoever meets it there takes off what it still carries.
-        """
+    async def reach(self, drone: str) -> bool:
+        """Wait until a drone that lost its link can be reached again; False: it has crashed."""
         body = self.bodies[drone]
-        rescue = self._kernel.spawn(self._rescue(body), body.key, f"{drone} is brought home")
-        self._rescues[drone] = rescue
-        try:
-            await rescue.ended()
-        finally:
-            rescue.cancel()
-        if isinstance(rescue.error, Cancelled):
-            raise _broken_off(drone)
-        return rescue.result()
-
-    async def _rescue(self, body: Body) -> bool:
         body.settle(self._kernel.now)
         if body.down is not None and body.down.failure is Failure.LINK:
             await self._wait_until(body, max(body.down_since + OUTAGE, body.arrives))
-        if body.down is not None and body.down.failure is Failure.CRASH:
+        if body.down is None or body.down.failure is Failure.BATTERY:
+            return True
+        if body.down.failure is Failure.CRASH:
             return False
-        if not await self._flies_home(body):
-            await self._wait_until(body, self._kernel.now + CARRYING_HOME)
-            body.dock(self._kernel.now)
-        body.unload()
+        body.down = None  # the link is back
         return True
+
+    async def fetched(self, drone: str) -> bool:
+        """Wait until somebody has carried a drone home."""
+        body = self.bodies[drone]
+        await self._wait_until(body, self._kernel.now + CARRYING_HOME)
+        body.dock(self._kernel.now)
+        return True
+
+    def unload(self, drone: str) -> None:
+        """Whoever meets it takes off what it carries."""
+        self.bodies[drone].unload()
 
     async def roll_call(self, drone: str) -> Standing:
         """Ask a drone where it is and what it has done."""
         return self.bodies[drone].standing
-
-    async def _flies_home(self, body: Body) -> bool:
-        if body.down is not None and body.down.failure is not Failure.LINK:
-            return False
-        body.down = None  # the link is back
-        if body.is_docked:
-            return True
-        drone, (x, y, _) = body.drone.id, body.drone.home
-        try:
-            await self.takeoff(drone, self._airspace.cruise_height)
-            here = body.location
-            way = self._airspace.route(here, (x, y, here[2]))
-            for point in way or ():
-                await self.go_to(drone, point)
-            await self.land(drone)
-        except FlightFailed:
-            return False
-        return way is not None
 
     async def _wait_until(self, body: Body, when: float) -> None:
         await self._busy(body, when, "to recover")
@@ -308,5 +278,5 @@ class SimulatedNavigation:
         return self._world.measure(str(quantity), body.location, self._kernel.now)
 
 
-def _broken_off(drone: str) -> FlightFailed:
+def broken_off(drone: str) -> FlightFailed:
     return FlightFailed(Failure.REFUSED, f"{drone} was told to break it off")

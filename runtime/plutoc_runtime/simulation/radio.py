@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Coroutine
+from collections.abc import Callable, Coroutine, Mapping
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from ..errors import Failure, FlightFailed
-from ..kernel import FLEET, Kernel, Kind, Timer
+from ..kernel import FLEET, Kernel, Kind
 from ..signals import Signal
 
 if TYPE_CHECKING:
-    from ..model import Point, Telemetry
-    from ..navigation import Job, Navigation
+    from ..actions import Plain
+    from ..gateway.controls import Controls
+    from ..model import Item, Point, Telemetry
+    from ..navigation import Job
     from ..standing import Standing
 
 T = TypeVar("T")
@@ -21,17 +23,14 @@ COMMAND, ANSWER = "command", "answer"
 
 
 class Radio:
-    """A navigation whose commands and answers are on their way for a while.
+    """Controls whose commands and answers are on their way for a while.
 
     `delay` says how many seconds each is: it is asked with `command` or `answer`. What is broken
     off while it is on its way does not arrive.
     """
 
-    def __init__(
-        self, kernel: Kernel, navigation: Navigation, delay: Callable[[str], float]
-    ) -> None:
-        self._kernel, self._navigation, self._delay = kernel, navigation, delay
-        self._jobs: dict[str, Timer] = {}
+    def __init__(self, kernel: Kernel, controls: Controls, delay: Callable[[str], float]) -> None:
+        self._kernel, self._controls, self._delay = kernel, controls, delay
         self._orders: dict[str, Signal[None]] = {}
         """What drones were told to do for themselves: a signal each, that fails if it is broken off."""
         self.late = 0
@@ -39,68 +38,85 @@ class Radio:
 
     def telemetry(self, drone: str) -> Telemetry:
         """Return what is known of a drone; the value stays current."""
-        return self._navigation.telemetry(drone)
+        return self._controls.telemetry(drone)
 
-    def fly(self, job: Job, report: Callable[[object], None]) -> None:
-        """Give a drone its job, which arrives later."""
-        answer = partial(self._answered, job.drone, report)
-        self._later(job.drone, COMMAND, partial(self._navigation.fly, job, answer))
+    def why_not(self, drone: str, action: str, parameters: Mapping[str, Plain]) -> str | None:
+        """Return why a drone's hardware cannot do a built-in action, or None."""
+        return self._controls.why_not(drone, action, parameters)
 
-    def _answered(self, drone: str, report: Callable[[object], None], result: object) -> None:
-        self._later(drone, ANSWER, partial(report, result))
+    def begins(self, drone: str, job: Job | None, seconds: float) -> None:
+        """A flight begins."""
+        self._controls.begins(drone, job, seconds)
 
     def _late(self, what: str) -> float:
         seconds = self._delay(what)
         self.late += seconds > 0
         return seconds
 
-    def _later(self, drone: str, what: str, call: Callable[[], object]) -> None:
-        seconds = self._late(what)
-        if seconds <= 0:
-            call()
-            return
-        when = self._kernel.now + seconds
-        arrives = partial(self._arrives, drone, call)
-        self._jobs[drone] = self._kernel.at(when, Kind.FLIGHT, FLEET, arrives)
-
-    def _arrives(self, drone: str, call: Callable[[], object]) -> None:
-        self._jobs.pop(drone, None)
-        call()
-
     def break_off(self, drone: str) -> None:
         """Stop whatever a drone does, or is about to be told."""
-        timer, order = self._jobs.pop(drone, None), self._orders.pop(drone, None)
-        if timer is not None:
-            timer.cancel()
-        self._navigation.break_off(drone)
+        order = self._orders.pop(drone, None)
+        self._controls.break_off(drone)
         if order is not None:
             why = f"{drone} was told to break it off"
             order.fail(FlightFailed(Failure.REFUSED, why))
 
     async def hold(self, drone: str) -> None:
         """Hover, for as long as an action of the app's own takes."""
-        await self._sent(drone, partial(self._navigation.hold, drone))
+        await self._sent(drone, partial(self._controls.hold, drone))
 
     async def takeoff(self, drone: str, height: float) -> None:
         """Rise to a height."""
-        await self._sent(drone, partial(self._navigation.takeoff, drone, height))
+        await self._sent(drone, partial(self._controls.takeoff, drone, height))
 
     async def go_to(self, drone: str, target: Point) -> None:
         """Fly straight to a point."""
-        await self._sent(drone, partial(self._navigation.go_to, drone, target))
+        await self._sent(drone, partial(self._controls.go_to, drone, target))
 
     async def land(self, drone: str) -> None:
         """Land here."""
-        await self._sent(drone, partial(self._navigation.land, drone))
+        await self._sent(drone, partial(self._controls.land, drone))
 
-    async def recover(self, drone: str) -> bool:
-        """Bring a drone home after a failed flight."""
-        return await self._sent(drone, partial(self._navigation.recover, drone))
+    async def act(
+        self,
+        drone: str,
+        action: str,
+        parameters: Mapping[str, Plain],
+        item: Item | None,
+        job: str | None,
+    ) -> object:
+        """Do one of the built-in actions here, and return what came of it."""
+        act = self._controls.act
+        return await self._sent(drone, partial(act, drone, action, parameters, item, job))
+
+    async def read(self, drone: str, name: str) -> float:
+        """Return what a drone measures under this name."""
+        return await self._sent(drone, partial(self._controls.read, drone, name))
+
+    async def write(self, drone: str, name: str, value: float) -> None:
+        """Set what a drone has under this name."""
+        await self._sent(drone, partial(self._controls.write, drone, name, value))
+
+    async def cut(self, drone: str) -> None:
+        """Switch its motors off."""
+        await self._controls.cut(drone)
+
+    async def reach(self, drone: str) -> bool:
+        """Wait, after a failed flight, until a drone takes commands again."""
+        return await self._sent(drone, partial(self._controls.reach, drone))
+
+    async def fetched(self, drone: str) -> bool:
+        """Wait until somebody has put a drone back into its dock."""
+        return await self._controls.fetched(drone)
+
+    def unload(self, drone: str) -> None:
+        """Whoever meets it takes off what it carries."""
+        self._controls.unload(drone)
 
     async def roll_call(self, drone: str) -> Standing:
         """Ask a drone where it is and what it has done, be it busy or not."""
         await self._kernel.sleep(self._late(COMMAND), Kind.FLIGHT)
-        standing = await self._navigation.roll_call(drone)
+        standing = await self._controls.roll_call(drone)
         await self._kernel.sleep(self._late(ANSWER), Kind.FLIGHT)
         return standing
 

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from ..app import App
-    from ..navigation import Navigation
+    from ..gateway.controls import Controls
     from ..simulation.deeds import Deed
     from .case import Case
 
@@ -175,12 +175,12 @@ class Rig:
     def new_gateway(self) -> Gateway:
         """Return a gateway over the drones and the ledger that are there."""
         fleet, radio = self.case.fleet, self.case.weather.radio
-        navigation: Navigation = self.navigation
+        controls: Controls = self.navigation
         if radio:
-            navigation = Radio(self.world, self.navigation, self.radio_delay)
+            controls = Radio(self.world, self.navigation, self.radio_delay)
         gateway = Gateway(
             self.world,
-            navigation,
+            controls,
             self.drones,
             fleet.airspace,
             ledger=self.ledger,

@@ -7,10 +7,11 @@ from typing import Any, TypeVar
 
 from plutoc_runtime.airspace import Airspace
 from plutoc_runtime.errors import FlightFailed
+from plutoc_runtime.gateway.pilots import Pilots
 from plutoc_runtime.kernel import FLEET, Kernel
 from plutoc_runtime.model import Category
 from plutoc_runtime.simulation.drones import SimulatedDrone, SimulatedNavigation
-from plutoc_runtime.simulation.faults import Faults, Order
+from plutoc_runtime.simulation.faults import Faults, Order, draw
 from plutoc_runtime.simulation.world import World
 from plutoc_runtime.virtual import VirtualTime
 
@@ -22,6 +23,22 @@ CLIMB = 4.0  # seconds to the cruise height of 1.2 m
 PLAIN = Airspace()
 
 
+class Team(SimulatedNavigation):
+    """The same, with what a gateway adds: flights begin, and drones are brought home."""
+
+    async def takeoff(self, drone: str, height: float, order: Order | None = None) -> None:
+        """Take off for a flight, or for nobody."""
+        body, now = self.bodies[drone], self._kernel.now
+        body.check(now)
+        body.begin(draw(self._faults, self._seed, order), now)
+        await super().takeoff(drone, height)
+
+    async def recover(self, drone: str) -> bool:
+        """Bring a drone home after a failed flight."""
+        drones = [body.drone for body in self.bodies.values()]
+        return await Pilots(self._kernel, self, drones, self._airspace).recover(drone)
+
+
 def team(
     kernel: Kernel,
     faults: Faults | None = None,
@@ -30,7 +47,7 @@ def team(
     seed: int = 1,
     battery_level: float = 1.0,
     category: Category = SCOUT,
-) -> SimulatedNavigation:
+) -> Team:
     """Two drones, cf1 at (1, 1) and cf2 beside it."""
     drones = [
         SimulatedDrone(
@@ -42,9 +59,7 @@ def team(
         )
         for i in range(2)
     ]
-    return SimulatedNavigation(
-        kernel, drones, World(seed, airspace), faults or Faults(), seed, airspace
-    )
+    return Team(kernel, drones, World(seed, airspace), faults or Faults(), seed, airspace)
 
 
 def fly(kernel: VirtualTime, coroutine: Coroutine[Any, Any, T]) -> T:

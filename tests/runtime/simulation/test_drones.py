@@ -11,16 +11,16 @@ from hypothesis import strategies as st
 from plutoc_runtime.airspace import Airspace
 from plutoc_runtime.energy import needed
 from plutoc_runtime.errors import Failure
+from plutoc_runtime.gateway.controls import Controls
 from plutoc_runtime.kernel import FLEET, Kernel
 from plutoc_runtime.model import Category, Item, Photo, Point
-from plutoc_runtime.navigation import Navigation
 from plutoc_runtime.realtime import RealTime
-from plutoc_runtime.simulation.drones import SimulatedNavigation
 from plutoc_runtime.simulation.motion import standing
 from plutoc_runtime.virtual import VirtualTime
 from tests.runtime.simulation.flights import (
     CLIMB,
     HOME,
+    Team,
     failure,
     fly,
     order,
@@ -35,9 +35,9 @@ def advance(kernel: VirtualTime, seconds: float) -> None:
     fly(kernel, kernel.sleep(seconds))
 
 
-def test_it_is_a_navigation() -> None:
-    """The simulation does what the fleet expects of whatever flies its drones."""
-    navigation: Navigation = team(VirtualTime())
+def test_it_can_be_made_to_do_all_that_a_gateway_wants() -> None:
+    """The simulation does what the gateway expects of whatever flies its drones."""
+    navigation: Controls = team(VirtualTime())
     assert navigation.telemetry("cf1").location == HOME
 
 
@@ -336,7 +336,7 @@ def test_drones_that_arrive_together_are_taken_in_the_fleets_order() -> None:
 def test_the_same_drones_fly_in_real_time() -> None:
     """On asyncio's clock nothing else changes: a millimetre, and a leg that is cancelled."""
 
-    async def flight(kernel: Kernel, navigation: SimulatedNavigation) -> None:
+    async def flight(kernel: Kernel, navigation: Team) -> None:
         telemetry = navigation.telemetry("cf1")
         await navigation.takeoff("cf1", 0.0003, order())
         await navigation.go_to("cf1", (1.001, 1, 0.0003))

@@ -15,16 +15,15 @@ from plutoc_runtime.errors import Failure, FlightFailed
 from plutoc_runtime.kernel import FLEET
 from plutoc_runtime.model import Item, Point
 from plutoc_runtime.realtime import RealTime
-from plutoc_runtime.simulation.drones import SimulatedNavigation
 from plutoc_runtime.simulation.faults import Faults, draw
 from plutoc_runtime.virtual import VirtualTime
-from tests.runtime.simulation.flights import CLIMB, HOME, SCOUT, failure, fly, order, team
+from tests.runtime.simulation.flights import CLIMB, HOME, SCOUT, Team, failure, fly, order, team
 
 FAR = (4.0, 5.0, 1.2)
 PILLS = Item(name="pills", mass=0.004)
 
 
-async def flight(navigation: SimulatedNavigation, target: Point = FAR) -> object:
+async def flight(navigation: Team, target: Point = FAR) -> object:
     """A trip with nothing left out, as the engine flies it."""
     await navigation.takeoff("cf1", 1.2, order())
     await navigation.go_to("cf1", target)
