@@ -31,7 +31,7 @@ def new_address(note: Path) -> Path:
     try:
         folder.mkdir(mode=0o700)
     except FileExistsError:
-        if not _is_ours(folder):  # somebody else was there first
+        if not is_private(folder):  # somebody else was there first
             folder = Path(tempfile.mkdtemp(prefix=_PREFIX, dir=place))
     return folder / _NAME
 
@@ -50,10 +50,10 @@ def address_in(note: Path) -> Path | None:
         address = Path(note.read_text(encoding="utf-8").strip())
     except (OSError, ValueError):
         return None
-    return address if _is_ours(address.parent) else None
+    return address if is_private(address.parent) else None
 
 
-def _is_ours(folder: Path) -> bool:
+def is_private(folder: Path) -> bool:
     """Whether nobody but us may enter a folder."""
     try:
         found = folder.lstat()
