@@ -9,12 +9,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from plutoc_runtime.files.fleet import load_fleet
+from plutoc_runtime.files.fleet_text import fleet_text
 from plutoc_runtime.files.missions import load_missions
 from plutoc_runtime.testing.blows import Blow, Kind, blows_of, blows_text
 from plutoc_runtime.testing.case import FAIR, Case, Weather, weather_of, weather_text
 from plutoc_runtime.testing.drawing import drawn_missions
 from plutoc_runtime.testing.explore import drawn_case, small_case
-from plutoc_runtime.testing.plan_text import fleet_text, missions_text
+from plutoc_runtime.testing.plan_text import missions_text
 from plutoc_runtime.testing.rig import tried
 from plutoc_runtime.testing.shrink import shrunk
 from tests.testing.examples import example, fleet_of

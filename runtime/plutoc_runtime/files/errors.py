@@ -184,6 +184,39 @@ def shared_home(other: str) -> str:
     return f"home is where drone {quoted(other)} has its own: each needs a place to stand"
 
 
+def shared_uri(other: str, line: int | None) -> str:
+    where = f", in line {line}" if line else ""
+    return f"uri is that of {other}{where}: it would be one and the same drone"
+
+
+def navigation_unused(name: str, used: Sequence[str]) -> str:
+    hint = near(name, used)
+    end = hint or f"; in this fleet there is: {listed(used)}"
+    return f"nothing is flown by a navigation {quoted(name)}" + end
+
+
+def localization_unused() -> str:
+    return (
+        "[localization] is for a source of positions that [fleet] names with localization = …;"
+        " here each drone finds its own"
+    )
+
+
+def no_fleet_file() -> str:
+    return (
+        "real drones are named in a fleet file: give it with --fleet;"
+        " the command drones --save F.toml writes one of those that the radio hears"
+    )
+
+
+def no_uri(drone: str, line: int | None) -> str:
+    where = f" (line {line})" if line else ""
+    return (
+        f"drone {quoted(drone)}{where} has no uri: where is it reached?"
+        ' Such as uri = "radio://0/80/2M/E7E7E7E7E7"'
+    )
+
+
 def no_fly_area(place: int, problem: str) -> str:
     return f"no_fly area {place} {problem}"
 

@@ -57,14 +57,14 @@ class Table:
             if key not in keys:
                 self.problem(errors.unknown_key(key, keys, what), key)
 
-    def table(self, key: str) -> Table | None:
-        """Return the table under a key, if there is one."""
+    def table(self, key: str, header: str = "") -> Table | None:
+        """Return the table under a key, if there is one; `header` says how it is written."""
         value = self.data.get(key)
         if value is None:
             return None
         if isinstance(value, dict):
             return Table(self.document, value, (*self.place, key), self.who or f"[{key}]")
-        self.problem(f"{key} {errors.not_a_table(f'[{key}]')}", key)
+        self.problem(f"{key} {errors.not_a_table(f'[{header or key}]')}", key)
         return None
 
     def tables(self, key: str, header: str) -> Iterator[Table]:

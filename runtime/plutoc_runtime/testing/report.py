@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING
 
 from ..cli.events import line_of
 from ..cli.report import table
+from ..files.fleet_text import fleet_text
 from ..words import counted, printable
 from .blows import blows_text
 from .case import weather_text
 from .explore import FAULTS
-from .plan_text import fleet_text, missions_text
+from .plan_text import missions_text
 
 if TYPE_CHECKING:
     from ..app import App

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tempfile
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -13,6 +14,8 @@ from plutoc_runtime.airspace import Airspace
 from plutoc_runtime.app import App
 from plutoc_runtime.errors import BadInput
 from plutoc_runtime.files.fleet import DroneEntry, FleetFile, default_fleet, load_fleet
+from plutoc_runtime.files.fleet_text import fleet_text
+from plutoc_runtime.files.real import navigation_of, not_real, options_of
 from plutoc_runtime.model import AfterTrip
 from plutoc_runtime.simulation.world import Feature, Source, WorldData
 from tests.runtime.files.an_app import APP, PLAIN
@@ -29,17 +32,28 @@ no_fly = [[[8, 0], [9, 0], [9, 5], [8, 5]]]
 after_trip = "stay"
 apart = "40 cm"
 max_airborne = 5
+localization = "lab.mocap:Mocap"
+
+[localization]
+host = "10.0.0.7"
+
+[navigation.crazyflie]
+measure = { temperature = "bme.temp" }
+limits = [0.5, 2, true]
 
 [[drone]]
 id = "cf1"
 category = "scout"
 home = [0.5, 0.5]
 uri = "radio://0/80/2M/E7E7E7E7E1"
+[drone.options]
+camera = "192.168.4.1:5000"
 
 [[drone]]
 id = "cf2"
 category = "carrier"
 home = [1.5, 0.5, 0.1]
+navigation = "boats"
 
 [world]
 background = { pm10 = 15.0 }
@@ -83,15 +97,24 @@ def test_a_file_says_where_drones_fly_and_how(tmp_path: Path) -> None:
         after_trip=AfterTrip.STAY,
         apart=0.4,
         max_airborne=5,
+        navigation="crazyflie",
+        options={
+            "crazyflie": {"measure": {"temperature": "bme.temp"}, "limits": [0.5, 2, True]},
+        },
+        localization="lab.mocap:Mocap",
+        localization_options={"host": "10.0.0.7"},
         drones=(
             DroneEntry(
                 id="cf1",
                 category="scout",
                 home=(0.5, 0.5, 0.0),
                 uri="radio://0/80/2M/E7E7E7E7E1",
-                line=14,
+                options={"camera": "192.168.4.1:5000"},
+                line=22,
             ),
-            DroneEntry(id="cf2", category="carrier", home=(1.5, 0.5, 0.1), line=20),
+            DroneEntry(
+                id="cf2", category="carrier", home=(1.5, 0.5, 0.1), navigation="boats", line=30
+            ),
         ),
         world=WorldData(
             features=(
@@ -137,17 +160,18 @@ def test_all_problems_of_a_file_are_told_in_one_go(tmp_path: Path) -> None:
         ':3: [map]: unknown key "scale"; [map] has: size, image, cruise_height, ceiling, no_fly',
         ':11: [fleet]: after_trip "sit" is none of: home, stay, next',
         ":13: [fleet]: max_airborne 0 is less than 1",
-        ':17: drone "cf1": unknown category "scot"; did you mean "scout"?',
-        ':22: drone "cf1": there is another drone "cf1", in line 16: names must differ',
-        ':24: drone "cf1": home (8.5, 0.5) is inside no-fly area 1',
-        ":35: [[world.source]]: has no peak",
+        ':25: drone "cf1": unknown category "scot"; did you mean "scout"?',
+        ':32: drone "cf1": there is another drone "cf1", in line 24: names must differ',
+        ':34: drone "cf1": home (8.5, 0.5) is inside no-fly area 1',
+        ":46: [[world.source]]: has no peak",
         (
-            ':38: [[world.source]]: unknown key "peek"; did you mean "peak"? '
+            ':49: [[world.source]]: unknown key "peek"; did you mean "peak"? '
             "a source has: quantity, at, peak, radius"
         ),
     ]
 
 
+OTHER = '[[drone]]\nid = "b"\nhome = [1, 2]\ncategory = "scout"\n'
 DRONE = '[[drone]]\nid = "a"\nhome = [1, 1]\ncategory = "scout"\n'
 
 
@@ -179,11 +203,106 @@ DRONE = '[[drone]]\nid = "a"\nhome = [1, 1]\ncategory = "scout"\n'
         (f"{DRONE}[fleet]\napart = -1", ":6: [fleet]: apart -1 is less than 0"),
         (f"{DRONE}[world]\nbackground = {{ pm10 = true }}",
          ":6: [world]: pm10 true is not a number"),
+        ((f'{DRONE}uri = "radio://0/80/2M/E7"\n{OTHER}'
+         'uri = "radio://0/80/2M/e7"'),
+         ':10: drone "b": uri is that of drone "a", in line 5: it would be one and the same drone'),
+        (f"{DRONE}[fleet]\nnavigation = 3",
+         ":6: [fleet]: navigation 3 is not a text: put it in quotes"),
+        (f"{DRONE}[navigation.crazyfly]\nx = 1",
+         (':5: [navigation.crazyfly]: nothing is flown by a navigation "crazyfly"; '
+         'did you mean "crazyflie"?')),
+        (f"{DRONE}[navigation]\ncrazyflie = 3",
+         ":6: [navigation.crazyflie]: crazyflie is not a table: write [navigation.crazyflie]"),
+        (f"{DRONE}options = 3",
+         ':5: drone "a": options is not a table: write [drone.options]'),
+        (f"{DRONE}[drone.options]\nsince = 2026-01-01",
+         ':6: drone "a": since 2026-01-01 is a date or a time: put it in quotes'),
+        (f"{DRONE}[drone.options]\nx = [1, [{{ a = inf }}]]",
+         ':6: drone "a": x […] has an element that is not a finite number'),
+        (f"{DRONE}[drone.options]\nx = {'[' * 9}1{']' * 9}",
+         ':6: drone "a": x […] is nested too deep'),
+        (f"{DRONE}[drone.options]\nx = 0x8000000000000000",
+         ':6: drone "a": x 9223372036854775808 is too large'),
+        (f"{DRONE}[localization]\nhost = 'a'",
+         (":5: [localization] is for a source of positions that [fleet] names with "
+         "localization = …; here each drone finds its own")),
     ],
 )  # fmt: skip
 def test_a_fleet_that_cannot_fly_is_refused(tmp_path: Path, text: str, said: str) -> None:
     """The message names the key and what is wrong with its value."""
     assert problems(tmp_path, text) == [said]
+
+
+def test_a_drone_goes_by_its_own_navigation_and_options(tmp_path: Path) -> None:
+    """What [drone.options] holds lies on top of its navigation's, key by key."""
+    fleet = load(tmp_path, FULL)
+    first, second = fleet.drones
+    assert navigation_of(fleet, first) == "crazyflie"
+    assert navigation_of(fleet, second) == "boats"
+    assert {**options_of(fleet, first)} == {
+        "measure": {"temperature": "bme.temp"},
+        "limits": [0.5, 2, True],
+        "camera": "192.168.4.1:5000",
+    }
+    assert options_of(fleet, second) == {}
+
+
+def test_a_crazyflie_without_a_uri_cannot_really_fly(tmp_path: Path) -> None:
+    """Each is named with its line; one that another navigation flies need not have one."""
+    bare = FULL.replace('uri = "radio://0/80/2M/E7E7E7E7E1"\n', "")
+    assert not_real(load(tmp_path, FULL)) == []
+    assert not_real(load(tmp_path, bare)) == [
+        (
+            'drone "cf1" (line 22) has no uri: where is it reached?'
+            ' Such as uri = "radio://0/80/2M/E7E7E7E7E7"'
+        )
+    ]
+
+
+def test_without_a_file_nothing_can_really_fly() -> None:
+    """The default fleet is made up: the message says how to get a file."""
+    (said,) = not_real(default_fleet(APP))
+    assert "give it with --fleet" in said
+    assert "drones --save F.toml" in said
+
+
+def test_a_mistake_elsewhere_makes_no_table_of_a_navigation_one_too_many(tmp_path: Path) -> None:
+    """A drone that cannot be read is flown by its navigation all the same."""
+    text = f'{DRONE}[[drone]]\nid = "b"\nnavigation = "boats"\n[navigation.boats]\nx = 1'
+    assert problems(tmp_path, text) == [
+        ':5: drone "b": has no category; this app has: scout, carrier',
+        ':5: drone "b": has no home',
+    ]
+
+
+def test_a_fleet_that_is_written_is_read_the_same(tmp_path: Path) -> None:
+    """All but the lines, and the floor plan's file, which lies beside the first."""
+    fleet = load(tmp_path, FULL)
+    again = load(tmp_path, fleet_text(fleet))
+    drones = [replace(drone, line=None) for drone in fleet.drones]
+    assert [replace(drone, line=None) for drone in again.drones] == drones
+    assert replace(again, drones=()) == replace(fleet, drones=(), image=None)
+
+
+@given(
+    st.dictionaries(
+        st.text(max_size=3),
+        st.recursive(
+            st.text() | st.booleans() | st.integers(-(2**62), 2**62) | st.floats(-1e300, 1e300),
+            lambda inner: st.lists(inner, max_size=2)
+            | st.dictionaries(st.text(max_size=3), inner, max_size=2),
+            max_leaves=4,
+        ),
+        max_size=3,
+    )
+)
+def test_options_are_kept_as_they_are(options: dict[str, object]) -> None:
+    """Whatever TOML can hold of texts, numbers, booleans, lists and tables, written and read."""
+    drone = DroneEntry(id="a", category="scout", home=(1.0, 1.0, 0.0), options=options)
+    with tempfile.TemporaryDirectory() as folder:
+        text = fleet_text(FleetFile(airspace=Airspace(), drones=(drone,)))
+        (again,) = load(Path(folder), text).drones
+        assert again.options == options
 
 
 LINES = st.sampled_from([*FULL.split("\n"), "x = 1", "home = 3", "[fleet]", "size = [1e9, nan]"])

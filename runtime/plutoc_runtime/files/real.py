@@ -1,0 +1,33 @@
+"""What a fleet file says of real drones: how each is flown, and what keeps it from being reached."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from . import errors
+from .behaviour import CRAZYFLIE
+
+if TYPE_CHECKING:
+    from .fleet import DroneEntry, FleetFile
+    from .free_tables import Options
+
+
+def navigation_of(fleet: FleetFile, drone: DroneEntry) -> str:
+    """Return how a drone is flown: a name, or `module:Class`."""
+    return drone.navigation or fleet.navigation
+
+
+def options_of(fleet: FleetFile, drone: DroneEntry) -> Options:
+    """Return what is for its navigation: the fleet's options, and the drone's own on top."""
+    return {**fleet.options.get(navigation_of(fleet, drone), {}), **drone.options}
+
+
+def not_real(fleet: FleetFile) -> list[str]:
+    """Return why this fleet cannot be flown with real drones, a sentence each."""
+    if all(drone.line is None for drone in fleet.drones):
+        return [errors.no_fleet_file()]
+    return [
+        errors.no_uri(drone.id, drone.line)
+        for drone in fleet.drones
+        if drone.uri is None and navigation_of(fleet, drone) == CRAZYFLIE
+    ]
