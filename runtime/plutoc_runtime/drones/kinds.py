@@ -1,0 +1,65 @@
+"""What a class must have, to be a navigation or a localization: as data, checked by `checking.py`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import Enum
+
+
+class Shape(Enum):
+    """How a method is called."""
+
+    WAITS = "async def"
+    AT_ONCE = "def"
+    ITERATES = "an async generator"
+    PROPERTY = "a property"
+
+
+@dataclass(frozen=True, slots=True)
+class Method:
+    """A method that the runtime calls, by place and never by name."""
+
+    name: str
+    shape: Shape = Shape.WAITS
+    takes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Kind:
+    """Something that a fleet file names, and a package may offer."""
+
+    word: str
+    group: str
+    """Of entry points."""
+    argument: str
+    """What the class is called with."""
+    methods: tuple[Method, ...]
+    together: tuple[tuple[Method, ...], ...] = ()
+    """What only some have: all of such a group, or none of it."""
+    ours: tuple[tuple[str, Callable[[], object]], ...] = ()
+    """Those that the runtime has itself, by name; nobody's package takes their place."""
+
+
+NAVIGATION_METHODS = (
+    Method("connect"),
+    Method("preflight"),
+    Method("takeoff", takes=("height", "speed")),
+    Method("go_to", takes=("target", "speed")),
+    Method("hold"),
+    Method("land", takes=("speed",)),
+    Method("emergency_stop"),
+    Method("close"),
+    Method("telemetry", Shape.PROPERTY),
+    Method("events", Shape.ITERATES),
+)
+CAPABILITIES = (
+    (
+        Method("why_not", Shape.AT_ONCE, ("action", "parameters")),
+        Method("act", takes=("action", "parameters", "item")),
+    ),
+    (Method("read", takes=("name",)), Method("write", takes=("name", "value"))),
+    (Method("locate", takes=("position",)),),
+    (Method("identify"),),
+)
+LOCALIZATION_METHODS = (Method("positions", Shape.ITERATES),)

@@ -1,0 +1,122 @@
+"""Finds the class that a fleet file names to fly its drones, or to see them; nothing of it is called.
+
+A name is one of ours (`crazyflie`), one that an installed package offers by an entry point, or
+`module:Class`. Only what is installed is found: a fleet file is data, and the folder that it lies in
+is no place for code.
+"""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Mapping
+from functools import cache
+from importlib import import_module
+from typing import TYPE_CHECKING, TypeVar, cast
+
+from . import refusals
+from .checking import problems
+from .kinds import CAPABILITIES, LOCALIZATION_METHODS, NAVIGATION_METHODS, Kind
+
+if TYPE_CHECKING:
+    from .localization import Localization
+    from .protocol import DroneNavigation
+    from .setup import DroneSetup
+
+S = TypeVar("S")
+T = TypeVar("T")
+
+
+NAVIGATION = Kind(
+    word="navigation",
+    group="plutoc.navigations",
+    argument="setup",
+    methods=NAVIGATION_METHODS,
+    together=CAPABILITIES,
+)
+LOCALIZATION = Kind(
+    word="localization",
+    group="plutoc.localizations",
+    argument="options",
+    methods=LOCALIZATION_METHODS,
+)
+
+
+def load_navigation(name: str) -> Callable[[DroneSetup], DroneNavigation]:
+    """Return the class that a fleet file names to fly drones; raise `BadInput` if that fails."""
+    return cast("Callable[[DroneSetup], DroneNavigation]", _loaded(NAVIGATION, name))
+
+
+def load_localization(name: str) -> Callable[[Mapping[str, object]], Localization]:
+    """Return the class that a fleet file names to see drones; not for `own`, which is none."""
+    return cast("Callable[[Mapping[str, object]], Localization]", _loaded(LOCALIZATION, name))
+
+
+def make_navigation(name: str, setup: DroneSetup) -> DroneNavigation:
+    """Return the navigation of one drone; raise `BadInput` if there cannot be one."""
+    return _made(NAVIGATION, name, load_navigation(name), setup, f" for {setup.id}")
+
+
+def make_localization(name: str, options: Mapping[str, object]) -> Localization:
+    """Return the localization of a fleet; raise `BadInput` if there cannot be one."""
+    return _made(LOCALIZATION, name, load_localization(name), options, "")
+
+
+def _made(kind: Kind, name: str, of: Callable[[S], T], argument: S, whose: str) -> T:
+    try:
+        return of(argument)
+    except Exception as error:  # an option that it cannot use, mostly
+        raise refusals.not_made(kind, name, whose, _said(error)) from error
+
+
+@cache
+def _loaded(kind: Kind, name: str) -> object:
+    ours = dict(kind.ours)
+    if name in ours:
+        return ours[name]()
+    written = name if ":" in name else _offered(kind, name)
+    found = _imported(kind, name, written)
+    if not inspect.isclass(found):
+        raise refusals.not_a_class(kind, name)
+    wrong = problems(kind, found)
+    if wrong:
+        raise refusals.lacks(kind, name, wrong)
+    return found
+
+
+def _offered(kind: Kind, name: str) -> str:
+    """Return the `module:Class` that an installed package offers under a name."""
+    from importlib.metadata import entry_points
+
+    points = entry_points(group=kind.group)
+    values = sorted({point.value for point in points if point.name == name})
+    if not values:
+        others = sorted({point.name for point in points} - set(dict(kind.ours)))
+        raise refusals.no_such_name(kind, name, [*dict(kind.ours), *others])
+    if len(values) > 1:
+        raise refusals.several(kind, name, values)
+    return values[0]
+
+
+def _imported(kind: Kind, name: str, written: str) -> object:
+    module, _, path = (part.strip() for part in written.partition(":"))
+    if not all(part.isidentifier() for part in [*module.split("."), *path.split(".")]):
+        raise refusals.no_class_written(kind, name)
+    try:
+        found: object = import_module(module)
+    except ModuleNotFoundError as error:
+        missing = error.name or module
+        if f"{module}.".startswith(f"{missing}."):
+            raise refusals.no_such_module(kind, name, missing) from error
+        raise refusals.needs(kind, name, missing) from error
+    except (Exception, SystemExit) as error:
+        raise refusals.not_imported(kind, name, _said(error)) from error
+    for part in path.split("."):
+        classes = [word for word, value in vars(found).items() if inspect.isclass(value)]
+        found = getattr(found, part, None)
+        if found is None:
+            raise refusals.no_such_class(kind, name, part, classes)
+    return found
+
+
+def _said(error: BaseException) -> str:
+    return f"{type(error).__name__}: {error}"
