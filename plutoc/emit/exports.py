@@ -8,6 +8,7 @@ EXPORTS = {
     "Context": "._runtime.context",
     "Drone": "._runtime.model",
     "Item": "._runtime.model",
+    "LiveDrone": "._runtime.handle",
     "Mission": ".model",
     "Photo": "._runtime.model",
     "Point": "._runtime.model",

@@ -11,7 +11,8 @@ from .signals import Signal
 
 if TYPE_CHECKING:
     from .core import Core
-    from .model import Trip
+    from .handle import LiveDrone
+    from .model import Drone, Trip
     from .results import Result
     from .state import State
 
@@ -19,10 +20,10 @@ if TYPE_CHECKING:
 class Context:
     """The running app, as an action or a modifier sees it. Times are seconds since the start."""
 
-    __slots__ = ("_core", "_state")
+    __slots__ = ("_core", "_live", "_state")
 
-    def __init__(self, core: Core, state: State) -> None:
-        self._core, self._state = core, state
+    def __init__(self, core: Core, state: State, live: LiveDrone | None = None) -> None:
+        self._core, self._state, self._live = core, state, live
 
     @property
     def now(self) -> float:
@@ -37,6 +38,15 @@ class Context:
     def log(self, text: str) -> None:
         """Write a line on the console."""
         self._core.log(str(text), self._state.mission.name)
+
+    def live(self, drone: Drone) -> LiveDrone:
+        """Return what the drone of this action can be asked, and set to, while it hovers here."""
+        live = self._live
+        if live is None:
+            raise RuntimeError("only an action that is an `async def` has a live drone")
+        if not live.is_of(drone):
+            raise RuntimeError(f"{drone.id} does not do this action")
+        return live
 
     async def sleep(self, seconds: float) -> None:
         """Wait for so many seconds, simulated or real."""

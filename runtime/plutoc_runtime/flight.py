@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from .actions import PICK, RELEASE
 from .context import Context
 from .errors import ActionFailed, Failure, FlightFailed, HookFault
+from .handle import LiveDrone, can_wait
 from .hooks import Hook, call_action
 from .kernel import mission_key
 from .signals import Signal
@@ -127,7 +128,9 @@ class Flight(Signal[Status]):
         core.transitions.begin_action(state.mission, trip, drone)
         if core.recorder is not None:
             await core.recorder.on_record()
-        call = call_action(kernel, hook, drone, trip, Context(core, state), **trip.parameters)
+        live = LiveDrone(kernel, core.navigation, drone, key) if can_wait(hook) else None
+        context = Context(core, state, live)
+        call = call_action(kernel, hook, drone, trip, context, **trip.parameters)
         work = kernel.spawn(call, key, f"{state.mission.name}: {trip.action}")
         hover = kernel.spawn(core.navigation.hold(drone.id), key, f"{drone.id} hovers")
         over: Signal[None] = Signal()
@@ -143,6 +146,8 @@ class Flight(Signal[Status]):
         finally:
             work.cancel()
             hover.cancel()
+            if live is not None:
+                live.lets_go()
         if core.recorder is not None:
             core.recorder.look(state.mission)
         return value

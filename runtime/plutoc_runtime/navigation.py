@@ -95,6 +95,14 @@ class Navigation(Protocol):
         """Hover, for as long as an action of the app's own takes; never returns by itself."""
         ...
 
+    async def read(self, drone: str, name: str) -> float:
+        """Return what a drone that hovers measures under this name."""
+        ...
+
+    async def write(self, drone: str, name: str, value: float) -> None:
+        """Set what a drone that hovers has under this name."""
+        ...
+
     async def takeoff(self, drone: str, height: float) -> None:
         """Rise to a height; does nothing for a drone that flies."""
         ...

@@ -65,6 +65,27 @@ class Link:
         """Hover, for as long as an action of the app's own takes."""
         await self._command(drone, self._navigation.hold(drone), stays=True)
 
+    async def read(self, drone: str, name: str) -> float:
+        """Return what a drone measures under this name, whatever else it does."""
+        return await self._asked(self._navigation.read(drone, name))
+
+    async def write(self, drone: str, name: str, value: float) -> None:
+        """Set what a drone has under this name, whatever else it does."""
+        await self._asked(self._navigation.write(drone, name, value))
+
+    async def _asked(self, question: Coroutine[Any, Any, T]) -> T:
+        """Ask a drone beside what it does; there is no answer once nobody is heard."""
+        if not self._is_heard:
+            question.close()
+            await _for_ever()
+        try:
+            answer = await question
+        except FlightFailed:
+            if self._is_heard:
+                raise
+            await _for_ever()
+        return answer
+
     async def takeoff(self, drone: str, height: float) -> None:
         """Rise to a height."""
         self._gateway.envelope.check_height(height)

@@ -196,6 +196,14 @@ class RemoteLink:
         """Hover, for as long as an action of the app's own takes."""
         await self._ask(do="hold", drone=drone)
 
+    async def read(self, drone: str, name: str) -> float:
+        """Return what a drone measures under this name."""
+        return float(await self._ask(do="read", drone=drone, name=name))
+
+    async def write(self, drone: str, name: str, value: float) -> None:
+        """Set what a drone has under this name."""
+        await self._ask(do="write", drone=drone, name=name, value=value)
+
     async def takeoff(self, drone: str, height: float) -> None:
         """Rise to a height."""
         await self._ask(do="takeoff", drone=drone, height=height)

@@ -27,6 +27,10 @@ def asked(
     match what:
         case "hold":
             return link.hold(drone)
+        case "read":
+            return link.read(drone, str(message["name"]))
+        case "write":
+            return link.write(drone, str(message["name"]), float(message["value"]))
         case "takeoff":
             return link.takeoff(drone, float(message["height"]))
         case "go_to":

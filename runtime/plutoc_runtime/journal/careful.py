@@ -48,6 +48,14 @@ class Careful:
         """Hover."""
         await self._link.hold(drone)
 
+    async def read(self, drone: str, name: str) -> float:
+        """Return what a drone measures; that its action has begun is on record."""
+        return await self._link.read(drone, name)
+
+    async def write(self, drone: str, name: str, value: float) -> None:
+        """Set what a drone has; that its action has begun is on record."""
+        await self._link.write(drone, name, value)
+
     async def takeoff(self, drone: str, height: float) -> None:
         """Rise to a height."""
         await self._link.takeoff(drone, height)

@@ -91,11 +91,11 @@ class Radio:
 
     async def read(self, drone: str, name: str) -> float:
         """Return what a drone measures under this name."""
-        return await self._sent(drone, partial(self._controls.read, drone, name))
+        return await self._asked(self._controls.read(drone, name))
 
     async def write(self, drone: str, name: str, value: float) -> None:
         """Set what a drone has under this name."""
-        await self._sent(drone, partial(self._controls.write, drone, name, value))
+        await self._asked(self._controls.write(drone, name, value))
 
     async def cut(self, drone: str) -> None:
         """Switch its motors off."""
@@ -115,10 +115,17 @@ class Radio:
 
     async def roll_call(self, drone: str) -> Standing:
         """Ask a drone where it is and what it has done, be it busy or not."""
-        await self._kernel.sleep(self._late(COMMAND), Kind.FLIGHT)
-        standing = await self._controls.roll_call(drone)
+        return await self._asked(self._controls.roll_call(drone))
+
+    async def _asked(self, question: Coroutine[Any, Any, T]) -> T:
+        """Ask a drone beside what it does."""
+        try:
+            await self._kernel.sleep(self._late(COMMAND), Kind.FLIGHT)
+            answer = await question
+        finally:
+            question.close()
         await self._kernel.sleep(self._late(ANSWER), Kind.FLIGHT)
-        return standing
+        return answer
 
     async def _sent(self, drone: str, command: Callable[[], Coroutine[Any, Any, T]]) -> T:
         self._orders[drone] = broken_off = Signal[None]()
