@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from .control import Control
 from .errors import BadInput
+from .files.reading import shortened
 from .journal.careful import Careful
 from .journal.recorder import Recorder, Sink
 from .kernel import FLEET, Kernel, Task
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     from .gateway.commanding import Commanding
     from .journal.fold import Records
     from .model import Mission
+    from .standing import RollCall
     from .trace import Event
 
 
@@ -98,6 +100,7 @@ class Life:
     async def _started(self, missions: Sequence[Mission[Any]]) -> float:
         core = self.session.core
         roll = await self._link.call()
+        _refuse_if_none_is_ready(roll)
         core.trace.note("brain.began", epoch=self._epoch)
         self._retire()
         for drone in core.fleet.drones:
@@ -119,3 +122,10 @@ class Life:
         """Let nobody have the drones that were retired in an earlier life."""
         fleet = self.session.core.fleet
         fleet.retired.update(drone for drone in fleet.drones if drone.id in self._retired)
+
+
+def _refuse_if_none_is_ready(roll: RollCall) -> None:
+    """Raise `BadInput` if no drone may fly: nothing has begun."""
+    problems = [f"{drone}: {'; '.join(one.problems)}" for drone, one in roll.drones.items()]
+    if problems and all(standing.problems for standing in roll.drones.values()):
+        raise BadInput(shortened(["no drone is ready to fly", *problems]))

@@ -85,6 +85,9 @@ class OneLife:
         async with listening(setting.note, self.answer):
             try:
                 end = await self._lived(life, stops)
+            except BadInput:  # no drone is ready: the gateway is not needed either
+                await link.goodbye()
+                raise
             finally:  # whoever still waits for an answer need not any longer
                 self._kept.set_result(self._end.is_set and self._end.result() is End.OVER)
         if end is not End.LOST:

@@ -6,6 +6,7 @@ from argparse import SUPPRESS, ArgumentParser, ArgumentTypeError
 from collections.abc import Callable
 from math import isfinite
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from ..words import quoted
 
@@ -25,6 +26,11 @@ ANSWERS = ("done", "not-done", "go-on", "cancel")
 """What a person can decide for a mission that waits."""
 
 FASTEST = 1000.0
+
+MOST_STAND_INS = 50
+
+if TYPE_CHECKING:
+    from .options import Options
 
 Command = Callable[[str, str], ArgumentParser]
 
@@ -75,8 +81,15 @@ def add_flights(command: Command) -> None:
 
 def how_it_flies(parser: ArgumentParser) -> None:
     """Add what `fly` and `resume` share."""
-    parser.add_argument(
-        "--sim", action="store_true", help="with simulated drones; real ones cannot be flown yet"
+    which = parser.add_mutually_exclusive_group()
+    which.add_argument(
+        "--sim", action="store_true", help="with simulated drones instead of the real ones"
+    )
+    which.add_argument(
+        "--crtp-sim",
+        metavar="N",
+        type=stand_ins,
+        help="with N simulated Crazyflies, flown as real ones are, through cflib",
     )
     parser.add_argument(
         "--speed",
@@ -88,6 +101,24 @@ def how_it_flies(parser: ArgumentParser) -> None:
         "--supervise", action="store_true", help="start the app again if it crashes"
     )
     parser.add_argument("--supervised", action="store_true", help=SUPPRESS)  # so it is then called
+
+
+def how_it_flies_in(options: Options) -> list[str]:
+    """Return the flags that say which drones are meant, for a command line."""
+    if options.crtp_sim is not None:
+        return ["--crtp-sim", str(options.crtp_sim)]
+    return ["--sim"] if options.sim else []
+
+
+def stand_ins(text: str) -> int:
+    """Read a number of simulated Crazyflies."""
+    try:
+        number = int(text)
+    except ValueError:
+        raise ArgumentTypeError(f"{quoted(text)} is not a whole number") from None
+    if not 1 <= number <= MOST_STAND_INS:
+        raise ArgumentTypeError(f"{quoted(text)} is not between 1 and {MOST_STAND_INS}")
+    return number
 
 
 def speed(text: str) -> float:

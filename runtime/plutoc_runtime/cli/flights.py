@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import closing, suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,6 +13,7 @@ from .. import again
 from ..asking import note_of
 from ..errors import BadInput
 from ..fly import Recovered, live
+from ..gateway.real import real_fleet
 from ..gateway.settings import settings_for
 from ..gateway.starting import connect
 from ..journal.place import gateway_folder
@@ -28,6 +29,7 @@ from .supervise import Supervised, supervise
 if TYPE_CHECKING:
     from ..app import App
     from ..files.fleet import FleetFile
+    from ..gateway.real import RealFleet
     from ..journal.fold import Records
     from ..model import Drone, Mission
     from ..one_life import OneLife
@@ -53,6 +55,10 @@ class Flight:
     speed: float
     seed: int
     faults: Faults
+    sim: bool = True
+    """Whether the drones are simulated ones; real ones are moved by this."""
+    crtp: bool = False
+    """Whether simulated Crazyflies stand in for real ones, down to their radio."""
 
     @property
     def how_to_go_on(self) -> str:
@@ -119,14 +125,15 @@ async def lives(
     flight: Flight, store: Store, stops: Stops, known: Recovered | None, watcher: Watcher
 ) -> Lived:
     """Live once more each time that the gateway dies; `known` is what the journal says."""
+    folder = gateway_folder(flight.journal)
     settings = settings_for(
         flight.app,
         flight.fleet,
         seed=flight.seed,
         faults=flight.faults,
+        real=None if flight.sim else await _real(flight, folder),
         speed=flight.speed,
     )
-    folder = gateway_folder(flight.journal)
     setting = Setting(
         app=flight.app,
         missions=flight.missions,
@@ -158,15 +165,25 @@ async def lives(
         store = Store.open(flight.journal)
 
 
+async def _real(flight: Flight, folder: Path) -> RealFleet:
+    """Return how the drones are flown; simulated Crazyflies are there when this returns."""
+    uris: Mapping[str, str] = {}
+    if flight.crtp:
+        from ..crtp.process import start  # few want them
+
+        homes = {drone.id: drone.home for drone in flight.fleet.drones}
+        uris = await asyncio.to_thread(start, folder, homes)
+    return real_fleet(flight.fleet, flight.missions, uris)
+
+
 def supervised(app: App, options: Options, journal: Path, first: Sequence[str] | None) -> int:
     """Let another process fly, and start it again when it crashes; `first`: it has not begun."""
     speed = ["--speed", str(options.speed)] if options.speed else []
-    flags = [*speed, "--supervised"]
-    on = again.command("resume", str(journal), *flags)
+    on = again.command("resume", str(journal), *speed, "--supervised")
     return supervise(
         Supervised(
             name=app.name,
-            first=on if first is None else again.command(*first, "--sim", *flags),
+            first=on if first is None else again.command(*first, *speed, "--supervised"),
             again=lambda: on if journal.exists() else None,
             finished=lambda: finished(records_in(app, journal)) if journal.exists() else 0,
             how_to_go_on=how_to_go_on(app, journal),

@@ -14,8 +14,10 @@ from ..journal.header import header
 from ..journal.store import Store
 from ..simulation.faults import Faults
 from . import output
+from .flight_options import how_it_flies_in
 from .flights import Flight, see_through, supervised
 from .plans import load
+from .real import check_real
 
 if TYPE_CHECKING:
     from ..app import App
@@ -24,8 +26,11 @@ if TYPE_CHECKING:
 
 def fly(app: App, options: Options) -> int:
     """Fly the missions and say what came of them; whoever interrupts it lands the drones."""
-    _only_simulated(app, options)
+    options.refuse_what_is_simulated()
     plan = load(app, options)
+    if not options.sim:
+        where = str(options.fleet or app.name)
+        check_real(plan.fleet, where, stand_ins=options.crtp_sim is not None)
     journal = options.journal or place.new(app.name, time.time())
     if os.path.lexists(journal):
         raise exists(journal)
@@ -40,6 +45,7 @@ def fly(app: App, options: Options) -> int:
         missions=plan.missions_text,
         fleet=plan.fleet_text,
         sim=options.sim,
+        crtp_sim=options.crtp_sim,
         seed=options.seed,
         faults=options.fail,
     )
@@ -56,13 +62,10 @@ def fly(app: App, options: Options) -> int:
         speed=options.speed or 1.0,
         seed=options.seed,
         faults=Faults(**options.fail),
+        sim=options.sim,
+        crtp=options.crtp_sim is not None,
     )
     return see_through(flight, store)
-
-
-def _only_simulated(app: App, options: Options) -> None:
-    if not options.sim:
-        raise BadInput(f"{app.name}: real drones are not supported yet: use --sim")
 
 
 def _words(options: Options, journal: Path) -> list[str]:
@@ -70,4 +73,5 @@ def _words(options: Options, journal: Path) -> list[str]:
     fleet = ["--fleet", str(options.fleet)] if options.fleet else []
     faults = ",".join(f"{what}={share}" for what, share in options.fail.items())
     chance = ["--seed", str(options.seed), *(["--fail", faults] if faults else [])]
-    return ["fly", str(options.missions), *fleet, *chance, "--journal", str(journal)]
+    how = how_it_flies_in(options)
+    return ["fly", str(options.missions), *fleet, *how, *chance, "--journal", str(journal)]

@@ -38,6 +38,7 @@ class Options:
     follow: bool = False
     mend: bool = False
     sim: bool = False
+    crtp_sim: int | None = None
     speed: float | None = None
     supervise: bool = False
     supervised: bool = False
@@ -63,6 +64,13 @@ class Options:
         if self.journal is None:
             raise BadInput("name the journal")
         return self.journal
+
+    def refuse_what_is_simulated(self) -> None:
+        """Raise `BadInput` if real drones are meant, and flags that only simulated ones obey."""
+        given = {"--speed": self.speed, "--fail": self.fail, "--seed": self.seed}
+        for flag, value in given.items():
+            if value and not self.sim:
+                raise BadInput(f"{flag} is for simulated drones: it goes with --sim")
 
 
 def parse(app: App, argv: Sequence[str] | None) -> Options:

@@ -7,10 +7,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..errors import BadInput
-from ..files.fleet import FleetFile, default_fleet, fleet_of
+from ..files.fleet import DEFAULT_SIZE, FleetFile, default_fleet, fleet_of
 from ..files.missions import missions_of
 from ..files.reading import parsed, shortened, text_of
 from ..plan_check import endless, problems
+from .real import with_stand_ins
 
 if TYPE_CHECKING:
     from ..app import App
@@ -47,12 +48,12 @@ def load(app: App, options: Options) -> Plan:
 def load_fleet(app: App, options: Options) -> tuple[FleetFile, str | None]:
     """Return the fleet of a command's file, and that file's text; None: there is none."""
     text = text_of(options.fleet) if options.fleet else None
-    return _fleet(app, str(options.fleet), text), text
+    return _fleet(app, str(options.fleet), text, options.crtp_sim), text
 
 
 def fleet_in(app: App, journal: Path, header: Header) -> FleetFile:
     """Return the fleet of a journal; raise `BadInput` if the app does not know it any more."""
-    return _fleet(app, f"{journal} (its fleet)", header["fleet"])
+    return _fleet(app, f"{journal} (its fleet)", header["fleet"], header.get("crtp_sim"))
 
 
 def missions_in(app: App, journal: Path, header: Header, fleet: FleetFile) -> list[Mission[Any]]:
@@ -61,5 +62,8 @@ def missions_in(app: App, journal: Path, header: Header, fleet: FleetFile) -> li
     return missions_of(document, app, fleet.airspace)
 
 
-def _fleet(app: App, name: str, text: str | None) -> FleetFile:
-    return default_fleet(app) if text is None else fleet_of(parsed(name, text), app)
+def _fleet(app: App, name: str, text: str | None, stand_ins: int | None) -> FleetFile:
+    if text is None:
+        return default_fleet(app, stand_ins or DEFAULT_SIZE)
+    fleet = fleet_of(parsed(name, text), app)
+    return fleet if stand_ins is None else with_stand_ins(fleet, stand_ins)

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ..errors import BadInput
 from ..journal import place
 from ..journal.header import fingerprint
 from . import output, stop_mark
 from .flights import reported, see_through, supervised
-from .taken_up import take_up
+from .real import check_real
+from .taken_up import TakenUp, take_up
 
 if TYPE_CHECKING:
     from ..app import App
@@ -20,6 +22,11 @@ def resume(app: App, options: Options) -> int:
     journal = options.journal or place.newest(app.name)
     taken = take_up(app, journal)
     store = taken.store
+    try:
+        _check(options, taken)
+    except BadInput:
+        store.close()
+        raise
     if taken.is_over:
         store.close()
         output.line("nothing to go on with: every mission has ended")
@@ -36,3 +43,16 @@ def resume(app: App, options: Options) -> int:
         store.close()
         return supervised(app, options, journal, None)
     return see_through(taken.flight(options.speed), store, taken.known)
+
+
+def _check(options: Options, taken: TakenUp) -> None:
+    """Refuse flags that are not for the drones of this journal, and drones that cannot be flown."""
+    path, stand_ins = taken.store.path, taken.header.get("crtp_sim")
+    if options.crtp_sim not in (None, stand_ins):
+        raise BadInput(f"{path}: it was not begun with --crtp-sim {options.crtp_sim}")
+    if taken.header["sim"]:
+        return
+    if options.sim:
+        raise BadInput(f"{path}: its drones are real ones: go on without --sim")
+    options.refuse_what_is_simulated()
+    check_real(taken.fleet, f"{path} (its fleet)", stand_ins=stand_ins is not None)

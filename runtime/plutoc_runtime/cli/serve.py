@@ -28,9 +28,11 @@ from ..station.web.listening import address, listening, port_of
 from ..station.web.server import serve as serve_web
 from ..station.web.static import floor_plan
 from . import output
+from .flight_options import how_it_flies_in
 from .flown import finished, records_in
 from .interrupts import Interrupts
 from .plans import load_fleet
+from .real import check_real
 from .supervise import Supervised, supervise
 
 if TYPE_CHECKING:
@@ -42,10 +44,12 @@ AGAIN = "serve shows what was interrupted, and Resume goes on with it"
 
 def serve(app: App, options: Options) -> int:
     """Serve the station until somebody interrupts it; then all drones land first."""
-    if not options.sim:
-        raise BadInput(f"{app.name}: real drones are not supported yet: use --sim")
+    options.refuse_what_is_simulated()
     borrowed(app.name)  # before anything is kept or flown
     settings = _settings(app, options)
+    if not options.sim:
+        where = str(options.fleet or app.name)
+        check_real(settings.fleet, where, stand_ins=options.crtp_sim is not None)
     if options.supervise:
         return _supervised(app, options, settings)
     with _alone(settings):
@@ -128,6 +132,7 @@ def _settings(app: App, options: Options) -> Settings:
         fleet_text=text,
         image=image,
         sim=options.sim,
+        crtp_sim=options.crtp_sim,
         seed=options.seed,
         faults=options.fail,
         speed=options.speed,
@@ -235,4 +240,4 @@ def _words(options: Options) -> list[str]:
     names = [word for name in options.names for word in ("--name", name)]
     where = ["--host", options.host, "--port", str(options.port), "--seed", str(options.seed)]
     opens = ["--open"] if options.open else []
-    return ["serve", "--sim", "--supervised", *where, *names, *given, *opens]
+    return ["serve", *how_it_flies_in(options), "--supervised", *where, *names, *given, *opens]

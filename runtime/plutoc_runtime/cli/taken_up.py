@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..errors import BadInput
 from ..fly import Recovered, recovered
 from ..gateway.process import NOTE
 from ..gateway.starting import speed_in
@@ -54,6 +53,8 @@ class TakenUp:
             speed=speed or speed_in(folder) or 1.0,
             seed=self.header["seed"],
             faults=Faults(**self.header["faults"]),
+            sim=self.header["sim"],
+            crtp=self.header.get("crtp_sim") is not None,
         )
 
 
@@ -63,8 +64,6 @@ def take_up(app: App, journal: Path) -> TakenUp:
     try:
         header: Header = store.header
         check(journal, header, app)
-        if not header["sim"]:
-            raise BadInput(f"{journal}: its drones are real ones, and those are not supported yet")
         fleet = fleet_in(app, journal, header)
         known = recovered(store)
         started = bool(known.records.missions)

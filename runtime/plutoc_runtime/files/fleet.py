@@ -21,11 +21,13 @@ from .world import read_world
 
 if TYPE_CHECKING:
     from ..app import App
+    from ..model import Point
     from ..simulation.world import WorldData
 
 __all__ = ["DroneEntry", "FleetFile", "default_fleet", "fleet_of", "load_fleet"]
 
-DEFAULT_SIZE = 5
+DEFAULT_SIZE, ROW = 5, 18
+"""Drones of a fleet that nobody described, and how many stand in a row."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -51,14 +53,19 @@ class FleetFile:
     """None: a simulation makes up a world from its seed."""
 
 
-def default_fleet(app: App) -> FleetFile:
+def default_fleet(app: App, size: int = DEFAULT_SIZE) -> FleetFile:
     """Return the fleet of whoever has written no fleet file: five drones on an empty plain."""
-    categories = islice(cycle(app.categories), DEFAULT_SIZE)
+    categories = islice(cycle(app.categories), size)
     drones = tuple(
-        DroneEntry(id=f"cf{place}", category=category.name, home=(float(place), 0.5, 0.0))
-        for place, category in enumerate(categories, start=1)
+        DroneEntry(id=f"cf{place + 1}", category=category.name, home=_default_home(place))
+        for place, category in enumerate(categories)
     )
     return FleetFile(airspace=Airspace(), drones=drones)
+
+
+def _default_home(place: int) -> Point:
+    row, column = divmod(place, ROW)
+    return float(column + 1), 0.5 + row, 0.0
 
 
 def load_fleet(path: Path, app: App) -> FleetFile:

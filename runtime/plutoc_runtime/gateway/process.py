@@ -12,7 +12,9 @@ import time
 from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
+from typing import TYPE_CHECKING
 
+from ..errors import BadInput
 from ..private import new_address, publish, withdraw
 from ..realtime import RealTime
 from ..signals import Signal
@@ -23,14 +25,18 @@ from ..simulation.world import World
 from .ending import Ending
 from .file_ledger import FileLedger
 from .gateway import Gateway
+from .holding import holding
 from .server import Server
 from .settings import Settings, settings_of
 from .wire import LONGEST_TOLD
 
+if TYPE_CHECKING:
+    from .controls import Controls
+
 NOTE, SETTINGS, LEDGER, LOCK, LOG = "gateway", "settings.json", "ledger", "lock", "log"
 """What lies in its folder; NOTE says where it listens."""
 
-ANOTHER_RUNS = 3
+ANOTHER_RUNS, CANNOT = 3, 4
 
 _FOR_APPS = "gateway: an app starts this by itself when it flies; there is nothing to do by hand"
 
@@ -47,6 +53,9 @@ def main(arguments: Sequence[str]) -> int:
     try:
         settings = settings_of(json.loads((folder / SETTINGS).read_text(encoding="utf-8")))
         asyncio.run(run(folder, settings))
+    except BadInput as error:
+        print(error, file=sys.stderr)
+        return CANNOT
     finally:
         os.close(lock)
     return 0
@@ -66,26 +75,46 @@ def taken(folder: Path) -> int | None:
 
 
 async def run(folder: Path, settings: Settings) -> None:
-    """Let the simulated world go on where it was, and let brains command until all is over."""
+    """Reach the drones, or let the simulated world go on, and let brains command until all is over."""
     kernel = RealTime(settings.speed)
-    airspace = settings.airspace
+    if settings.real is None:
+        await _command(folder, settings, kernel, _simulated(folder, settings, kernel))
+        return
+    from ..drones.team import Team  # a simulation does without
+
+    with holding({drone.id: drone.uri or drone.id for drone in settings.real.drones}):
+        team = Team(kernel, settings.drones, settings.real, settings.airspace, folder, _say)
+        team.begin()
+        try:
+            await _command(folder, settings, kernel, team)
+        finally:
+            await team.close()
+
+
+def _simulated(folder: Path, settings: Settings, kernel: RealTime) -> Controls:
+    """Return the simulated drones, in the world as it was left."""
     keeper = Keeper(folder, kernel.time, settings.speed, this_moment)
     navigation = SimulatedNavigation(
         kernel,
         settings.drones,
-        World(settings.seed, airspace, settings.world),
+        World(settings.seed, settings.airspace, settings.world),
         settings.faults,
         settings.seed,
-        airspace,
+        settings.airspace,
         keeper.record,
     )
     keeper.take_over(navigation.bodies)
     kernel.settled = keeper.settled
+    return navigation
+
+
+async def _command(folder: Path, settings: Settings, kernel: RealTime, controls: Controls) -> None:
+    """Let brains command."""
     gateway = Gateway(
         kernel,
-        navigation,
+        controls,
         settings.drones,
-        airspace,
+        settings.airspace,
         ledger=FileLedger(folder / LEDGER),
         apart=settings.apart,
         patience=settings.patience * settings.speed,

@@ -11,6 +11,7 @@ from ..model import Category
 from ..simulation.body import SimulatedDrone
 from ..simulation.faults import Faults
 from ..simulation.world import Feature, Source, WorldData
+from .real import RealFleet, real_data, real_of
 
 if TYPE_CHECKING:
     from ..app import App
@@ -24,7 +25,7 @@ IDLE = 60.0
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Settings:
-    """A fleet of simulated drones, and how it is flown."""
+    """A fleet of drones, and how it is flown."""
 
     drones: tuple[SimulatedDrone, ...]
     airspace: Airspace
@@ -32,6 +33,8 @@ class Settings:
     world: WorldData | None
     seed: int
     faults: Faults
+    real: RealFleet | None = None
+    """None: the drones are simulated."""
     speed: float = 1.0
     """How fast time passes: 10 is ten times as fast as on the wall."""
     patience: float = PATIENCE
@@ -46,6 +49,7 @@ def settings_for(
     *,
     seed: int,
     faults: Faults | None = None,
+    real: RealFleet | None = None,
     speed: float = 1.0,
     patience: float = PATIENCE,
 ) -> Settings:
@@ -63,6 +67,7 @@ def settings_for(
         world=fleet.world,
         seed=seed,
         faults=faults or Faults(),
+        real=real,
         speed=speed,
         patience=patience,
     )
@@ -97,6 +102,7 @@ def data_of(settings: Settings) -> dict[str, object]:
         "world": None if world is None else {**asdict(world), "background": {**world.background}},
         "seed": settings.seed,
         "faults": asdict(settings.faults),
+        "real": None if settings.real is None else real_data(settings.real),
         "speed": settings.speed,
         "patience": settings.patience,
         "idle": settings.idle,
@@ -112,6 +118,7 @@ def settings_of(data: Mapping[str, Any]) -> Settings:
         world=None if data["world"] is None else _world(data["world"]),
         seed=data["seed"],
         faults=Faults(**data["faults"]),
+        real=None if data["real"] is None else real_of(data["real"]),
         speed=data["speed"],
         patience=data["patience"],
         idle=data["idle"],

@@ -29,6 +29,7 @@ def header(
     missions: str,
     fleet: str | None,
     sim: bool,
+    crtp_sim: int | None = None,
     seed: int,
     faults: Mapping[str, float] | None = None,
 ) -> dict[str, object]:
@@ -43,6 +44,7 @@ def header(
         "missions": missions,
         "fleet": fleet,
         "sim": sim,
+        "crtp_sim": crtp_sim,
         "seed": seed,
         "faults": dict(faults or {}),
     }

@@ -36,7 +36,8 @@ def found(app: App, settings: Settings, going_on: bool = False) -> TakenUp | Non
     except BadInput as why:  # somebody else flies it, it is damaged, or it is another app's
         output.tell(f"the last flight cannot be shown: {why}")
         return None
-    if taken.is_over or taken.header["sim"] != settings.sim:
+    same = taken.header["sim"], taken.header.get("crtp_sim") is not None
+    if taken.is_over or same != (settings.sim, settings.crtp_sim is not None):
         taken.store.close()
         return None
     if not going_on and _drawn(taken.fleet) != _drawn(settings.fleet):

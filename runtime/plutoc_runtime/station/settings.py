@@ -22,6 +22,8 @@ class Settings:
     image: Path | None = None
     """The floor plan."""
     sim: bool = True
+    crtp_sim: int | None = None
+    """How many simulated Crazyflies are flown as real ones; None: none."""
     seed: int = 0
     faults: Mapping[str, float]
     speed: float | None = None

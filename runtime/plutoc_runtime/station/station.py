@@ -180,6 +180,7 @@ class Station:
             missions=text,
             fleet=settings.fleet_text,
             sim=settings.sim,
+            crtp_sim=settings.crtp_sim,
             seed=settings.seed,
             faults=settings.faults,
         )
@@ -192,6 +193,8 @@ class Station:
             speed=settings.speed or 1.0,
             seed=settings.seed,
             faults=Faults(**settings.faults),
+            sim=settings.sim,
+            crtp=settings.crtp_sim is not None,
         )
         self.outing = Outing(flight, self._over, self._scene.hurry)
         self.outing.begin(store, None)

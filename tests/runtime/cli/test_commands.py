@@ -38,10 +38,21 @@ def test_a_bad_file_is_exit_2(missions: Path, command: Command) -> None:
     assert command("simulate", missing) == (2, "", said)
 
 
-def test_real_drones_are_not_there_yet(missions: Path, command: Command) -> None:
-    """And says so before it looks at the files."""
-    said = "alfalfa: real drones are not supported yet: use --sim\n"
-    assert command("fly", missions, "--fleet", "none.toml") == (2, "", said)
+def test_real_drones_need_a_fleet_file(missions: Path, command: Command) -> None:
+    """Nobody flies drones that nobody has named."""
+    code, out, err = command("fly", missions)
+    assert (code, out) == (2, "")
+    assert err.startswith("alfalfa: "), err
+    assert "--fleet" in err
+
+
+@pytest.mark.parametrize("flag", ["--speed 3", "--seed 3", "--fail crash=1%"])
+def test_what_only_simulated_drones_obey_goes_with_sim(
+    missions: Path, command: Command, flag: str
+) -> None:
+    """Real drones fly as fast as they fly, and fail when they do."""
+    said = f"{flag.split()[0]} is for simulated drones: it goes with --sim\n"
+    assert command("fly", missions, *flag.split()) == (2, "", said)
 
 
 @pytest.mark.parametrize(

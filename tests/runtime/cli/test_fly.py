@@ -136,7 +136,7 @@ def test_a_flight_of_real_drones_is_not_resumed_with_simulated_ones(
     journal: Write, command: Command
 ) -> None:
     path = journal(created("North", 0), sim=False)
-    said = f"{path}: its drones are real ones, and those are not supported yet\n"
+    said = f"{path}: its drones are real ones: go on without --sim\n"
     assert command("resume", path, "--sim") == (2, "", said)
 
 

@@ -1,0 +1,40 @@
+"""Before real drones are flown: what can be known to be wrong without any radio."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from ..drones.loading import load_localization, load_navigation
+from ..errors import BadInput
+from ..files.behaviour import CRAZYFLIE, OWN
+from ..files.reading import shortened
+from ..files.real import navigation_of, not_real
+
+if TYPE_CHECKING:
+    from ..files.fleet import FleetFile
+
+
+def check_real(fleet: FleetFile, where: str, *, stand_ins: bool) -> None:
+    """Raise `BadInput` if this fleet cannot be flown from here; nothing has started.
+
+    `where` its file is, for whoever must mend it.
+    """
+    problems = [] if stand_ins else not_real(fleet)
+    if problems:
+        raise BadInput(shortened([f"{where}: {sentence}" for sentence in problems]))
+    for name in dict.fromkeys(navigation_of(fleet, drone) for drone in fleet.drones):
+        load_navigation(name)
+    if fleet.localization != OWN:
+        load_localization(fleet.localization)
+
+
+def with_stand_ins(fleet: FleetFile, number: int) -> FleetFile:
+    """Return a fleet of its first drones, each a Crazyflie that is simulated down to its radio."""
+    if number > len(fleet.drones):
+        raise BadInput(
+            f"--crtp-sim {number}: the fleet file has only {len(fleet.drones)} drones: name at most"
+            " so many, or add drones to it"
+        )
+    drones = tuple(replace(drone, navigation=None, uri=None) for drone in fleet.drones[:number])
+    return replace(fleet, drones=drones, navigation=CRAZYFLIE, localization=OWN)
