@@ -112,8 +112,8 @@ class Fleet:
 
         It is handed out only once it stands on the ground, well, with nothing aboard.
         """
-        well = standing.reached and standing.landed and standing.carrying is None
-        if not (well and self._rests(drone)):
+        well = standing.reached and standing.landed and not standing.problems
+        if not (well and standing.carrying is None and self._rests(drone)):
             self.recover(drone)
 
     def retire(self, drone: Drone) -> None:
