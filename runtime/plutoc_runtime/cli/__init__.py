@@ -26,6 +26,10 @@ def start(name: str, load: Callable[[], App]) -> int:
         from ..gateway.process import main as gateway
 
         return gateway(sys.argv[2:])
+    if sys.argv[1:2] == ["crtp"]:  # the drones must not fall with it, either
+        from ..crtp.process import main as crtp
+
+        return crtp(sys.argv[2:])
     app: App | None = None
     ending = Ending(name)
     with ending:
@@ -113,6 +117,10 @@ def _command(app: App, argv: Sequence[str] | None) -> int:
             from .resume import resume
 
             return resume(app, options)
+        case "drones":
+            from .drones import drones
+
+            return drones(app, options)
         case "journal":
             from .journal import journal
 

@@ -1,0 +1,1 @@
+"""Simulated Crazyflies, which speak the protocol of real ones: for flights without hardware."""

@@ -1,0 +1,95 @@
+"""A small lithium battery: volts at rest, less under load, and what is said of it."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from dataclasses import dataclass
+from itertools import pairwise
+
+LOW, EMPTY = 3.2, 3.0
+"""Volts under load: below the first it is said to be low, below the second it switches off."""
+_LONG = 5.0
+"""Seconds that it must be so."""
+_SAG = 0.3
+"""Volts that a hovering drone costs."""
+FLIGHT, CHARGE = 420.0, 1200.0
+"""Seconds from full to empty in the air, and from empty to full on the pad."""
+
+_REST = (
+    (0.0, 3.27),
+    (0.05, 3.50),
+    (0.10, 3.68),
+    (0.20, 3.74),
+    (0.30, 3.77),
+    (0.40, 3.79),
+    (0.50, 3.82),
+    (0.60, 3.87),
+    (0.70, 3.92),
+    (0.80, 3.98),
+    (0.90, 4.06),
+    (1.00, 4.20),
+)
+
+ON_BATTERY, CHARGING, CHARGED, LOW_POWER = 0, 1, 2, 3
+
+
+@dataclass(slots=True)
+class Battery:
+    """What is left of it."""
+
+    level: float = 1.0
+    flight: float = FLIGHT
+    """Seconds from full to empty in the air."""
+    loaded: bool = False
+    charging: bool = False
+    low: bool = False
+    _below_low: float = 0.0
+    _below_empty: float = 0.0
+
+    @property
+    def volts(self) -> float:
+        """What is measured now."""
+        return _rest(self.level) - (_SAG if self.loaded else 0.0)
+
+    @property
+    def state(self) -> int:
+        """What `pm.state` says."""
+        if self.low:
+            return LOW_POWER
+        if self.charging:
+            return CHARGED if self.level >= 1.0 else CHARGING
+        return ON_BATTERY
+
+    def set_volts(self, volts: float) -> None:
+        """Let it be as empty as it is when this is measured now."""
+        self.level = _level(volts + (_SAG if self.loaded else 0.0))
+
+    def step(self, seconds: float, *, loaded: bool, charging: bool) -> bool:
+        """Let time pass; return whether it has been empty for so long that it switches off."""
+        self.loaded, self.charging = loaded, charging
+        if loaded:
+            self.level = max(0.0, self.level - seconds / self.flight)
+        elif charging:
+            self.level = min(1.0, self.level + seconds / CHARGE)
+        volts = self.volts
+        self._below_low = self._below_low + seconds if volts < LOW else 0.0
+        self._below_empty = self._below_empty + seconds if volts < EMPTY else 0.0
+        self.low = self._below_low > _LONG
+        return self._below_empty > _LONG
+
+
+def _rest(level: float) -> float:
+    """Return the volts at rest."""
+    at = bisect_right(_REST, (level, 9.0))
+    if at == len(_REST):
+        return _REST[-1][1]
+    (low, bottom), (high, top) = _REST[at - 1], _REST[at]
+    return bottom + (top - bottom) * (level - low) / (high - low)
+
+
+def _level(volts: float) -> float:
+    """Return how full it is at these volts at rest."""
+    for (low, bottom), (high, top) in pairwise(_REST):
+        if volts <= top:
+            return max(0.0, low + (high - low) * (volts - bottom) / (top - bottom))
+    return 1.0

@@ -1,0 +1,144 @@
+"""Log blocks: variables that a drone sends by itself, again and again."""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from enum import IntEnum
+
+from .ports import Errno, Port, packed
+from .tables import TABLE, Table
+
+LOG_TYPES = {"B": 1, "H": 2, "L": 3, "b": 4, "h": 5, "i": 6, "f": 7, "e": 8}
+_LETTERS = {kind: letter for letter, kind in LOG_TYPES.items()}
+
+_CONTROL, _DATA = 1, 2
+
+MOST_BYTES, MOST_BLOCKS, MOST_VARIABLES = 26, 16, 128
+_TICK = 0.01
+"""Seconds; periods are so many of them."""
+
+Reader = Callable[[], float]
+
+
+class Command(IntEnum):
+    """What is done with a block."""
+
+    DELETE = 2
+    START = 3
+    STOP = 4
+    RESET = 5
+    CREATE = 6
+    APPEND = 7
+
+
+@dataclass(slots=True)
+class _Block:
+    readers: list[tuple[str, Reader]] = field(default_factory=list)
+    period: float = 0.0
+    """Seconds; 0: it is not sent."""
+    due: float = 0.0
+
+    @property
+    def size(self) -> int:
+        return sum(struct.calcsize("<" + letter) for letter, _ in self.readers)
+
+
+class Logs:
+    """The log blocks of one drone."""
+
+    def __init__(self, variables: Mapping[str, tuple[str, Reader]]) -> None:
+        self._readers = [reader for _, reader in variables.values()]
+        kinds = [(name, LOG_TYPES[letter]) for name, (letter, _) in variables.items()]
+        self._table = Table(Port.LOG, kinds, bytes([MOST_BLOCKS, MOST_VARIABLES]))
+        self._blocks: dict[int, _Block] = {}
+
+    def reset(self) -> None:
+        """Forget all blocks."""
+        self._blocks.clear()
+
+    def take(self, channel: int, data: bytes, now: float) -> bytes | None:
+        """Return the answer to a packet."""
+        if channel == TABLE:
+            return self._table.answer(data)
+        if channel != _CONTROL or not data:
+            return None
+        number = data[1] if len(data) > 1 else 0
+        return packed(Port.LOG, _CONTROL, bytes([data[0], number, self._do(data, number, now)]))
+
+    def due(self, now: float) -> Iterator[bytes]:
+        """Yield what is to be sent now."""
+        for number, block in self._blocks.items():
+            if block.period <= 0.0 or now < block.due:
+                continue
+            block.due += block.period * max(1, int((now - block.due) / block.period))
+            stamp = (int(now * 1000.0) & 0xFFFFFF).to_bytes(3, "little")
+            values = b"".join(_written(letter, read()) for letter, read in block.readers)
+            yield packed(Port.LOG, _DATA, bytes([number]) + stamp + values)
+
+    def _do(self, data: bytes, number: int, now: float) -> Errno:
+        command = data[0]
+        if command == Command.RESET:
+            self.reset()
+            return Errno.OK
+        if command == Command.CREATE:
+            return self._create(number, data[2:])
+        block = self._blocks.get(number)
+        if block is None:
+            return Errno.ENOENT
+        match command:
+            case Command.APPEND:
+                return self._append(block, data[2:])
+            case Command.DELETE:
+                del self._blocks[number]
+            case Command.START:
+                if len(data) < 3 or not data[2]:
+                    return Errno.EINVAL
+                block.period, block.due = data[2] * _TICK, now
+            case Command.STOP:
+                block.period = 0.0
+            case _:
+                return Errno.ENOEXEC
+        return Errno.OK
+
+    def _create(self, number: int, variables: bytes) -> Errno:
+        if number in self._blocks:
+            return Errno.EEXIST
+        if len(self._blocks) >= MOST_BLOCKS:
+            return Errno.ENOMEM
+        block = _Block()
+        error = self._append(block, variables)
+        if error is Errno.OK:
+            self._blocks[number] = block
+        return error
+
+    def _append(self, block: _Block, variables: bytes) -> Errno:
+        added: list[tuple[str, Reader]] = []
+        for kind, variable in struct.iter_unpack("<BH", variables[: len(variables) // 3 * 3]):
+            letter = _LETTERS.get(kind & 0x0F)
+            if letter is None or variable >= len(self._readers):
+                return Errno.ENOENT
+            added.append((letter, self._readers[variable]))
+        used = sum(len(other.readers) for other in self._blocks.values())
+        if used + len(added) > MOST_VARIABLES:
+            return Errno.ENOMEM
+        if _Block(block.readers + added).size > MOST_BYTES:
+            return Errno.E2BIG
+        block.readers += added
+        return Errno.OK
+
+
+_WHOLE = {"B": (0, 0xFF), "H": (0, 0xFFFF), "L": (0, 0xFFFFFFFF)} | {
+    "b": (-0x80, 0x7F),
+    "h": (-0x8000, 0x7FFF),
+    "i": (-0x80000000, 0x7FFFFFFF),
+}
+
+
+def _written(letter: str, value: float) -> bytes:
+    """Return a value as it is sent, within what its type can say."""
+    if letter in _WHOLE:
+        low, high = _WHOLE[letter]
+        return struct.pack("<" + letter, min(high, max(low, int(value))))
+    return struct.pack("<" + letter, value)

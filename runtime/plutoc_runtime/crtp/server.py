@@ -1,0 +1,154 @@
+"""Many simulated drones in one loop, a UDP port each: `udp://127.0.0.1:PORT` reaches one."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Mapping, Sequence
+from random import Random
+from time import monotonic
+from typing import Any
+
+from .air import Air
+from .drone import Build, SimulatedCrazyflie
+from .faults import Value, let
+from .ports import NULL
+from .record import Record
+
+HOST = "127.0.0.1"
+_TICK = 0.01
+"""Seconds."""
+
+Address = tuple[str | Any, int]
+
+
+class Endpoint(asyncio.DatagramProtocol):
+    """A drone behind a UDP port."""
+
+    def __init__(self, build: Build, record: Record) -> None:
+        self.drone = SimulatedCrazyflie(build, record, self._send)
+        self.air = Air(Random(f"air/{build.seed}/{build.id}"))
+        self.talked = monotonic()
+        self._client: Address | None = None
+        self._transport: asyncio.DatagramTransport | None = None
+        self._port = 0
+
+    @property
+    def uri(self) -> str:
+        """How it is reached."""
+        return f"udp://{HOST}:{self._port}"
+
+    @property
+    def port(self) -> int:
+        """Where it listens."""
+        return self._port
+
+    async def listen(self, port: int) -> None:
+        """Listen at a port; 0, or one that is taken: at any that is free."""
+        loop = asyncio.get_running_loop()
+        try:
+            made = await loop.create_datagram_endpoint(lambda: self, local_addr=(HOST, port))
+        except OSError:
+            made = await loop.create_datagram_endpoint(lambda: self, local_addr=(HOST, 0))
+        self._transport, _ = made
+        self._port = self._transport.get_extra_info("sockname")[1]
+
+    def close(self) -> None:
+        """Listen no more: whoever talks to it is told that nobody is there."""
+        if self._transport is not None:
+            self._transport.close()
+            self._transport = None
+
+    def datagram_received(self, data: bytes, addr: Address) -> None:
+        """Take a packet, unless it is lost on the way."""
+        self.talked = monotonic()
+        if self.air.loses():
+            return
+        if self.air.latency > 0.0:
+            asyncio.get_running_loop().call_later(self.air.latency, self._receive, data, addr)
+        else:
+            self._receive(data, addr)
+
+    def _receive(self, data: bytes, addr: Address) -> None:
+        if data == NULL:  # somebody looks who is there, and talks to nobody yet
+            if self.drone.answers:
+                self._sendto(NULL, addr)
+            return
+        self._client = addr
+        self.drone.receive(data, monotonic())
+
+    def _send(self, raw: bytes) -> None:
+        if self._client is None or self.air.loses():
+            return
+        if self.air.latency > 0.0:
+            loop, client = asyncio.get_running_loop(), self._client
+            loop.call_later(self.air.latency, self._sendto, raw, client)
+        else:
+            self._sendto(raw, self._client)
+
+    def _sendto(self, raw: bytes, client: Address) -> None:
+        if self._transport is not None:
+            self._transport.sendto(raw, client)
+
+
+class Server:
+    """Simulated drones; to be started and closed in a running loop."""
+
+    def __init__(self, builds: Sequence[Build], record: Record) -> None:
+        self._endpoints = {build.id: Endpoint(build, record) for build in builds}
+        self._ticking: asyncio.Task[None] | None = None
+
+    async def start(self, ports: Mapping[str, int] | None = None) -> None:
+        """Let drones listen, where they shall or where there is room, and time pass for them."""
+        for id, endpoint in self._endpoints.items():
+            await endpoint.listen((ports or {}).get(id, 0))
+        self._ticking = asyncio.create_task(self._tick())
+
+    @property
+    def uris(self) -> dict[str, str]:
+        """How each is reached."""
+        return {id: endpoint.uri for id, endpoint in self._endpoints.items()}
+
+    @property
+    def endpoints(self) -> Mapping[str, Endpoint]:
+        """The drones by their ids."""
+        return self._endpoints
+
+    @property
+    def drones(self) -> Mapping[str, SimulatedCrazyflie]:
+        """The drones by their ids."""
+        return {id: endpoint.drone for id, endpoint in self._endpoints.items()}
+
+    @property
+    def airborne(self) -> bool:
+        """Whether one is above the ground."""
+        return any(one.drone.body.airborne for one in self._endpoints.values())
+
+    @property
+    def quiet(self) -> float:
+        """Seconds since anybody has talked to any of them."""
+        return monotonic() - max(one.talked for one in self._endpoints.values())
+
+    async def let(self, id: str, name: str, value: Value = True) -> None:
+        """Let something go wrong with one of them; `gone` closes its port, and opens it again."""
+        endpoint = self._endpoints[id]
+        if name != "gone":
+            let(endpoint.drone, endpoint.air, name, value)
+        elif value:
+            endpoint.close()
+        else:
+            await endpoint.listen(endpoint.port)
+
+    async def close(self) -> None:
+        """End it all."""
+        if self._ticking is not None:
+            self._ticking.cancel()
+            await asyncio.gather(self._ticking, return_exceptions=True)
+        for endpoint in self._endpoints.values():
+            endpoint.close()
+
+    async def _tick(self) -> None:
+        while True:
+            now = monotonic()
+            for endpoint in self._endpoints.values():
+                endpoint.drone.step(now)
+            await asyncio.sleep(_TICK)

@@ -1,0 +1,115 @@
+"""What the firmware allows: arming, and when motors stop for good."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+_HYSTERESIS = 2.0
+"""Seconds after the motors' last turn in which it still counts as flying."""
+_LANDED, _UNUSED = 3.0, 30.0
+"""Seconds after which an armed drone is disarmed: on the ground again, or never taken off."""
+_LEVEL, _LOCK = 0.5, 2.0
+"""Seconds without another low-level setpoint, after which it levels out, and then locks."""
+_FED = 1.0
+"""Seconds that the emergency watchdog waits, once it was fed."""
+_NEVER = -1e9
+
+
+@dataclass(slots=True)
+class Supervisor:
+    """The state of one drone; times are handed in."""
+
+    auto_arm: bool = False
+    armed: bool = False
+    locked: bool = False
+    crashed: bool = False
+    tumbled: bool = False
+    flying: bool = False
+    setpoint_at: float | None = None
+    """When the last low-level setpoint came that still rules; None: none does."""
+    fed_at: float | None = None
+    """When the emergency watchdog was fed."""
+    _thrust_at: float = _NEVER
+    _armed_at: float = _NEVER
+    _warned: bool = False
+
+    @property
+    def can_fly(self) -> bool:
+        """Whether the motors may turn."""
+        return self.armed and not (self.locked or self.crashed or self.tumbled)
+
+    @property
+    def can_arm(self) -> bool:
+        """Whether it would arm."""
+        return not (self.armed or self.locked or self.crashed or self.tumbled)
+
+    def arm(self, on: bool, now: float) -> bool:
+        """Arm or disarm; return whether that was done."""
+        if on and not self.armed:
+            if not self.can_arm:
+                return False
+            self.armed, self._armed_at, self._thrust_at = True, now, _NEVER
+        elif not on and self.armed:
+            if self.flying:
+                return False
+            self.armed = False
+        return True
+
+    def recover(self) -> bool:
+        """Leave the crashed state, if it stands upright; return whether that was done."""
+        if self.crashed and not self.tumbled:
+            self.crashed = self.armed = False
+        return not self.crashed
+
+    def lock(self) -> None:
+        """Stop for good: it must be restarted."""
+        self.locked, self.armed = True, False
+
+    def restart(self) -> None:
+        """Forget all, as after a restart."""
+        self.armed = self.locked = self.crashed = self.flying = self._warned = False
+        self.setpoint_at = self.fed_at = None
+        self._thrust_at = self._armed_at = _NEVER
+
+    def step(self, now: float, *, thrust: bool, tumbled: bool) -> None:
+        """Let time pass."""
+        if thrust:
+            self._thrust_at = now
+        self.tumbled = tumbled
+        self.flying = now - self._thrust_at < _HYSTERESIS and not (self.locked or self.crashed)
+        if tumbled and (self.flying or self.armed):
+            self.crashed, self.armed, self.flying = True, False, False
+        self._watch(now)
+        if self.auto_arm:
+            self.armed = self.armed or self.can_arm
+        elif self.armed and not self.flying:
+            since = max(self._armed_at, self._thrust_at)
+            limit = _UNUSED if self._thrust_at == _NEVER else _HYSTERESIS + _LANDED
+            self.armed = now - since < limit
+
+    def _watch(self, now: float) -> None:
+        """Lock when setpoints, or the feeding of the watchdog, have stopped in the air."""
+        age = 0.0 if self.setpoint_at is None else now - self.setpoint_at
+        self._warned = age > _LEVEL and (self._warned or self.flying)
+        if self._warned and age > _LOCK:
+            self.lock()
+        if age > _LOCK:
+            self.setpoint_at = None
+        if self.fed_at is not None and now - self.fed_at > _FED:
+            self.lock()
+
+    def info(self, *, high_level: bool, finished: bool) -> int:
+        """Return the bits that `supervisor.info` says."""
+        bits = (
+            self.can_arm,
+            self.armed,
+            self.auto_arm,
+            self.can_fly,
+            self.flying,
+            self.tumbled,
+            self.locked,
+            self.crashed,
+            high_level,
+            finished,
+        )
+        return sum(1 << place for place, bit in enumerate(bits) if bit)
