@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from ..crazyflie.borrowed import require
 from ..drones.loading import load_localization, load_navigation
 from ..errors import BadInput
 from ..files.behaviour import CRAZYFLIE, OWN
@@ -23,7 +24,10 @@ def check_real(fleet: FleetFile, where: str, *, stand_ins: bool) -> None:
     problems = [] if stand_ins else not_real(fleet)
     if problems:
         raise BadInput(shortened([f"{where}: {sentence}" for sentence in problems]))
-    for name in dict.fromkeys(navigation_of(fleet, drone) for drone in fleet.drones):
+    names = dict.fromkeys(navigation_of(fleet, drone) for drone in fleet.drones)
+    if CRAZYFLIE in names:
+        require()
+    for name in names:
         load_navigation(name)
     if fleet.localization != OWN:
         load_localization(fleet.localization)

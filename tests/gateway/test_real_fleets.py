@@ -1,0 +1,130 @@
+"""What the gateway's process is told of real drones, and what becomes of those that are not ready."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from plutoc_runtime.airspace import Airspace
+from plutoc_runtime.cli.real import with_stand_ins
+from plutoc_runtime.errors import BadInput
+from plutoc_runtime.files.fleet import DroneEntry, FleetFile
+from plutoc_runtime.gateway.real import RealDrone, Wanted, real_data, real_fleet, real_of
+from plutoc_runtime.simulation.drones import SimulatedNavigation
+from plutoc_runtime.standing import Standing
+from plutoc_runtime.status import DroneStatus, Status
+from tests.runtime import apps
+from tests.runtime.living import Living, enterable
+
+FLEET = FleetFile(
+    airspace=Airspace(),
+    drones=(
+        DroneEntry(id="a", category="scout", home=(1.0, 1.0, 0.0), uri="radio://0/80/2M/E7E7E7E701"),
+        DroneEntry(
+            id="b",
+            category="scout",
+            home=(2.0, 1.0, 0.0),
+            navigation="tello:Tello",
+            options={"ports": [1, 2]},
+        ),
+    ),
+    options={"crazyflie": {"measure": {"pm10": "sps.pm10"}}},
+)
+MISSIONS = [
+    apps.mission(
+        "North",
+        apps.trip("A", 1.0, action="measure", parameters={"quantity": "pm10"}),
+        apps.trip("B", 2.0, action="measure", parameters={"quantity": "pm10"}),
+        apps.trip("C", 3.0),
+        apps.trip("D", 3.0, action="of my own"),
+    )
+]
+
+
+def test_each_drone_is_flown_as_the_fleet_file_says() -> None:
+    """By its own navigation or the fleet's, with its options."""
+    a, b = real_fleet(FLEET, MISSIONS).drones
+    assert a == RealDrone(
+        id="a",
+        navigation="crazyflie",
+        uri="radio://0/80/2M/E7E7E7E701",
+        options={"measure": {"pm10": "sps.pm10"}},
+    )
+    assert b == RealDrone(id="b", navigation="tello:Tello", uri=None, options={"ports": [1, 2]})
+
+
+def test_what_the_plan_asks_for_is_told_once() -> None:
+    """Only what hardware must do: an action of the app's own is the app's affair."""
+    assert real_fleet(FLEET, MISSIONS).wanted == (
+        Wanted(action="measure", parameters={"quantity": "pm10"}),
+        Wanted(action="take_photo", parameters={}),
+    )
+
+
+def test_a_real_fleet_is_read_as_it_was_written() -> None:
+    """All of it goes through a file."""
+    whole = real_fleet(FLEET, MISSIONS)
+    assert real_of(json.loads(json.dumps(real_data(whole)))) == whole
+
+
+def test_stand_ins_are_crazyflies_whatever_the_file_says() -> None:
+    """So many as were asked for, reached where they are."""
+    one = with_stand_ins(FLEET, 1)
+    assert [drone.id for drone in one.drones] == ["a"]
+    both = real_fleet(with_stand_ins(FLEET, 2), (), {"a": "udp://x:1", "b": "udp://x:2"})
+    assert [(drone.navigation, drone.uri) for drone in both.drones] == [
+        ("crazyflie", "udp://x:1"),
+        ("crazyflie", "udp://x:2"),
+    ]
+    with pytest.raises(BadInput, match="only 2 drones"):
+        with_stand_ins(FLEET, 3)
+
+
+class Unready:
+    """Drones that answer, and may not fly until somebody has mended them."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch, *drones: str) -> None:
+        self.unready = {*drones}
+        monkeypatch.setattr(SimulatedNavigation, "roll_call", self.answer)
+
+    async def answer(self, drone: str) -> Standing:
+        """Answer the roll call."""
+        problems = ("its battery is too low: 3.5 V",) if drone in self.unready else ()
+        return Standing(
+            drone=drone,
+            reached=True,
+            location=(0.5, 0.5, 0.0),
+            landed=True,
+            battery_level=1.0,
+            boot=0,
+            carrying=None,
+            done={},
+            problems=problems,
+        )
+
+
+def test_a_fleet_of_which_no_drone_is_ready_does_not_set_out(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Everybody's reasons are told, and the journal stays as it was."""
+    Unready(monkeypatch, "cf1")
+    living = Living(enterable(), apps.mission("North", apps.trip("A", 1.0)))
+    whole = living.life.control.whole
+    assert whole is not None
+    living.kernel.run(whole)
+    with pytest.raises(BadInput, match=r"no drone is ready to fly\ncf1: its battery is too low"):
+        whole.result()
+    assert living.events == []
+
+
+def test_the_others_fly_without_a_drone_that_is_not_ready(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It is looked after meanwhile, and handed out when it is well."""
+    Unready(monkeypatch, "cf1")
+    on = apps.fleet((0.5, 0.5, 0.0), (3.0, 0.5, 0.0))
+    living = Living(enterable(), apps.mission("North", apps.trip("A", 1.0)), on=on)
+    living.kernel.run(living.done)
+    first = next(event for event in living.events if "drone" in event)
+    assert (first["event"], first["drone"]) == ("drone.recovering", "cf1")
+    assert living.life.missions[0].status is Status.COMPLETED
+    assert {drone.status for drone in living.life.session.drones} == {DroneStatus.FREE}
