@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from ..errors import BadInput
 from ..quantities import Type, parse_quantity
 from ..words import quoted
+from .drone_options import add_drones
 from .flight_options import add_flights, how_it_flies
 from .station_options import add_station
 
@@ -49,6 +50,7 @@ class Options:
     priority: int | None = None
     land: bool = False
     rtl: bool = False
+    everyone: bool = False
     answer: str | None = None
     plan: Path | None = None
     host: str = ""
@@ -57,6 +59,11 @@ class Options:
     folder: Path | None = None
     open: bool = False
     going_on: bool = False
+    who: list[str] = field(default_factory=list)
+    scan: bool = False
+    navigation: str | None = None
+    identify: str | None = None
+    save: Path | None = None
 
     @property
     def the_journal(self) -> Path:
@@ -101,6 +108,7 @@ def parse(app: App, argv: Sequence[str] | None) -> Options:
     _chance(serve, "with --sim: ")
     add_station(serve)
     add_flights(command)
+    add_drones(command)
     _journal(command("journal", "Print what happened, as it was written down."))
     options = parser.parse_args(argv, namespace=Options())
     if options.trace is not None and options.runs is not None:

@@ -119,11 +119,13 @@ def _stands_alone(drone: DroneEntry, others: list[DroneEntry], table: Table) -> 
 def _answers_alone(table: Table, uris: dict[str, Table]) -> None:
     uri = table.data.get("uri")
     if isinstance(uri, str):
-        other = uris.setdefault(_same_for_all(uri), table)
+        other = uris.setdefault(which(uri), table)
         if other is not table:
             table.problem(errors.shared_uri(other.who, other.line("uri")), "uri")
 
 
-def _same_for_all(uri: str) -> str:
-    """Return a drone's uri so that two ways to write it are one: a radio's address is a number."""
-    return uri.upper() if uri[:8].lower() == "radio://" else uri
+def which(uri: str) -> str:
+    """Return a drone's uri so that two ways to write it are one: by whichever dongle, too."""
+    plain = uri.strip().casefold().partition("?")[0].rstrip("/")
+    scheme, _, rest = plain.partition("://")
+    return rest.partition("/")[2] if scheme == "radio" else plain

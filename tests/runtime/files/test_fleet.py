@@ -204,7 +204,7 @@ DRONE = '[[drone]]\nid = "a"\nhome = [1, 1]\ncategory = "scout"\n'
         (f"{DRONE}[world]\nbackground = {{ pm10 = true }}",
          ":6: [world]: pm10 true is not a number"),
         ((f'{DRONE}uri = "radio://0/80/2M/E7"\n{OTHER}'
-         'uri = "radio://0/80/2M/e7"'),
+         'uri = "radio://1/80/2M/e7"'),
          ':10: drone "b": uri is that of drone "a", in line 5: it would be one and the same drone'),
         (f"{DRONE}[fleet]\nnavigation = 3",
          ":6: [fleet]: navigation 3 is not a text: put it in quotes"),
