@@ -99,6 +99,12 @@ def end(folder: Path) -> None:
             time.sleep(0.02)
 
 
+def wait_for_all() -> None:
+    """Wait until what this process has started has ended, as it was told."""
+    for process in _STARTED:
+        process.wait(_PATIENCE)
+
+
 def main(arguments: Sequence[str]) -> int:
     """Run the simulated drones of a folder until nobody needs them."""
     folder = Path(*arguments[:1])

@@ -90,7 +90,7 @@ class Supervisor:
     def _watch(self, now: float) -> None:
         """Lock when setpoints, or the feeding of the watchdog, have stopped in the air."""
         age = 0.0 if self.setpoint_at is None else now - self.setpoint_at
-        self._warned = age > _LEVEL and (self._warned or self.flying)
+        self._warned = age > _LEVEL and (self._warned or self.flying or self.crashed)
         if self._warned and age > _LOCK:
             self.lock()
         if age > _LOCK:

@@ -1,0 +1,85 @@
+"""A simulated Crazyflie on a bench: time passes only when it is told to."""
+
+from __future__ import annotations
+
+import struct
+
+from plutoc_runtime.crtp.drone import Build, SimulatedCrazyflie
+from plutoc_runtime.crtp.ports import Packet, Port, packed, unpacked
+from plutoc_runtime.crtp.record import Deed, InMemory
+
+CF1 = Build(id="cf1", home=(1.0, 2.0, 0.0))
+_TICK = 0.01
+
+
+class Bench:
+    """One drone, what it was sent, and what it has sent."""
+
+    def __init__(self, build: Build = CF1) -> None:
+        self.record = InMemory()
+        self.sent: list[Packet] = []
+        self.drone = SimulatedCrazyflie(
+            build, self.record, lambda raw: self.sent.append(unpacked(raw))
+        )
+        self.now = 100.0
+        self.drone.step(self.now)
+
+    def passes(self, seconds: float) -> None:
+        """Let time pass."""
+        for _ in range(round(seconds / _TICK)):
+            self.now += _TICK
+            self.drone.step(self.now)
+
+    def told(self, port: int, channel: int, data: bytes) -> bytes | None:
+        """Send a packet; return what the first answer says, or None."""
+        before = len(self.sent)
+        self.drone.receive(packed(port, channel, data), self.now)
+        return self.sent[before].data if len(self.sent) > before else None
+
+    def arm(self) -> bool:
+        """Arm it; return whether it did."""
+        answer = self.told(Port.SUPERVISOR, 1, b"\1\1")
+        assert answer is not None and answer[0] == 0x81
+        return bool(answer[1])
+
+    def takeoff(self, height: float = 1.0, seconds: float = 2.0) -> int:
+        """Command it up; return the answer."""
+        return self._commanded(struct.pack("<BBff?f", 7, 0, height, 0.0, True, seconds))
+
+    def land(self, seconds: float = 2.0) -> int:
+        """Command it down; return the answer."""
+        return self._commanded(struct.pack("<BBff?f", 8, 0, 0.0, 0.0, True, seconds))
+
+    def go_to(self, x: float, y: float, z: float, seconds: float) -> int:
+        """Command it somewhere; return the answer."""
+        return self._commanded(struct.pack("<BBBBfffff", 12, 0, 0, 0, x, y, z, 0.0, seconds))
+
+    def _commanded(self, data: bytes) -> int:
+        answer = self.told(Port.HIGH_LEVEL, 0, data)
+        assert answer is not None and answer[:2] == data[:2]
+        return answer[3]
+
+    def up(self) -> None:
+        """Let it hover a metre above its home."""
+        assert self.arm()
+        assert self.takeoff() == 0
+        self.passes(2.5)
+
+    def has(self, bit: int) -> bool:
+        """Whether a bit of `supervisor.info` is set."""
+        return bool(self.drone.info() >> bit & 1)
+
+    @property
+    def deeds(self) -> list[Deed]:
+        """What is on record."""
+        return self.record.deeds
+
+    @property
+    def x(self) -> float:
+        """How far east it is."""
+        return self.drone.body.position[0]
+
+    @property
+    def z(self) -> float:
+        """How high it is."""
+        return self.drone.body.position[2]

@@ -1,0 +1,224 @@
+"""The firmware's rules: what a simulated Crazyflie does, and what it does not."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from plutoc_runtime.crtp.air import Air
+from plutoc_runtime.crtp.faults import let
+from plutoc_runtime.crtp.ports import NULL, Port
+from tests.crtp.bench import CF1, Bench
+
+ARMED, CAN_FLY, FLYING, TUMBLED, LOCKED, CRASHED, ACTIVE, DONE = 1, 3, 4, 5, 6, 7, 8, 9
+BUSY, WRONG_STATE = 16, 1
+ZERO_SETPOINT = bytes(14)
+
+
+def test_it_takes_off_only_when_armed_and_answers_busy_before() -> None:
+    bench = Bench()
+    assert bench.takeoff() == BUSY
+    assert bench.arm()
+    assert bench.takeoff() == 0
+    bench.passes(3.0)
+    assert bench.z == pytest.approx(1.0, abs=0.03)
+    assert bench.has(FLYING) and bench.has(ACTIVE) and bench.has(DONE)
+
+
+def test_it_rises_smoothly_and_stays_near_its_way() -> None:
+    bench = Bench()
+    bench.arm()
+    bench.takeoff(1.0, 2.0)
+    heights = []
+    for _ in range(20):
+        bench.passes(0.1)
+        heights.append(bench.z)
+    assert heights[9] == pytest.approx(0.5, abs=0.03)
+    assert max(abs(place.at[0] - 1.0) for place in bench.record.places) < 0.03
+
+
+def test_arming_is_over_three_seconds_after_it_has_landed() -> None:
+    bench = Bench()
+    bench.up()
+    assert bench.land() == 0
+    bench.passes(2.1)
+    assert bench.z == 0.0 and not bench.has(ACTIVE) and bench.has(FLYING)
+    bench.passes(2.0)
+    assert not bench.has(FLYING) and bench.has(ARMED)
+    bench.passes(3.0)
+    assert not bench.has(ARMED)
+    assert bench.takeoff() == BUSY
+
+
+def test_arming_is_over_when_it_never_takes_off() -> None:
+    bench = Bench()
+    bench.arm()
+    bench.passes(29.0)
+    assert bench.has(ARMED)
+    bench.passes(2.0)
+    assert not bench.has(ARMED)
+
+
+def test_what_makes_no_sense_now_is_answered_so_and_changes_nothing() -> None:
+    bench = Bench()
+    bench.arm()
+    assert bench.land() == WRONG_STATE
+    bench.takeoff()
+    assert bench.takeoff(2.0) == WRONG_STATE
+    bench.passes(3.0)
+    assert bench.land() == 0
+    assert bench.land() == WRONG_STATE
+    bench.passes(2.1)
+    assert [deed.what for deed in bench.deeds].count("down") == 1
+
+
+def test_a_flight_that_is_broken_off_shoots_past_and_comes_back() -> None:
+    bench = Bench()
+    bench.up()
+    bench.go_to(5.0, 2.0, 1.0, 8.75)
+    bench.passes(4.4)
+    here = bench.x
+    assert bench.go_to(here, 2.0, 1.0, 1.0) == 0
+    farthest = here
+    for _ in range(15):
+        bench.passes(0.1)
+        farthest = max(farthest, bench.x)
+    assert 0.15 < farthest - here < 0.6
+    assert bench.x == pytest.approx(here, abs=0.04)
+
+
+def test_a_zero_setpoint_in_the_air_drops_and_locks_it() -> None:
+    bench = Bench()
+    bench.up()
+    bench.told(Port.SETPOINT, 0, ZERO_SETPOINT)
+    bench.passes(3.0)
+    assert bench.z == 0.0 and bench.has(LOCKED) and not bench.has(CAN_FLY)
+    assert any(deed.what == "setpoint" and deed.flying for deed in bench.deeds)
+    assert not bench.arm()
+
+
+@pytest.mark.parametrize(("seconds", "locks"), [(0.5, True), (1.2, True), (3.0, False)])
+def test_a_link_that_closes_soon_after_landing_locks_it(seconds: float, locks: bool) -> None:
+    bench = Bench()
+    bench.up()
+    bench.land(1.0)
+    bench.passes(1.01 + seconds)
+    bench.told(Port.SETPOINT, 0, ZERO_SETPOINT)
+    bench.passes(4.0)
+    assert bench.has(LOCKED) is locks
+
+
+def test_an_emergency_stop_locks_it_until_it_is_restarted() -> None:
+    bench = Bench()
+    bench.up()
+    bench.told(Port.SUPERVISOR, 1, b"\3")
+    bench.passes(2.0)
+    assert bench.z == 0.0 and bench.has(LOCKED)
+    let(bench.drone, _air(), "fetch", True)
+    bench.passes(1.5)
+    assert not bench.has(LOCKED) and bench.arm()
+
+
+def test_a_watchdog_that_is_fed_once_must_be_fed_on() -> None:
+    bench = Bench()
+    bench.up()
+    bench.told(Port.SUPERVISOR, 1, b"\4")
+    bench.passes(0.9)
+    assert not bench.has(LOCKED)
+    bench.passes(0.3)
+    assert bench.has(LOCKED)
+
+
+def test_nobody_who_talks_to_it_does_not_matter_to_a_drone_that_hovers() -> None:
+    bench = Bench()
+    bench.up()
+    bench.passes(60.0)
+    assert bench.z == pytest.approx(1.0, abs=0.03)
+
+
+def test_what_no_such_drone_can_follow_tumbles_it() -> None:
+    bench = Bench()
+    bench.up()
+    bench.go_to(4.0, 2.0, 1.0, 0.5)
+    bench.passes(2.0)
+    assert bench.has(TUMBLED) and bench.has(CRASHED) and bench.z == 0.0
+
+
+def test_a_tumbled_one_flies_again_once_it_stands_upright_and_has_recovered() -> None:
+    bench = Bench()
+    bench.up()
+    let(bench.drone, _air(), "tumble", True)
+    bench.passes(2.0)
+    assert bench.told(Port.SUPERVISOR, 1, b"\2") == b"\x82\0\0"
+    let(bench.drone, _air(), "place", [1.0, 2.0, 0.0])
+    bench.passes(0.1)
+    assert not bench.arm()
+    assert bench.told(Port.SUPERVISOR, 1, b"\2") == b"\x82\1\1"
+    assert bench.arm() and bench.takeoff() == 0
+
+
+def test_a_battery_sags_in_the_air_is_low_after_five_seconds_and_switches_off() -> None:
+    bench = Bench()
+    rest = bench.drone.battery.volts
+    bench.up()
+    assert rest - bench.drone.battery.volts == pytest.approx(0.3, abs=0.05)
+    let(bench.drone, _air(), "volts", 3.19)
+    bench.passes(4.0)
+    assert bench.drone.battery.state == 0
+    bench.passes(2.0)
+    assert bench.drone.battery.state == 3
+    bench.passes(60.0)
+    assert not bench.drone.on and bench.z == 0.0
+    assert bench.told(15, 0, b"hello") is None
+
+
+def test_a_pad_charges_what_stands_on_it() -> None:
+    bench = Bench(replace(CF1, level=0.5))
+    bench.passes(60.0)
+    assert bench.drone.battery.level == pytest.approx(0.55)
+    assert bench.drone.battery.state == 1
+
+
+def test_a_restart_in_the_air_lets_it_fall_and_say_nothing_for_a_while() -> None:
+    bench = Bench()
+    bench.up()
+    let(bench.drone, _air(), "restart", True)
+    assert bench.told(15, 0, b"hello") is None
+    bench.passes(1.1)
+    assert bench.z == 0.0 and bench.told(15, 0, b"hello") == b"hello"
+
+
+def test_a_drone_that_does_not_know_where_it_is_knows_while_it_is_told() -> None:
+    bench = Bench(replace(CF1, knows_where=False))
+    assert bench.drone.variance > 0.1
+    bench.told(Port.LOCALIZATION, 0, bytes(12))
+    assert bench.drone.variance < 0.001
+    bench.passes(0.7)
+    assert bench.drone.variance > 0.1
+
+
+def test_a_drone_that_is_busy_says_so_and_does_nothing() -> None:
+    bench = Bench()
+    bench.up()
+    let(bench.drone, _air(), "busy", True)
+    assert bench.go_to(3.0, 2.0, 1.0, 5.0) == BUSY
+    bench.passes(5.0)
+    assert bench.x == pytest.approx(1.0, abs=0.03)
+
+
+def test_whoever_looks_for_drones_is_answered() -> None:
+    bench = Bench()
+    bench.drone.receive(NULL, bench.now)
+    assert bench.sent[-1].port == 15 and not bench.sent[-1].data
+
+
+def test_a_fault_that_does_not_exist_is_refused_with_those_that_do() -> None:
+    with pytest.raises(ValueError, match="no such fault: there are silent, loss"):
+        let(Bench().drone, _air(), "meteorite", True)
+
+
+def _air() -> Air:
+    from random import Random
+
+    return Air(Random(1))
