@@ -20,6 +20,7 @@ _TAKEN_PACKAGES = frozenset(
         *("cflib", "starlette", "uvicorn", "pytest", "numpy", "scipy", "hatchling"),
         *("matplotlib", "websockets"),
         *("anyio", "click", "h11", "idna", "typing_extensions"),  # they need these
+        *("libusb_package", "packaging", "pyusb", "usb", "pyyaml", "yaml"),  # and cflib these
         *("pluto", "plutoc", "plutoc_runtime", "plutoc_blocks", "plutoc_grammar"),
         *("src", "tests", "test", "docs", "dist", "build", "setup", "conftest"),
     }

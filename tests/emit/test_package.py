@@ -10,6 +10,7 @@ import sys
 import tomllib
 from dataclasses import replace
 from hashlib import sha256
+from importlib.metadata import packages_distributions, requires
 from pathlib import Path
 
 import hypothesis.strategies as st
@@ -190,8 +191,22 @@ def test_no_app_has_the_name_of_what_its_extras_bring() -> None:
     project = tomllib.loads(package_of(PLAIN).owned["pyproject.toml"])["project"]
     needed = [one for extra in project["optional-dependencies"].values() for one in extra]
     names = [re.split("[<>=]", one)[0].replace("-", "_") for one in needed]
-    assert {"starlette", "uvicorn", "websockets", "matplotlib"} <= {*names}
+    assert {"starlette", "uvicorn", "websockets", "matplotlib", "cflib"} <= {*names}
     assert all(map(taken_app_name, names))
+
+
+def test_no_app_has_the_name_of_what_cflib_brings() -> None:
+    """Neither that under which it is installed, nor that under which it is imported."""
+    needed = [one for one in requires("cflib") or () if "extra ==" not in one]
+    names = [re.split("[^A-Za-z0-9_.-]", one)[0].lower() for one in needed]
+    imported = [
+        package
+        for package, installed in packages_distributions().items()
+        if not package.startswith("_") and {one.lower() for one in installed} & {*names}
+    ]
+    assert len(imported) >= len(names) >= 6
+    every = [name.replace("-", "_") for name in (*names, *imported)]
+    assert [name for name in every if taken_app_name(name) is None] == []
 
 
 SCRIPT = """
