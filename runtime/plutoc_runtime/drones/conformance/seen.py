@@ -1,0 +1,122 @@
+"""What can be read from looks at a drone: how far it moved, how fast, how often it told something."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+from math import cos, dist, hypot, sin
+from typing import TYPE_CHECKING
+
+from ...errors import Failure
+from .record import said
+
+if TYPE_CHECKING:
+    from ...model import Point
+    from .record import Record, Sample
+
+WINDOW = 0.5
+"""Seconds over which a speed is taken: positions are noisy."""
+MARGIN = 1.1
+_GROUND = 0.1
+"""Metres: so near to where it stood, motors may go off."""
+_KNOWN = tuple(failure.name for failure in Failure if failure is not Failure.UNKNOWN)
+
+
+def moved(samples: Sequence[Sample]) -> float:
+    """Return how far it ever was from where it was first."""
+    if not samples:
+        return 0.0
+    first = samples[0]
+    told = max(dist(one.telemetry.position, first.telemetry.position) for one in samples)
+    true = max(
+        dist(one.truth.position, first.truth.position) if one.truth and first.truth else 0.0
+        for one in samples
+    )
+    return max(told, true)
+
+
+def stands_still(samples: Sequence[Sample], tolerance: float) -> bool:
+    """Say whether it neither moved nor had its motors on."""
+    turned = any(one.telemetry.flying or (one.truth and one.truth.motors) for one in samples)
+    return moved(samples) <= tolerance and not turned
+
+
+def fell(record: Record, speed: float) -> bool:
+    """Say whether its motors went off in the air: higher than it can have sunk since the last look."""
+    looks = [
+        (
+            one.at,
+            one.truth.position[2] if one.truth else one.telemetry.position[2],
+            one.truth.motors if one.truth else one.telemetry.flying,
+        )
+        for one in record.samples
+    ]
+    ground = looks[0][1] + _GROUND if looks else 0.0
+    return any(
+        was_on and not is_on and height > ground + 1.5 * speed * (now - then)
+        for (then, height, was_on), (now, _, is_on) in pairwise(looks)
+    )
+
+
+def off_course(samples: Sequence[Sample], start: Point, along: Point) -> float:
+    """Return how far it ever was from a straight line."""
+    return max((_beside(one.telemetry.position, start, along) for one in samples), default=0.0)
+
+
+def _beside(point: Point, start: Point, along: Point) -> float:
+    way = [a - b for a, b in zip(point, start, strict=True)]
+    far = max(0.0, sum(a * b for a, b in zip(way, along, strict=True)))
+    return hypot(*(a - far * b for a, b in zip(way, along, strict=True)))
+
+
+def too_fast(samples: Sequence[Sample], speed: float, noise: float) -> float | None:
+    """Return how fast it was where that is above a limit; None: it never was."""
+    told = [one.telemetry for one in samples]
+    begin = 0
+    for end, now in enumerate(told):
+        while now.time - told[begin].time > WINDOW and told[begin + 1].time < now.time:
+            if now.time - told[begin + 1].time < WINDOW:
+                break
+            begin += 1
+        seconds, way = now.time - told[begin].time, dist(now.position, told[begin].position)
+        if end and way > speed * seconds * MARGIN + noise:
+            return way / seconds if seconds else way
+    return None
+
+
+def largest_gap(samples: Sequence[Sample]) -> float:
+    """Return the longest time in which it told nothing, by its own stamps."""
+    times = sorted({one.telemetry.time for one in samples})
+    if len(times) < 2:
+        return samples[-1].at - samples[0].at if samples else 0.0
+    return max(later - earlier for earlier, later in pairwise(times))
+
+
+def units_differ(samples: Sequence[Sample], tolerance: float) -> str | None:
+    """Return in what telemetry and truth differ, by more than a drone's own error; None: nothing."""
+    for one in samples:
+        if one.truth is None:
+            continue
+        position, yaw = one.telemetry.position, one.telemetry.yaw
+        off = dist(position, one.truth.position)
+        if off > tolerance:
+            return (
+                f"it says it is at {_written(position)} m, and is at "
+                f"{_written(one.truth.position)} m: which units, and which frame?"
+            )
+        if hypot(cos(yaw) - cos(one.truth.yaw), sin(yaw) - sin(one.truth.yaw)) > 0.3:
+            return f"it says its yaw is {yaw:.2f} rad, and it is {one.truth.yaw:.2f}"
+    return None
+
+
+def _written(point: Point) -> str:
+    return f"({', '.join(f'{value:.2f}' for value in point)})"
+
+
+def known_failures(record: Record) -> list[str]:
+    """Return what the commands raised that is no failure that the runtime knows."""
+    return [
+        f"{step.name} raised {said(step.error)}"
+        for step in record.steps.values()
+        if step.error is not None and getattr(step.error, "failure", None) not in _KNOWN
+    ]

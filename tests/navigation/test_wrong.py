@@ -1,0 +1,52 @@
+"""The kit finds what is wrong with a navigation, by the check that is named after it."""
+
+from __future__ import annotations
+
+import pkgutil
+from importlib import import_module
+from unittest import SkipTest
+
+import pytest
+
+from plutoc_runtime.drones import DroneNavigation
+from plutoc_runtime.drones.conformance import NavigationContract
+from tests.navigation import wrong
+from tests.navigation.simulated import Simulated, SimulatedContract, setup
+
+NAMES = [module.name for module in pkgutil.iter_modules(wrong.__path__)]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_wrong_navigation_is_found_by_the_check_that_names_it(name: str) -> None:
+    module = import_module(f"{wrong.__name__}.{name}")
+    made: type[Simulated] = module.Wrong
+    contract = type("Contract", (SimulatedContract,), {"navigation": made})()
+    with pytest.raises(AssertionError) as found:
+        getattr(contract, module.FOUND_BY)()
+    assert module.SAYS in str(found.value)
+
+
+class Bare(NavigationContract):
+    """An author who can neither silence a drone nor look at it."""
+
+    def make(self) -> DroneNavigation:
+        return Simulated(setup())
+
+
+@pytest.mark.parametrize(
+    ("check", "hook"),
+    [
+        ("test_a_drone_that_is_not_there_is_a_lost_link", "make_unreachable"),
+        ("test_a_drone_that_falls_silent_is_a_lost_link", "silence"),
+        ("test_a_drone_that_crashes_is_a_crash", "crash"),
+        ("test_nothing_but_emergency_stop_cuts_the_motors", "may_fall"),
+    ],
+)
+def test_what_cannot_be_tried_is_skipped_and_says_what_is_missing(check: str, hook: str) -> None:
+    with pytest.raises(SkipTest, match=hook):
+        getattr(Bare(), check)()
+
+
+def test_an_author_who_gives_nothing_is_told_what_to_give() -> None:
+    with pytest.raises(NotImplementedError, match="def make"):
+        NavigationContract().test_telemetry_is_fresh()
