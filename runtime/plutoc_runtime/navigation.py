@@ -115,6 +115,10 @@ class Navigation(Protocol):
         """Land here."""
         ...
 
+    def mended(self, drone: str) -> None:
+        """A person has looked after a lost drone: it can be recovered once more."""
+        ...
+
     async def recover(self, drone: str) -> bool:
         """Bring a drone home after a failed flight, landed; False: it is lost."""
         ...
@@ -122,6 +126,11 @@ class Navigation(Protocol):
     async def roll_call(self, drone: str) -> Standing:
         """Ask a drone where it is and what it has done; say so if it does not answer."""
         ...
+
+
+def motors_cut(drone: str) -> FlightFailed:
+    """Return how everything fails that a drone did when somebody had its motors cut."""
+    return FlightFailed(Failure.CRASH, f"{drone}'s motors were cut")
 
 
 def permitted_way(airspace: Airspace, drone: str, start: Point, end: Point) -> tuple[Point, ...]:

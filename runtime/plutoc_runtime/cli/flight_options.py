@@ -19,6 +19,7 @@ ACTIONS = (
     "prioritise",
     "retire",
     "bring-back",
+    "cut-motors",
 )
 """What a running app can be told."""
 
@@ -50,7 +51,8 @@ def add_flights(command: Command) -> None:
         "mission",
         metavar="MISSION",
         nargs="?",
-        help="which one; default: all, where that makes sense. For retire and bring-back: the drone",
+        help="which one; default: all, where that makes sense. For retire, bring-back and cut-motors:"
+        " the drone",
     )
     tell.add_argument(
         "trip",
@@ -66,6 +68,9 @@ def add_flights(command: Command) -> None:
         "--land", action="store_true", help="stop: land where the drones are (the default)"
     )
     how.add_argument("--rtl", action="store_true", help="stop: fly home first")
+    how.add_argument(
+        "--all", action="store_true", dest="everyone", help="cut-motors: those of all drones"
+    )
 
     decide = command("decide", "Say what only a person can know; alone, list what is asked.")
     decide.add_argument("journal", metavar="J", type=Path, help="the journal")

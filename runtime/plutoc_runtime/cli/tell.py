@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from ..asking import Ended, Nobody, Silent, ask, note_of
 from ..errors import BadInput
-from ..gateway.starting import stop_directly
+from ..gateway.starting import cut_directly, stop_directly
 from ..journal.errors import missing
 from ..journal.lock import holder
 from ..journal.place import gateway_folder
@@ -35,6 +35,8 @@ def tell(app: App, options: Options) -> int:
     request = _request(app, options)
     if options.action == "stop":
         output.line(_stop(app, options, request))
+    elif options.action == "cut-motors":
+        output.line(cut_motors(app, options.the_journal, options.mission))
     else:
         output.line(asked(app, options, request))
     return 0
@@ -95,6 +97,10 @@ def _wrong(options: Options) -> str:
         return "stop brings all drones down; to end one mission, cancel it, or pause it"
     if action == "skip" and mission is None:
         return "skip needs the name of a mission"
+    if action != "cut-motors" and options.everyone:
+        return f"--all goes with cut-motors, not with {action}"
+    if action == "cut-motors" and (mission is None) is not options.everyone:
+        return "cut-motors lets a drone fall: name the drone, or say --all"
     if action in ("retire", "bring-back") and mission is None:
         return f"{action} needs the name of a drone"
     if action == "prioritise" and (mission is None or trip is None or not priority):
@@ -127,3 +133,27 @@ def _stop(app: App, options: Options, request: dict[str, object]) -> str:
             raise Silent(f"{journal}: {app.name} runs, but has come to no drones: end it")
         stop_mark.leave(journal, how)  # it has only just begun: it shall not fly
         time.sleep(0.1)
+
+
+def cut_motors(app: App, journal: Path, drone: str | None) -> str:
+    """Switch motors off without asking the app: nothing that it does may hold that up."""
+    journal = Path(os.path.realpath(journal))
+    until = time.monotonic() + AT_ONCE
+    while True:
+        try:
+            return cut_directly(gateway_folder(journal), drone, PATIENCE)
+        except Nobody:
+            if time.monotonic() > until:
+                break
+        except Silent:
+            raise Silent(
+                f"{journal}: what commands the drones does not answer, so nobody can say whether"
+                " their motors are cut"
+            ) from None
+        time.sleep(0.05)  # it may have died this moment, and be started again
+    if not journal.exists():
+        raise missing(journal)
+    raise Nobody(
+        f"{journal}: nobody commands its drones, so no motor can be cut from here;"
+        f" {app.name} resume {in_shell(journal)} reaches them again"
+    )

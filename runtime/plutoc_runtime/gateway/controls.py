@@ -75,7 +75,14 @@ class Controls(Protocol):
         ...
 
     async def cut(self, drone: str) -> None:
-        """Switch its motors off now, wherever it is: only ever because a person said just that."""
+        """Switch its motors off now, wherever it is: only ever because a person said just that.
+
+        A command under way raises `FlightFailed`, and nothing is commanded any more until `mended`.
+        """
+        ...
+
+    def mended(self, drone: str) -> None:
+        """A person has looked after a lost drone: whatever had become of it, it may be asked anew."""
         ...
 
     async def reach(self, drone: str) -> bool:

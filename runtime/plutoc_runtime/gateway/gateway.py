@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from typing import TYPE_CHECKING
 
-from ..errors import BadInput
+from ..errors import BadInput, FlightFailed
 from ..kernel import FLEET, Cancelled, Kernel, Kind, Task
 from ..standing import Down, RollCall, Standing
 from .descent import Craft, Descent
@@ -21,7 +21,6 @@ from .pilots import Pilots
 
 if TYPE_CHECKING:
     from ..airspace import Airspace
-    from ..navigation import Navigation
     from .controls import Controls
     from .given import Report
     from .ledger import Ledger
@@ -46,7 +45,7 @@ class Gateway:
         patience: float | None = None,
     ) -> None:
         self.kernel = kernel
-        self.navigation: Navigation = Pilots(kernel, controls, drones, airspace)
+        self.navigation = Pilots(kernel, controls, drones, airspace)
         self.envelope = Envelope(airspace)
         self.drones, self._airspace, self._apart = tuple(drones), airspace, apart
         self._keys = {drone.id: FLEET + 1 + drone.index for drone in drones}
@@ -135,6 +134,14 @@ class Gateway:
         self.cut()
         for drone in self.drones:
             self.navigation.break_off(drone.id)
+
+    async def cut_motors(self, drone: str) -> str:
+        """Switch a drone's motors off now, whoever commands it; say why if it cannot be told."""
+        try:
+            await self.navigation.cut_motors(drone)
+        except FlightFailed as error:
+            return str(error)
+        return ""
 
     # All drones
 

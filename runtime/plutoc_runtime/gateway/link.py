@@ -100,6 +100,11 @@ class Link:
         """Land here."""
         await self._command(drone, self._navigation.land(drone))
 
+    def mended(self, drone: str) -> None:
+        """A person has looked after a lost drone: it can be recovered once more."""
+        if self._is_heard:
+            self._navigation.mended(drone)
+
     async def recover(self, drone: str) -> bool:
         """Bring a drone home after a failed flight."""
         return await self._command(drone, self._gateway.recover(drone))

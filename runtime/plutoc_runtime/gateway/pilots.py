@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from ..energy import docked, flight_seconds
 from ..errors import Failure, FlightFailed
 from ..kernel import FLEET, Cancelled, Kernel, Task
-from ..navigation import permitted_way
+from ..navigation import motors_cut, permitted_way
 
 if TYPE_CHECKING:
     from ..airspace import Airspace
@@ -31,6 +31,8 @@ class Pilots:
         """The jobs under way, by the drones' ids."""
         self._rescues: dict[str, Task[bool]] = {}
         """The latest rescue of each drone."""
+        self._cut: dict[str, None] = {}
+        """The drones whose motors were cut: nothing is asked of them until they are mended."""
 
     def telemetry(self, drone: str) -> Telemetry:
         """Return what is known of a drone; the value stays current."""
@@ -49,12 +51,13 @@ class Pilots:
         try:
             result = await self._flown(job)
         except FlightFailed as error:
-            result = error
+            result = motors_cut(job.drone) if job.drone in self._cut else error
         del self._jobs[job.drone]
         report(result)
 
     async def _flown(self, job: Job) -> object:
         controls, airspace, drone = self._controls, self._airspace, job.drone
+        self._refuse_if_cut(drone)
         self._check(job)
         telemetry = controls.telemetry(drone)
         category = self._drones[drone].category
@@ -83,23 +86,28 @@ class Pilots:
         for task in (self._jobs.pop(drone, None), self._rescues.pop(drone, None)):
             if task is not None:
                 task.cancel()
-        self._controls.break_off(drone)
+        if drone not in self._cut:
+            self._controls.break_off(drone)
 
     async def hold(self, drone: str) -> None:
         """Hover, for as long as an action of the app's own takes; never returns by itself."""
+        self._refuse_if_cut(drone)
         await self._controls.hold(drone)
 
     async def takeoff(self, drone: str, height: float) -> None:
         """Rise to a height; does nothing for a drone that flies."""
+        self._refuse_if_cut(drone)
         self._controls.begins(drone, None, 0.0)
         await self._controls.takeoff(drone, height)
 
     async def go_to(self, drone: str, target: Point) -> None:
         """Fly straight to a point."""
+        self._refuse_if_cut(drone)
         await self._controls.go_to(drone, target)
 
     async def land(self, drone: str) -> None:
         """Land here."""
+        self._refuse_if_cut(drone)
         await self._controls.land(drone)
 
     async def read(self, drone: str, name: str) -> float:
@@ -110,15 +118,30 @@ class Pilots:
         """Set what a drone has under this name."""
         await self._controls.write(drone, name, value)
 
-    async def cut(self, drone: str) -> None:
-        """Switch a drone's motors off now, wherever it is."""
-        await self._controls.cut(drone)
+    async def cut_motors(self, drone: str) -> None:
+        """Switch a drone's motors off now, wherever it is; it is lost then."""
+        self._cut[drone] = None
+        try:
+            await self._controls.cut(drone)
+        except FlightFailed:  # it cannot be told: if it can later on, it shall come home
+            del self._cut[drone]
+            raise
+
+    def _refuse_if_cut(self, drone: str) -> None:
+        """Let no motor turn again before a person has looked after the drone."""
+        if drone in self._cut:
+            raise motors_cut(drone)
 
     async def roll_call(self, drone: str) -> Standing:
         """Ask a drone where it is and what it has done; say so if it does not answer."""
         return await self._controls.roll_call(drone)
 
     # After a failure
+
+    def mended(self, drone: str) -> None:
+        """A person has looked after a lost drone: it may be asked again."""
+        self._cut.pop(drone, None)
+        self._controls.mended(drone)
 
     async def recover(self, drone: str) -> bool:
         """Bring a drone home after a failed flight, landed; False: it is lost.
@@ -139,7 +162,7 @@ class Pilots:
 
     async def _rescue(self, drone: str) -> bool:
         controls = self._controls
-        if not await controls.reach(drone):
+        if drone in self._cut or not await controls.reach(drone):
             return False
         if not await self._flies_home(drone) and not await controls.fetched(drone):
             return False

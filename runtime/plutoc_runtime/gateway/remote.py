@@ -216,6 +216,10 @@ class RemoteLink:
         """Land here."""
         await self._ask(do="land", drone=drone)
 
+    def mended(self, drone: str) -> None:
+        """A person has looked after a lost drone: it can be recovered once more."""
+        self._say({"do": "mended", "drone": drone})
+
     async def recover(self, drone: str) -> bool:
         """Bring a drone home after a failed flight."""
         return bool(await self._ask(do="recover", drone=drone))

@@ -1,13 +1,13 @@
 """Lets a brain in another process command through the gateway; whatever it says, nothing breaks.
 
-One connection is one link. Who has not linked may only say `stop`: whoever may open the socket may
-land the drones, whether the brain answers or not.
+One connection is one link. Who has not linked may only say `stop` and `cut-motors`: whoever may open
+the socket may land the drones, whether the brain answers or not.
 """
 
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Coroutine
+from collections.abc import Callable, Coroutine, Sequence
 from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING, Any
@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 from ..errors import BadInput, FlightFailed
 from ..kernel import FLEET, Cancelled, Task
 from ..standing import Down
-from ..words import shown
+from ..words import quoted, shown
 from .link import Busy
 from .requests import asked
 from .wire import (
@@ -168,6 +168,10 @@ class Connection:
                 self._gateway.fail_safe(Down(how))
                 self._server.say(f"told to bring all drones down ({how}), not by the brain")
                 self._tell({"ok": True, "said": "the drones come down"})
+            case {"do": "cut-motors", "drone": str(drone)}:
+                self._cut_motors([self._in_the_fleet(drone)])
+            case {"do": "cut-motors", "all": True}:
+                self._cut_motors([drone.id for drone in self._gateway.drones])
             case {"do": "link", "epoch": int(epoch)} if self.link is None:
                 self._link(epoch)
             case {"do": "link"} if self.link is not None:
@@ -178,6 +182,32 @@ class Connection:
                 pass  # it was on its way
             case _:
                 raise BadInput("this gateway does not know that message")
+
+    def _cut_motors(self, drones: Sequence[str]) -> None:
+        """Switch motors off, at once; answer when that is done."""
+        self._server.say(f"told to cut the motors of {', '.join(drones)}")
+        spawn, cut = self._gateway.kernel.spawn, self._gateway.cut_motors
+        tasks = [spawn(cut(drone), FLEET, f"{drone}'s motors are cut") for drone in drones]
+        spawn(self._say_what_is_cut(drones, tasks), FLEET, "motors are cut")
+
+    async def _say_what_is_cut(self, drones: Sequence[str], tasks: Sequence[Task[str]]) -> None:
+        done, not_done = [], []
+        for drone, task in zip(drones, tasks, strict=True):
+            why = await task
+            if why:
+                not_done.append(f"{drone} could not be told to: {why}")
+            else:
+                done.append(drone)
+        said = [f"the motors of {', '.join(done)} are cut"] if done else []
+        self._server.say("; ".join((*said, *not_done)))
+        self._tell({"ok": not not_done, "said": "; ".join((*said, *not_done))})
+
+    def _in_the_fleet(self, drone: str) -> str:
+        names = [one.id for one in self._gateway.drones]
+        if drone not in names:
+            known = ", ".join(map(quoted, names))
+            raise BadInput(f"no drone {quoted(drone)} is in the fleet; there are: {known}")
+        return drone
 
     def _link(self, epoch: int) -> None:
         self.link = self._gateway.link(epoch, self._lost)
@@ -210,6 +240,8 @@ class Connection:
                     report(error.as_failure)
             case "break_off":
                 link.break_off(self._known(message["drone"]))
+            case "mended":
+                link.mended(self._known(message["drone"]))
             case "attach":
                 link.attach(str(message["id"]), partial(self._report, int(message["n"])))
             case "forget":

@@ -134,6 +134,15 @@ def stop_directly(folder: Path, how: Down, patience: float) -> str:
     return ask(folder / NOTE, {"do": "stop", "how": how.value}, patience)
 
 
+def cut_directly(folder: Path, drone: str | None, patience: float) -> str:
+    """Switch a drone's motors off, or with None those of all; return what the gateway says.
+
+    Raises `BadInput`, as `ask` does, if there is no gateway, or it says nothing in these seconds.
+    """
+    which = {"all": True} if drone is None else {"drone": drone}
+    return ask(folder / NOTE, {"do": "cut-motors", **which}, patience)
+
+
 def _end(folder: Path) -> None:
     """Kill a gateway that hangs: it flies nothing any more, and another one can."""
     with suppress(OSError), (folder / LOCK).open("rb") as lock:

@@ -68,6 +68,10 @@ class Careful:
         """Land here."""
         await self._link.land(drone)
 
+    def mended(self, drone: str) -> None:
+        """A person has looked after a lost drone."""
+        self._link.mended(drone)
+
     async def recover(self, drone: str) -> bool:
         """Bring a drone home after a failed flight."""
         return await self._link.recover(drone)

@@ -212,12 +212,15 @@ class Body:
         self.carries = None
         self._changed()
 
-    def befall(self, now: float, what: Failure) -> bool:
+    def befall(self, now: float, what: Failure, why: str | None = None) -> bool:
         """Let something go wrong at this moment; False: it took no commands before."""
         self.settle(now)
         if self.down is not None:
             return False
         self._happen(now, what)
+        if why is not None:
+            self.down = FlightFailed(what, why)
+            self._changed()
         return True
 
     # What comes to pass by itself

@@ -11,6 +11,7 @@ from ..actions import BUILT_IN, PICK, RELEASE, Plain
 from ..energy import CLIMB_SPEED
 from ..errors import Failure, FlightFailed
 from ..kernel import Kernel, Kind
+from ..navigation import motors_cut
 from ..signals import Signal
 from ..words import place
 from .body import Body, SimulatedDrone
@@ -65,10 +66,10 @@ class SimulatedNavigation:
         """Return how many metres a drone has flown, up and down included."""
         return self.bodies[drone].flown
 
-    def strike(self, drone: str, failure: Failure) -> bool:
+    def strike(self, drone: str, failure: Failure, why: str | None = None) -> bool:
         """Let a crash, an empty battery or a lost link happen now; False: it was down already."""
         body = self.bodies[drone]
-        if not body.befall(self._kernel.now, failure):
+        if not body.befall(self._kernel.now, failure, why):
             return False
         self._interrupt(body, FlightFailed(failure, str(body.down)))
         return True
@@ -179,9 +180,16 @@ class SimulatedNavigation:
         self._in_the_air(drone).settings[name] = value
 
     async def cut(self, drone: str) -> None:
-        """Switch its motors off: it falls, if it flies."""
-        if not self.bodies[drone].landed:
-            self.strike(drone, Failure.CRASH)
+        """Switch its motors off: it falls, if it flies, and turns them on for nobody."""
+        cut = motors_cut(drone)
+        self.strike(drone, cut.failure, str(cut))
+
+    def mended(self, drone: str) -> None:
+        """Somebody has repaired it, put it into its dock and switched it on."""
+        body = self.bodies[drone]
+        if body.down is not None:
+            body.reboot()
+            body.dock(self._kernel.now)
 
     async def land(self, drone: str) -> None:
         """Land here; does nothing for a drone that stands on the ground."""

@@ -101,6 +101,10 @@ class Radio:
         """Switch its motors off."""
         await self._controls.cut(drone)
 
+    def mended(self, drone: str) -> None:
+        """A person has looked after a lost drone."""
+        self._controls.mended(drone)
+
     async def reach(self, drone: str) -> bool:
         """Wait, after a failed flight, until a drone takes commands again."""
         return await self._sent(drone, partial(self._controls.reach, drone))

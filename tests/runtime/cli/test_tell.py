@@ -13,22 +13,24 @@ import pytest
 from plutoc_runtime.asking import note_of
 from plutoc_runtime.cli import stop_mark
 from plutoc_runtime.errors import BadInput
+from plutoc_runtime.gateway.process import NOTE
 from plutoc_runtime.journal.lock import Lock
+from plutoc_runtime.journal.place import gateway_folder
 from plutoc_runtime.remote_control import listening
 from plutoc_runtime.standing import Down
 from tests.runtime.cli.conftest import Command
 
 
 @contextmanager
-def running(journal: Path, answer: Callable[[Mapping[str, object]], str]) -> Iterator[None]:
-    """Let an app listen in a thread of its own."""
+def running(note: Path, answer: Callable[[Mapping[str, object]], str]) -> Iterator[None]:
+    """Let an app, or its gateway, listen in a thread of its own."""
     ready, over = Event(), Event()
 
     async def answered(request: Mapping[str, object]) -> str:
         return answer(request)
 
     async def listen() -> None:
-        async with listening(note_of(journal), answered):
+        async with listening(note, answered):
             ready.set()
             await asyncio.to_thread(over.wait)
 
@@ -69,16 +71,48 @@ def test_each_command_arrives_and_the_answer_is_printed(
         heard.append(request)
         return "so be it"
 
-    with running(journal, answer):
+    with running(note_of(journal), answer):
         assert command("tell", journal, *words.split()) == (0, "so be it\n", "")
     assert heard == [request_]
+
+
+@pytest.mark.parametrize(
+    ("words", "request_"),
+    [
+        (["cf1"], {"do": "cut-motors", "drone": "cf1"}),
+        (["--all"], {"do": "cut-motors", "all": True}),
+    ],
+)
+def test_motors_are_cut_by_the_gateway_without_a_word_to_the_app(
+    words: list[str], request_: object, journal: Path, command: Command
+) -> None:
+    """A hook may keep the app busy; and nothing is asked back."""
+    heard = []
+
+    def answer(request: Mapping[str, object]) -> str:
+        heard.append(request)
+        return "they are cut"
+
+    with running(gateway_folder(journal) / NOTE, answer):
+        assert command("tell", journal, "cut-motors", *words) == (0, "they are cut\n", "")
+    assert heard == [request_]
+    assert stop_mark.found(journal) is None
+
+
+def test_where_nobody_commands_drones_no_motor_is_cut(journal: Path, command: Command) -> None:
+    """That is said, and how to reach them."""
+    journal.touch()
+    code, _, err = command("tell", journal, "cut-motors", "--all")
+    assert code == 2
+    assert "nobody commands its drones, so no motor can be cut from here" in err
+    assert "resume" in err
 
 
 def test_a_refusal_is_exit_2(journal: Path, command: Command) -> None:
     def answer(request: Mapping[str, object]) -> str:
         raise BadInput("there is no mission East")
 
-    with running(journal, answer):
+    with running(note_of(journal), answer):
         said = command("tell", journal, "pause", "East")
     assert said == (2, "", "there is no mission East\n")
 
@@ -95,6 +129,10 @@ def test_a_refusal_is_exit_2(journal: Path, command: Command) -> None:
         ("skip North A --to 3", "--to goes with prioritise, not with skip"),
         ("pause --rtl", "--land and --rtl go with stop, not with pause"),
         ("stop --rtl --land", "not allowed with argument"),
+        ("cut-motors", "name the drone, or say --all"),
+        ("cut-motors cf1 --all", "name the drone, or say --all"),
+        ("cut-motors cf1 A", "cut-motors takes no trip"),
+        ("stop --all", "--all goes with cut-motors, not with stop"),
         ("dance", "invalid choice: 'dance'"),
     ],
 )
@@ -134,7 +172,7 @@ def test_nobody_is_told_that_no_drone_flies_for_a_wrong_name(
 
 def test_a_stop_is_kept_for_whoever_starts_the_app_again(journal: Path, command: Command) -> None:
     """It may crash while its drones come down."""
-    with running(journal, lambda request: "stopping"):
+    with running(note_of(journal), lambda request: "stopping"):
         assert command("tell", journal, "stop", "--rtl") == (0, "stopping\n", "")
         assert stop_mark.found(journal) is Down.HOME
 
@@ -161,7 +199,7 @@ def test_an_app_that_has_only_just_begun_is_stopped_before_it_flies(
 
     def begin() -> None:
         left.wait()
-        with running(journal, answer):
+        with running(note_of(journal), answer):
             over.wait()
 
     monkeypatch.setattr(stop_mark, "leave", leave_and_tell)
