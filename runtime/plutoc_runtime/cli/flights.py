@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from contextlib import closing, suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -167,13 +167,20 @@ async def lives(
 
 async def _real(flight: Flight, folder: Path) -> RealFleet:
     """Return how the drones are flown; simulated Crazyflies are there when this returns."""
-    uris: Mapping[str, str] = {}
-    if flight.crtp:
-        from ..crtp.process import start  # few want them
+    real = real_fleet(flight.fleet, flight.missions)
+    if not flight.crtp:
+        return real
+    from ..crtp.process import start  # few want them
+    from ..crtp.stand_in import fitted
 
-        homes = {drone.id: drone.home for drone in flight.fleet.drones}
-        uris = await asyncio.to_thread(start, folder, homes)
-    return real_fleet(flight.fleet, flight.missions, uris)
+    homes = {drone.id: drone.home for drone in flight.fleet.drones}
+    uris = await asyncio.to_thread(start, folder, homes)
+    options = await asyncio.to_thread(fitted, folder, real.wanted)
+    drones = (
+        replace(drone, uri=uris[drone.id], options={**options, **drone.options})
+        for drone in real.drones
+    )
+    return replace(real, drones=tuple(drones))
 
 
 def supervised(app: App, options: Options, journal: Path, first: Sequence[str] | None) -> int:

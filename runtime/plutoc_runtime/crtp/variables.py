@@ -112,6 +112,7 @@ def variables(drone: SimulatedCrazyflie) -> Mapping[str, tuple[str, Callable[[],
         "range.right": ("H", lambda: _FAR * 1000.0),
         "range.up": ("H", lambda: _FAR * 1000.0),
         "range.zrange": ("H", lambda: min(_FAR, body.position[2]) * 1000.0),
+        "sim.measured": ("f", lambda: temperature(body.position)),
         "gripper.holds": ("B", lambda: drone.parameters["gripper.closed"]),
     }
 
