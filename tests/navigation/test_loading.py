@@ -1,0 +1,150 @@
+"""A navigation is found by its name, and looked at before anything flies."""
+
+from __future__ import annotations
+
+import asyncio
+from pathlib import Path
+
+import pytest
+
+from plutoc_runtime.drones.loading import (
+    load_localization,
+    load_navigation,
+    make_localization,
+    make_navigation,
+)
+from plutoc_runtime.errors import BadInput
+from tests.navigation import classes
+from tests.navigation.simulated import setup
+
+HERE = classes.__name__
+
+
+def refused(name: str) -> str:
+    """Return why a name is no navigation."""
+    with pytest.raises(BadInput) as error:
+        load_navigation(name)
+    return str(error.value)
+
+
+def offered(folder: Path, package: str, group: str, lines: str) -> None:
+    """Install a package that offers something."""
+    info = folder / f"{package.replace('-', '_')}-1.0.dist-info"
+    info.mkdir()
+    (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {package}\nVersion: 1.0\n")
+    (info / "entry_points.txt").write_text(f"[{group}]\n{lines}\n")
+
+
+@pytest.mark.parametrize("name", ["Good", "Late", "Holder.Inner"])
+def test_a_class_is_named_by_its_module(name: str) -> None:
+    found = load_navigation(f"{HERE}:{name}")
+    assert getattr(found, "__qualname__", None) == name
+
+
+def test_a_package_offers_a_class_by_an_entry_point(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    offered(tmp_path, "pluto-wren", "plutoc.navigations", f"wren = {HERE}:Good")
+    offered(tmp_path, "pluto-eyes", "plutoc.localizations", f"eyes = {HERE}:Cameras")
+    monkeypatch.syspath_prepend(tmp_path)
+    assert load_navigation("wren") == classes.Good
+    assert load_localization("eyes") == classes.Cameras
+
+
+def test_of_two_packages_that_offer_one_name_neither_is_chosen(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    offered(tmp_path, "pluto-one", "plutoc.navigations", f"twin = {HERE}:Good")
+    offered(tmp_path, "pluto-two", "plutoc.navigations", f"twin = {HERE}:Late")
+    monkeypatch.syspath_prepend(tmp_path)
+    assert refused("twin") == (
+        'several installed packages offer a navigation "twin": name the class itself, one of '
+        f'"{HERE}:Good", "{HERE}:Late"'
+    )
+
+
+def test_a_name_that_nobody_offers_is_told_with_those_that_are(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    offered(tmp_path, "pluto-wren", "plutoc.navigations", f"parakeet = {HERE}:Good")
+    monkeypatch.syspath_prepend(tmp_path)
+    assert refused("parakete").startswith(
+        'no navigation "parakete" is installed; did you mean "parakeet"? there is: '
+    )
+    with pytest.raises(BadInput, match="no localization"):
+        load_localization("lighthouse")
+
+
+def test_a_module_must_be_installed() -> None:
+    assert "PYTHONPATH" in refused("no_such_module_here:Drone")
+    assert '"tests.navigation.nowhere"' in refused("tests.navigation.nowhere:Drone")
+
+
+@pytest.mark.parametrize(
+    ("text", "why"),
+    [
+        ("import no_such_library", 'needs "no_such_library": install it with pip'),
+        ("1 / 0", "cannot be imported: ZeroDivisionError"),
+        ("import sys; sys.exit(3)", "cannot be imported: SystemExit: 3"),
+    ],
+)
+def test_what_a_module_raises_is_told(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, text: str, why: str
+) -> None:
+    (tmp_path / "broken_drones.py").write_text(text)
+    monkeypatch.syspath_prepend(tmp_path)
+    assert why in refused("broken_drones:Drone")
+
+
+@pytest.mark.parametrize(
+    ("name", "why"),
+    [
+        ("Goot", 'its module has no class "Goot"; did you mean "Good"?'),
+        ("Holder.Outer", 'has no class "Outer"'),
+        ("NUMBER", "is no class"),
+        ("setup()", "write module:Class"),
+        ("", "write module:Class"),
+    ],
+)
+def test_what_is_named_must_be_a_class(name: str, why: str) -> None:
+    assert why in refused(f"{HERE}:{name}")
+
+
+def test_everything_that_a_class_lacks_is_told_at_once() -> None:
+    assert refused(f"{HERE}:Lazy").partition(" cannot be used: ")[2].split("; ") == [
+        "it cannot be made: its __init__ must take (setup)",
+        "its connect must be `async def`",
+        "its takeoff cannot be called so: it takes (height, speed)",
+        "it has no method go_to",
+        "its land is no method",
+        "its telemetry must be a property: put @property above it",
+        "its events must be an async generator, or `def` and return an async iterator",
+    ]
+
+
+def test_half_of_what_belongs_together_is_not_enough() -> None:
+    assert "it has act but no why_not: both belong together" in refused(f"{HERE}:Half")
+
+
+def test_a_localization_is_looked_at_too() -> None:
+    with pytest.raises(BadInput, match=r"__init__ must take .options.; its positions must be"):
+        load_localization(f"{HERE}:Blind")
+    made = make_localization(f"{HERE}:Cameras", {"port": 5000})
+    assert isinstance(made, classes.Cameras) and made.options == {"port": 5000}
+
+
+def test_what_cannot_be_made_says_whose_it_is() -> None:
+    with pytest.raises(BadInput, match="could not be made for cf1: ValueError: radio = 3"):
+        make_navigation(f"{HERE}:Choosy", setup())
+
+
+def test_nothing_is_called_of_what_is_only_looked_at() -> None:
+    """A class that cannot be made can still be looked at."""
+    assert load_navigation(f"{HERE}:Choosy") == classes.Choosy
+
+
+def test_what_is_made_is_made_of_the_setup() -> None:
+    async def made() -> object:
+        return make_navigation(f"{HERE}:Good", setup())
+
+    assert isinstance(asyncio.run(made()), classes.Good)
