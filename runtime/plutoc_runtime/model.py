@@ -61,6 +61,8 @@ class Photo:
     """What can be made out on it, such as `bloom` or `pest`."""
     sharpness: float = 1.0
     """From 0, useless, to 1."""
+    file: str | None = None
+    """Where the picture itself is kept; a simulated camera takes none."""
 
 
 class AfterTrip(Enum):

@@ -109,15 +109,16 @@ def value_data(value: object) -> object:
         case float():
             return value if isfinite(value) else {"$number": repr(value)}
         case Photo():
-            return {
-                "$photo": {
-                    "position": list(value.position),
-                    "width": value.width,
-                    "height": value.height,
-                    "sees": list(value.sees),
-                    "sharpness": value.sharpness,
-                }
+            photo: Data = {
+                "position": list(value.position),
+                "width": value.width,
+                "height": value.height,
+                "sees": list(value.sees),
+                "sharpness": value.sharpness,
             }
+            if value.file is not None:  # journals from before know no such thing
+                photo["file"] = value.file
+            return {"$photo": photo}
         case list():
             return [value_data(element) for element in value]
         case tuple():
@@ -154,6 +155,7 @@ def _photo_of(photo: Mapping[str, Any]) -> Photo:
         height=photo["height"],
         sees=tuple(photo["sees"]),
         sharpness=photo["sharpness"],
+        file=photo.get("file"),
     )
 
 

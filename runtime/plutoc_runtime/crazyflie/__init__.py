@@ -1,0 +1,1 @@
+"""Crazyflies, flown through cflib: an optional package, imported when a radio is opened."""

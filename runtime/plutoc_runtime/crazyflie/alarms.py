@@ -1,0 +1,51 @@
+"""What happens to a Crazyflie that nobody has asked for, found in what it tells of itself."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from ..drones.telemetry import BATTERY_LOW, CRASHED, LOCKED, DroneEvent
+from . import words
+from .state import LOW_POWER
+
+if TYPE_CHECKING:
+    from .state import State
+
+LOW = 3.2
+"""Volts in the air. At 3.0 it switches itself off."""
+LONG = 3.0
+"""Seconds that it must be so: a burst of the motors costs volts, too."""
+_WELL = 3.5
+"""Volts at which a battery counts as another one, or as charged."""
+
+
+class Alarms:
+    """What has been told already: each thing is told once, when it begins."""
+
+    def __init__(self) -> None:
+        self._crashed = self._locked = self._low = False
+        self._low_since: float | None = None
+
+    def hear(self, state: State) -> Iterator[DroneEvent]:
+        """Yield what has happened since the last state."""
+        if state.crashed and not self._crashed:
+            yield DroneEvent(kind=CRASHED, reason=words.LIES)
+        if state.locked and not self._locked:
+            yield DroneEvent(kind=LOCKED, reason=words.IS_LOCKED)
+        self._crashed, self._locked = state.crashed, state.locked
+        if self._battery_low(state):
+            yield DroneEvent(kind=BATTERY_LOW, reason=words.low(state.volts))
+
+    def _battery_low(self, state: State) -> bool:
+        """Say whether it has just become so low that it must come down."""
+        if state.power != LOW_POWER and not 0.0 < state.volts < LOW:
+            self._low_since = None
+            self._low = self._low and state.volts < _WELL
+            return False
+        if self._low_since is None:
+            self._low_since = state.time
+        if self._low or state.time - self._low_since < LONG:
+            return False
+        self._low = True
+        return True

@@ -1,0 +1,76 @@
+"""How full a battery is, by its volts: at rest by its curve, in the air by what flying costs.
+
+Under load a small battery shows some tenths of a volt less than it has, and much less than that would
+mean at rest. What it loses is measured anew at each take-off, as batteries get older.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from statistics import fmean
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from .state import State
+
+# One lithium cell at rest.
+_VOLTS = (3.27, 3.61, 3.69, 3.73, 3.77, 3.80, 3.84, 3.87, 3.95, 4.02, 4.11, 4.18)
+_LEVELS = (0.0, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0)
+
+_USUAL, _LEAST, _MOST = 0.3, 0.05, 0.6
+"""Volts that hovering costs, until it has been measured; what it can be at all."""
+_SETTLED, _MEASURED = 1.0, 3.0
+"""Seconds after leaving the ground, between which it is measured."""
+_SMOOTH = 2.0
+"""Seconds over which volts in the air are averaged."""
+
+
+def level_at_rest(volts: float) -> float:
+    """Return what is left in it, from 0 to 1."""
+    at = bisect_right(_VOLTS, volts)
+    if at == 0:
+        return 0.0
+    if at == len(_VOLTS):
+        return 1.0
+    share = (volts - _VOLTS[at - 1]) / (_VOLTS[at] - _VOLTS[at - 1])
+    return _LEVELS[at - 1] + share * (_LEVELS[at] - _LEVELS[at - 1])
+
+
+class Battery:
+    """What is left in one drone's battery."""
+
+    def __init__(self) -> None:
+        self.level = 0.0
+        """From 0 to 1."""
+        self.rest: float | None = None
+        """Its volts without load, as they were last; None: not measured yet."""
+        self._sag, self._sags = _USUAL, list[float]()
+        self._smooth: float | None = None
+        self._time = self._since = 0.0
+        self._flew = False
+
+    def hear(self, state: State) -> None:
+        """It told how it is."""
+        if not state.volts > 0.0:
+            return
+        passed, self._time = state.time - self._time, state.time
+        if not state.flies:
+            self.rest, self._flew, self._smooth = state.volts, False, None
+            self.level = level_at_rest(state.volts)
+            return
+        if not self._flew:
+            self._flew, self._since, self._sags = True, state.time, []
+        if self._smooth is None:
+            self._smooth = state.volts
+        share = min(1.0, passed / _SMOOTH)
+        self._smooth += (state.volts - self._smooth) * share
+        self._measure(state)
+        if self.rest is None or state.time - self._since > _MEASURED:
+            self.level = level_at_rest(self._smooth + self._sag)
+
+    def _measure(self, state: State) -> None:
+        """Learn what flying costs, in the first seconds of a flight."""
+        if self.rest is None or not _SETTLED <= state.time - self._since <= _MEASURED:
+            return
+        self._sags.append(self.rest - state.volts)
+        self._sag = min(_MOST, max(_LEAST, fmean(self._sags)))

@@ -1,0 +1,125 @@
+"""Commands that surely arrive: each is acknowledged, and sent again until it is.
+
+Twice is no harm: a course to a place is the same course, a landing goes on, and a take-off is refused
+by a drone that has begun one, which is then seen by its state.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from ..drones.errors import LinkLost, NotReady, Rejected
+from . import words
+from .borrowed import HIGH_LEVEL, SUPERVISOR
+
+if TYPE_CHECKING:
+    from .borrowed import Cf
+    from .session import Session
+    from .state import State
+
+_ACKNOWLEDGED = 0.25
+"""Seconds until an answer is given up; over the radio it comes within ten milliseconds."""
+_TIMES = 8
+_ARM, _TAKEOFF, _LAND, _GO_TO = 1, 7, 8, 12
+_DONE, _WRONG_STATE, _BLOCKED = 0, 1, 16
+_SEEN, _ARMED = 0.6, 3.0
+"""Seconds until a course that was begun shows in what it tells, and until it is armed."""
+
+
+async def arm(session: Session, on: bool) -> None:
+    """Arm the motors, and see that it is so; raise `NotReady` if it will not."""
+    key = (SUPERVISOR, _ARM)
+
+    def send(cf: Cf) -> None:
+        cf.supervisor.send_arming_request(on)
+
+    def done(state: State) -> bool:
+        return state.can_fly if on else not state.armed
+
+    answer = await _answered(session, key, send, "arm")
+    if answer[1:2] == b"\0" or await session.until(done, _ARMED) is None:
+        raise NotReady(words.not_armed(session.drone, session.now().said))
+
+
+async def takeoff(session: Session, height: float, seconds: float) -> None:
+    """Begin to rise, the nose where it points."""
+
+    def begin(cf: Cf) -> None:
+        cf.high_level_commander.takeoff(height, seconds, yaw=None)
+
+    def begun(state: State) -> bool:
+        return state.steered
+
+    key = (HIGH_LEVEL, _TAKEOFF)
+    for _ in range(3):
+        code = (await _answered(session, key, begin, "takeoff"))[3]
+        if code == _WRONG_STATE and await session.until(begun, _SEEN) is not None:
+            return  # it was the answer to the same command, sent twice
+        _check(session, "takeoff", code)
+        if await session.until(begun, _SEEN) is not None:
+            return
+    raise LinkLost(words.not_begun(session.drone, "takeoff"))
+
+
+async def land(session: Session, seconds: float) -> None:
+    """Begin to come down, the nose where it points."""
+
+    def begin(cf: Cf) -> None:
+        cf.high_level_commander.land(0.0, seconds, yaw=None)
+
+    _check(session, "land", (await _answered(session, (HIGH_LEVEL, _LAND), begin, "land"))[3])
+
+
+async def go_to(
+    session: Session, target: tuple[float, float, float], seconds: float, near: float
+) -> None:
+    """Begin to fly to a place, the nose where it points.
+
+    An answer may be to an earlier such command, sent twice: only that it moves shows that this one
+    has arrived.
+    """
+    x, y, z = target
+    yaw = session.now().yaw
+
+    def begin(cf: Cf) -> None:
+        cf.high_level_commander.go_to(x, y, z, yaw, seconds)
+
+    def begun(state: State) -> bool:
+        return not state.finished or state.distance(target) < near
+
+    for _ in range(3):
+        code = (await _answered(session, (HIGH_LEVEL, _GO_TO), begin, "go_to"))[3]
+        _check(session, "go_to", code)
+        if await session.until(begun, _SEEN) is not None:
+            return
+    raise LinkLost(words.not_begun(session.drone, "go_to"))
+
+
+async def _answered(
+    session: Session, key: tuple[int, int], send: Callable[[Cf], None], name: str
+) -> bytes:
+    """Send a command until it is answered; return the answer, four bytes at least."""
+    for _ in range(_TIMES):
+        session.well()
+        hearing = session.acknowledged.expect(key)
+        try:
+            await session.call(send)
+            answer = await session.acknowledged.heard(hearing, _ACKNOWLEDGED)
+        finally:
+            session.acknowledged.drop(key, hearing)
+        if answer is not None:
+            return answer.ljust(4, b"\0")
+    raise LinkLost(words.not_acknowledged(session.drone, name))
+
+
+def _check(session: Session, name: str, code: int) -> None:
+    """Raise what an acknowledgement says."""
+    if code == _DONE:
+        return
+    state = session.well()
+    if code == _BLOCKED:
+        raise Rejected(words.blocked(session.drone, name, state.said))
+    if code == _WRONG_STATE:
+        raise Rejected(words.wrong_state(session.drone, name))
+    raise Rejected(words.refused(session.drone, name, code))

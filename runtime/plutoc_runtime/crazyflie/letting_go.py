@@ -1,0 +1,79 @@
+"""How a link ends without a command to the drone.
+
+cflib says goodbye with a setpoint of no thrust: a drone in the air falls, and one that has just landed
+locks. So the drone's link is taken out and closed by itself first; what cflib still sends goes nowhere.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from contextlib import suppress
+from threading import Thread, Timer
+from time import sleep
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from .borrowed import Cf, Link
+
+_LONGEST = 1.5
+"""Seconds that cflib's own threads take to see that they are to end."""
+_HANGS = 0.3
+"""Seconds after which a driver that is to end must be waiting for a dongle that is gone."""
+
+
+class Nowhere:
+    """A link to nobody, for what cflib sends and expects while it is put away."""
+
+    needs_resending = False
+
+    def send_packet(self, _: object) -> bool:
+        """Take something, and do nothing with it."""
+        return True
+
+    def receive_packet(self, _: float = 0.0) -> None:
+        """Wait a moment, for nothing."""
+        sleep(0.05)
+
+    def close(self) -> None:
+        """Be closed: there is nothing to close."""
+
+
+def let_go(drone: str, cf: Cf | None, done: Callable[[], None]) -> None:
+    """Put a connection away in a daemon thread, and say so there when it is done."""
+
+    def work() -> None:
+        if cf is not None:
+            with suppress(Exception):  # whatever is wrong with it: nobody uses it any more
+                _put_away(cf)
+        done()
+
+    Thread(target=work, name=f"letting go of {drone}", daemon=True).start()
+
+
+def _put_away(cf: Cf) -> None:
+    cf.incoming.stop()
+    link, cf.link = cf.link, Nowhere()
+    if link is not None and not isinstance(link, Nowhere):
+        waking = Timer(_HANGS, _wake, (link,))
+        waking.daemon = True
+        waking.start()
+        try:
+            link.close()
+        finally:
+            waking.cancel()
+    if cf.incoming.is_alive():
+        cf.incoming.join(_LONGEST)
+    cf.link = None  # so that cflib does not send its goodbye even to nowhere
+    cf.close_link()
+
+
+def _wake(link: Link) -> None:
+    """Wake a driver's thread that waits for the answer of a dongle that is gone.
+
+    It waits without a limit, and cflib for it: an answer that says nothing lets it see that it is to
+    end. It may be at its first greeting, which it repeats.
+    """
+    answers = getattr(getattr(link, "_radio", None), "_rsp_queue", None)
+    if answers is not None:
+        for _ in range(20):
+            answers.put(None)

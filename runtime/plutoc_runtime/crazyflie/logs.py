@@ -1,0 +1,138 @@
+"""The blocks of a Crazyflie's log: what it tells by itself, and single variables when asked.
+
+A block holds 26 bytes, a drone 16 blocks. An object of cflib's for a block is good for one connection.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from collections.abc import Callable, Mapping
+from statistics import fmean
+from typing import TYPE_CHECKING
+
+from ..drones.errors import Rejected
+from . import words
+from .state import CERTAINTY, STATE, state_of
+
+if TYPE_CHECKING:
+    from .borrowed import Borrowed, Cf, LogConfig
+    from .session import Session
+
+_STATE_MS, _CERTAINTY_MS, _ONE_MS = 100, 250, 100
+
+
+def begin(session: Session) -> None:
+    """Let it tell how it is, from now on; called in the worker, once the tables are there."""
+    borrowed, cf = session.borrowed, session.cf
+
+    def state(_: int, values: Mapping[str, float], __: object) -> None:
+        session.tell(session.hear, state_of(values, time.monotonic()))
+
+    def certainty(_: int, values: Mapping[str, float], __: object) -> None:
+        told = tuple(values[name] for name in CERTAINTY if name in values)
+        session.tell(session.certainty.hear, told, time.monotonic())
+
+    wanted = (
+        ("state", STATE, _STATE_MS, state),
+        ("certainty", CERTAINTY, _CERTAINTY_MS, certainty),
+    )
+    for name, variables, period, hear in wanted:
+        there = [variable for variable in variables if has(cf, variable)]
+        session.lacks += tuple(variable for variable in variables if variable not in there)
+        if there:
+            _block(borrowed, cf, name, there, period, hear).start()
+
+
+def has(cf: Cf, name: str) -> bool:
+    """Say whether there is such a log variable."""
+    group, _, variable = name.partition(".")
+    toc = cf.log.toc
+    return toc is not None and variable in toc.toc.get(group, {})
+
+
+def _block(
+    borrowed: Borrowed,
+    cf: Cf,
+    name: str,
+    variables: list[str],
+    period: int,
+    hear: Callable[[int, Mapping[str, float], object], None],
+) -> LogConfig:
+    block = borrowed.log_config(name, period)
+    for variable in variables:
+        block.add_variable(variable)
+    block.data_received_cb.add_callback(hear)
+    cf.log.add_config(block)
+    return block
+
+
+class Readings:
+    """Single log variables, read when somebody asks: each has a block while it is read."""
+
+    def __init__(self, session: Session) -> None:
+        self._session = session
+        self._blocks: dict[str, LogConfig] = {}
+        self._hearing: dict[str, Callable[[float], None]] = {}
+        self._turn = asyncio.Lock()
+
+    async def mean(self, name: str, seconds: float) -> float:
+        """Return what a variable is, over some time; 0: its next value."""
+        session = self._session
+        if not has(session.cf, name):
+            raise Rejected(words.no_variable(session.drone, name))
+        values: list[float] = []
+        enough = asyncio.Event()
+        began = session.loop.time()
+
+        def hear(value: float) -> None:
+            values.append(value)
+            if session.loop.time() - began >= seconds:
+                enough.set()
+
+        async with self._turn:
+            began = session.loop.time()
+            self._hearing[name] = hear
+            try:
+                await self._given_back(name)
+                await session.call(lambda cf: self._start(cf, name))
+                async with asyncio.timeout(seconds + 3.0):
+                    await enough.wait()
+            except TimeoutError:
+                session.now()  # it may be silent altogether
+                if not values:
+                    raise Rejected(words.not_read(session.drone, name)) from None
+            finally:
+                del self._hearing[name]
+                self._stop(name)
+        return fmean(values)
+
+    def _start(self, cf: Cf, name: str) -> None:
+        block = self._blocks.get(name)
+        if block is None:
+
+            def hear(_: int, values: Mapping[str, float], __: object) -> None:
+                self._session.tell(self._heard, name, float(values[name]))
+
+            block = _block(self._session.borrowed, cf, name, [name], _ONE_MS, hear)
+            self._blocks[name] = block
+        block.start()
+
+    def _heard(self, name: str, value: float) -> None:
+        hear = self._hearing.get(name)
+        if hear is not None:
+            hear(value)
+
+    async def _given_back(self, name: str) -> None:
+        """Wait until the drone has taken back the block of the last reading."""
+        block = self._blocks.get(name)
+        for _ in range(50):
+            if block is None or not block.added:
+                return
+            await asyncio.sleep(0.02)
+
+    def _stop(self, name: str) -> None:
+        """Take the block back, some time: nobody waits for that."""
+        block = self._blocks.get(name)
+        if block is not None:
+            self._session.worker.post(block.delete)

@@ -1,0 +1,82 @@
+"""How a link is opened: with a limit on every wait, and never twice for one object of cflib's."""
+
+from __future__ import annotations
+
+import asyncio
+from contextlib import suppress
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ..drones.errors import LinkLost
+from . import logs, words
+from .borrowed import LINK_CONTROL, borrowed
+from .session import Observer, Session
+
+if TYPE_CHECKING:
+    from .borrowed import Borrowed, Cf
+
+_IMPORT, _OPEN = 20.0, 5.0
+ANSWER, ALL, TELEMETRY = 5.0, 13.0, 3.0
+"""Seconds until a drone must have answered, have told its tables, and begin to tell how it is."""
+_AGAIN = 0.5
+
+
+async def open_session(drone: str, uri: str, folder: Path, observer: Observer) -> Session:
+    """Return a connection on which the drone tells how it is; raise `LinkLost` if there is none."""
+    session = Session(drone, uri, observer)
+    try:
+        await _open(session, folder)
+    except BaseException:  # cancelled, too: nothing may be left of it
+        session.let_go()
+        raise
+    return session
+
+
+async def _open(session: Session, folder: Path) -> None:
+    found = await session.worker.call(borrowed, _IMPORT)
+    # tables of contents take long over the radio, and seldom change
+    cache = str(folder / "crazyflie")
+    await session.worker.call(lambda: _begin(session, found, cache), _OPEN)
+    await _answer(session)
+    # Its pings measure what nobody asks for, and the thread that sends them may die holding the lock
+    # that every other sender needs.
+    await session.call(lambda cf: cf.link_statistics.stop())
+    await session.worker.call(lambda: logs.begin(session), _OPEN)
+    if await session.until_told(TELEMETRY) is None:
+        raise LinkLost(words.no_telemetry(session.drone))
+
+
+def _begin(session: Session, found: Borrowed, cache: str) -> None:
+    """Open the link; called in the worker."""
+    found.forget_dead_radios()
+    cf = found.crazyflie(rw_cache=cache)
+    session.listen(found, cf)
+    cf.open_link(session.uri)
+
+
+async def _answer(session: Session) -> None:
+    """Wait until it has told its tables."""
+    began = session.loop.time()
+    while not session.established.is_set():
+        passed = session.loop.time() - began
+        if passed > (ALL if session.answered else ANSWER):
+            if session.answered:
+                raise LinkLost(words.not_complete(session.drone, ALL))
+            raise LinkLost(words.no_answer(session.drone, session.uri, ANSWER))
+        with suppress(TimeoutError):
+            async with asyncio.timeout(_AGAIN):
+                await session.established.wait()
+                break
+        if session.uri.startswith("udp://"):  # radio packets are repeated by the dongle
+            await session.call(lambda cf: _ask_again(session, cf))
+    if session.lost:
+        raise LinkLost(words.no_connection(session.drone, session.uri, session.lost))
+
+
+def _ask_again(session: Session, cf: Cf) -> None:
+    """Ask for the protocol's version once more: of all that cflib asks, this it asks only once."""
+    if cf.platform.get_protocol_version() < 0:
+        packet = session.borrowed.packet()
+        packet.set_header(LINK_CONTROL, 1)
+        packet.data = b"\0"
+        cf.send_packet(packet)

@@ -1,0 +1,237 @@
+"""One connection to one Crazyflie, from the opening of its link to its end; never used again.
+
+cflib calls back from threads of its own. What it says there is only carried over to the event loop;
+everything in this class happens in the loop, but for what `Worker` calls.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from collections.abc import Callable
+from contextlib import suppress
+from math import inf
+from typing import TYPE_CHECKING, Protocol
+
+from ..drones.errors import Crashed, LinkLost, Locked
+from . import words
+from .acknowledgements import Acknowledgements
+from .certainty import Certainty
+from .letting_go import let_go
+from .state import State
+from .worker import Worker
+
+if TYPE_CHECKING:
+    from .borrowed import Borrowed, Cf
+
+SILENCE = 1.0
+"""Seconds without a word, after which a link counts as lost; a word is expected ten times a second."""
+
+
+class Observer(Protocol):
+    """Who is told what happens to a connection."""
+
+    def told(self, state: State) -> None:
+        """The drone told how it is."""
+        ...
+
+    def gone(self, why: str) -> None:
+        """It tells nothing any more."""
+        ...
+
+
+class Session:
+    """What is known of a drone while it is connected, and the one way to call cflib for it."""
+
+    def __init__(self, drone: str, uri: str, observer: Observer) -> None:
+        self.drone, self.uri = drone, uri
+        self.loop = asyncio.get_running_loop()
+        self.worker = Worker(drone)
+        self.established = asyncio.Event()
+        """Set when the tables of contents are there, or when the link is lost."""
+        self.answered = False
+        """Whether anything has come at all."""
+        self.complete = asyncio.Event()
+        """Set when all parameters have been read."""
+        self.acknowledged = Acknowledgements()
+        self.certainty = Certainty()
+        self.state: State | None = None
+        self.before: State | None = None
+        """What it told before that."""
+        self.took_off_at = -inf
+        """When it was told to take off."""
+        self.commanded = False
+        """Whether it flies because of what was said through this."""
+        self.located = False
+        """Whether somebody else tells it where it is."""
+        self.lost = ""
+        """Why the link has ended, once it has."""
+        self.lacks: tuple[str, ...] = ()
+        """Log variables that its firmware should have."""
+        self._observer = observer
+        self._since = time.monotonic()
+        self._silent = False
+        self._next = asyncio.Event()
+        self._borrowed: Borrowed | None = None
+        self._cf: Cf | None = None
+        self._looking = self.loop.call_later(SILENCE, self._look)
+
+    # What cflib says
+
+    def tell(self, call: Callable[..., None], *args: object) -> None:
+        """Carry something over to the event loop, from any thread."""
+        with suppress(RuntimeError):  # the loop is closed: nobody listens any longer
+            self.loop.call_soon_threadsafe(call, *args)
+
+    def listen(self, borrowed: Borrowed, cf: Cf) -> None:
+        """Hear what happens to the link; called in the worker, before it is opened."""
+        self._borrowed, self._cf = borrowed, cf
+        loses = self.uri.startswith("udp://")
+        cf.connected.add_callback(lambda _: self.tell(self.established.set))
+        cf.fully_connected.add_callback(lambda _: self.tell(self.complete.set))
+        cf.connection_failed.add_callback(lambda _, why: self.tell(self.fail, why))
+        cf.connection_lost.add_callback(lambda _, why: self.tell(self.fail, why))
+        cf.disconnected.add_callback(lambda _: self.tell(self._disconnected))
+        cf.link_established.add_callback(lambda _: self._established(cf, resend=loses))
+        self.acknowledged.listen(cf, self.tell)
+
+    def _established(self, cf: Cf, *, resend: bool) -> None:
+        """The very first packet came: before any other is sent, make cflib repeat what gets lost."""
+        if resend and cf.link is not None:
+            cf.link.needs_resending = True
+        self.tell(self._answered)
+
+    def _answered(self) -> None:
+        self.answered = True
+
+    def _disconnected(self) -> None:
+        self.loop.call_later(0.1, self.fail, "it was closed")  # why it was comes right after
+
+    def fail(self, why: str) -> None:
+        """The link is gone, for good."""
+        self.established.set()
+        if not self.lost:
+            self.lost = words.cause(why)
+            if not self._silent:
+                self._observer.gone(self.lost)
+        self._wake()
+
+    def hear(self, state: State) -> None:
+        """It told how it is."""
+        if not self.lost:
+            self.before, self.state, self._silent = self.state, state, False
+            self._observer.told(state)
+            self._wake()
+
+    def _look(self) -> None:
+        """See whether it has become silent."""
+        if not self.lost:
+            if self.state is not None and not self._silent and self.silent_for > SILENCE:
+                self._silent = True
+                self._observer.gone(words.silence(self.silent_for))
+                self._wake()
+            self._looking = self.loop.call_later(SILENCE / 10, self._look)
+
+    # What others ask
+
+    @property
+    def cf(self) -> Cf:
+        """What cflib has of it; for calls in the worker."""
+        if self._cf is None:
+            raise LinkLost(words.not_connected(self.drone))
+        return self._cf
+
+    @property
+    def borrowed(self) -> Borrowed:
+        """What cflib has besides."""
+        if self._borrowed is None:
+            raise LinkLost(words.not_connected(self.drone))
+        return self._borrowed
+
+    @property
+    def silent_for(self) -> float:
+        """Seconds since it told anything."""
+        return time.monotonic() - (self._since if self.state is None else self.state.time)
+
+    @property
+    def alive(self) -> bool:
+        """Whether it can be commanded through this."""
+        return (
+            not self.lost
+            and not self.worker.stuck
+            and self.state is not None
+            and self.silent_for <= SILENCE
+        )
+
+    def now(self) -> State:
+        """Return how it is; raise why nothing can be commanded."""
+        if self.lost:
+            raise LinkLost(words.ended(self.drone, self.lost))
+        if self.state is None or self.silent_for > SILENCE:
+            raise LinkLost(words.silent(self.drone, self.silent_for))
+        return self.state
+
+    def well(self) -> State:
+        """Return how it is; raise why it cannot fly on."""
+        state = self.now()
+        if state.locked:
+            raise Locked(words.locked(self.drone))
+        if state.crashed:
+            raise Crashed(words.crashed(self.drone))
+        return state
+
+    async def call(self, call: Callable[[Cf], object], limit: float = 2.5) -> None:
+        """Call something of cflib in the drone's own thread."""
+        cf = self.cf
+        await self.worker.call(lambda: call(cf), limit)
+
+    async def until(
+        self, ready: Callable[[State], bool], limit: float, *, well: bool = True
+    ) -> State | None:
+        """Return the first state from now on that is so, or None when the limit is over.
+
+        Raises what `well` raises as soon as it would.
+        """
+        end = self.loop.time() + limit
+        look = self.well if well else self.now
+        while not ready(state := look()):
+            left = end - self.loop.time()
+            if left <= 0.0:
+                return None
+            await self.heard(min(left, 0.2))
+        return state
+
+    async def until_told(self, limit: float) -> State | None:
+        """Return the first thing that it tells of itself, or None."""
+        end = self.loop.time() + limit
+        while self.state is None and not self.lost and self.loop.time() < end:
+            await self.heard(0.2)
+        return self.state
+
+    async def heard(self, limit: float) -> None:
+        """Wait until it tells something, or for so long."""
+        with suppress(TimeoutError):
+            async with asyncio.timeout(limit):
+                await self._next.wait()
+
+    def _wake(self) -> None:
+        self._next.set()
+        self._next = asyncio.Event()
+
+    # Its end
+
+    def let_go(self) -> asyncio.Future[None]:
+        """End it in a thread of its own: never by a command to the drone."""
+        self.lost = self.lost or "it was let go"
+        self._looking.cancel()
+        self._wake()
+        gone: asyncio.Future[None] = self.loop.create_future()
+
+        def told() -> None:
+            if not gone.done():
+                gone.set_result(None)
+
+        self.worker.end()
+        cf, self._cf = self._cf, None
+        let_go(self.drone, cf, lambda: self.tell(told))
+        return gone
