@@ -26,8 +26,15 @@ S = TypeVar("S")
 T = TypeVar("T")
 
 
+def _crazyflie() -> object:
+    from ..crazyflie.navigation import Crazyflie  # few look at it
+
+    return Crazyflie
+
+
 NAVIGATION = Kind(
     word="navigation",
+    ours=(("crazyflie", _crazyflie),),
     group="plutoc.navigations",
     argument="setup",
     methods=NAVIGATION_METHODS,
