@@ -80,10 +80,10 @@ async def run(folder: Path, settings: Settings) -> None:
     if settings.real is None:
         await _command(folder, settings, kernel, _simulated(folder, settings, kernel))
         return
-    from ..drones.team import Team  # a simulation does without
+    from ..drones.making import make_team  # a simulation does without
 
     with holding({drone.id: drone.uri or drone.id for drone in settings.real.drones}):
-        team = Team(kernel, settings.drones, settings.real, settings.airspace, folder, _say)
+        team = make_team(kernel, settings.drones, settings.real, settings.airspace, folder, _say)
         team.begin()
         try:
             await _command(folder, settings, kernel, team)

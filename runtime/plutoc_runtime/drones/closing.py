@@ -1,0 +1,45 @@
+"""The end: a drone is landed before its link is closed, for closing a link may cut the motors."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ..errors import FlightFailed
+from ..words import place
+
+if TYPE_CHECKING:
+    from .linking import Linking
+    from .member import Member
+
+LETTING_GO = 20.0
+"""Seconds that a navigation may take to close a link."""
+_TIMES = 3
+"""How often a drone is told to land that does not."""
+
+
+async def close(member: Member, linking: Linking) -> None:
+    """Land a drone if it flies, wait until it has landed, and let go of it."""
+    member.break_off()
+    await _land(member, linking)
+    linking.stop()
+    await member.calls.parted()
+    try:
+        await member.calls.call("close its link", LETTING_GO, member.navigation.close)
+    except FlightFailed as error:
+        member.calls.say(str(error))
+    member.linked = False
+    await member.calls.parted()
+
+
+async def _land(member: Member, linking: Linking) -> None:
+    for _ in range(_TIMES):
+        if member.seen.landed:
+            return
+        await linking.once()
+        try:
+            await member.land()
+        except FlightFailed as error:
+            member.calls.say(f"{member.id} was to land: {error}")
+    if not member.seen.landed:
+        where = place(member.seen.location)
+        member.calls.say(f"{member.id} could not be landed: it may still hover at {where}")

@@ -1,0 +1,115 @@
+"""Keeps a drone linked: connects to it, and again whenever its link was lost, for as long as it takes."""
+
+from __future__ import annotations
+
+import asyncio
+from contextlib import suppress
+from math import inf
+from typing import TYPE_CHECKING
+
+from ..errors import Failure, FlightFailed
+from ..words import place
+
+if TYPE_CHECKING:
+    from .member import Member
+
+CONNECT = 15.0
+"""Seconds that one attempt may take."""
+PAUSES = (1.0, 2.0, 4.0, 5.0)
+"""Seconds between attempts; the last for as long as somebody may wait."""
+RARELY, OFTEN = 30.0, 20
+"""Seconds between attempts after so many, for a drone that stands on the ground."""
+FRESH = 1.0
+"""Seconds within which a drone that is said to be connected must have told where it is."""
+
+
+class Linking:
+    """The link to one drone."""
+
+    def __init__(self, member: Member) -> None:
+        self._member = member
+        self._wanted, self._tried = asyncio.Event(), asyncio.Event()
+        self._was_linked = self._given_up = False
+        self._task: asyncio.Task[None] | None = None
+        member.on_lost = self._wanted.set
+
+    def start(self) -> None:
+        """Connect, from now on."""
+        self._task = asyncio.ensure_future(self._keep())
+
+    def stop(self) -> list[asyncio.Task[None]]:
+        """Do not try any more; return what ends now."""
+        if self._task is None:
+            return []
+        self._task.cancel()
+        return [self._task]
+
+    async def once(self) -> bool:
+        """Say whether it is linked; if it is not, after one more attempt."""
+        if not self._member.linked:
+            self._wanted.set()
+            with suppress(TimeoutError):
+                async with asyncio.timeout(CONNECT + FRESH):
+                    await self._tried.wait()
+        return self._member.linked
+
+    async def within(self, limit: float) -> bool:
+        """Wait until it is linked, and say whether it is; after that nobody waits any longer."""
+        self._given_up = False
+        self._wanted.set()
+        with suppress(TimeoutError):
+            async with asyncio.timeout(limit):
+                while not self._member.linked:
+                    await self._tried.wait()
+        self._given_up = not self._member.linked
+        return self._member.linked
+
+    async def _keep(self) -> None:
+        attempts = 0
+        while True:
+            pause = inf
+            self._wanted.clear()
+            if not self._member.linked:
+                await self._attempt()
+                tried, self._tried = self._tried, asyncio.Event()
+                tried.set()
+                attempts += 1
+                if not self._member.linked:
+                    pause = PAUSES[min(attempts, len(PAUSES)) - 1]
+                    if attempts > OFTEN and self._member.seen.landed:
+                        pause = RARELY
+            if self._member.linked:
+                attempts, pause = 0, inf
+            with suppress(TimeoutError):
+                async with asyncio.timeout(None if pause == inf else pause):
+                    await self._wanted.wait()
+
+    async def _attempt(self) -> None:
+        member, seen = self._member, self._member.seen
+        flew = not seen.landed
+        await member.calls.parted()
+        try:
+            await member.calls.call("answer", CONNECT, member.navigation.connect)
+        except FlightFailed as error:
+            member.out_of_reach = str(error)
+            return
+        if seen.silence > FRESH:
+            member.out_of_reach = f"{member.id} is connected, but does not tell where it is"
+            return
+        member.linked, seen.rises_until = True, -inf
+        if self._was_linked:
+            self._is_back(flew)
+        self._was_linked, self._given_up = True, False
+
+    def _is_back(self, flew: bool) -> None:
+        """It was lost meanwhile: it hovers on, or somebody has switched it off and on."""
+        member, seen = self._member, self._member.seen
+        where = place(seen.location)
+        if seen.landed:
+            member.boot += flew
+            member.calls.say(f"{member.id} is back: it stands at {where}")
+            return
+        member.calls.say(f"{member.id} is back: it hovers at {where}")
+        if self._given_up:
+            late = f"{member.id} was out of reach for too long: it lands at {where}"
+            member.must_come_down(FlightFailed(Failure.LINK, late), needs_a_hand=False)

@@ -1,0 +1,54 @@
+"""What happens to a drone that nobody has asked for."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import TYPE_CHECKING
+
+from ..errors import Failure, FlightFailed
+from ..kernel import WHATEVER
+from ..words import place
+from .calls import shortened
+from .telemetry import BATTERY_LOW, CRASHED, LINK_LOST, LOCKED
+from .timed import Timed
+
+if TYPE_CHECKING:
+    from .member import Member
+    from .telemetry import DroneEvent
+
+
+async def listen(member: Member) -> None:
+    """Hear of all events of a drone, until it is let go of."""
+    calls = member.calls
+    try:
+        events = member.navigation.events().__aiter__()
+        while True:
+            hear(member, await Timed(events.__anext__(), calls.clock, calls.took))
+    except StopAsyncIteration:
+        pass
+    except (asyncio.CancelledError, KeyboardInterrupt):
+        raise
+    except WHATEVER as error:
+        calls.mistake("events", error)
+
+
+def hear(member: Member, event: DroneEvent) -> None:
+    """Do what an event calls for."""
+    kind, reason = event.kind, shortened(event.reason)
+    who, where = member.id, place(member.seen.location)
+    if kind == LINK_LOST:
+        member.lost(reason)
+    elif kind in (CRASHED, LOCKED) and member.flew_lately and not _is_down(member):
+        member.crashed(f"{who} {_BECAME[kind]} at {where}: {reason}")
+    elif kind == BATTERY_LOW and not member.seen.landed and not member.must_land:
+        why = f"the battery of {who} is low at {where}, where it lands: {reason}"
+        member.must_come_down(FlightFailed(Failure.BATTERY, why))
+    else:
+        member.calls.say(f"{who}: {shortened(kind)}: {reason}")
+
+
+def _is_down(member: Member) -> bool:
+    return member.down is not None and member.down.failure is Failure.CRASH
+
+
+_BECAME = {CRASHED: "crashed", LOCKED: "was locked"}

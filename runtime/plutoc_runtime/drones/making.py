@@ -1,0 +1,109 @@
+"""Makes the team that a fleet file describes: a navigation for each drone, by the name it has there."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Protocol
+
+from ..errors import BadInput
+from .feeding import Feeding
+from .loading import make_localization, make_navigation
+from .localization import OWN
+from .protocol import Locatable
+from .setup import DroneSetup
+from .team import Team, TeamDrone
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from ..airspace import Airspace
+    from ..gateway.real import RealFleet
+    from ..kernel import Kernel
+    from ..model import Category, Point
+    from .protocol import DroneNavigation
+
+FILES = "files"
+"""The folder, in the gateway's, where navigations keep photos and the like."""
+
+
+class Craft(Protocol):
+    """What must be known of a drone."""
+
+    @property
+    def id(self) -> str:
+        """Its name in the fleet."""
+        ...
+
+    @property
+    def category(self) -> Category:
+        """How fast it flies, and for how long."""
+        ...
+
+    @property
+    def home(self) -> Point:
+        """Where its dock is."""
+        ...
+
+
+def make_team(
+    kernel: Kernel,
+    drones: Sequence[Craft],
+    real: RealFleet,
+    airspace: Airspace,
+    folder: Path,
+    say: Callable[[str], object],
+) -> Team:
+    """Return the team of a fleet; raise `BadInput` where it cannot be flown as its file says."""
+    files = folder / FILES
+    files.mkdir(mode=0o700, parents=True, exist_ok=True)
+    how = {drone.id: drone for drone in real.drones}
+    navigations: dict[str, DroneNavigation] = {}
+    for drone in drones:
+        setup = DroneSetup(
+            id=drone.id,
+            uri=how[drone.id].uri,
+            home=drone.home,
+            speed=drone.category.speed,
+            options=how[drone.id].options,
+            folder=files,
+        )
+        navigations[drone.id] = make_navigation(how[drone.id].navigation, setup)
+    return Team(
+        kernel,
+        [
+            TeamDrone(
+                id=drone.id,
+                category=drone.category,
+                home=drone.home,
+                navigation=navigations[drone.id],
+            )
+            for drone in drones
+        ],
+        airspace,
+        folder=folder,
+        say=say,
+        wanted=real.wanted,
+        feeding=_feeding(real, navigations, say),
+    )
+
+
+def _feeding(
+    real: RealFleet, navigations: Mapping[str, DroneNavigation], say: Callable[[str], object]
+) -> Feeding | None:
+    """Return what tells the drones where they are; None: they know it by themselves."""
+    if real.localization == OWN:
+        return None
+    fed: dict[str, Locatable] = {}
+    deaf: list[str] = []
+    for id, navigation in navigations.items():
+        if isinstance(navigation, Locatable):
+            fed[id] = navigation
+        else:
+            deaf.append(id)
+    if deaf:
+        raise BadInput(
+            f"localization {real.localization}: {', '.join(deaf)} cannot be told where they are;"
+            " their navigation has no method locate"
+        )
+    source = make_localization(real.localization, real.localization_options)
+    return Feeding(real.localization, source, fed, say)

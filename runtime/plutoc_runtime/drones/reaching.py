@@ -1,0 +1,90 @@
+"""After a failed flight: until a drone takes commands again, or somebody has put it home."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import TYPE_CHECKING
+
+from ..errors import Failure, FlightFailed
+from .member import LOOK
+
+if TYPE_CHECKING:
+    from .linking import Linking
+    from .member import Member
+
+REACH = 120.0
+"""Seconds for which a drone that lost its link is connected to again and again."""
+SETTLING = 10.0
+"""Seconds that one on the ground gets until it is ready: its position may have to settle."""
+FETCH = 600.0
+"""Seconds within which somebody must have put it home."""
+OFTEN = 2.0
+"""Seconds between two looks."""
+
+
+async def reach(member: Member, linking: Linking) -> bool:
+    """Wait until a drone takes commands, or is down where only a person can help it.
+
+    False: it is lost, for all that can be done from here.
+    """
+    if not await linking.within(REACH):
+        return False
+    if not await _comes_down(member, linking):
+        return False
+    if not member.seen.landed:
+        return member.down is None
+    return member.needs_a_hand or await _is_ready(member)
+
+
+async def _comes_down(member: Member, linking: Linking) -> bool:
+    """Wait while a drone lands by itself, or has crashed and not yet said that it lies there."""
+    patience = round(SETTLING / LOOK)
+    while not member.seen.landed and member.down is not None:
+        await asyncio.sleep(LOOK)
+        patience -= not member.must_land
+        if patience < 0 or not (member.linked or await linking.within(REACH)):
+            return False
+    return True
+
+
+async def _is_ready(member: Member) -> bool:
+    """Say whether one on the ground can fly on, or may be waited for."""
+    reasons = await _reasons(member)
+    for _ in range(round(SETTLING / OFTEN)):
+        if not reasons:
+            break
+        await asyncio.sleep(OFTEN)
+        reasons = await _reasons(member)
+    if not reasons:
+        member.is_well()
+    elif member.down is not None and member.down.failure is Failure.CRASH:
+        return False
+    else:
+        why = f"{member.id} is not ready: {'; '.join(reasons)}"
+        member.refuse(FlightFailed(Failure.REFUSED, why), needs_a_hand=True)
+    return True
+
+
+async def fetched(member: Member) -> bool:
+    """Wait until a drone stands at home, ready; False: nobody has put it there."""
+    try:
+        async with asyncio.timeout(FETCH):
+            while not await _is_home(member):
+                await asyncio.sleep(OFTEN)
+    except TimeoutError:
+        return False
+    member.is_well()
+    return True
+
+
+async def _is_home(member: Member) -> bool:
+    return member.linked and member.is_docked and not await _reasons(member)
+
+
+async def _reasons(member: Member) -> tuple[str, ...]:
+    """Return why it may not fly; one that can be charged where it stands is well, but for that."""
+    if not member.linked:
+        return (member.out_of_reach,)
+    if member.is_docked and member.seen.battery_level < member.drone.category.reserve:
+        return ()
+    return await member.preflight()

@@ -1,0 +1,235 @@
+"""What is watched in flight, for every navigation."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from plutoc_runtime.airspace import Airspace
+from plutoc_runtime.drones import BATTERY_LOW, CRASHED, LINK_LOST, LOCKED
+from plutoc_runtime.drones.stray import strayed
+from plutoc_runtime.errors import Failure
+from tests.drones.jumping import run, the_loop
+from tests.drones.teams import FIELD, Flown, flying
+
+
+async def fails(flown: Flown, drone: str = "cf1") -> tuple[Failure | None, str]:
+    """Let a drone hover until something goes wrong, and return what."""
+    failed = await flown.failure(flown.team.hold(drone))
+    return failed.failure, str(failed)
+
+
+@pytest.mark.parametrize(
+    ("wind", "where"),
+    [
+        ((-0.4, 5.0, 1.0), "(-0.4, 5), which is outside the map"),
+        ((5.0, 10.4, 1.0), "(5, 10.4), which is outside the map"),
+        ((5.0, 5.0, 3.4), "(5, 5), 3.4 m high"),
+    ],
+)
+def test_a_drone_that_leaves_the_permitted_area_holds_and_lands(
+    tmp_path: Path, wind: tuple[float, float, float], where: str
+) -> None:
+    """Its flight fails, and somebody must look after it."""
+
+    async def flight() -> None:
+        async with flying(tmp_path) as flown:
+            drone = await flown.up()
+            the_loop().call_later(1, drone.put, wind)
+            failure, why = await fails(flown)
+            assert failure is Failure.REFUSED
+            assert why == f"cf1 left the permitted area at {where}: it lands"
+            await flown.until(lambda: not drone.motors)
+            assert drone.told[1:] == ["hold", "land"]
+            assert await flown.do(flown.team.reach("cf1"))
+            with pytest.raises(Exception, match="left the permitted area"):
+                flown.team.begins("cf1", None, 0.0)
+
+    run(flight())
+
+
+def test_a_drone_over_a_no_fly_area_leaves_it_before_it_lands(tmp_path: Path) -> None:
+    """By the shortest way."""
+
+    async def flight() -> None:
+        async with flying(tmp_path) as flown:
+            drone = await flown.up()
+            the_loop().call_later(1, drone.put, (6.4, 7.0, 1.0))
+            _, why = await fails(flown)
+            assert "inside no-fly area 1" in why
+            await flown.until(lambda: not drone.motors)
+            assert drone.told[-3] == "hold"
+            assert FIELD.problem(drone.place) is None
+            assert drone.place == pytest.approx((6.0, 7.0, 0.0), abs=0.3)
+
+    run(flight())
+
+
+def test_a_little_beside_the_permitted_area_is_no_reason_to_land() -> None:
+    """Positions are not exact; but a narrow no-fly area is one, too."""
+    narrow = Airspace(size=(10, 10), ceiling=3, no_fly=(((2, 2), (2.4, 2), (2.4, 9), (2, 9)),))
+    assert strayed(FIELD, (-0.25, 10.25, 3.25)) is None
+    assert strayed(FIELD, (6.25, 7, 1)) is None
+    assert strayed(FIELD, (6.35, 7, 1)) is not None
+    assert strayed(narrow, (2.1, 5, 1)) is None
+    assert strayed(narrow, (2.2, 5, 1)) is not None
+
+
+def test_an_empty_battery_lands_where_it_is(tmp_path: Path) -> None:
+    """Not at once: under load a battery shows less for a moment. Then somebody must fetch it."""
+
+    async def flight() -> None:
+        async with flying(tmp_path) as flown:
+            drone, loop = await flown.up(), the_loop()
+            loop.call_later(1, setattr, drone, "level", 0.02)
+            loop.call_later(3, setattr, drone, "level", 0.1)
+            loop.call_later(5, setattr, drone, "level", 0.02)
+            before = loop.time()
+            failure, why = await fails(flown)
+            assert loop.time() - before == pytest.approx(8.1, abs=0.2)
+            assert failure is Failure.BATTERY
+            assert why == "cf1 has 2 % in its battery: it lands at (1, 1)"
+            await flown.until(lambda: not drone.motors)
+            assert "hold" in drone.told
+
+    run(flight())
+
+
+def test_a_drone_with_a_low_battery_lands_and_is_waited_for(tmp_path: Path) -> None:
+    """It says so itself; whoever puts it home and charges it makes it well."""
+
+    async def flight() -> None:
+        async with flying(tmp_path) as flown:
+            drone, team = await flown.up(), flown.team
+            await flown.do(team.go_to("cf1", (4.0, 4.0, 1.0)))
+            the_loop().call_later(1, drone.happens, BATTERY_LOW, "3.1 V")
+            failure, why = await fails(flown)
+            assert failure is Failure.BATTERY
+            assert why == "the battery of cf1 is low at (4, 4), where it lands: 3.1 V"
+            assert await flown.do(team.reach("cf1"))
+            assert not drone.motors
+            failed = await flown.failure(team.takeoff("cf1", 1.0))
+            assert failed.failure is Failure.BATTERY
+            fetched = flown.begin(team.fetched("cf1"))
+            the_loop().call_later(100, drone.put, (1.1, 1.1, 0.0))
+            await flown.until(lambda: fetched.is_set)
+            assert fetched.result()
+            await flown.do(team.takeoff("cf1", 1.0))
+
+    run(flight())
+
+
+def test_nobody_fetches_for_ever(tmp_path: Path) -> None:
+    """After ten minutes it is lost."""
+
+    async def flight() -> None:
+        async with flying(tmp_path) as flown:
+            drone, team = await flown.up(), flown.team
+            await flown.do(team.go_to("cf1", (4.0, 4.0, 1.0)))
+            await flown.do(team.land("cf1"))
+            drone.reasons = ("locked",)
+            fetched = flown.begin(team.fetched("cf1"))
+            assert await flown.until(lambda: fetched.is_set) == pytest.approx(600, abs=3)
+            assert not fetched.result()
+
+    run(flight())
+
+
+@pytest.mark.parametrize("tells", [False, True])
+def test_a_drone_that_falls_has_crashed(tmp_path: Path, tells: bool) -> None:
+    """Whether it says so, or is merely found on the ground."""
+
+    async def flight() -> None:
+        async with flying(tmp_path) as flown:
+            drone, team = await flown.up(), flown.team
+            the_loop().call_later(1, lambda: drone.falls(tells=tells))
+            failure, why = await fails(flown)
+            assert failure is Failure.CRASH
+            fell = "crashed at (1, 1): it lies on its back" if tells else "is on the ground at"
+            assert fell in why
+            assert "hold" not in drone.told
+            drone.reasons = ("it lies on its back",)
+            assert not await flown.do(team.reach("cf1"))
+            drone.reasons = ()
+            assert await flown.do(team.reach("cf1"))
+            await flown.do(team.takeoff("cf1", 1.0))
+
+    run(flight())
+
+
+def test_a_drone_that_says_its_link_is_gone_is_believed(tmp_path: Path) -> None:
+    """Without waiting for silence."""
+
+    async def flight() -> None:
+        async with flying(tmp_path) as flown:
+            drone = await flown.up()
+            the_loop().call_later(1, drone.happens, LINK_LOST, "the dongle is gone")
+            failure, why = await fails(flown)
+            assert failure is Failure.LINK
+            assert why == "cf1 lost its link at (1, 1): the dongle is gone"
+            assert await flown.do(flown.team.reach("cf1"))
+
+    run(flight())
+
+
+def test_what_happens_on_the_ground_fails_no_flight(tmp_path: Path) -> None:
+    """Preflight will say whether it matters; a person who carries a drone tilts it."""
+
+    async def flight() -> None:
+        async with flying(tmp_path) as flown:
+            drone, team = flown.drones["cf1"], flown.team
+            await flown.do(team.roll_call("cf1"))
+            for kind in (CRASHED, LOCKED, BATTERY_LOW, "sneezed"):
+                drone.happens(kind)
+            await flown.until(lambda: len(flown.log) >= 4)
+            assert flown.log[-1] == "cf1: sneezed: so it is"
+            team.begins("cf1", None, 0.0)
+            await flown.do(team.takeoff("cf1", 1.0))
+
+    run(flight())
+
+
+def test_who_must_land_is_not_kept_up(tmp_path: Path) -> None:
+    """Neither by a command nor by breaking off; a command to land comes to the same."""
+
+    async def flight() -> None:
+        async with flying(tmp_path) as flown:
+            drone, team = await flown.up(), flown.team
+            drone.happens(BATTERY_LOW)
+            await flown.until(lambda: "land" in drone.told)
+            flown.kernel.post(team.break_off, "cf1")
+            assert (await flown.failure(team.go_to("cf1", (2, 2, 1)))).failure is Failure.BATTERY
+            await flown.do(team.land("cf1"))
+            assert (drone.motors, drone.told) == (False, ["takeoff 1", "land"])
+
+    run(flight())
+
+
+def test_a_landing_that_does_not_succeed_is_tried_again(tmp_path: Path) -> None:
+    """As often as it takes."""
+
+    async def flight() -> None:
+        async with flying(tmp_path) as flown:
+            drone = await flown.up()
+            drone.raises = {"land": ValueError("not now")}
+            drone.happens(BATTERY_LOW)
+            await flown.until(lambda: any("was to land" in line for line in flown.log))
+            drone.raises = {}
+            await flown.until(lambda: not drone.motors, 10)
+
+    run(flight())
+
+
+def test_the_log_says_when_nobody_watched(tmp_path: Path) -> None:
+    """And a drone that told all the time has not lost its link for that."""
+
+    async def flight() -> None:
+        async with flying(tmp_path) as flown:
+            await flown.up()
+            the_loop().call_later(1, the_loop().advance, 2.5)
+            hovers = flown.begin(flown.team.hold("cf1"))
+            await flown.until(lambda: "kept from watching" in " ".join(flown.log), 10)
+            assert not hovers.is_set
+
+    run(flight())
