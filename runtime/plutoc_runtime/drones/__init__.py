@@ -15,6 +15,7 @@ from .errors import (
     TargetTimeout,
 )
 from .protocol import Acts, DroneNavigation, Identifiable, Locatable, Readable, Scannable
+from .reports import Reports
 from .setup import DroneSetup
 from .telemetry import BATTERY_LOW, CRASHED, LINK_LOST, LOCKED, DroneEvent, DroneTelemetry
 
@@ -40,6 +41,7 @@ __all__ = [
     "OutsideArea",
     "Readable",
     "Rejected",
+    "Reports",
     "Scannable",
     "TargetTimeout",
 ]

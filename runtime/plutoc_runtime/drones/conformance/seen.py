@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import pairwise
-from math import cos, dist, hypot, sin
+from math import cos, dist, hypot, isfinite, sin
 from typing import TYPE_CHECKING
 
 from ...errors import Failure
@@ -95,8 +95,8 @@ def largest_gap(samples: Sequence[Sample]) -> float:
 def units_differ(samples: Sequence[Sample], tolerance: float) -> str | None:
     """Return in what telemetry and truth differ, by more than a drone's own error; None: nothing."""
     for one in samples:
-        if one.truth is None:
-            continue
+        if one.truth is None or not isfinite(one.telemetry.time):
+            continue  # nobody knows, or it has not told anything yet
         position, yaw = one.telemetry.position, one.telemetry.yaw
         off = dist(position, one.truth.position)
         if off > tolerance:

@@ -1,0 +1,70 @@
+"""Flies a Wren: a whole navigation, for a drone whose library counts in centimetres and degrees."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import AsyncIterator, Sequence
+from contextlib import closing
+from math import dist, radians
+
+from wrenlib import Radio, State
+
+from plutoc_runtime.drones import DroneEvent, DroneSetup, DroneTelemetry, Reports
+from plutoc_runtime.model import Point
+
+
+class Wren:
+    def __init__(self, setup: DroneSetup) -> None:
+        self.radio, self.reports, self.mode = Radio(setup.uri or ""), Reports(setup), ""
+
+    @property
+    def telemetry(self) -> DroneTelemetry:
+        return self.reports.telemetry
+
+    def events(self) -> AsyncIterator[DroneEvent]:
+        return self.reports.events()
+
+    def hear(self, told: State) -> None:
+        self.mode = told.mode
+        self.reports.tell(
+            position=(told.x / 100, told.y / 100, told.z / 100),
+            yaw=radians(told.heading),
+            battery_level=told.percent / 100,
+            flying=told.mode in ("moving", "hovering"),
+            crashed="it lies on the ground" if told.mode == "crashed" else "",
+        )
+
+    async def connect(self) -> None:
+        loop = asyncio.get_running_loop()  # the library calls back from a thread of its own
+        self.radio.open(lambda told: loop.call_soon_threadsafe(self.hear, told))
+        await self.reports.until(lambda told: True, seconds=5)
+
+    async def preflight(self) -> Sequence[str]:
+        return [self.reports.crashed] if self.reports.crashed else []
+
+    async def takeoff(self, height: float, speed: float) -> None:
+        self.radio.send("up", height * 100, speed * 100)
+        await self.reports.until(lambda told: abs(told.position[2] - height) < 0.05, seconds=60)
+
+    async def go_to(self, target: Point, speed: float) -> None:
+        self.reports.refuse(target, speed)
+        self.radio.send("go", *(value * 100 for value in target), speed * 100)
+        seconds = dist(self.telemetry.position, target) / speed * 2 + 5
+        await self.reports.until(lambda told: dist(told.position, target) < 0.05, seconds)
+
+    async def hold(self) -> None:
+        self.radio.send("stop")
+        await self.reports.until(lambda told: self.mode != "moving", seconds=5)
+
+    async def land(self, speed: float) -> None:
+        self.radio.send("down", speed * 100)
+        await self.reports.until(lambda told: not told.flying, seconds=60)
+
+    async def emergency_stop(self) -> None:
+        self.radio.send("off")
+
+    async def close(self) -> None:
+        self.reports.close()
+        with closing(self.radio):
+            if self.telemetry.flying:
+                await self.land(0.3)
