@@ -117,6 +117,8 @@ async def _command(folder: Path, settings: Settings, kernel: RealTime, controls:
         settings.airspace,
         ledger=FileLedger(folder / LEDGER),
         apart=settings.apart,
+        slack=0.0 if settings.real is None else SLACK,
+        max_airborne=settings.max_airborne,
         patience=settings.patience * settings.speed,
     )
     over: Signal[None] = Signal()
