@@ -7,15 +7,14 @@ from typing import TYPE_CHECKING
 
 from ..drones.telemetry import BATTERY_LOW, CRASHED, LOCKED, DroneEvent
 from . import words
+from .battery import LOW
 from .state import LOW_POWER
 
 if TYPE_CHECKING:
     from .state import State
 
-LOW = 3.2
-"""Volts in the air. At 3.0 it switches itself off."""
 LONG = 3.0
-"""Seconds that it must be so: a burst of the motors costs volts, too."""
+"""Seconds that it must be low: a burst of the motors costs volts, too."""
 _WELL = 3.5
 """Volts at which a battery counts as another one, or as charged."""
 

@@ -10,6 +10,8 @@ from bisect import bisect_right
 from statistics import fmean
 from typing import TYPE_CHECKING
 
+from .state import LOW_POWER
+
 if TYPE_CHECKING:
     from .state import State
 
@@ -21,8 +23,12 @@ _USUAL, _LEAST, _MOST = 0.3, 0.05, 0.6
 """Volts that hovering costs, until it has been measured; what it can be at all."""
 _SETTLED, _MEASURED = 1.0, 3.0
 """Seconds after leaving the ground, between which it is measured."""
-_SMOOTH = 2.0
+_SMOOTH = 1.0
 """Seconds over which volts in the air are averaged."""
+LOW = 3.2
+"""Volts in the air at which it must come down. At 3.0 it switches itself off."""
+_LAST = 0.02
+"""What is left then."""
 
 
 def level_at_rest(volts: float) -> float:
@@ -67,6 +73,8 @@ class Battery:
         self._measure(state)
         if self.rest is None or state.time - self._since > _MEASURED:
             self.level = level_at_rest(self._smooth + self._sag)
+        if state.power == LOW_POWER or self._smooth < LOW:
+            self.level = min(self.level, _LAST)  # however it came to that
 
     def _measure(self, state: State) -> None:
         """Learn what flying costs, in the first seconds of a flight."""

@@ -1,11 +1,12 @@
 """How long a course takes, and where one ends that is broken off.
 
-A course of the high-level commander eases in and out: its peak speed is 35/16 of its mean one.
+A course of the high-level commander is a polynomial of the seventh order that begins and ends at rest:
+its peak speed is 35/16 of its mean one, and over a short way it is the acceleration that counts.
 """
 
 from __future__ import annotations
 
-from math import isfinite
+from math import dist, isfinite, sqrt
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -14,6 +15,8 @@ if TYPE_CHECKING:
 
 PEAK = 2.19
 """Peak speed over mean speed."""
+_PUSH, _MOST = 7.52, 4.0
+"""Peak acceleration over distance and squared time; metres per second squared that it may be."""
 SHORTEST = 1.0
 """Seconds: three metres in half of one have thrown a drone over."""
 NEAR = 0.1
@@ -21,16 +24,18 @@ NEAR = 0.1
 SLACK = 4.0
 """Seconds that a course may take longer."""
 
-_AHEAD = 0.2
-"""Seconds of its way that a drone is let go on when it is to stop: it cannot stop at once, and is
-flown back less."""
+_AHEAD, _BRAKE = 0.2, 3.6
+"""The share of the way that it would make while it stops, which it is let go on: it cannot stop at once,
+and is flown back less. What it then brakes with, at one metre per second and in one second."""
+_RECENT = 0.5
+"""Seconds between two states from which a speed can be told."""
 _LOWEST = 0.2
 """Metres above the ground at which it may hover."""
 
 
 def seconds_for(metres: float, speed: float) -> float:
     """Return how long a course must take for its peak speed to stay below this."""
-    return max(SHORTEST, PEAK * metres / speed)
+    return max(SHORTEST, PEAK * metres / speed, sqrt(_PUSH * metres / _MOST))
 
 
 def is_speed(speed: float) -> bool:
@@ -43,13 +48,16 @@ def is_target(target: Point) -> bool:
     return all(isfinite(value) for value in target) and target[2] > 0.0
 
 
-def stop(before: State | None, state: State) -> Point:
-    """Return where a drone is to hover that is to stop now."""
-    x, y, z = state.position
-    if before is not None and 0.0 < state.time - before.time < 0.5:
-        share = _AHEAD / (state.time - before.time)
+def stop(before: State | None, state: State) -> tuple[Point, float]:
+    """Return where a drone is to hover that is to stop now, and how long that takes."""
+    target, seconds = state.position, SHORTEST
+    if before is not None and 0.0 < state.time - before.time < _RECENT:
+        speed = dist(state.position, before.position) / (state.time - before.time)
+        seconds = max(SHORTEST, _BRAKE * speed / _MOST)
+        share = _AHEAD * seconds / (state.time - before.time)
         x, y, z = (
             now + (now - then) * share
             for now, then in zip(state.position, before.position, strict=True)
         )
-    return x, y, max(_LOWEST, z)
+        target = x, y, z
+    return (target[0], target[1], max(_LOWEST, target[2])), seconds

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from ..drones.errors import OutsideArea, Rejected, TargetTimeout
 from . import commander, words
-from .courses import NEAR, SHORTEST, SLACK, is_speed, is_target, seconds_for, stop
+from .courses import NEAR, SLACK, is_speed, is_target, seconds_for, stop
 
 if TYPE_CHECKING:
     from ..model import Point
@@ -70,7 +70,8 @@ async def hold(session: Session) -> None:
     if since < _SEEN:  # it may be about to
         await session.until(lambda state: state.steered, _SEEN - since)
     if session.well().steered:
-        await _course(session, stop(session.before, session.now()), SHORTEST, "stopped")
+        target, seconds = stop(session.before, session.now())
+        await _course(session, target, seconds, "stopped")
 
 
 async def land(session: Session, speed: float) -> None:

@@ -1,0 +1,106 @@
+"""Simulated Crazyflies in this very loop, and navigations that fly them through the real cflib."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import AsyncIterator, Mapping
+from contextlib import asynccontextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from plutoc_runtime.crazyflie.navigation import Crazyflie
+from plutoc_runtime.crtp.drone import Build, SimulatedCrazyflie
+from plutoc_runtime.crtp.record import Deed, InMemory
+from plutoc_runtime.crtp.server import Server
+from plutoc_runtime.drones import DroneEvent, DroneSetup
+from plutoc_runtime.model import Point
+
+FAST = 2.0
+"""Metres per second: nobody wants to wait."""
+
+
+@dataclass(slots=True)
+class Hangar:
+    """One simulated drone, who flies it, and what was heard of it."""
+
+    navigation: Crazyflie
+    server: Server
+    record: InMemory
+    id: str
+    events: list[DroneEvent] = field(default_factory=list)
+    heard: asyncio.Event = field(default_factory=asyncio.Event)
+
+    @property
+    def drone(self) -> SimulatedCrazyflie:
+        """The simulated drone itself."""
+        return self.server.drones[self.id]
+
+    @property
+    def position(self) -> Point:
+        """Where it really is."""
+        return self.drone.body.position
+
+    @property
+    def flies(self) -> bool:
+        """Whether it really is in the air."""
+        return self.drone.body.airborne
+
+    @property
+    def deeds(self) -> list[Deed]:
+        """What it was commanded; who only asks what it is commands nothing."""
+        return [deed for deed in self.record.deeds if deed.what != "asked"]
+
+    def did(self, what: str) -> list[Deed]:
+        """Return the commands of one kind."""
+        return [deed for deed in self.deeds if deed.what == what]
+
+    async def let(self, name: str, value: float | bool = True) -> None:
+        """Let something go wrong."""
+        await self.server.let(self.id, name, value)
+
+    async def hears(self, kind: str) -> DroneEvent:
+        """Return an event of this kind, as soon as there is one."""
+        async with asyncio.timeout(20.0):
+            while True:
+                for event in self.events:
+                    if event.kind == kind:
+                        return event
+                self.heard.clear()
+                await self.heard.wait()
+
+    async def listen(self) -> None:
+        """Hear all events, until there are no more."""
+        async for event in self.navigation.events():
+            self.events.append(event)
+            self.heard.set()
+
+
+@asynccontextmanager
+async def hangar(
+    folder: Path,
+    options: Mapping[str, object] | None = None,
+    build: Build | None = None,
+    uri: str | None = None,
+) -> AsyncIterator[Hangar]:
+    """Make a drone, not connected yet; in the end it is closed, and so is the simulation."""
+    build = build or Build(id="cf1", home=(1.0, 2.0, 0.0))
+    record = InMemory()
+    server = Server([build], record)
+    await server.start()
+    setup = DroneSetup(
+        id=build.id,
+        uri=uri or server.uris[build.id],
+        home=build.home,
+        speed=FAST,
+        options=options or {},
+        folder=folder,
+    )
+    one = Hangar(Crazyflie(setup), server, record, build.id)
+    listening = asyncio.create_task(one.listen())
+    try:
+        yield one
+    finally:
+        await one.navigation.close()
+        async with asyncio.timeout(2.0):
+            await listening  # the events end
+        await server.close()
