@@ -16,6 +16,7 @@ from .model import AfterTrip
 from .navigation import permitted_way
 from .signals import Signal
 from .status import DroneStatus
+from .words import cut_off, printable
 
 if TYPE_CHECKING:
     from .airspace import Airspace
@@ -49,10 +50,13 @@ class Fleet:
         """The next change of any drone, if anybody waits for it."""
         self.retired: set[Drone] = set()
         """Those that nobody may have until they are brought back."""
+        self._unready: set[Drone] = set()
+        """Those that stand somewhere and could not fly when they were asked: nobody waits for them."""
         queue.served = self._fetch_what_is_low
 
     def engage(self, drone: Drone) -> None:
         """A drone is about to fly for a mission: whatever it was doing for itself is over."""
+        self._unready.discard(drone)
         errand = self.errands.pop(drone, None)
         if errand is not None:
             errand.cancel()
@@ -112,9 +116,14 @@ class Fleet:
 
         It is handed out only once it stands on the ground, well, with nothing aboard.
         """
+        if standing.problems:
+            why = cut_off("; ".join(map(printable, standing.problems)), _LONGEST)
+            self._trace.note("drone.not_ready", drone=drone.id, reason=why)
         well = standing.reached and standing.landed and not standing.problems
         if not (well and standing.carrying is None and self._rests(drone)):
             self.recover(drone)
+            if standing.problems and standing.landed:
+                self._unready.add(drone)
 
     def retire(self, drone: Drone) -> None:
         """Nobody gets this drone any more; what it flies for now it flies to the end."""
@@ -123,9 +132,12 @@ class Fleet:
             self.send_home(drone)
 
     def bring_back(self, drone: Drone) -> None:
-        """A retired drone may be handed out again."""
+        """A retired drone may be handed out again; one that was lost, once it has come home."""
         self.retired.discard(drone)
-        if drone.status is DroneStatus.OFFLINE and not self._rests(drone):
+        if drone.status is DroneStatus.LOST:
+            self._navigation.mended(drone.id)
+            self.recover(drone)
+        elif drone.status is DroneStatus.OFFLINE and not self._rests(drone):
             self.send_home(drone)
 
     def flies_on(self, drone: Drone) -> None:
@@ -140,7 +152,11 @@ class Fleet:
 
     async def all_down(self) -> None:
         """Wait until every drone has done what it does for itself: return, land, recover."""
-        while under_way := [task for task in self.errands.values() if not task.is_set]:
+        while under_way := [
+            task
+            for drone, task in self.errands.items()
+            if not task.is_set and not (drone in self._unready and drone.telemetry.landed)
+        ]:
             await under_way[0].ended()
 
     def _send(
@@ -260,8 +276,14 @@ class Fleet:
         return True
 
     def _charged(self, drone: Drone) -> None:
-        if drone.status is DroneStatus.CHARGING:
+        """Its time is over; a real battery need not keep to that: then look again later."""
+        if drone.status is not DroneStatus.CHARGING:
+            return
+        if drone.battery_level > drone.category.reserve:
             self._become(drone, _FREE)
+        else:
+            later = self._kernel.now + _LOOK_AGAIN
+            self._kernel.at(later, Kind.CLOCK, self._key(drone), partial(self._charged, drone))
 
     def _fetch_what_is_low(self) -> None:
         """Missions wait for drones that stand away from home with too little in their batteries."""
@@ -284,6 +306,12 @@ class Fleet:
 
 
 _FREE = DroneStatus.FREE
+
+_LOOK_AGAIN = 10.0
+"""Seconds between two looks at a battery that should be full enough by now."""
+
+_LONGEST = 500
+"""Characters of why a drone may not fly."""
 
 _EVENT = {status: f"drone.{status.value.lower()}" for status in DroneStatus}
 """What the event is called in which a drone's status becomes this."""

@@ -56,6 +56,7 @@ class Life:
         self.session = Session(app, fleet, kernel, navigation, heard, self.recorder, link)
         self.control = Control(self.session, link)
         self._retired: Sequence[str] = records.retired
+        self._mended: Sequence[str] = records.mended
         self.missions: tuple[Mission[Any], ...] = ()
         """All missions, those of earlier lives that have ended included."""
 
@@ -119,9 +120,14 @@ class Life:
         return await session.see_through()
 
     def _retire(self) -> None:
-        """Let nobody have the drones that were retired in an earlier life."""
+        """Let nobody have the drones that were retired in an earlier life.
+
+        Those that somebody has looked after, and that were not back when it ended, are asked anew.
+        """
         fleet = self.session.core.fleet
         fleet.retired.update(drone for drone in fleet.drones if drone.id in self._retired)
+        for drone in self._mended:
+            self._link.mended(drone)
 
 
 def _refuse_if_none_is_ready(roll: RollCall) -> None:

@@ -65,7 +65,7 @@ class Control(Protocol):
         ...
 
     def bring_back(self, drone: str) -> str:
-        """Let a retired drone be handed out again."""
+        """Let a drone be handed out again that is retired, or lost and looked after since."""
         ...
 
     def decide(self, mission: str, answer: str) -> str:

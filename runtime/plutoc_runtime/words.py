@@ -14,9 +14,7 @@ LONGEST = 60
 
 def quoted(text: str) -> str:
     """Put a user's word in quotes; nothing in it can command a terminal."""
-    if len(text) > LONGEST:
-        text = text[: LONGEST - 1] + "…"
-    return f'"{printable(text)}"'
+    return f'"{printable(cut_off(text, LONGEST))}"'
 
 
 def in_shell(text: object) -> str:
@@ -68,6 +66,11 @@ def counted(count: int, one: str, many: str | None = None) -> str:
 def printable(text: str) -> str:
     """Escape what a terminal would take as a command."""
     return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in text)
+
+
+def cut_off(text: str, longest: int) -> str:
+    """Write no more of a text than so many characters."""
+    return text if len(text) <= longest else text[: longest - 1] + "…"
 
 
 def shown(value: object) -> str:

@@ -14,6 +14,7 @@ from plutoc_runtime.context import Context
 from plutoc_runtime.errors import ActionFailed, Failure, FlightFailed
 from plutoc_runtime.handle import LiveDrone, can_wait
 from plutoc_runtime.model import Category, Drone
+from plutoc_runtime.signals import Signal
 from plutoc_runtime.simulation.drones import SimulatedNavigation
 from plutoc_runtime.simulation.world import WorldData
 from plutoc_runtime.status import Status
@@ -182,22 +183,18 @@ def test_an_answer_that_never_comes_ends_with_the_flight(
     over: list[str] = []
 
     async def never(self: SimulatedNavigation, drone: str, name: str) -> float:
+        self.strike(drone, Failure.CRASH)
         try:
-            await self.hold_on(drone)
+            await Signal[None]()
         finally:
             over.append(name)
         return 0.0
-
-    async def hold_on(self: SimulatedNavigation, drone: str) -> None:
-        self.strike(drone, Failure.CRASH)
-        await self._kernel.sleep(1e9)
 
     async def grip(drone: Drone, trip: apps.Trip, context: Context) -> None:
         await context.sleep(0.01)
         await context.live(drone).read("range.front")
 
     monkeypatch.setattr(SimulatedNavigation, "read", never)
-    monkeypatch.setattr(SimulatedNavigation, "hold_on", hold_on, raising=False)
     assert "crashed at" in reason(grip, real=real)
     assert over == ["range.front"]
 

@@ -56,6 +56,11 @@ def _ended(event: Event) -> str:
     return f"{event['status']}: {reason}" if reason else str(event["status"])
 
 
+def _brought_back(event: Event) -> str:
+    said = "was lost, and a person has looked after it" if event.get("lost") else "is back"
+    return f"{event['drone']} {said}"
+
+
 _HOW = {"rtl": "all fly home", "land": "all land"}
 
 _SENTENCES: Mapping[str, Callable[[Event], str]] = {
@@ -74,7 +79,8 @@ _SENTENCES: Mapping[str, Callable[[Event], str]] = {
     "trip.skipped": lambda event: f"trip {event['trip']} skipped",
     "trip.prioritised": lambda event: f"trip {event['trip']} has priority {event['priority']}",
     "drone.retired": lambda event: f"{event['drone']} is retired",
-    "drone.brought_back": lambda event: f"{event['drone']} is back",
+    "drone.brought_back": _brought_back,
+    "drone.not_ready": lambda event: f"{event['drone']} is not ready: {event['reason']}",
     "stopped": lambda event: f"everything stops ({_HOW.get(str(event['how']), event['how'])})",
     "drone.recovering": lambda event: f"{event['drone']} recovers",
     "drone.lost": lambda event: f"{event['drone']} is lost",

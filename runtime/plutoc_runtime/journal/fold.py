@@ -43,6 +43,8 @@ class Records:
         """The names of the last commands that were carried out, as whoever commanded chose them."""
         self.retired: list[str] = self.data.setdefault("retired", [])
         """The drones that nobody may have."""
+        self.mended: list[str] = self.data.setdefault("mended", [])
+        """The drones that were lost, that a person has looked after, and that are not back yet."""
 
     @property
     def time(self) -> float:
@@ -302,6 +304,14 @@ def _retired(records: Records, event: Fact) -> None:
 def _brought_back(records: Records, event: Fact) -> None:
     if event["drone"] in records.retired:
         records.retired.remove(str(event["drone"]))
+    if event.get("lost") and event["drone"] not in records.mended:
+        records.mended.append(str(event["drone"]))
+
+
+def _came_back(records: Records, event: Fact) -> None:
+    """A drone is back, or is lost once more: that somebody had looked after it says nothing now."""
+    if event["drone"] in records.mended:
+        records.mended.remove(str(event["drone"]))
 
 
 def shift_delays(records: Records, seconds: float) -> None:
@@ -372,4 +382,7 @@ _WHOLE: dict[str, Callable[[Records, Fact], None]] = {
     "commanded": _commanded,
     "drone.retired": _retired,
     "drone.brought_back": _brought_back,
+    "drone.free": _came_back,
+    "drone.charging": _came_back,
+    "drone.lost": _came_back,
 }
