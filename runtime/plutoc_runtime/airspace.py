@@ -8,7 +8,7 @@ from itertools import pairwise
 from math import dist, inf
 from typing import TYPE_CHECKING
 
-from .geometry import EPSILON, Corner, enters, inside, outlined, pushed_out
+from .geometry import EPSILON, Corner, edge_points, enters, inside, outlined, pushed_out
 from .words import number, place
 
 if TYPE_CHECKING:
@@ -63,6 +63,34 @@ class Airspace:
             if inside((x, y), area.corners):
                 return f"{place(point)} is inside no-fly area {count}"
         return None
+
+    def leg_problem(self, start: Point, end: Point) -> str | None:
+        """Return why no drone may fly straight from one permitted point to another, or None."""
+        for count, area in enumerate(self._ways.areas, 1):
+            if enters(start[:2], end[:2], area):
+                way = f"the straight way from {place(start)} to {place(end)}"
+                return f"{way} leads through no-fly area {count}"
+        return None
+
+    def way_back(self, point: Point) -> Point:
+        """Return the permitted point that is nearest to one that is not, or almost so."""
+        width, depth = self.size
+        x, y, z = point
+        x, y = min(max(x, 0.0), width), min(max(y, 0.0), depth)
+        z = min(max(z, 0.0), self.ceiling)
+        for _ in range(1 + len(self._ways.areas)):
+            area = next((one for one in self._ways.areas if inside((x, y), one.corners)), None)
+            if area is None:
+                break
+            edges = [
+                (px, py)
+                for px, py in edge_points((x, y), area.corners, EPSILON)
+                if not self.problem((px, py, z))
+            ]
+            if not edges:
+                break
+            x, y = min(edges, key=lambda edge: dist(edge, (x, y)))
+        return x, y, z
 
     def route(self, start: Point, end: Point) -> tuple[Point, ...] | None:
         """Return the shortest permitted way, the end included and the start not, or None.

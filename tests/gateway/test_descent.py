@@ -85,8 +85,9 @@ def test_who_stands_elsewhere_goes_home_too_if_it_can() -> None:
     """With what it carries; one with too little in its battery, or crashed, stays where it is."""
     field = Field()
     link = field.gateway.link(1)
-    for drone in field.drones:
-        link.fly(Task(id=drone.id, drone=drone.id), lambda _: None)
+    for place, drone in enumerate(field.drones):
+        stops = ((4.0 + place, 5.0, 1.2),)
+        link.fly(Task(id=drone.id, drone=drone.id, stops=stops), lambda _: None)
         field.advance(20)
         assert isinstance(field.kernel, VirtualTime)
         fly(field.kernel, link.land(drone.id))
@@ -95,7 +96,7 @@ def test_who_stands_elsewhere_goes_home_too_if_it_can() -> None:
     field.navigation.strike("cf3", Failure.CRASH)
     brought_down(field, Down.HOME)
     at = [field.navigation.telemetry(drone.id).location for drone in field.drones]
-    assert at == [pytest.approx((1, 1, 0)), pytest.approx((4, 5, 0)), pytest.approx((4, 5, 0))]
+    assert at == [pytest.approx((1, 1, 0)), pytest.approx((5, 5, 0)), pytest.approx((6, 5, 0))]
     assert field.navigation.carrying("cf1") is not None
     assert all_landed(field)
 
@@ -146,7 +147,7 @@ def test_nobody_lands_on_another_or_where_it_may_not() -> None:
     """Of two above one another the higher moves aside; one over a no-fly area leaves it."""
     field = Field(airspace=Airspace(no_fly=(((9, 9), (11, 9), (11, 11), (9, 11)),)))
     link = field.gateway.link(1)
-    for drone, height in (("cf1", 1.2), ("cf2", 2.0), ("cf3", 1.4)):
+    for drone, height in (("cf1", 1.2), ("cf2", 1.8), ("cf3", 2.4)):
         stops = ((5.0, 5.0, height),)
         link.fly(Task(id=drone, drone=drone, stops=stops, action=None), lambda _: None)
     field.advance(60)

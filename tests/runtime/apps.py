@@ -195,8 +195,12 @@ def fleet(
     after: AfterTrip = AfterTrip.HOME,
     max_airborne: int | None = None,
     airspace: Airspace | None = None,
+    apart: float = 0.0,
 ) -> FleetFile:
-    """Return a fleet file; without homes, one drone at (0.5, 0.5)."""
+    """Return a fleet file; without homes, one drone at (0.5, 0.5).
+
+    Drones do not wait for each other unless a test says so: most are about something else.
+    """
     return FleetFile(
         airspace=airspace or Airspace(),
         drones=tuple(
@@ -205,6 +209,7 @@ def fleet(
         ),
         after_trip=after,
         max_airborne=max_airborne,
+        apart=apart,
     )
 
 

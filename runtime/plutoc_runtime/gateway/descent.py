@@ -22,7 +22,7 @@ from .spots import free_spot
 if TYPE_CHECKING:
     from ..airspace import Airspace
     from ..model import Category, Point
-    from ..navigation import Navigation
+    from .controls import Controls
 
 _Command = Callable[[], Coroutine[Any, Any, None]]
 
@@ -74,7 +74,7 @@ class Descent:
     def __init__(
         self,
         kernel: Kernel,
-        navigation: Navigation,
+        navigation: Controls,
         drones: Sequence[Craft],
         airspace: Airspace,
         apart: float,
@@ -155,7 +155,9 @@ class Descent:
 
     async def _climb(self, way: _Way) -> None:
         """Rise, or sink, to the way's height: who is above another now, stays so."""
-        await self._navigation.takeoff(way.drone.id, way.height)  # does nothing for one that flies
+        if self._is_landed(way.drone):
+            self._navigation.begins(way.drone.id, None, 0.0)
+            await self._navigation.takeoff(way.drone.id, way.height)
         await self._navigation.go_to(way.drone.id, way.points[0])
 
     async def _follow(self, way: _Way, below: Sequence[tuple[_Way, Task[bool]]]) -> None:

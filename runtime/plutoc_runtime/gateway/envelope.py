@@ -1,4 +1,4 @@
-"""Where drones may be sent at all, whatever the brain believes."""
+"""Where drones may be sent at all, whatever the brain believes: refused, and never made to fit."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from ..errors import Failure, FlightFailed
+from ..navigation import permitted_way
 from ..words import number
 
 if TYPE_CHECKING:
@@ -14,7 +15,7 @@ if TYPE_CHECKING:
 
 
 class Envelope:
-    """Inside the map, outside the no-fly areas, below the ceiling."""
+    """Inside the map, outside the no-fly areas, between ground and ceiling: all the way."""
 
     def __init__(self, airspace: Airspace) -> None:
         self._airspace = airspace
@@ -39,3 +40,23 @@ class Envelope:
         if not 0 <= height <= ceiling:
             reason = f"{number(height)} m is not between the ground and {number(ceiling)} m"
             raise FlightFailed(Failure.REFUSED, reason)
+
+    def straight(self, start: Point, target: Point) -> tuple[Point, ...]:
+        """Return the points of a straight leg; one that has drifted out flies back in first."""
+        airspace = self._airspace
+        back: tuple[Point, ...] = ()
+        if airspace.problem(start) is not None:
+            start = airspace.way_back(start)
+            back = (start,)
+        problem = airspace.problem(target) or airspace.leg_problem(start, target)
+        if problem is not None:
+            raise FlightFailed(Failure.REFUSED, problem)
+        return (*back, target)
+
+    def way(self, drone: str, start: Point, end: Point) -> tuple[Point, ...]:
+        """Return the points of the shortest permitted way; who has drifted out flies back in first."""
+        airspace = self._airspace
+        if airspace.problem(start) is None or airspace.problem(end) is not None:
+            return permitted_way(airspace, drone, start, end)
+        back = airspace.way_back(start)
+        return (back, *permitted_way(airspace, drone, back, end))

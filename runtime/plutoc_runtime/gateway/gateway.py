@@ -18,6 +18,7 @@ from .envelope import Envelope
 from .jobs import Jobs
 from .link import Link
 from .pilots import Pilots
+from .traffic.traffic import Traffic
 
 if TYPE_CHECKING:
     from ..airspace import Airspace
@@ -42,10 +43,24 @@ class Gateway:
         *,
         ledger: Ledger | None = None,
         apart: float = 0.5,
+        slack: float = 0.0,
+        max_airborne: int | None = None,
         patience: float | None = None,
     ) -> None:
-        self.kernel = kernel
-        self.navigation = Pilots(kernel, controls, drones, airspace)
+        self.kernel, self._controls = kernel, controls
+        self.traffic: Traffic | None = None
+        """Keeps drones apart from each other, if anybody wants that."""
+        if apart > 0:
+            self.traffic = Traffic(
+                kernel,
+                controls,
+                drones,
+                airspace,
+                apart=apart,
+                slack=slack,
+                max_airborne=max_airborne,
+            )
+        self.navigation = Pilots(kernel, controls, drones, airspace, self.traffic)
         self.envelope = Envelope(airspace)
         self.drones, self._airspace, self._apart = tuple(drones), airspace, apart
         self._keys = {drone.id: FLEET + 1 + drone.index for drone in drones}
@@ -176,7 +191,7 @@ class Gateway:
             descent.cancel()
         for drone in self.drones:
             self.break_off(drone.id)
-        ways = Descent(self.kernel, self.navigation, self.drones, self._airspace, self._apart)
+        ways = Descent(self.kernel, self._controls, self.drones, self._airspace, self._apart)
         self._how = how
         self.descent = task = self.kernel.spawn(ways.down(how), FLEET, "all drones come down")
         task.over = self._is_down
@@ -185,5 +200,7 @@ class Gateway:
     def _is_down(self, task: Task[None]) -> None:
         if self.descent is task:
             self.descent = None
+        if self.traffic is not None:
+            self.traffic.begin_anew()
         if task.error is not None and not isinstance(task.error, Cancelled):
             self.kernel.crash(task.error)

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import TYPE_CHECKING
 
 from ..energy import docked, flight_seconds
 from ..errors import Failure, FlightFailed
-from ..kernel import FLEET, Cancelled, Kernel, Task
-from ..navigation import motors_cut, permitted_way
+from ..kernel import FLEET, WHATEVER, Cancelled, Kernel, Task
+from ..navigation import motors_cut
+from .envelope import Envelope
+from .traffic.detours import Section
 
 if TYPE_CHECKING:
     from ..airspace import Airspace
@@ -17,22 +20,35 @@ if TYPE_CHECKING:
     from ..standing import Standing
     from .controls import Controls
     from .descent import Craft
+    from .traffic.traffic import Traffic
+
+
+def _nothing() -> None:
+    """A flight goes on that has begun."""
 
 
 class Pilots:
     """One for each drone, as it were: they know the way, and what is permitted."""
 
     def __init__(
-        self, kernel: Kernel, controls: Controls, drones: Sequence[Craft], airspace: Airspace
+        self,
+        kernel: Kernel,
+        controls: Controls,
+        drones: Sequence[Craft],
+        airspace: Airspace,
+        traffic: Traffic | None = None,
     ) -> None:
         self._kernel, self._controls, self._airspace = kernel, controls, airspace
+        self._traffic = traffic
+        """Keeps them apart from each other; None: nobody does."""
+        self._envelope = Envelope(airspace)
         self._drones = {drone.id: drone for drone in drones}
         self._jobs: dict[str, Task[None]] = {}
         """The jobs under way, by the drones' ids."""
         self._rescues: dict[str, Task[bool]] = {}
         """The latest rescue of each drone."""
         self._cut: dict[str, None] = {}
-        """The drones whose motors were cut: nothing is asked of them until they are mended."""
+        """Whose motors were cut, until a person has looked after them."""
 
     def telemetry(self, drone: str) -> Telemetry:
         """Return what is known of a drone; the value stays current."""
@@ -59,14 +75,13 @@ class Pilots:
         controls, airspace, drone = self._controls, self._airspace, job.drone
         self._refuse_if_cut(drone)
         self._check(job)
-        telemetry = controls.telemetry(drone)
-        category = self._drones[drone].category
-        seconds = flight_seconds(category, airspace, telemetry.location, job.stops, job.seconds)
-        controls.begins(drone, job, seconds)
-        await controls.takeoff(drone, airspace.cruise_height)
-        for stop in job.stops:
-            for point in permitted_way(airspace, drone, telemetry.location, stop):
-                await controls.go_to(drone, point)
+
+        def begins() -> None:
+            here, category = controls.telemetry(drone).location, self._drones[drone].category
+            seconds = flight_seconds(category, airspace, here, job.stops, job.seconds)
+            controls.begins(drone, job, seconds)
+
+        await self._travel(drone, partial(self._to, drone, job.stops), begins)
         if job.action is None:
             return None
         job.begins()
@@ -86,29 +101,37 @@ class Pilots:
         for task in (self._jobs.pop(drone, None), self._rescues.pop(drone, None)):
             if task is not None:
                 task.cancel()
+        if self._traffic is not None:
+            self._traffic.break_off(drone)
         if drone not in self._cut:
             self._controls.break_off(drone)
 
     async def hold(self, drone: str) -> None:
         """Hover, for as long as an action of the app's own takes; never returns by itself."""
-        self._refuse_if_cut(drone)
         await self._controls.hold(drone)
 
     async def takeoff(self, drone: str, height: float) -> None:
         """Rise to a height; does nothing for a drone that flies."""
+        begins = partial(self._controls.begins, drone, None, 0.0)
         self._refuse_if_cut(drone)
-        self._controls.begins(drone, None, 0.0)
-        await self._controls.takeoff(drone, height)
+        if self._controls.telemetry(drone).landed:
+            await self._travel(drone, partial(self._up, drone, height), begins)
+        else:
+            begins()
 
     async def go_to(self, drone: str, target: Point) -> None:
         """Fly straight to a point."""
-        self._refuse_if_cut(drone)
-        await self._controls.go_to(drone, target)
+        if self._controls.telemetry(drone).landed:
+            await self._controls.go_to(drone, target)  # says why not
+        else:
+            await self._travel(drone, partial(self._straight, drone, target))
 
     async def land(self, drone: str) -> None:
-        """Land here."""
-        self._refuse_if_cut(drone)
-        await self._controls.land(drone)
+        """Land here, or beside it where another stands."""
+        if self._traffic is None or self._controls.telemetry(drone).landed:
+            await self._controls.land(drone)
+        else:
+            await self._travel(drone, partial(self._down, drone))
 
     async def read(self, drone: str, name: str) -> float:
         """Return what a drone measures under this name."""
@@ -134,7 +157,10 @@ class Pilots:
 
     async def roll_call(self, drone: str) -> Standing:
         """Ask a drone where it is and what it has done; say so if it does not answer."""
-        return await self._controls.roll_call(drone)
+        standing = await self._controls.roll_call(drone)
+        if self._traffic is not None:
+            self._traffic.look_around()
+        return standing
 
     # After a failure
 
@@ -163,6 +189,8 @@ class Pilots:
     async def _rescue(self, drone: str) -> bool:
         controls = self._controls
         if drone in self._cut or not await controls.reach(drone):
+            if self._traffic is not None:
+                self._traffic.lost(drone)
             return False
         if not await self._flies_home(drone) and not await controls.fetched(drone):
             return False
@@ -170,22 +198,113 @@ class Pilots:
         return True
 
     async def _flies_home(self, drone: str) -> bool:
-        """Fly home, or land where no way leads there."""
-        controls, (x, y, _) = self._controls, self._drones[drone].home
-        telemetry = controls.telemetry(drone)
+        telemetry, home = self._controls.telemetry(drone), self._drones[drone].home
+        begins = partial(self._controls.begins, drone, None, 0.0)
         try:
-            controls.begins(drone, None, 0.0)
-            if telemetry.landed and docked(telemetry.location, (x, y, 0.0)):
+            if telemetry.landed and docked(telemetry.location, home):
+                begins()
                 return True
-            await controls.takeoff(drone, self._airspace.cruise_height)
-            here = telemetry.location
-            way = self._airspace.route(here, (x, y, here[2]))
-            for point in way or ():
-                await controls.go_to(drone, point)
-            await controls.land(drone)
+            await self._travel(drone, partial(self._home, drone), begins)
+            if not telemetry.landed:  # somebody stood there
+                await self.land(drone)
         except FlightFailed:
             return False
-        return way is not None
+        return True
+
+    # Ways
+
+    async def _travel(
+        self, drone: str, plan: Callable[[], Section], begins: Callable[[], None] = _nothing
+    ) -> None:
+        """Fly a section, as soon as it is free; whoever must wait for long, waits on the ground."""
+        traffic, since = self._traffic, self._kernel.now
+        if traffic is None:
+            section = plan()
+            begins()
+            await self._follow(section)
+            return
+        try:
+            while True:
+                section = plan()
+                way = traffic.clear(section)
+                if way is None:
+                    way = await traffic.cleared(section, since)
+                begins()
+                await self._follow(way)
+                traffic.rests(drone)
+                if section.lands or not way.aside:
+                    return
+        except FlightFailed as error:
+            traffic.stopped(drone, fails=error.failure is not Failure.REFUSED)
+            raise
+        except WHATEVER:
+            traffic.stopped(drone, fails=False)
+            raise
+
+    async def _follow(self, section: Section) -> None:
+        controls, traffic, drone = self._controls, self._traffic, section.drone
+        points = section.points[1:-1] if section.lands else section.points[1:]
+        if section.stands:
+            await controls.takeoff(drone, points[0][2])
+            points = points[1:]
+            if traffic is not None:
+                traffic.passed(drone)
+        for point in points:
+            await controls.go_to(drone, point)
+            if traffic is not None:
+                traffic.passed(drone)
+        if section.lands:
+            await controls.land(drone)
+
+    def _to(self, drone: str, stops: Sequence[Point]) -> Section:
+        """To all stops, and hover at the last."""
+        points, stands = self._start(drone, self._airspace.cruise_height)
+        for stop in stops:
+            points += self._envelope.way(drone, points[-1], stop)
+        return Section(drone, tuple(points), stands, False)
+
+    def _up(self, drone: str, height: float) -> Section:
+        """Straight up."""
+        points, stands = self._start(drone, height)
+        return Section(drone, tuple(points), stands, False)
+
+    def _straight(self, drone: str, target: Point) -> Section:
+        """Straight to a point; above its dock, a drone is about to land."""
+        points, stands = self._start(drone, self._airspace.cruise_height)
+        points += self._envelope.straight(points[-1], target)
+        tail: tuple[Point, ...] = ()
+        if self._traffic is not None and docked(target, self._drones[drone].home):
+            below = self._traffic.place_to_land(drone, target)
+            tail = () if below is None else (below,)
+        return Section(drone, tuple(points), stands, False, tail)
+
+    def _down(self, drone: str) -> Section:
+        """Straight down, or beside it."""
+        here = self._controls.telemetry(drone).location
+        traffic = self._traffic
+        below = (here[0], here[1], 0.0)
+        if traffic is not None and traffic.place_to_land(drone, here) is None:
+            return traffic.beside(drone)
+        return Section(drone, (here, below), False, True)
+
+    def _home(self, drone: str) -> Section:
+        """To its dock, and land there, unless another stands on it."""
+        x, y, z = self._drones[drone].home
+        points, stands = self._start(drone, self._airspace.cruise_height)
+        points += self._envelope.way(drone, points[-1], (x, y, points[-1][2]))
+        traffic = self._traffic
+        lands = traffic is None or traffic.place_to_land(drone, (x, y, z)) is not None
+        if lands:
+            points.append((x, y, 0.0))
+        return Section(drone, tuple(points), stands, lands)
+
+    def _start(self, drone: str, height: float) -> tuple[list[Point], bool]:
+        """Return where a drone is, and where it is when it has taken off; whether it must."""
+        telemetry = self._controls.telemetry(drone)
+        here = telemetry.location
+        if not telemetry.landed:
+            return [here], False
+        return [here, (here[0], here[1], height)], True
 
     def _key(self, drone: str) -> int:
         return FLEET + 1 + self._drones[drone].index

@@ -26,6 +26,7 @@ from .ending import Ending
 from .file_ledger import FileLedger
 from .gateway import Gateway
 from .holding import holding
+from .real import SLACK
 from .server import Server
 from .settings import Settings, settings_of
 from .wire import LONGEST_TOLD

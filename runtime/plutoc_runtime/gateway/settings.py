@@ -35,6 +35,8 @@ class Settings:
     faults: Faults
     real: RealFleet | None = None
     """None: the drones are simulated."""
+    max_airborne: int | None = None
+    """How many may be in the air at once."""
     speed: float = 1.0
     """How fast time passes: 10 is ten times as fast as on the wall."""
     patience: float = PATIENCE
@@ -64,6 +66,7 @@ def settings_for(
         ),
         airspace=fleet.airspace,
         apart=fleet.apart,
+        max_airborne=fleet.max_airborne,
         world=fleet.world,
         seed=seed,
         faults=faults or Faults(),
@@ -99,6 +102,7 @@ def data_of(settings: Settings) -> dict[str, object]:
             "no_fly": airspace.no_fly,
         },
         "apart": settings.apart,
+        "max_airborne": settings.max_airborne,
         "world": None if world is None else {**asdict(world), "background": {**world.background}},
         "seed": settings.seed,
         "faults": asdict(settings.faults),
@@ -115,6 +119,7 @@ def settings_of(data: Mapping[str, Any]) -> Settings:
         drones=tuple(map(_drone, data["drones"])),
         airspace=_airspace(data["airspace"]),
         apart=data["apart"],
+        max_airborne=data.get("max_airborne"),
         world=None if data["world"] is None else _world(data["world"]),
         seed=data["seed"],
         faults=Faults(**data["faults"]),

@@ -19,12 +19,22 @@ def free_spot(airspace: Airspace, point: Point, taken: Sequence[Point], apart: f
 
     Where there is none on the whole map, straight below is as good as any.
     """
+    return next(free_spots(airspace, point, taken, apart), (point[0], point[1], 0.0))
+
+
+def free_spots(
+    airspace: Airspace, point: Point, taken: Sequence[Point], apart: float
+) -> Iterator[Point]:
+    """Yield the permitted places on the ground that are far enough from those taken: near ones first."""
     for x, y in _around(point, hypot(*airspace.size)):
-        if airspace.problem((x, y, 0.0)) is None and all(
-            hypot(x - other[0], y - other[1]) >= apart for other in taken
-        ):
-            return x, y, 0.0
-    return point[0], point[1], 0.0
+        if airspace.problem((x, y, 0.0)) is None and is_free((x, y, 0.0), taken, apart):
+            yield x, y, 0.0
+
+
+def is_free(place: Point, taken: Sequence[Point], apart: float) -> bool:
+    """Say whether a place on the ground is far enough from those taken."""
+    x, y, _ = place
+    return all(hypot(x - other[0], y - other[1]) >= apart for other in taken)
 
 
 def _around(point: Point, furthest: float) -> Iterator[tuple[float, float]]:

@@ -185,6 +185,7 @@ class Rig:
             fleet.airspace,
             ledger=self.ledger,
             apart=fleet.apart,
+            max_airborne=fleet.max_airborne,
         )
         if any(blow.kind is Kind.REPORT for blow in self.case.blows):
             gateway.line = Line(gateway, self.fate)

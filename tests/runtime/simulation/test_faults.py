@@ -260,14 +260,14 @@ def test_recovery_flies_around_what_may_not_be_entered() -> None:
 
 
 def test_a_drone_without_a_way_home_is_fetched() -> None:
-    """It lands where it is, and somebody carries it."""
+    """It stays where it is, and somebody carries it."""
     airspace = Airspace(no_fly=(((2, 0), (2.5, 0), (2.5, 20), (2, 20)),))
     kernel = VirtualTime()
     navigation = team(kernel, Faults(action=1), airspace=airspace)
     failure(kernel, flight(navigation))  # a test may fly where nobody may
     begun = kernel.now
     assert fly(kernel, navigation.recover("cf1"))
-    assert kernel.now == pytest.approx(begun + CLIMB + 300)
+    assert kernel.now == pytest.approx(begun + 300)
     assert navigation.telemetry("cf1").location == HOME
 
 

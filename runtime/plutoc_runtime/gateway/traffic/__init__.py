@@ -1,0 +1,1 @@
+"""Keeps drones in the air apart, in space and not in time: what one has taken, no other enters."""

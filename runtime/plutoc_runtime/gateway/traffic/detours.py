@@ -1,0 +1,58 @@
+"""The same way at other heights: rise, cross, sink."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from ...model import Point
+
+FURTHEST = 1.5
+"""How many metres higher or lower a drone flies to let another pass."""
+LOWEST = 0.5
+"""No drone goes out of another's way below this height."""
+
+
+@dataclass(frozen=True, slots=True)
+class Section:
+    """A drone's way from where it rests to where it rests next, on the ground or hovering."""
+
+    drone: str
+    points: tuple[Point, ...]
+    """The first is where it is now."""
+    stands: bool
+    """It begins on the ground: the second point is right above the first."""
+    lands: bool
+    """It ends on the ground: the last point is right below the one before."""
+    tail: tuple[Point, ...] = ()
+    """Where it goes at once after that, if nobody tells it otherwise: to its dock."""
+    aside: bool = False
+    """It only goes out of the way of others."""
+
+    def at_height(self, offset: float) -> Section:
+        """Return the same way, so much higher; where it rests stays where it is."""
+        points = self.points
+        way = points[1 if self.stands else 0 : -1 if self.lands else None]
+        shifted = tuple((x, y, z + offset) for x, y, z in way)
+        ends = points[-1:]
+        return Section(
+            self.drone, (points[0], *shifted, *ends), self.stands, self.lands, self.tail, self.aside
+        )
+
+
+def sections(section: Section, step: float, ceiling: float) -> Iterator[Section]:
+    """Yield a section, and then the same at other heights: the smallest detour first."""
+    yield section
+    way = section.points[1 if section.stands else 0 : -1 if section.lands else None]
+    if len(way) < 2 or all(point[:2] == way[0][:2] for point in way) or step <= 0:
+        return
+    heights = [point[2] for point in way]
+    most, least = max(heights), min(heights)
+    count = 1
+    while count * step <= FURTHEST + 1e-9:
+        for offset in (count * step, -count * step):
+            if most + offset <= ceiling + 1e-9 and (offset > 0 or least + offset >= LOWEST - 1e-9):
+                yield section.at_height(offset)
+        count += 1
