@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 from typing import TYPE_CHECKING
 
 from ..errors import FlightFailed
@@ -13,8 +14,8 @@ if TYPE_CHECKING:
 
 LETTING_GO = 20.0
 """Seconds that a navigation may take to close a link."""
-_TIMES = 3
-"""How often a drone is told to land that does not."""
+_TIMES, _PAUSE = 3, 1.0
+"""How often a drone is told to land that does not; seconds in between."""
 
 
 async def close(member: Member, linking: Linking) -> None:
@@ -40,6 +41,7 @@ async def _land(member: Member, linking: Linking) -> None:
             await member.land()
         except FlightFailed as error:
             member.calls.say(f"{member.id} was to land: {error}")
+            await asyncio.sleep(_PAUSE)
     if not member.seen.landed:
         where = place(member.seen.location)
         member.calls.say(f"{member.id} could not be landed: it may still hover at {where}")

@@ -1,0 +1,180 @@
+"""Navigations that hang, raise whatever they like, or hold up everybody: nobody else suffers."""
+
+from __future__ import annotations
+
+import asyncio
+from pathlib import Path
+
+import pytest
+
+from plutoc_runtime.drones import NavigationError
+from plutoc_runtime.errors import Failure, FlightFailed
+from tests.drones.fakes import FakeDrone
+from tests.drones.jumping import run, the_loop
+from tests.drones.teams import Flown, flying
+
+METHODS = (
+    "preflight",
+    "takeoff",
+    "go_to",
+    "hold",
+    "land",
+    "act",
+    "read",
+    "write",
+    "events",
+    "emergency_stop",
+    "close",
+)
+
+
+async def everything(flown: Flown, drone: str = "cf1") -> list[str]:
+    """Ask for everything there is, and return what went wrong."""
+    team = flown.team
+    wrong: list[str] = []
+    for command in (
+        team.takeoff(drone, 1.0),
+        team.go_to(drone, (2.0, 2.0, 1.0)),
+        team.act(drone, "measure", {}, None, None),
+        team.read(drone, "range.front"),
+        team.write(drone, "led", 1.0),
+        team.land(drone),
+        team.cut(drone),
+    ):
+        try:
+            await flown.do(command)
+        except FlightFailed as error:
+            wrong.append(str(error))
+    return wrong
+
+
+@pytest.mark.parametrize("clings", [False, True])
+@pytest.mark.parametrize("method", ["connect", *METHODS])
+def test_a_navigation_that_hangs_hangs_nothing(tmp_path: Path, method: str, clings: bool) -> None:
+    """In any of its methods, and even if it does not let go: all else goes on within limits."""
+
+    async def flight() -> None:
+        drones = FakeDrone(), FakeDrone("cf2", (3.0, 1.0, 0.0))
+        async with flying(tmp_path, *drones) as flown:
+            await flown.do(flown.team.roll_call("cf1"))
+            drones[0].hangs = {method}
+            drones[0].clings = {method} if clings else set()
+            before = the_loop().time()
+            hanging = asyncio.ensure_future(everything(flown))
+            assert await everything(flown, "cf2") == []
+            assert the_loop().time() - before < 20
+            wrong = await hanging
+            if method not in ("connect", "hold", "events", "close"):
+                assert wrong[0].startswith("cf1 ")
+            before = the_loop().time()
+            drones[0].hangs -= {"land"}
+        assert the_loop().time() - before < 60
+
+    run(flight())
+
+
+def test_a_navigation_that_hangs_in_every_method_hangs_nothing(tmp_path: Path) -> None:
+    """Not even the end."""
+
+    async def flight() -> None:
+        async with flying(tmp_path) as flown:
+            drone = await flown.up()
+            drone.hangs = {"connect", *METHODS}
+            drone.clings = {"go_to", "land"}
+            await everything(flown)
+            before = the_loop().time()
+        assert the_loop().time() - before < 120
+        assert any("could not be landed" in line for line in flown.log)
+
+    run(flight())
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize(
+    "error", [TypeError("what?"), SystemExit(3), asyncio.CancelledError(), NavigationError("no")]
+)
+def test_a_navigation_that_raises_fails_its_own_flight(
+    tmp_path: Path, method: str, error: BaseException
+) -> None:
+    """A mistake is named, and its traceback is in the log; what it declares is a reason."""
+
+    async def flight() -> None:
+        drones = FakeDrone(), FakeDrone("cf2", (3.0, 1.0, 0.0))
+        drones[0].raises = {method: error}
+        async with flying(tmp_path, *drones) as flown:
+            for drone in flown.drones:
+                await flown.do(flown.team.roll_call(drone))
+            wrong = await everything(flown)
+            assert await everything(flown, "cf2") == []
+            if method not in ("hold", "events", "close"):
+                what = str(error) or "CancelledError"
+                assert any(what in one for one in wrong)
+                if not isinstance(error, NavigationError):
+                    assert any("the navigation of cf1 made a mistake: " in one for one in wrong)
+            if isinstance(error, (TypeError, SystemExit)) and method != "hold":
+                await flown.team.close()
+                assert any("Traceback" in line for line in flown.log)
+
+    run(flight())
+
+
+def test_a_failure_counts_by_what_it_says_of_itself(tmp_path: Path) -> None:
+    """A navigation may have been written against another copy of the runtime."""
+
+    class Stranger(Exception):
+        failure = "BATTERY"
+
+    class Odd(Exception):
+        failure = 7
+
+    async def flight() -> None:
+        async with flying(tmp_path) as flown:
+            drone = await flown.up()
+            drone.raises = {"go_to": Stranger("too little left\x07")}
+            failed = await flown.failure(flown.team.go_to("cf1", (2, 2, 1)))
+            assert (failed.failure, str(failed)) == (Failure.BATTERY, "too little left\\x07")
+            drone.raises = {"go_to": Odd("x" * 1000)}
+            failed = await flown.failure(flown.team.go_to("cf1", (2, 2, 1)))
+            assert failed.failure is Failure.ACTION
+            assert len(str(failed)) < 400
+
+    run(flight())
+
+
+def test_who_holds_up_the_loop_is_named(tmp_path: Path) -> None:
+    """And nobody else is taken to be silent for that."""
+
+    async def flight() -> None:
+        async with flying(tmp_path, FakeDrone(), FakeDrone("cf2", (3.0, 1.0, 0.0))) as flown:
+            drone = await flown.up()
+            await flown.up("cf2")
+            hovers = flown.begin(flown.team.hold("cf2"))
+            drone.blocks = {"go_to": 0.4}
+            await flown.do(flown.team.go_to("cf1", (2, 1, 1)))
+            assert "the navigation of cf1 blocked for 0.4 s" in flown.log
+            drone.blocks = {"go_to": 3.0}
+            await flown.do(flown.team.go_to("cf1", (3, 1, 1)))
+            assert not hovers.is_set
+
+    run(flight())
+
+
+def test_telemetry_that_makes_no_sense_is_silence(tmp_path: Path) -> None:
+    """A drone that does not know where it is cannot be flown."""
+
+    async def flight() -> None:
+        async with flying(tmp_path) as flown:
+            drone = await flown.up()
+            seen = flown.team.telemetry("cf1")
+            before = seen.location
+            drone.put((float("nan"), 1.0, 1.0))
+            failed = await flown.failure(flown.team.hold("cf1"))
+            assert failed.failure is Failure.LINK
+            assert seen.location == before
+            drone.put((1.0, 1.0, 1.0))
+            drone.raises = {"telemetry": KeyError("x")}
+            assert seen.location == before
+            assert any("made a mistake: KeyError" in line for line in flown.log)
+            drone.raises = {}
+
+    run(flight())

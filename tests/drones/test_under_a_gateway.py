@@ -1,0 +1,136 @@
+"""Real drones behind the gateway: jobs, failures, and what is done without a brain."""
+
+from __future__ import annotations
+
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from pathlib import Path
+
+import pytest
+
+from plutoc_runtime.drones import BATTERY_LOW
+from plutoc_runtime.errors import Failure, FlightFailed
+from plutoc_runtime.gateway.gateway import Gateway
+from plutoc_runtime.model import Point
+from tests.drones.fakes import FakeDrone
+from tests.drones.jumping import run, the_loop
+from tests.drones.teams import FIELD, Flown, flying
+from tests.gateway.flights import Task
+
+PATIENCE = 6.0
+
+
+class Craft:
+    """A drone as the gateway knows it."""
+
+    def __init__(self, flown: Flown, index: int) -> None:
+        drone = flown.crafts[index]
+        self.id, self.home, self.category = drone.id, drone.home, drone.category
+        self.index = index
+
+
+@asynccontextmanager
+async def commanded(
+    folder: Path, count: int = 1, patience: float | None = None
+) -> AsyncIterator[tuple[Flown, Gateway]]:
+    """Begin a gateway over some fake drones, and call the roll."""
+    drones = [FakeDrone(f"cf{i}", (float(i), 1.0, 0.0)) for i in range(1, count + 1)]
+    async with flying(folder, *drones) as flown:
+        crafts = [Craft(flown, index) for index in range(count)]
+        gateway = Gateway(
+            flown.kernel, flown.team, crafts, FIELD, apart=0.5, slack=0.15, patience=patience
+        )
+        try:
+            yield flown, gateway
+        finally:
+            for task in list(flown.kernel.tasks):
+                flown.kernel.post(task.cancel)
+
+
+def measuring(drone: str, there: Point) -> Task:
+    """Return a job that any of them can do."""
+    return Task(id=f"Field/{drone}/0/1", drone=drone, stops=(there,), action="measure", item=None)
+
+
+def test_a_job_is_flown_by_a_real_drone(tmp_path: Path) -> None:
+    """What its action gave is reported once; then it is flown home."""
+
+    async def flight() -> None:
+        async with commanded(tmp_path, 2) as (flown, gateway):
+            link, heard = gateway.link(1), list[object]()
+            await flown.do(link.call())
+            flown.kernel.post(link.fly, measuring("cf1", (4.0, 5.0, 1.2)), heard.append)
+            await flown.until(lambda: heard)
+            assert heard == [21.5]
+            assert flown.drones["cf1"].place == pytest.approx((4, 5, 1.2), abs=0.1)
+            assert await flown.do(gateway.recover("cf1"))
+            assert flown.drones["cf1"].place == pytest.approx((1, 1, 0), abs=0.1)
+            assert not flown.drones["cf1"].motors
+
+    run(flight())
+
+
+def test_a_silent_drone_fails_its_job_and_comes_home_when_it_is_back(tmp_path: Path) -> None:
+    """Nobody else notices."""
+
+    async def flight() -> None:
+        async with commanded(tmp_path, 2) as (flown, gateway):
+            link, lost, well = gateway.link(1), list[object](), list[object]()
+            await flown.do(link.call())
+            flown.kernel.post(link.fly, measuring("cf1", (1.0, 5.0, 1.2)), lost.append)
+            flown.kernel.post(link.fly, measuring("cf2", (4.0, 5.0, 1.2)), well.append)
+            await flown.until(lambda: flown.drones["cf1"].place[1] > 2)
+            flown.drones["cf1"].goes_silent()
+            await flown.until(lambda: lost and well)
+            assert isinstance(lost[0], FlightFailed)
+            assert (lost[0].failure, well) == (Failure.LINK, [21.5])
+            the_loop().call_later(30, setattr, flown.drones["cf1"], "answers", True)
+            assert await flown.do(gateway.recover("cf1"))
+            assert flown.drones["cf1"].place == pytest.approx((1, 1, 0), abs=0.1)
+
+    run(flight())
+
+
+def test_a_drone_with_a_low_battery_is_waited_for_where_it_landed(tmp_path: Path) -> None:
+    """Recovered when somebody has put it home."""
+
+    async def flight() -> None:
+        async with commanded(tmp_path) as (flown, gateway):
+            link, heard, drone = gateway.link(1), list[object](), flown.drones["cf1"]
+            await flown.do(link.call())
+            flown.kernel.post(link.fly, measuring("cf1", (1.0, 5.0, 1.2)), heard.append)
+            await flown.until(lambda: drone.place[1] > 3)
+            drone.level = 0.1
+            drone.happens(BATTERY_LOW, "3.1 V")
+            recovers = flown.begin(gateway.recover("cf1"))
+            the_loop().call_later(200, drone.put, (1.0, 1.0, 0.0))
+            assert await flown.until(lambda: recovers.is_set) > 190
+            assert recovers.result()
+            assert isinstance(heard[0], FlightFailed)
+            assert heard[0].failure is Failure.BATTERY
+            assert drone.told[-1] == "land"
+
+    run(flight())
+
+
+def test_without_a_brain_all_land_and_a_silent_one_delays_nobody(tmp_path: Path) -> None:
+    """When it is back, and still nobody commands, it lands, too."""
+
+    async def flight() -> None:
+        async with commanded(tmp_path, 3, PATIENCE) as (flown, gateway):
+            link, lost = gateway.link(1), flown.drones["cf2"]
+            await flown.do(link.call())
+            for id in flown.drones:
+                link.heartbeat()
+                await flown.do(flown.team.takeoff(id, 1.2))
+            lost.goes_silent()
+            others = [flown.drones["cf1"], flown.drones["cf3"]]
+            seconds = await flown.until(lambda: not any(drone.motors for drone in others))
+            assert seconds < PATIENCE + 1.2 / 0.3 + 3
+            assert lost.motors
+            assert gateway.flies
+            lost.answers = True
+            await flown.until(lambda: not lost.motors, 30)
+            await flown.until(lambda: not gateway.flies, 1)
+
+    run(flight())
