@@ -15,6 +15,8 @@ from .session import Observer, Session
 if TYPE_CHECKING:
     from .borrowed import Borrowed, Cf
 
+_CACHE = "crazyflie"
+"""A folder for tables of contents: they take long over the radio, and seldom change."""
 _IMPORT, _OPEN = 20.0, 5.0
 ANSWER, ALL, TELEMETRY = 5.0, 13.0, 3.0
 """Seconds until a drone must have answered, have told its tables, and begin to tell how it is."""
@@ -34,9 +36,7 @@ async def open_session(drone: str, uri: str, folder: Path, observer: Observer) -
 
 async def _open(session: Session, folder: Path) -> None:
     found = await session.worker.call(borrowed, _IMPORT)
-    # tables of contents take long over the radio, and seldom change
-    cache = str(folder / "crazyflie")
-    await session.worker.call(lambda: _begin(session, found, cache), _OPEN)
+    await session.worker.call(lambda: _begin(session, found, folder / _CACHE), _OPEN)
     await _answer(session)
     # Its pings measure what nobody asks for, and the thread that sends them may die holding the lock
     # that every other sender needs.
@@ -46,10 +46,11 @@ async def _open(session: Session, folder: Path) -> None:
         raise LinkLost(words.no_telemetry(session.drone))
 
 
-def _begin(session: Session, found: Borrowed, cache: str) -> None:
+def _begin(session: Session, found: Borrowed, cache: Path) -> None:
     """Open the link; called in the worker."""
+    cache.mkdir(exist_ok=True)  # all drones make it at once, and cflib does not bear that
     found.forget_dead_radios()
-    cf = found.crazyflie(rw_cache=cache)
+    cf = found.crazyflie(rw_cache=str(cache))
     session.listen(found, cf)
     cf.open_link(session.uri)
 
