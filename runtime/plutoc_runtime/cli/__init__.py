@@ -97,6 +97,10 @@ def _command(app: App, argv: Sequence[str] | None) -> int:
             from .simulate import simulate
 
             return simulate(app, options)
+        case "fly" if options.dry_run:
+            from .dry_run import dry_run
+
+            return dry_run(app, options)
         case "fly":
             from .fly import fly
 

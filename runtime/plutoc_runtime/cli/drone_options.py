@@ -30,6 +30,14 @@ def add_drones(command: Command) -> None:
         metavar="NAME",
         help="how drones are reached that no fleet file has (default crazyflie)",
     )
+    drones.add_argument(
+        "--address",
+        metavar="A",
+        dest="addresses",
+        action="append",
+        default=[],
+        help="find those at this radio address, too (default E7E7E7E7E7); may be given again",
+    )
     what = drones.add_mutually_exclusive_group()
     what.add_argument(
         "--identify",
@@ -42,10 +50,16 @@ def add_drones(command: Command) -> None:
     what.add_argument("--json", action="store_true", help="print one JSON object instead")
 
 
-def add_dry_run(fly: ArgumentParser) -> None:
-    """Add the flag of `fly` that lets it print what every drone would be told."""
+def add_dry_run(fly: ArgumentParser, time: Callable[[str], float]) -> None:
+    """Add the flags of `fly` that let it print what every drone would be told."""
     fly.add_argument(
         "--dry-run",
         action="store_true",
         help="print every command that the drones would be given; none is reached, nothing flies",
+    )
+    fly.add_argument(
+        "--until",
+        metavar="TIME",
+        type=time,
+        help='with --dry-run: no further than to this time, such as "2 h"',
     )

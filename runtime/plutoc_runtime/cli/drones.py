@@ -100,9 +100,10 @@ class _Team:
         hint = near(who, [asked.id for asked in self.known])
         raise BadInput(f"the fleet has no drone {quoted(who)}{hint}")
 
-    async def all_found(self) -> list[Asked]:
+    async def all_found(self, addresses: Sequence[str]) -> list[Asked]:
         """Return what can be found by the navigation of this fleet, as the fleet knows it."""
-        uris = await found(self.others, self._options())
+        where = {"addresses": list(addresses)} if addresses else {}
+        uris = await found(self.others, {**self._options(), **where})
         known = {which(asked.uri): asked for asked in self.known if asked.uri is not None}
         return [known.get(which(uri)) or self._other(uri) for uri in uris]
 
@@ -143,7 +144,7 @@ async def _asked(app: App, options: Command, team: _Team) -> list[Answer]:
         asked = list(team.known)
     if not asked or options.scan:
         output.tell("looking for drones …")
-        there = await team.all_found()
+        there = await team.all_found(options.addresses)
         asked += there
     each = list({one.id: one for one in asked}.values())
     if each:

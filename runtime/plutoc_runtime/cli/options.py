@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from ..errors import BadInput
 from ..quantities import Type, parse_quantity
 from ..words import quoted
-from .drone_options import add_drones
+from .drone_options import add_drones, add_dry_run
 from .flight_options import add_flights, how_it_flies
 from .station_options import add_station
 
@@ -61,9 +61,11 @@ class Options:
     going_on: bool = False
     who: list[str] = field(default_factory=list)
     scan: bool = False
+    addresses: list[str] = field(default_factory=list)
     navigation: str | None = None
     identify: str | None = None
     save: Path | None = None
+    dry_run: bool = False
 
     @property
     def the_journal(self) -> Path:
@@ -102,6 +104,7 @@ def parse(app: App, argv: Sequence[str] | None) -> Options:
         type=Path,
         help="where to write down what happens; default: a new file in the user's own folder",
     )
+    add_dry_run(fly, time)
     serve = command("serve", "Open the ground station: draw, fly and watch missions in a browser.")
     _fleet(serve)
     how_it_flies(serve)
@@ -113,6 +116,8 @@ def parse(app: App, argv: Sequence[str] | None) -> Options:
     options = parser.parse_args(argv, namespace=Options())
     if options.trace is not None and options.runs is not None:
         simulate.error("--trace writes down one run: it does not go with --runs")
+    if options.command == "fly" and options.until is not None and not options.dry_run:
+        fly.error("--until goes with --dry-run: to end a flight, stop it")
     if options.plot is not None and options.runs is None:
         simulate.error("--plot draws many runs: it goes with --runs")
     return options

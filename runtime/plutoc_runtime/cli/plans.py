@@ -38,7 +38,7 @@ def load(app: App, options: Options) -> Plan:
     missions_text = text_of(options.missions)
     missions = missions_of(parsed(str(options.missions), missions_text), app, fleet.airspace)
     found = problems(missions, app, fleet, fleet.airspace)
-    if options.command == "simulate" and options.until is None:
+    if (options.command == "simulate" or options.dry_run) and options.until is None:
         found += endless(missions, app)
     if found:
         raise BadInput(shortened([f"{options.missions}: {sentence}" for sentence in found]))

@@ -1,0 +1,115 @@
+"""`fly --dry-run`: every command that the drones would be given, and what would be refused.
+
+The missions are flown as `simulate` flies them, in virtual time, by the very code that flies real
+drones, and over simulated ones. No drone is reached, and nothing is written.
+"""
+
+from __future__ import annotations
+
+from copy import deepcopy
+from typing import TYPE_CHECKING
+
+from ..errors import BadInput
+from ..gateway.real import SLACK
+from ..session import simulate
+from ..simulation.faults import Faults
+from ..words import counted, number
+from . import output
+from .events import line_of
+from .given import Given
+from .plans import load
+from .real import check_real
+from .report import report, table
+from .verdict import exit_code
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from ..app import App
+    from ..gateway.controls import Controls
+    from ..kernel import Kernel
+    from ..model import Point
+    from ..session import Outcome
+    from .given import Command
+    from .options import Options
+
+REFUSED = 2
+"""The exit code where `fly` would not begin at all."""
+
+
+def dry_run(app: App, options: Options) -> int:
+    """Print what every drone would be told, and what came of it."""
+    _refuse_what_does_not_go_together(options)
+    plan = load(app, options)
+    given: list[Given] = []
+    categories = {category.name: category.speed for category in app.categories}
+    speeds = {drone.id: categories[drone.category] for drone in plan.fleet.drones}
+
+    def around(kernel: Kernel, drones: Controls) -> Given:
+        given.append(Given(kernel, drones, speeds))
+        return given[0]
+
+    outcome = simulate(
+        app,
+        deepcopy(plan.missions),
+        plan.fleet,
+        seed=options.seed,
+        faults=Faults(**options.fail),
+        until=options.until,
+        on_event=None,
+        around=around,
+        slack=0.0 if options.sim else SLACK,
+    )
+    for line in _lines(app, outcome, given[0].commands):
+        output.line(line)
+    output.flush()
+    if options.sim:
+        return exit_code(outcome)
+    try:
+        where = str(options.fleet or app.name)
+        check_real(plan.fleet, where, stand_ins=options.crtp_sim is not None)
+    except BadInput as error:
+        output.tell(f"{app.name} fly would not begin:\n{error}")
+        return REFUSED
+    return exit_code(outcome)
+
+
+def _refuse_what_does_not_go_together(options: Options) -> None:
+    options.refuse_what_is_simulated()
+    given = {
+        "--journal": options.journal,
+        "--supervise": options.supervise,
+        "--speed": options.speed,
+    }
+    for flag, value in given.items():
+        if value:
+            raise BadInput(f"{flag} is for a flight, and --dry-run is none: leave one out")
+
+
+def _lines(app: App, outcome: Outcome, commands: Sequence[Command]) -> Iterator[str]:
+    yield from table(
+        ("time", "drone", "command", "to", "at most"),
+        [
+            (
+                f"{command.time:.1f} s",
+                command.drone,
+                command.what,
+                "" if command.to is None else _place(command.to),
+                "" if command.speed is None else f"{number(command.speed)} m/s",
+            )
+            for command in commands
+        ],
+        right=(0,),
+    )
+    yield ""
+    failed = [event for event in outcome.events if event["event"] == "trip.failed"]
+    if failed:
+        yield "refused, or not done:"
+        yield from filter(None, map(line_of, failed))
+        yield ""
+    yield from report(app, outcome)
+    yield f"{counted(len(commands), 'command')}; nothing has flown"
+
+
+def _place(point: Point) -> str:
+    return f"({', '.join(number(round(along, 2)) for along in point)})"
