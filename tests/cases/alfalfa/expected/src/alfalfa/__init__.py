@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from ._runtime.context import Context
     from ._runtime.errors import ActionFailed
+    from ._runtime.handle import LiveDrone
     from ._runtime.model import Category, Drone, Item, Photo, Point
     from ._runtime.status import Status
     from ._runtime.verdict import Verdict
@@ -21,6 +22,7 @@ __all__ = [
     "Context",
     "Drone",
     "Item",
+    "LiveDrone",
     "Mission",
     "Photo",
     "Point",
@@ -38,6 +40,7 @@ if not TYPE_CHECKING:
         "Context": "._runtime.context",
         "Drone": "._runtime.model",
         "Item": "._runtime.model",
+        "LiveDrone": "._runtime.handle",
         "Mission": ".model",
         "Photo": "._runtime.model",
         "Point": "._runtime.model",
