@@ -34,6 +34,8 @@ class Category:
     """The share of the battery that a flight must leave."""
     actions: frozenset[str] | None = None
     """None: every action."""
+    top_speed: float | None = None
+    """The most that it may fly at; None: `speed`, which is the mean over a way."""
 
     def can(self, action: str) -> bool:
         """Say whether drones of this category do the action."""

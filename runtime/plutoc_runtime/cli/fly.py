@@ -28,7 +28,7 @@ def fly(app: App, options: Options) -> int:
     """Fly the missions and say what came of them; whoever interrupts it lands the drones."""
     options.refuse_what_is_simulated()
     plan = load(app, options)
-    if not options.sim:
+    if options.is_real:
         where = str(options.fleet or app.name)
         check_real(plan.fleet, where, stand_ins=options.crtp_sim is not None)
     journal = options.journal or place.new(app.name, time.time())
@@ -55,7 +55,7 @@ def fly(app: App, options: Options) -> int:
         return supervised(app, options, journal, _words(options, journal))
     store = Store.create(journal, begun)
     flight = Flight(
-        app=app,
+        app=plan.app,
         journal=store.path,
         missions=plan.missions,
         fleet=plan.fleet,

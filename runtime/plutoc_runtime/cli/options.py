@@ -74,6 +74,11 @@ class Options:
             raise BadInput("name the journal")
         return self.journal
 
+    @property
+    def is_real(self) -> bool:
+        """Whether real drones are meant, or what stands in for them down to the radio."""
+        return self.command in ("fly", "serve") and not self.sim
+
     def refuse_what_is_simulated(self) -> None:
         """Raise `BadInput` if real drones are meant, and flags that only simulated ones obey."""
         given = {"--speed": self.speed, "--fail": self.fail, "--seed": self.seed}

@@ -10,6 +10,7 @@ from ..errors import BadInput
 from ..files.fleet import DEFAULT_SIZE, FleetFile, default_fleet, fleet_of
 from ..files.missions import missions_of
 from ..files.reading import parsed, shortened, text_of
+from ..files.real import as_flown
 from ..plan_check import endless, problems
 from .real import with_stand_ins
 
@@ -24,6 +25,8 @@ if TYPE_CHECKING:
 class Plan:
     """What shall be flown, by whom and where."""
 
+    app: App
+    """As slow as its drones are."""
     missions: list[Mission[Any]]
     fleet: FleetFile
     missions_text: str = ""
@@ -35,6 +38,8 @@ class Plan:
 def load(app: App, options: Options) -> Plan:
     """Return the plan of a command's files; raise `BadInput` where nobody could fly it."""
     fleet, fleet_text = load_fleet(app, options)
+    if options.is_real:
+        app = as_flown(app, fleet)
     missions_text = text_of(options.missions)
     missions = missions_of(parsed(str(options.missions), missions_text), app, fleet.airspace)
     found = problems(missions, app, fleet, fleet.airspace)
@@ -42,7 +47,13 @@ def load(app: App, options: Options) -> Plan:
         found += endless(missions, app)
     if found:
         raise BadInput(shortened([f"{options.missions}: {sentence}" for sentence in found]))
-    return Plan(missions=missions, fleet=fleet, missions_text=missions_text, fleet_text=fleet_text)
+    return Plan(
+        app=app,
+        missions=missions,
+        fleet=fleet,
+        missions_text=missions_text,
+        fleet_text=fleet_text,
+    )
 
 
 def load_fleet(app: App, options: Options) -> tuple[FleetFile, str | None]:

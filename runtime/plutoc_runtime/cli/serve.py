@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 from .. import again
 from ..errors import BadInput
 from ..files.reading import text_of
+from ..files.real import as_flown
 from ..journal import place
 from ..standing import Down
 from ..station.phase import Phase
@@ -47,9 +48,10 @@ def serve(app: App, options: Options) -> int:
     options.refuse_what_is_simulated()
     borrowed(app.name)  # before anything is kept or flown
     settings = _settings(app, options)
-    if not options.sim:
+    if options.is_real:
         where = str(options.fleet or app.name)
         check_real(settings.fleet, where, stand_ins=options.crtp_sim is not None)
+        app = as_flown(app, settings.fleet)
     if options.supervise:
         return _supervised(app, options, settings)
     with _alone(settings):

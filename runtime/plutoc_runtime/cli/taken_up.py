@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..files.real import as_flown
 from ..fly import Recovered, recovered
 from ..gateway.process import NOTE
 from ..gateway.starting import speed_in
@@ -65,6 +66,8 @@ def take_up(app: App, journal: Path) -> TakenUp:
         header: Header = store.header
         check(journal, header, app)
         fleet = fleet_in(app, journal, header)
+        if not header["sim"]:
+            app = as_flown(app, fleet)
         known = recovered(store)
         started = bool(known.records.missions)
         planned = [] if started else missions_in(app, journal, header, fleet)

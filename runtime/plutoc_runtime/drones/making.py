@@ -63,7 +63,7 @@ def make_team(
             id=drone.id,
             uri=how[drone.id].uri,
             home=drone.home,
-            speed=drone.category.speed,
+            speed=drone.category.top_speed or drone.category.speed,
             options=how[drone.id].options,
             folder=files,
         )

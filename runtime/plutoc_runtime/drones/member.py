@@ -30,6 +30,8 @@ PREFLIGHT, HOLD, CUT, READ = 5.0, 5.0, 2.0, 5.0
 """Seconds that these may take."""
 DOWN, LOOK = 3.0, 0.05
 """Seconds after a landing until a drone must have told that it flies no more; between two looks."""
+CLIMB_LIMIT = 2 * CLIMB_SPEED
+"""Metres per second, up and down, at most: the mean is about what plans count with."""
 AMPLE, SPARE = 3.0, 10.0
 """A flight may take so many times what it takes at full speed, and so many seconds more."""
 RECENTLY = 3.0
@@ -80,8 +82,8 @@ class Member:
         """Only somebody who has put it home ends that."""
         self.must_land = False
         """It comes down by itself, as soon as it can."""
-        self.speed = drone.category.speed
-        self.climb = min(CLIMB_SPEED, drone.category.speed)
+        self.speed = drone.category.top_speed or drone.category.speed
+        self.climb = min(CLIMB_LIMIT, self.speed)
 
     # How it is
 

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from . import errors
 from .behaviour import CRAZYFLIE
 
+PACE = 16 / 35
+"""Mean speed over peak speed."""
+
 if TYPE_CHECKING:
+    from ..app import App
     from .fleet import DroneEntry, FleetFile
     from .free_tables import Options
 
@@ -31,3 +36,19 @@ def not_real(fleet: FleetFile) -> list[str]:
         for drone in fleet.drones
         if drone.uri is None and navigation_of(fleet, drone) == CRAZYFLIE
     ]
+
+
+def as_flown(app: App, fleet: FleetFile) -> App:
+    """Return the app with its categories as slow as this fleet's real drones are on average.
+
+    A Crazyflie's courses begin and end at rest: their peak speed, which a category limits, is 35/16 of
+    their mean one.
+    """
+    slow = {d.category for d in fleet.drones if navigation_of(fleet, d) == CRAZYFLIE}
+    categories = tuple(
+        replace(category, speed=category.speed * PACE, top_speed=category.speed)
+        if category.name in slow and category.top_speed is None
+        else category
+        for category in app.categories
+    )
+    return replace(app, categories=categories)
