@@ -1,0 +1,84 @@
+"""What must hold of a flight with Crazyflies, by the drones' own record."""
+
+from __future__ import annotations
+
+import time
+from bisect import bisect_left, bisect_right
+from collections import defaultdict
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import combinations
+from math import dist, inf
+
+from plutoc_runtime.crtp.record import Deed, Place, Point
+from tests.flights_crazyflie.flight import Event
+
+NEAR = 0.1
+"""Metres that a drone may be beside its target while it does what it came for."""
+_STILL = (0.35, 0.1)
+"""Seconds before an action's end was written down, between which its drone was still there."""
+_SLOT = 0.02
+"""Seconds: drones are held against each other where they were within one slot."""
+_OFF_GROUND = 0.1
+"""Metres above which a drone counts as being in the air."""
+
+_WALL = time.time() - time.monotonic()
+"""What makes a time on the wall of one that only goes on."""
+
+
+def beside_its_target(
+    events: Sequence[Event], trace: Sequence[Place], targets: Mapping[tuple[str, str], Point]
+) -> Iterator[str]:
+    """Yield the trips that were completed where their target was not."""
+    by_drone: dict[str, list[Place]] = defaultdict(list)
+    for place in trace:
+        by_drone[place.drone].append(place)
+    for event in events:
+        if event["event"] != "trip.completed":
+            continue
+        whose, target = (
+            f"{event['mission']}/{event['trip']}",
+            targets[event["mission"], event["trip"]],
+        )
+        ended = event["wall"] - _WALL
+        places = by_drone[event["drone"]]
+        first = bisect_left(places, ended - _STILL[0], key=lambda one: one.time)
+        last = bisect_right(places, ended - _STILL[1], key=lambda one: one.time)
+        if first == last:
+            yield f"{whose}: {event['drone']} was not in the air"
+        off = max((dist(place.at, target) for place in places[first:last]), default=0.0)
+        if off > NEAR:
+            yield f"{whose}: {event['drone']} was {off:.2f} m off"
+
+
+def dropped(deeds: Sequence[Deed]) -> Iterator[str]:
+    """Yield what has cut motors in the air: a link that closed, an emergency stop, a fall."""
+    cutting = ("setpoint", "emergency stop", "stop", "switched off")
+    for deed in deeds:
+        if deed.what in cutting and deed.flying:
+            yield f"{deed.drone}: {deed.what} in the air at {deed.at}"
+
+
+def left_in_the_air(deeds: Sequence[Deed]) -> Iterator[str]:
+    """Yield the drones that have taken off, and did not come down again."""
+    last: dict[str, str] = {}
+    for deed in deeds:
+        if deed.what in ("takeoff", "go_to") and not deed.values.get("answer"):
+            last[deed.drone] = "up"
+        elif deed.what in ("down", "switched off"):
+            last[deed.drone] = "down"
+    yield from (f"{drone} is still in the air" for drone, what in last.items() if what == "up")
+
+
+def nearest(trace: Sequence[Place]) -> tuple[float, str]:
+    """Return how near two drones in the air have come to each other, and which and when."""
+    slots: dict[int, dict[str, Place]] = defaultdict(dict)
+    for place in trace:
+        if place.at[2] > _OFF_GROUND:
+            slots[round(place.time / _SLOT)][place.drone] = place
+    least, who = inf, ""
+    for places in slots.values():
+        for one, other in combinations(places.values(), 2):
+            apart = dist(one.at, other.at)
+            if apart < least:
+                least, who = apart, f"{one.drone} at {one.at}, {other.drone} at {other.at}"
+    return least, who
