@@ -1,0 +1,270 @@
+"""The parts of a Crazyflie's navigation that need no drone."""
+
+from __future__ import annotations
+
+import asyncio
+import subprocess
+import sys
+from math import isclose, nan
+from pathlib import Path
+from threading import Event
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from plutoc_runtime.crazyflie import borrowed, courses, words
+from plutoc_runtime.crazyflie.alarms import Alarms
+from plutoc_runtime.crazyflie.battery import Battery, level_at_rest
+from plutoc_runtime.crazyflie.certainty import Certainty
+from plutoc_runtime.crazyflie.options import options_of
+from plutoc_runtime.crazyflie.state import State, state_of
+from plutoc_runtime.crazyflie.worker import Worker
+from plutoc_runtime.crtp.profile import State as Start
+from plutoc_runtime.crtp.profile import profile
+from plutoc_runtime.drones import BATTERY_LOW, CRASHED, LOCKED, LinkLost
+from plutoc_runtime.errors import BadInput
+
+FLYING, TUMBLED, LOCKED_BIT = 1 << 4 | 1 << 8, 1 << 5, 1 << 6
+
+
+def state(
+    time: float, *, volts: float = 4.0, bits: int = 0, power: int = 0, x: float = 0.0
+) -> State:
+    return State(time=time, position=(x, 0.0, 1.0), yaw=0.0, volts=volts, power=power, bits=bits)
+
+
+# The worker
+
+
+def test_a_call_that_hangs_is_given_up_and_nobody_is_held_up_after_it() -> None:
+    released = Event()
+
+    async def use() -> None:
+        worker = Worker("cf1")
+        assert await worker.call(lambda: 5, 1.0) == 5
+        with pytest.raises(ZeroDivisionError):
+            await worker.call(lambda: 1 / 0, 1.0)
+        with pytest.raises(LinkLost, match=r"did not take a command for cf1 in 0\.05 s"):
+            await worker.call(released.wait, 0.05)
+        with pytest.raises(LinkLost):  # at once: the thread is not waited for again
+            await worker.call(lambda: 5, 1e9)
+        released.set()
+        worker.end()
+
+    asyncio.run(use())
+
+
+def test_a_call_that_nobody_waits_for_any_more_is_not_made() -> None:
+    made: list[str] = []
+
+    async def use() -> None:
+        worker, go = Worker("cf1"), Event()
+        first = asyncio.create_task(worker.call(go.wait, 5.0))
+        second = asyncio.create_task(worker.call(lambda: made.append("second"), 5.0))
+        await asyncio.sleep(0)
+        second.cancel()
+        await asyncio.wait({second})
+        go.set()
+        await first
+        await worker.call(lambda: made.append("third"), 5.0)
+        worker.end()
+
+    asyncio.run(use())
+    assert made == ["third"]
+
+
+# Courses
+
+
+@given(metres=st.floats(0.0, 30.0), speed=st.floats(0.05, 5.0))
+def test_no_course_is_faster_than_its_limit_nor_throws_the_drone_over(
+    metres: float, speed: float
+) -> None:
+    seconds = courses.seconds_for(metres, speed)
+    course = profile(Start(0.0), metres, seconds)
+    steps = [course.at(seconds * step / 100) for step in range(101)]
+    assert max(step.velocity for step in steps) <= speed + 1e-6
+    assert max(abs(step.acceleration) for step in steps) <= 10.0
+
+
+@given(speed=st.floats(0.0, 3.0))
+def test_a_drone_that_is_to_stop_stops_within_its_way_of_a_third_of_a_second(speed: float) -> None:
+    target, seconds = courses.stop(state(0.0), state(0.1, x=speed * 0.1))
+    begun = speed * 0.1
+    course = profile(Start(begun, speed), target[0], seconds)
+    farthest = max(course.at(seconds * step / 100).position for step in range(101))
+    assert farthest - begun <= 0.28 * speed * seconds + 1e-6
+    assert target[1:] == (0.0, 1.0)
+
+
+def test_where_it_was_long_ago_says_nothing_of_its_speed() -> None:
+    assert courses.stop(state(0.0), state(5.0, x=3.0)) == ((3.0, 0.0, 1.0), courses.SHORTEST)
+    assert courses.stop(None, state(5.0, x=3.0)) == ((3.0, 0.0, 1.0), courses.SHORTEST)
+
+
+# The battery
+
+
+@given(volts=st.floats(2.5, 4.5), more=st.floats(0.0, 1.0))
+def test_a_battery_with_more_volts_is_fuller(volts: float, more: float) -> None:
+    assert 0.0 <= level_at_rest(volts) <= level_at_rest(volts + more) <= 1.0
+
+
+def test_volts_in_the_air_are_corrected_by_what_flying_costs() -> None:
+    battery = Battery()
+    battery.hear(state(0.0, volts=3.95))
+    resting = battery.level
+    for tick in range(1, 100):
+        battery.hear(state(tick / 10, volts=3.55, bits=FLYING))
+        assert isclose(battery.level, resting, abs_tol=0.02)
+    battery.hear(state(10.0, volts=3.9))
+    assert battery.level == level_at_rest(3.9)
+
+
+def test_a_drone_that_is_met_in_the_air_loses_what_is_usual() -> None:
+    battery = Battery()
+    battery.hear(state(0.0, volts=3.5, bits=FLYING))
+    assert battery.level == level_at_rest(3.8)
+
+
+def test_a_battery_without_volts_says_nothing() -> None:
+    battery = Battery()
+    battery.hear(state(0.0, volts=0.0))
+    assert battery.level == 0.0 and battery.rest is None
+
+
+# Alarms
+
+
+def heard(states: list[State]) -> list[tuple[float, str]]:
+    alarms = Alarms()
+    return [(one.time, event.kind) for one in states for event in alarms.hear(one)]
+
+
+def test_a_battery_is_low_when_it_is_so_for_three_seconds_and_told_once() -> None:
+    low = [state(tick / 10, volts=3.1) for tick in range(100)]
+    assert heard(low) == [(3.0, BATTERY_LOW)]
+    said = [state(tick / 10, volts=3.4, power=3) for tick in range(100)]
+    assert heard(said) == [(3.0, BATTERY_LOW)]
+
+
+def test_a_short_burst_is_no_alarm() -> None:
+    burst = [state(tick / 10, volts=3.1 if tick % 20 else 3.3) for tick in range(100)]
+    assert heard(burst) == []
+
+
+def test_another_battery_can_be_low_again() -> None:
+    flights = [*[3.1] * 50, *[4.1] * 10, *[3.1] * 50]
+    told = heard([state(tick / 10, volts=volts) for tick, volts in enumerate(flights)])
+    assert [kind for _, kind in told] == [BATTERY_LOW, BATTERY_LOW]
+
+
+def test_tumbling_and_locking_are_told_when_they_begin() -> None:
+    bits = [0, TUMBLED, TUMBLED, TUMBLED | LOCKED_BIT, 0, TUMBLED]
+    told = heard([state(float(tick), bits=one) for tick, one in enumerate(bits)])
+    assert told == [(1.0, CRASHED), (3.0, LOCKED), (5.0, CRASHED)]
+
+
+# What it tells
+
+
+def test_a_state_is_in_radians_and_knows_its_bits() -> None:
+    told = {"stateEstimate.yaw": 180.0, "supervisor.info": 0b1000011010, "pm.vbat": 4.0}
+    read = state_of(told, 5.0)
+    assert read.yaw == pytest.approx(3.14159, abs=1e-4) and read.position == (0.0, 0.0, 0.0)
+    assert read.armed and read.can_fly and read.flies and read.finished
+    assert not (read.steered or read.crashed or read.locked)
+
+
+def test_it_is_sure_once_its_variance_has_been_small_for_a_second() -> None:
+    certainty = Certainty()
+    assert not certainty.sure(0.0)
+    for tick in range(8):
+        certainty.hear((1e-5, 1e-5, 5e-4), tick / 4)
+        assert certainty.sure(tick / 4) == (tick >= 4)
+    certainty.hear((1e-5, 0.5, 1e-5), 2.0)
+    assert not certainty.sure(2.0) and certainty.variance == 0.5
+    certainty.hear((1e-5, nan, 1e-5), 2.2)
+    assert not certainty.sure(2.2)
+
+
+def test_what_it_said_long_ago_makes_nobody_sure() -> None:
+    certainty = Certainty()
+    for tick in range(8):
+        certainty.hear((0.0, 0.0, 0.0), tick / 4)
+    assert certainty.sure(2.0) and not certainty.sure(9.0)
+
+
+# Options
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({"camra": "x"}, 'a Crazyflie has no option "camra"; it has measure,'),
+        ({"camera": "192.168.4.1"}, "camera must be a host and a port"),
+        ({"camera": "here:99999"}, "camera must be a host and a port"),
+        ({"camera_view": [65]}, "camera_view must be two angles"),
+        ({"camera_view": [65, True]}, "camera_view must be two angles"),
+        ({"measure": "bme.temp"}, "measure must be a table"),
+        ({"measure": {"dust": "pm25"}}, r"measure\.dust must be a log variable"),
+        ({"grip": {"parameter": "a.b", "pick": 1}}, "grip must be a table"),
+        ({"grip": {"parameter": "a.b", "pick": 1, "release": 0, "x": 1}}, "grip must be a table"),
+        ({"decks": [1]}, "decks must be a list of texts"),
+        ({"least_voltage": nan}, "least_voltage must be a number"),
+        ({"starts_at_home": 1}, "starts_at_home must be true or false"),
+    ],
+)
+def test_an_option_that_cannot_be_used_is_named(given: dict[str, object], said: str) -> None:
+    with pytest.raises(BadInput, match=f"^cf1: .*{said}"):
+        options_of("cf1", given)
+
+
+def test_options_have_their_defaults() -> None:
+    options = options_of("cf1", {"camera": "[::1]:5000", "decks": "bcFlow2"})
+    assert options.camera == ("::1", 5000) and options.decks == ("bcFlow2",)
+    assert options.least_voltage == 3.7 and options.grip is None and dict(options.measure) == {}
+
+
+# cflib
+
+
+@pytest.mark.parametrize(
+    ("cflib", "we"),
+    [
+        ("Couldn't load link driver: Cannot find a Crazyradio Dongle\n\nTraceback", "plugged in"),
+        ("Couldn't load link driver: [Errno 13] Access denied (insufficient permi", "udev rule"),
+        ("Couldn't load link driver: No backend available\n\nTraceback", "libusb"),
+        ("No driver found or malformed URI: cf1", "no radio://"),
+        ("Too many packets lost", "out of range"),
+        ("Something new\nTraceback", "Something new"),
+        ("", "does not say why"),
+    ],
+)
+def test_cflib_s_tracebacks_become_reasons(cflib: str, we: str) -> None:
+    assert we in words.cause(cflib) and "\n" not in words.cause(cflib)
+
+
+def test_without_cflib_it_is_said_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(borrowed, "find_spec", lambda _: None)
+    with pytest.raises(BadInput, match=r"cflib is needed: pip install cflib$"):
+        borrowed.require()
+    assert words.no_cflib("alfalfa").endswith("pip install 'alfalfa[crazyflie]'")
+
+
+def test_importing_the_navigation_imports_no_cflib() -> None:
+    code = (
+        "import sys; import plutoc_runtime.crazyflie.navigation;"
+        "print([name for name in sys.modules if name.partition('.')[0] in ('cflib', 'numpy')])"
+    )
+    runtime = str(Path(borrowed.__file__).parents[2])
+    done = subprocess.run(
+        [sys.executable, "-W", "error", "-c", code],
+        env={"PYTHONPATH": runtime},
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=True,
+    )
+    assert done.stdout.strip() == "[]"
