@@ -7,7 +7,7 @@ import json
 import pytest
 
 from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.cli.real import with_stand_ins
+from plutoc_runtime.cli.stand_ins import with_stand_ins
 from plutoc_runtime.errors import BadInput
 from plutoc_runtime.files.fleet import DroneEntry, FleetFile
 from plutoc_runtime.gateway.real import RealDrone, Wanted, real_data, real_fleet, real_of
@@ -77,8 +77,7 @@ def test_stand_ins_are_crazyflies_whatever_the_file_says() -> None:
         ("crazyflie", "udp://x:1"),
         ("crazyflie", "udp://x:2"),
     ]
-    with pytest.raises(BadInput, match="only 2 drones"):
-        with_stand_ins(FLEET, 3)
+    assert [drone.id for drone in with_stand_ins(FLEET, 3).drones] == ["a", "b", "cf1"]
 
 
 class Unready:
@@ -124,7 +123,8 @@ def test_the_others_fly_without_a_drone_that_is_not_ready(monkeypatch: pytest.Mo
     on = apps.fleet((0.5, 0.5, 0.0), (3.0, 0.5, 0.0))
     living = Living(enterable(), apps.mission("North", apps.trip("A", 1.0)), on=on)
     living.kernel.run(living.done)
-    first = next(event for event in living.events if "drone" in event)
-    assert (first["event"], first["drone"]) == ("drone.recovering", "cf1")
+    first, second = [event for event in living.events if "drone" in event][:2]
+    assert (first["event"], first["drone"]) == ("drone.not_ready", "cf1")
+    assert (second["event"], second["drone"]) == ("drone.recovering", "cf1")
     assert living.life.missions[0].status is Status.COMPLETED
     assert {drone.status for drone in living.life.session.drones} == {DroneStatus.FREE}

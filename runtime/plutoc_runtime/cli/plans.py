@@ -12,7 +12,7 @@ from ..files.missions import missions_of
 from ..files.reading import parsed, shortened, text_of
 from ..files.real import as_flown
 from ..plan_check import endless, problems
-from .real import with_stand_ins
+from .stand_ins import with_stand_ins
 
 if TYPE_CHECKING:
     from ..app import App

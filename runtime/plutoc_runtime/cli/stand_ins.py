@@ -1,0 +1,40 @@
+"""A fleet of simulated Crazyflies in the place of the one that a fleet file describes."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import count
+from typing import TYPE_CHECKING
+
+from ..files.behaviour import CRAZYFLIE, OWN
+from ..gateway.spots import free_spot
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from ..files.drones import DroneEntry
+    from ..files.fleet import FleetFile
+
+
+def with_stand_ins(fleet: FleetFile, number: int) -> FleetFile:
+    """Return a fleet of so many drones, each a Crazyflie that is simulated down to its radio.
+
+    They are the first of the fleet file; those that it lacks are like them, and stand beside them.
+    """
+    drones = [replace(one, navigation=None, uri=None) for one in fleet.drones[:number]]
+    for place in range(len(drones), number):
+        taken = [one.home for one in drones]
+        home = free_spot(fleet.airspace, taken[-1], taken, max(fleet.apart, _BESIDE))
+        like = drones[place % len(fleet.drones)]
+        drones.append(replace(like, id=_free_id(drones), home=home))
+    return replace(fleet, drones=tuple(drones), navigation=CRAZYFLIE, localization=OWN)
+
+
+_BESIDE = 0.7
+"""Metres between drones that nobody has placed."""
+
+
+def _free_id(drones: Sequence[DroneEntry]) -> str:
+    """Return the first name of the usual ones that no drone has."""
+    known = {one.id for one in drones}
+    return next(id for number in count(1) if (id := f"cf{number}") not in known)
