@@ -63,6 +63,7 @@ def _action(action: Action, taken: set[str]) -> Stub:
             f"Do the action {action.name}: the drone hovers at the trip's target.",
             "",
             *_units(action.parameters),
+            "`context.live(drone)` asks the drone what it measures, and sets what is built onto it.",
             "What it returns goes to the result store; raise ActionFailed if it cannot be done.",
         ],
         lines=[_log(action.name), "return None"],

@@ -30,6 +30,7 @@ async def pollinate(drone: Drone, trip: Trip, context: Context, *, dose: float) 
     """Do the action pollinate: the drone hovers at the trip's target.
 
     `dose` is in kilograms.
+    `context.live(drone)` asks the drone what it measures, and sets what is built onto it.
     What it returns goes to the result store; raise ActionFailed if it cannot be done.
     """
     context.log("pollinate does nothing yet: write it in hooks.py")
