@@ -14,16 +14,19 @@ from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol, TypeVar, cast
 
-from ..drones.loading import load_navigation, make_navigation
-from ..drones.protocol import Identifiable, Scannable
+from ..drones.feeding import Feeding
+from ..drones.loading import load_navigation, make_localization, make_navigation
+from ..drones.protocol import Identifiable, Locatable, Scannable
 from ..drones.setup import DroneSetup
 from ..errors import BadInput
+from ..files.behaviour import OWN
 from ..gateway.holding import Held, holding
 from ..words import number, quoted
 
 if TYPE_CHECKING:
     from ..drones.protocol import DroneNavigation
     from ..drones.telemetry import DroneTelemetry
+    from ..files.free_tables import Options
     from ..model import Point
 
 CONNECT, ANSWER, CLOSE, SCAN = 15.0, 5.0, 10.0, 90.0
@@ -91,11 +94,22 @@ async def found(navigation: str, options: Mapping[str, object]) -> list[str]:
         raise BadInput(f"cannot look for drones: {_why(error)}") from error
 
 
-async def answers(asked: Sequence[Asked], folder: Path) -> list[Answer]:
-    """Return what each drone answers."""
-    navigations = [make_navigation(one.navigation, setup_of(one, folder)) for one in asked]
-    pairs = zip(asked, navigations, strict=True)
-    return await asyncio.gather(*(_answer(one, navigation) for one, navigation in pairs))
+async def answers(
+    asked: Sequence[Asked], folder: Path, localization: str = OWN, options: Options | None = None
+) -> list[Answer]:
+    """Return what each drone answers, told meanwhile where it is if the fleet has somebody for that."""
+    navigations = {one.id: make_navigation(one.navigation, setup_of(one, folder)) for one in asked}
+    feeding: Feeding | None = None
+    if localization != OWN:
+        source = make_localization(localization, options or {})
+        told = {id: one for id, one in navigations.items() if isinstance(one, Locatable)}
+        feeding = Feeding(localization, source, told, lambda _: None)
+        feeding.start()
+    try:
+        return await asyncio.gather(*(_answer(one, navigations[one.id], feeding) for one in asked))
+    finally:
+        if feeding is not None:
+            await feeding.close()
 
 
 async def identified(asked: Asked, folder: Path) -> None:
@@ -141,7 +155,7 @@ class _Heard:
     facts: Mapping[str, str] = field(default_factory=dict)
 
 
-async def _answer(asked: Asked, navigation: DroneNavigation) -> Answer:
+async def _answer(asked: Asked, navigation: DroneNavigation, feeding: Feeding | None) -> Answer:
     so_far = _Heard()
     try:
         with holding({asked.id: asked.uri or asked.id}):
@@ -154,6 +168,9 @@ async def _answer(asked: Asked, navigation: DroneNavigation) -> Answer:
     match end:
         case None:
             problems = so_far.problems
+            lost = None if feeding is None else feeding.silent(asked.id)
+            if lost is not None:
+                problems = (*problems, lost)
         case _Silent():
             problems = (no_answer(CONNECT if so_far.telemetry is None else ANSWER),)
         case Exception() if not isinstance(end, BadInput):

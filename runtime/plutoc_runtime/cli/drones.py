@@ -149,7 +149,10 @@ async def _asked(app: App, options: Command, team: _Team) -> list[Answer]:
     each = list({one.id: one for one in asked}.values())
     if each:
         output.tell(f"asking {counted(len(each), 'drone')} …")
-    return await answers(each, _folder(app))
+    folder, fleet = _folder(app), team.fleet
+    if fleet is None:
+        return await answers(each, folder)
+    return await answers(each, folder, fleet.localization, fleet.localization_options)
 
 
 def _say(told: Sequence[Answer]) -> None:

@@ -13,7 +13,7 @@ from plutoc_runtime.model import Point
 RECORD: list[tuple[str, str]] = []
 """(uri, what was asked)."""
 
-ASKED = {"connect", "preflight", "facts", "identify", "close"}
+ASKED = {"connect", "preflight", "facts", "identify", "locate", "close"}
 """What neither arms nor moves a drone."""
 
 THERE: dict[str, DroneTelemetry] = {}
@@ -89,7 +89,10 @@ class Plain:
 
 
 class Fake(Plain):
-    """One that can be found, and can show itself."""
+    """One that can be found, can show itself, and is told where it is by others."""
+
+    async def locate(self, position: Point) -> None:
+        self._note("locate")
 
     async def identify(self) -> None:
         self._note("identify")
@@ -99,3 +102,15 @@ class Fake(Plain):
         if options.get("dongle") == "none":
             raise LinkLost("there is no Crazyradio: plug one in")
         return list(THERE)
+
+
+class Mocap:
+    """Sees `cf1`, and nobody else."""
+
+    def __init__(self, options: Mapping[str, object]) -> None:
+        assert options == {"host": "lab"}
+
+    async def positions(self) -> AsyncIterator[tuple[str, Point]]:
+        while True:
+            yield "cf1", (1.0, 1.0, 0.0)
+            await asyncio.sleep(0.01)

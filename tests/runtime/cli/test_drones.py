@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from plutoc_runtime.cli import drone_answers
+from plutoc_runtime.drones import feeding
 from plutoc_runtime.files.fleet import load_fleet
 from plutoc_runtime.gateway.holding import holding
 from tests.runtime.cli import fake_drones
@@ -150,6 +151,19 @@ def test_a_drone_that_an_app_flies_is_not_asked(fleet: Path, command: Command) -
         code, out, _ = command("drones", "cf1", "--fleet", fleet)
     assert (code, "is commanded by process" in out) == (1, True)
     assert ("fake://1", "connect") not in RECORD
+
+
+def test_drones_are_told_where_they_are_meanwhile(
+    fleet: Path, command: Command, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """By the localization of the fleet file; who is not seen is not ready."""
+    monkeypatch.setattr(feeding, "SILENCE", -1.0)
+    mocap = f'localization = "{fake_drones.__name__}:Mocap"\n[localization]\nhost = "lab"\n'
+    fleet.write_text(FLEET.replace("[[drone]]", f"{mocap}[[drone]]", 1), encoding="utf-8")
+    code, out, _ = command("drones", "cf1", "cf4", "--fleet", fleet)
+    assert ("fake://1", "locate") in RECORD
+    assert ("fake://4", "locate") not in RECORD
+    assert (code, f"no position from {fake_drones.__name__}:Mocap" in out) == (1, True)
 
 
 def test_a_mistake_of_a_navigation_is_one_rows(fleet: Path, command: Command) -> None:
