@@ -180,7 +180,8 @@ class SimulatedContract(NavigationContract):
     """The kit, over a simulated drone."""
 
     navigation: type[Simulated] = Simulated
-    height, away, speed, rest, may_fall = 1.0, 2.0, SPEED, 0.1, True
+    height, away, speed, rest = 1.0, 2.0, SPEED, 0.1
+    may_fall = together = True
 
     def make(self) -> DroneNavigation:
         return self.navigation(setup())

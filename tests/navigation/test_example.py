@@ -16,7 +16,8 @@ HERE = Path(__file__).parents[2] / "docs/navigation"
 class TestWren(NavigationContract):
     """In real time, as a Wren flies."""
 
-    height, speed, away, rest, may_fall = 0.4, 1.0, 1.0, 0.2, True
+    height, speed, away, rest = 0.4, 1.0, 1.0, 0.2
+    may_fall = together = True
 
     def make(self) -> DroneNavigation:
         return self.wren("wren:100,50")

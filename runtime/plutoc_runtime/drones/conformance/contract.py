@@ -2,19 +2,14 @@
 
 from __future__ import annotations
 
-import asyncio
-from collections.abc import Awaitable, Callable
 from itertools import pairwise
 from math import dist, hypot, isfinite, pi
-from typing import TYPE_CHECKING
-from unittest import SkipTest
-from weakref import WeakKeyDictionary
 
 from ...errors import Failure
 from ..checking import problems
 from ..loading import NAVIGATION
-from . import flights
-from .record import Record, Truth, ensure, said
+from .author import Author
+from .record import Record, ensure, said
 from .seen import (
     fell,
     known_failures,
@@ -26,56 +21,13 @@ from .seen import (
     units_differ,
 )
 
-if TYPE_CHECKING:
-    from ..protocol import DroneNavigation
 
-_FLOWN: WeakKeyDictionary[type, dict[str, Record]] = WeakKeyDictionary()
-"""The flights of each subclass."""
-
-
-class NavigationContract:
+class NavigationContract(Author):
     """What any navigation must do. Subclass it, give `make`, and what else can be given.
 
     pytest finds the checks by their names. Each test class flies each of its flights once, one after
     the other; a check whose hook is not given is skipped, and says so.
     """
-
-    height = 0.5
-    """Metres to rise to."""
-    away = 1.0
-    """Metres to fly, along x from where the drone stands: there must be room."""
-    speed = 0.5
-    """Metres per second: the limit that is given with each command."""
-    rest = 0.4
-    """Seconds to look on after a command, at a drone that should stay where it is."""
-    tolerance = 0.1
-    """Metres: how well it must know where it is, and get where it is sent."""
-    connect_limit = 15.0
-    """Seconds for `connect`; the runtime waits no longer."""
-    may_fall = False
-    """Whether the motors may be switched off a hand's breadth above the ground."""
-
-    # What the author gives
-
-    def make(self) -> DroneNavigation:
-        """Return a fresh navigation of a drone that stands on the ground, ready to fly."""
-        raise NotImplementedError("give the kit a navigation: def make(self) -> DroneNavigation")
-
-    def make_unreachable(self) -> DroneNavigation:
-        """Return a navigation of a drone that is not there."""
-        raise SkipTest("make_unreachable is not given: nobody tried a drone that is not there")
-
-    def silence(self, navigation: DroneNavigation) -> None:
-        """Let its drone fall silent from now on."""
-        raise SkipTest("silence is not given: nobody tried a drone that falls silent")
-
-    def crash(self, navigation: DroneNavigation) -> None:
-        """Let its drone crash now."""
-        raise SkipTest("crash is not given: nobody tried a drone that crashes")
-
-    def truth(self, navigation: DroneNavigation) -> Truth | None:
-        """Return how its drone really is, where something knows: a simulator, cameras."""
-        return None
 
     # Before and after flying
 
@@ -219,7 +171,8 @@ class NavigationContract:
         )
 
     def test_the_event_loop_is_never_held_up(self) -> None:
-        for record in (self._tour(), self._closed_in_the_air()):
+        """Nor while the drone is silent, or not there."""
+        for record in map(self._flown, self._flights()):
             ensure(not record.blocked, f"the event loop was held up {'; '.join(record.blocked)}")
 
     # What it must refuse
@@ -257,20 +210,21 @@ class NavigationContract:
         record = self._tour()
         record.step("land").done()
         ensure(not fell(record, self.speed), "its motors were off in the air")
-        if not self.may_fall:
-            raise SkipTest("may_fall is not set: emergency_stop was not tried")
-        record = self._flown("cut", lambda: flights.cut(self))
+        self._needs("may_fall")
+        record = self._flown("cut")
         after = record.step("emergency_stop").done().after
         last = record.samples[-1]
         ensure(not last.telemetry.flying, "after emergency_stop, telemetry says that it flies")
         ensure(after.truth is None or not after.truth.motors, "emergency_stop left the motors on")
 
     def test_a_drone_that_is_not_there_is_a_lost_link(self) -> None:
-        record = self._flown("nobody", lambda: flights.nobody(self, self.make_unreachable))
+        self._needs("make_unreachable")
+        record = self._flown("nobody")
         self._failed_by(record, "connect", Failure.LINK)
 
     def test_a_drone_that_falls_silent_is_a_lost_link(self) -> None:
-        record = self._flown("silent", lambda: flights.struck(self, self.silence))
+        self._needs("silence")
+        record = self._flown("silent")
         self._failed_by(record, "go_to", Failure.LINK)
         step, struck = record.step("go_to"), record.during("struck")
         ensure(struck, "it never fell silent")
@@ -281,13 +235,12 @@ class NavigationContract:
         ensure(step.ended - struck[0].at < 5, "it took more than 5 s to see that it was silent")
 
     def test_a_drone_that_crashes_is_a_crash(self) -> None:
-        record = self._flown("crashed", lambda: flights.struck(self, self.crash))
+        self._needs("crash")
+        record = self._flown("crashed")
         self._failed_by(record, "go_to", Failure.CRASH)
 
     def _failed_by(self, record: Record, name: str, failure: Failure) -> None:
         step = record.step(name)
-        if isinstance(step.error, SkipTest):
-            raise step.error
         ensure(step.error is not None, f"{name} returned as if nothing had happened")
         error = step.error
         ensure(
@@ -299,21 +252,3 @@ class NavigationContract:
         for record in (self._tour(), self._closed_in_the_air()):
             strange = known_failures(record)
             ensure(not strange, f"a mistake of the navigation: {'; '.join(strange)}")
-
-    # The flights
-
-    def _tour(self) -> Record:
-        return self._flown("tour", lambda: flights.tour(self))
-
-    def _closed_in_the_air(self) -> Record:
-        return self._flown("closed in the air", lambda: flights.closed_in_the_air(self))
-
-    def _flown(self, name: str, fly: Callable[[], Awaitable[Record]]) -> Record:
-        flown = _FLOWN.setdefault(type(self), {})
-        if name not in flown:
-
-            async def run() -> Record:
-                return await fly()
-
-            flown[name] = asyncio.run(run())
-        return flown[name]

@@ -13,8 +13,6 @@ from contextlib import asynccontextmanager, suppress
 from math import dist, nan
 from typing import TYPE_CHECKING, Protocol
 
-from .leftovers import left_since, there
-from .loop import LoopWatch
 from .record import Record, Sample, Step, Truth
 
 if TYPE_CHECKING:
@@ -137,28 +135,24 @@ class Flight:
 @asynccontextmanager
 async def flying(subject: Subject, make: Callable[[], DroneNavigation]) -> AsyncIterator[Flight]:
     """Make a navigation; whatever becomes of its flight, land it and close it."""
-    before = there()
     flight = Flight(subject, make())
     drone = flight.navigation
-    with LoopWatch() as loop:
-        watching = asyncio.create_task(flight.watched())
-        hearing = asyncio.create_task(flight.hears())
-        try:
-            yield flight
-        except Ended as ended:
-            flight.record.failed = ended.__cause__
-        finally:
-            if "close" not in flight.record.steps:
-                if drone.telemetry.flying:
-                    await flight.tries("land at the end", lambda: drone.land(0.5), 20.0)
-                await flight.tries("close", drone.close, 20.0)
-            await asyncio.wait([hearing], timeout=1.0)
-            for task in (watching, hearing):
-                task.cancel()
-                with suppress(asyncio.CancelledError):
-                    await task
-    flight.record.blocked = loop.found
-    flight.record.left = await left_since(before)
+    watching = asyncio.create_task(flight.watched())
+    hearing = asyncio.create_task(flight.hears())
+    try:
+        yield flight
+    except Ended as ended:
+        flight.record.failed = ended.__cause__
+    finally:
+        if "close" not in flight.record.steps:
+            if drone.telemetry.flying:
+                await flight.tries("land at the end", lambda: drone.land(0.5), 20.0)
+            await flight.tries("close", drone.close, 20.0)
+        await asyncio.wait([hearing], timeout=1.0)
+        for task in (watching, hearing):
+            task.cancel()
+            with suppress(asyncio.CancelledError):
+                await task
 
 
 async def tour(subject: Subject) -> Record:

@@ -1,0 +1,125 @@
+"""What the author of a navigation gives to the kit, and the flights that are flown with it."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Coroutine, Mapping
+from typing import TYPE_CHECKING, Any
+from unittest import SkipTest
+from weakref import WeakKeyDictionary
+
+from . import flights
+from .leftovers import left_since, there
+from .loop import LoopWatch
+from .record import Record, Truth
+
+if TYPE_CHECKING:
+    from ..protocol import DroneNavigation
+
+_FLOWN: WeakKeyDictionary[type, dict[str, Record]] = WeakKeyDictionary()
+"""The flights of each test class."""
+_MISSING = {
+    "make_unreachable": "nobody tried a drone that is not there",
+    "silence": "nobody tried a drone that falls silent",
+    "crash": "nobody tried a drone that crashes",
+    "may_fall": "nobody tried emergency_stop",
+}
+
+
+class Author:
+    """What the checks of `NavigationContract` go by."""
+
+    height = 0.5
+    """Metres to rise to."""
+    away = 1.0
+    """Metres to fly, along x from where the drone stands: there must be room."""
+    speed = 0.5
+    """Metres per second: the limit that is given with each command."""
+    rest = 0.4
+    """Seconds to look on after a command, at a drone that should stay where it is."""
+    tolerance = 0.1
+    """Metres: how well it must know where it is, and get where it is sent."""
+    connect_limit = 15.0
+    """Seconds for `connect`; the runtime waits no longer."""
+    may_fall = False
+    """Whether the motors may be switched off a hand's breadth above the ground."""
+
+    together = False
+    """Whether drones may be in the air at once that know nothing of each other: simulated ones."""
+
+    # What the author gives
+
+    def make(self) -> DroneNavigation:
+        """Return a fresh navigation of a drone that stands on the ground, ready to fly."""
+        raise NotImplementedError("give the kit a navigation: def make(self) -> DroneNavigation")
+
+    def make_unreachable(self) -> DroneNavigation:
+        """Return a navigation of a drone that is not there."""
+        raise NotImplementedError
+
+    def silence(self, navigation: DroneNavigation) -> None:
+        """Let its drone fall silent from now on."""
+        raise NotImplementedError
+
+    def crash(self, navigation: DroneNavigation) -> None:
+        """Let its drone crash now."""
+        raise NotImplementedError
+
+    def truth(self, navigation: DroneNavigation) -> Truth | None:
+        """Return how its drone really is, where something knows: a simulator, cameras."""
+        return None
+
+    # The flights, each flown when the first check asks for it
+
+    def _tour(self) -> Record:
+        return self._flown("tour")
+
+    def _closed_in_the_air(self) -> Record:
+        return self._flown("closed in the air")
+
+    def _flown(self, name: str) -> Record:
+        flown = _FLOWN.setdefault(type(self), {})
+        if name not in flown:
+            all_of_it = self._flights()
+            at_once = self.together and name != "tour"
+            wanted = [one for one in all_of_it if one != "tour"] if at_once else [name]
+            flown.update(asyncio.run(_flying({one: all_of_it[one] for one in wanted})))
+        return flown[name]
+
+    def _flights(self) -> Mapping[str, _Flight]:
+        """Return the flights that can be flown with what is given."""
+        possible: dict[str, _Flight] = {
+            "tour": lambda: flights.tour(self),
+            "closed in the air": lambda: flights.closed_in_the_air(self),
+        }
+        if self._gives("make_unreachable"):
+            possible["nobody"] = lambda: flights.nobody(self, self.make_unreachable)
+        if self._gives("silence"):
+            possible["silent"] = lambda: flights.struck(self, self.silence)
+        if self._gives("crash"):
+            possible["crashed"] = lambda: flights.struck(self, self.crash)
+        if self.may_fall:
+            possible["cut"] = lambda: flights.cut(self)
+        return possible
+
+    def _gives(self, hook: str) -> bool:
+        return getattr(type(self), hook) is not getattr(Author, hook)
+
+    def _needs(self, hook: str) -> None:
+        """Skip a check, saying so, if the author does not give what it takes."""
+        if not self._gives(hook):
+            raise SkipTest(f"{hook} is not given: {_MISSING[hook]}")
+
+
+_Flight = Callable[[], Coroutine[Any, Any, Record]]
+
+
+async def _flying(wanted: Mapping[str, _Flight]) -> dict[str, Record]:
+    """Fly all of these at once, and look at what they leave behind."""
+    before = there()
+    with LoopWatch() as loop:
+        records = await asyncio.gather(*(flight() for flight in wanted.values()))
+    left = await left_since(before)
+    for record in records:
+        record.blocked, record.left = loop.found, left
+    return dict(zip(wanted, records, strict=True))
