@@ -30,11 +30,13 @@ if TYPE_CHECKING:
     from .app import App
     from .files.fleet import FleetFile
     from .gateway.commanding import Commanding
+    from .gateway.controls import Controls
     from .journal.recorder import Recorder
     from .navigation import Navigation
     from .simulation.faults import Faults
 
 Listener = Callable[[Event], object]
+Around = Callable[["Kernel", "Controls"], "Controls"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -149,6 +151,8 @@ class Simulation:
         seed: int,
         faults: Faults,
         listener: Listener | None,
+        around: Around | None = None,
+        slack: float = 0.0,
     ) -> None:
         categories = {category.name: category for category in app.categories}
         simulated = [
@@ -161,7 +165,15 @@ class Simulation:
         self._navigation = SimulatedNavigation(
             kernel, simulated, world, faults, seed, fleet.airspace
         )
-        gateway = Gateway(kernel, self._navigation, simulated, fleet.airspace)
+        gateway = Gateway(
+            kernel,
+            self._navigation if around is None else around(kernel, self._navigation),
+            simulated,
+            fleet.airspace,
+            apart=fleet.apart,
+            slack=slack,
+            max_airborne=fleet.max_airborne,
+        )
         self._events: list[Event] = []
         listeners = [self._events.append, *([listener] if listener else [])]
         self.session = Session(app, fleet, kernel, gateway.link(1), listeners)
@@ -187,10 +199,15 @@ def simulate(
     faults: Faults,
     until: float | None,
     on_event: Listener | None,
+    around: Around | None = None,
+    slack: float = 0.0,
 ) -> Outcome:
-    """Fly the missions in virtual time, until the last one has ended or a time is reached."""
+    """Fly the missions in virtual time, until the last one has ended or a time is reached.
+
+    `around` puts something between the gateway and its drones; `slack` keeps them further apart.
+    """
     kernel = VirtualTime()
-    simulation = Simulation(app, fleet, kernel, seed, faults, on_event)
+    simulation = Simulation(app, fleet, kernel, seed, faults, on_event, around, slack)
     over = simulation.session.start(missions)
     try:
         ended = over.result() if kernel.run(over, until) else kernel.now
