@@ -9,6 +9,8 @@ from __future__ import annotations
 from copy import deepcopy
 from typing import TYPE_CHECKING
 
+from ..drones.member import CLIMB_LIMIT
+from ..energy import CLIMB_SPEED
 from ..errors import BadInput
 from ..gateway.real import SLACK
 from ..session import simulate
@@ -42,15 +44,16 @@ def dry_run(app: App, options: Options) -> int:
     _refuse_what_does_not_go_together(options)
     plan = load(app, options)
     given: list[Given] = []
-    categories = {category.name: category.speed for category in app.categories}
-    speeds = {drone.id: categories[drone.category] for drone in plan.fleet.drones}
+    top = {one.name: one.top_speed or one.speed for one in plan.app.categories}
+    speeds = {drone.id: top[drone.category] for drone in plan.fleet.drones}
+    climb = CLIMB_SPEED if options.sim else CLIMB_LIMIT
 
     def around(kernel: Kernel, drones: Controls) -> Given:
-        given.append(Given(kernel, drones, speeds))
+        given.append(Given(kernel, drones, speeds, climb))
         return given[0]
 
     outcome = simulate(
-        app,
+        plan.app,
         deepcopy(plan.missions),
         plan.fleet,
         seed=options.seed,
@@ -60,7 +63,7 @@ def dry_run(app: App, options: Options) -> int:
         around=around,
         slack=0.0 if options.sim else SLACK,
     )
-    for line in _lines(app, outcome, given[0].commands):
+    for line in _lines(plan.app, outcome, given[0].commands):
         output.line(line)
     output.flush()
     if options.sim:

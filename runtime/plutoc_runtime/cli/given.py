@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from ..energy import CLIMB_SPEED
 from ..files.toml_text import text, value
 
 if TYPE_CHECKING:
@@ -33,8 +32,11 @@ class Command:
 class Given:
     """Drones that can be told what others can; each command is kept, and handed on to those others."""
 
-    def __init__(self, kernel: Kernel, drones: Controls, speeds: Mapping[str, float]) -> None:
-        self._kernel, self._drones, self._speeds = kernel, drones, speeds
+    def __init__(
+        self, kernel: Kernel, drones: Controls, speeds: Mapping[str, float], climb: float
+    ) -> None:
+        self._kernel, self._drones = kernel, drones
+        self._speeds, self._climb_limit = speeds, climb
         self.commands: list[Command] = []
 
     def _note(
@@ -49,7 +51,7 @@ class Given:
         return x, y, height
 
     def _climb(self, drone: str) -> float:
-        return min(CLIMB_SPEED, self._speeds[drone])
+        return min(self._climb_limit, self._speeds[drone])
 
     # What is told
 
