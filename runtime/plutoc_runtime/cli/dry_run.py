@@ -6,13 +6,20 @@ drones, and over simulated ones. No drone is reached, and nothing is written.
 
 from __future__ import annotations
 
+from contextlib import suppress
 from copy import deepcopy
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
+from ..drones.loading import make_navigation
 from ..drones.member import CLIMB_LIMIT
+from ..drones.protocol import Acts
+from ..drones.setup import DroneSetup
 from ..energy import CLIMB_SPEED
 from ..errors import BadInput
-from ..gateway.real import SLACK
+from ..files.real import navigation_of, options_of
+from ..gateway.real import SLACK, real_fleet
 from ..session import simulate
 from ..simulation.faults import Faults
 from ..words import counted, number
@@ -28,15 +35,19 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from ..app import App
+    from ..files.drones import DroneEntry
+    from ..files.fleet import FleetFile
     from ..gateway.controls import Controls
+    from ..gateway.real import Wanted
     from ..kernel import Kernel
-    from ..model import Point
+    from ..model import Category, Point
     from ..session import Outcome
     from .given import Command
     from .options import Options
+    from .plans import Plan
 
 REFUSED = 2
-"""The exit code where `fly` would not begin at all."""
+"""The exit code where `fly` would not begin, or not fly some drone."""
 
 
 def dry_run(app: App, options: Options) -> int:
@@ -66,15 +77,56 @@ def dry_run(app: App, options: Options) -> int:
     for line in _lines(plan.app, outcome, given[0].commands):
         output.line(line)
     output.flush()
-    if options.sim:
-        return exit_code(outcome)
+    refused = [] if options.sim else list(_refused(app, options, plan))
+    for sentence in refused:
+        output.tell(sentence)
+    return REFUSED if refused else exit_code(outcome)
+
+
+def _refused(app: App, options: Options, plan: Plan) -> Iterator[str]:
+    """Yield what keeps `fly` from beginning, or a drone from being flown, as far as it is known."""
     try:
-        where = str(options.fleet or app.name)
-        check_real(plan.fleet, where, stand_ins=options.crtp_sim is not None)
+        check_real(
+            plan.fleet, str(options.fleet or app.name), stand_ins=options.crtp_sim is not None
+        )
     except BadInput as error:
-        output.tell(f"{app.name} fly would not begin:\n{error}")
-        return REFUSED
-    return exit_code(outcome)
+        yield f"{app.name} fly would not begin:\n{error}"
+        return
+    wanted = real_fleet(plan.fleet, plan.missions).wanted
+    categories = {category.name: category for category in plan.app.categories}
+    for drone in plan.fleet.drones:
+        category = categories[drone.category]
+        tasks = [one for one in wanted if category.can(one.action)]
+        for reason in _unfit(plan.fleet, drone, category, tasks):
+            yield f"{drone.id} would not be flown: {reason}"
+
+
+def _unfit(
+    fleet: FleetFile, drone: DroneEntry, category: Category, wanted: Sequence[Wanted]
+) -> Iterator[str]:
+    """Yield what a drone's navigation says it cannot do, before there is any drone."""
+    with TemporaryDirectory() as folder:
+        setup = DroneSetup(
+            id=drone.id,
+            uri=drone.uri,
+            home=drone.home,
+            speed=category.top_speed or category.speed,
+            options=options_of(fleet, drone),
+            folder=Path(folder),
+        )
+        try:
+            navigation = make_navigation(navigation_of(fleet, drone), setup)
+        except BadInput as error:
+            yield str(error)
+            return
+        for one in wanted:
+            if not isinstance(navigation, Acts):
+                yield f"{drone.id} has no action {one.action}"
+                continue
+            with suppress(Exception):  # it is only asked to know this once it is connected
+                why = navigation.why_not(one.action, one.parameters)
+                if why is not None:
+                    yield why
 
 
 def _refuse_what_does_not_go_together(options: Options) -> None:

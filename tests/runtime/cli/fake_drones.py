@@ -7,8 +7,9 @@ from collections.abc import AsyncIterator, Mapping, Sequence
 from math import inf
 from pathlib import Path
 
+from plutoc_runtime.actions import Plain
 from plutoc_runtime.drones import DroneEvent, DroneSetup, DroneTelemetry, LinkLost
-from plutoc_runtime.model import Point
+from plutoc_runtime.model import Item, Point
 
 RECORD: list[tuple[str, str]] = []
 """(uri, what was asked)."""
@@ -29,7 +30,7 @@ def at(position: Point, *, flying: bool = False, voltage: float = 4.02) -> Drone
     )
 
 
-class Plain:
+class Bare:
     """A drone; `fake://lost` is not there, and `fake://silent` does not even say so."""
 
     def __init__(self, setup: DroneSetup) -> None:
@@ -88,8 +89,15 @@ class Plain:
         yield
 
 
-class Fake(Plain):
+class Fake(Bare):
     """One that can be found, can show itself, and is told where it is by others."""
+
+    def why_not(self, action: str, parameters: Mapping[str, Plain]) -> str | None:
+        return f"{self.uri} has no camera" if action == "take_photo" else None
+
+    async def act(self, action: str, parameters: Mapping[str, Plain], item: Item | None) -> object:
+        self._note(action)
+        return None
 
     async def locate(self, position: Point) -> None:
         self._note("locate")

@@ -201,7 +201,7 @@ def test_what_cannot_be_is_refused(fleet: Path, command: Command, words: str, sa
 
 def test_one_that_can_do_no_more_than_fly_is_asked_all_the_same(command: Command) -> None:
     """But it cannot be found, and has nothing by which to show itself."""
-    plain = f"{fake_drones.__name__}:Plain"
+    plain = f"{fake_drones.__name__}:Bare"
     assert command("drones", "fake://1", "--navigation", plain)[0] == 0
     code, _, err = command("drones", "--identify", "fake://1", "--navigation", plain)
     assert (code, err) == (2, "fake://1 has nothing by which it could show itself\n")

@@ -99,6 +99,28 @@ def test_what_fly_would_refuse_is_told(plan: list[str], command: Command) -> Non
     assert command("fly", *plan, "--dry-run", "--sim")[0] == 0  # simulated drones need none
 
 
+def test_a_drone_that_lacks_what_the_plan_asks_for_is_told(
+    plan: list[str], command: Command
+) -> None:
+    """As far as its navigation knows that without reaching it; a bad option is told likewise."""
+    missions = Path(plan[0])
+    looks = MISSIONS.replace("measure", "take_photo").replace(
+        'parameters = { quantity = "pm10" }\n', ""
+    )
+    missions.write_text(looks, encoding="utf-8")
+    code, out, err = command("fly", *plan, "--dry-run")
+    assert (code, "take_photo" in out) == (2, True)
+    assert err == "cf1 would not be flown: fake://1 has no camera\n"
+    fleet = Path(plan[-1])
+    plain = FLEET.replace(f"{fake_drones.__name__}:Fake", "crazyflie")
+    fleet.write_text(f'{plain}[drone.options]\ncamra = "10.0.0.1:5000"\n', encoding="utf-8")
+    code, _, err = command("fly", *plan, "--dry-run")
+    assert code == 2
+    assert "cf2 would not be flown: " in err
+    assert '"camra"' in err
+    assert RECORD == []
+
+
 def test_a_flight_that_would_fail_is_told_with_its_reason(
     plan: list[str], command: Command
 ) -> None:
