@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ..crazyflie.borrowed import require
-from ..drones.loading import load_localization, load_navigation
+from ..drones import refusals
+from ..drones.loading import hears, load_localization, load_navigation
 from ..errors import BadInput
 from ..files.behaviour import CRAZYFLIE, OWN
 from ..files.reading import shortened
@@ -30,3 +31,6 @@ def check_real(fleet: FleetFile, where: str, *, stand_ins: bool) -> None:
         load_navigation(name)
     if fleet.localization != OWN:
         load_localization(fleet.localization)
+        deaf = [one.id for one in fleet.drones if not hears(navigation_of(fleet, one))]
+        if deaf:
+            raise refusals.deaf(fleet.localization, deaf)

@@ -58,6 +58,11 @@ def load_localization(name: str) -> Callable[[Mapping[str, object]], Localizatio
     return cast("Callable[[Mapping[str, object]], Localization]", _loaded(LOCALIZATION, name))
 
 
+def hears(name: str) -> bool:
+    """Say whether drones that are flown so can be told where they are; raise as loading does."""
+    return hasattr(load_navigation(name), "locate")
+
+
 def make_navigation(name: str, setup: DroneSetup) -> DroneNavigation:
     """Return the navigation of one drone; raise `BadInput` if there cannot be one."""
     return _made(NAVIGATION, name, load_navigation(name), setup, f" for {setup.id}")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Protocol
 
-from ..errors import BadInput
+from . import refusals
 from .feeding import Feeding
 from .loading import make_localization, make_navigation
 from .localization import OWN
@@ -101,9 +101,6 @@ def _feeding(
         else:
             deaf.append(id)
     if deaf:
-        raise BadInput(
-            f"localization {real.localization}: {', '.join(deaf)} cannot be told where they are;"
-            " their navigation has no method locate"
-        )
+        raise refusals.deaf(real.localization, deaf)
     source = make_localization(real.localization, real.localization_options)
     return Feeding(real.localization, source, fed, say)

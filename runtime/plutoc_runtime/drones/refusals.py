@@ -72,6 +72,13 @@ def not_made(kind: Kind, name: str, whose: str, why: str) -> BadInput:
     return BadInput(f"the {kind.word} {quoted(name)} could not be made{whose}: {why}")
 
 
+def deaf(localization: str, drones: Sequence[str]) -> BadInput:
+    return BadInput(
+        f"localization {localization}: {', '.join(drones)} cannot be told where they are; "
+        "their navigation has no method locate"
+    )
+
+
 # What is wrong with a class
 
 

@@ -1,0 +1,88 @@
+"""An app flies drones of somebody's own class, named in the fleet file, in processes of its own."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import plutoc_runtime
+from tests.flying import compiled
+from tests.kill.trial import end_gateway
+
+DOCS = Path(__file__).parents[2] / "docs/navigation"
+MISSIONS = """
+[[mission]]
+name = "field"
+evaluator = "find_blooms"
+[[mission.trip]]
+name = "near"
+action = "pollinate"
+target = [1.5, 1.0]
+parameters = { dose = "10 mg" }
+[[mission.trip]]
+name = "far"
+action = "pollinate"
+target = [0.5, 1.0]
+parameters = { dose = "10 mg" }
+"""
+FLEET = """
+[map]
+size = [6.0, 6.0]
+cruise_height = 0.5
+[fleet]
+navigation = "wren:Wren"
+[[drone]]
+id = "w1"
+category = "carrier"
+home = [1.0, 0.5]
+uri = "wren:100,50"
+"""
+
+
+def fly(folder: Path, fleet: str) -> subprocess.CompletedProcess[str]:
+    """Fly the missions with this fleet, to the end."""
+    source = compiled("alfalfa", folder / "package") / "src"
+    (folder / "missions.toml").write_text(MISSIONS)
+    (folder / "fleet.toml").write_text(fleet)
+    runtime = Path(plutoc_runtime.__path__[0]).parent
+    words = ["fly", "missions.toml", "--fleet", "fleet.toml", "--journal", "flight.journal"]
+    try:
+        return subprocess.run(
+            [sys.executable, "-m", "alfalfa", *words],
+            cwd=folder,
+            env={
+                **os.environ,
+                "PYTHONPATH": os.pathsep.join(map(str, [source, DOCS, runtime])),
+                "XDG_STATE_HOME": str(folder / "state"),
+            },
+            capture_output=True,
+            text=True,
+            timeout=120,
+            check=False,
+        )
+    finally:
+        end_gateway(folder / "flight.journal")
+
+
+def test_the_navigation_of_forty_lines_flies_an_app(tmp_path: Path) -> None:
+    done = fly(tmp_path, FLEET)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "field: trip far completed (w1)" in done.stdout
+    assert "1 of 1 mission completed" in done.stdout
+
+
+def test_a_class_that_is_not_there_is_refused_before_anything_begins(tmp_path: Path) -> None:
+    done = fly(tmp_path, FLEET.replace("wren:Wren", "wren:Robin"))
+    assert done.returncode == 2
+    assert 'its module has no class "Robin"' in done.stderr
+    assert not (tmp_path / "flight.journal").exists()
+
+
+def test_drones_that_cannot_hear_where_they_are_are_refused(tmp_path: Path) -> None:
+    fleet = FLEET.replace('"wren:Wren"', '"wren:Wren"\nlocalization = "lines:Lines"')
+    done = fly(tmp_path, fleet)
+    assert done.returncode == 2
+    assert "w1 cannot be told where they are" in done.stderr
+    assert not (tmp_path / "flight.journal").exists()
