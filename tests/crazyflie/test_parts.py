@@ -189,6 +189,14 @@ def test_it_is_sure_once_its_variance_has_been_small_for_a_second() -> None:
     assert not certainty.sure(2.2)
 
 
+def test_one_that_only_sees_the_ground_pass_by_is_sure_once_its_variance_stays() -> None:
+    certainty = Certainty()
+    for tick in range(8):
+        certainty.hear((1e4 - (100 if tick < 3 else 0), 1e4, 1e-5), tick / 4)
+        assert certainty.sure(tick / 4, by_beacons=False) == (tick >= 7)
+        assert not certainty.sure(tick / 4)
+
+
 def test_what_it_said_long_ago_makes_nobody_sure() -> None:
     certainty = Certainty()
     for tick in range(8):

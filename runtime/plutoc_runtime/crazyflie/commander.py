@@ -68,7 +68,9 @@ async def land(session: Session, seconds: float) -> None:
     def begin(cf: Cf) -> None:
         cf.high_level_commander.land(0.0, seconds, yaw=None)
 
-    _check(session, "land", (await _answered(session, (HIGH_LEVEL, _LAND), begin, "land"))[3])
+    code = (await _answered(session, (HIGH_LEVEL, _LAND), begin, "land"))[3]
+    if code != _WRONG_STATE:  # it is that where it is landing already
+        _check(session, "land", code)
 
 
 async def go_to(

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
-from ..drones.errors import OutsideArea, Rejected, TargetTimeout
+from ..drones.errors import NavigationError, OutsideArea, Rejected, TargetTimeout
 from . import commander, words
 from .courses import NEAR, SLACK, is_speed, is_target, seconds_for, stop
 
@@ -44,7 +45,8 @@ async def takeoff(session: Session, height: float, speed: float) -> None:
     try:
         await commander.takeoff(session, height, seconds)
     except Rejected:
-        await commander.arm(session, False)
+        with suppress(NavigationError):
+            await commander.arm(session, False)
         raise
 
     def risen(state: State) -> bool:

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from .state import State
 
 _AWAY = 4.0
-"""Seconds that letting go of a link may take."""
+"""Seconds that letting go of links may take."""
 _LANDING = 0.3
 """Metres per second, where nobody says how fast."""
 
@@ -43,6 +43,9 @@ class Crazyflie:
         self._battery, self._alarms = Battery(), Alarms()
         self._state: State | None = None
         self._events: asyncio.Queue[DroneEvent | None] = asyncio.Queue()
+        self._commanded = False
+        """Whether it may fly because of an earlier link."""
+        self._leaving: set[asyncio.Future[None]] = set()
         self._closed = False
 
     # The link
@@ -55,9 +58,12 @@ class Crazyflie:
         if self._session is not None:
             if self._session.alive:
                 return
+            self._commanded = self._session.commanded
             self._session.let_go()
             self._session = None
+        await self._left()  # two links to one drone would take each other's packets
         session = await open_session(self._id, uri, self._setup.folder, self)
+        session.commanded = self._commanded
         self._session, self._readings = session, logs.Readings(session)
         if self._options.starts_at_home:
             await starting.begin_at(session, self._setup.home)
@@ -74,7 +80,8 @@ class Crazyflie:
                 with suppress(NavigationError):
                     await flying.land(session, _LANDING)
             self._session = None
-            await asyncio.wait({session.let_go()}, timeout=_AWAY)
+            session.let_go()
+        await self._left()
         if not self._closed:
             self._closed = True
             self._events.put_nowait(None)
@@ -89,6 +96,15 @@ class Crazyflie:
     def gone(self, why: str) -> None:
         """It tells nothing any more."""
         self._events.put_nowait(DroneEvent(kind=LINK_LOST, reason=why))
+
+    def leaves(self, gone: asyncio.Future[None]) -> None:
+        """A link to it is being put away."""
+        self._leaving = {one for one in self._leaving if not one.done()} | {gone}
+
+    async def _left(self) -> None:
+        """Wait until no link to it is left, as far as cflib lets go of them."""
+        if self._leaving:
+            await asyncio.wait(self._leaving, timeout=_AWAY)
 
     @property
     def telemetry(self) -> DroneTelemetry:

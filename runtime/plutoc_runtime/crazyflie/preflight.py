@@ -27,8 +27,10 @@ async def problems(session: Session, battery: Battery, options: Options) -> list
         return [words.lacks_variables(session.lacks)]
     state = session.now()
     found = [*_of_state(state), *_of_battery(state, battery, options)]
-    if not await _sure(session):
-        found.append(words.uncertain(session.certainty.variance, MOST))
+    by_beacons = not options.starts_at_home
+    if not await _sure(session, by_beacons):
+        variance = session.certainty.variance
+        found.append(words.uncertain(variance, MOST) if by_beacons else words.UNSETTLED)
     return [*found, *await _of_decks(session, options)]
 
 
@@ -47,12 +49,13 @@ def _of_battery(state: State, battery: Battery, options: Options) -> Iterator[st
         yield words.little(rest, options.least_voltage)
 
 
-async def _sure(session: Session) -> bool:
+async def _sure(session: Session, by_beacons: bool) -> bool:
     """Say whether it knows where it is; just after connecting, that takes a second to find out."""
     end = session.loop.time() + LONG + 0.7
-    while not session.certainty.sure(time.monotonic()):
+    while not session.certainty.sure(time.monotonic(), by_beacons=by_beacons):
         variance = session.certainty.variance
-        if session.loop.time() > end or (variance is not None and variance > MOST):
+        hopeless = by_beacons and variance is not None and variance > MOST
+        if hopeless or session.loop.time() > end:
             return False
         await session.heard(0.1)
         session.now()

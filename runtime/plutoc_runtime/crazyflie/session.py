@@ -39,6 +39,10 @@ class Observer(Protocol):
         """It tells nothing any more."""
         ...
 
+    def leaves(self, gone: asyncio.Future[None]) -> None:
+        """The link is being put away, until this is done."""
+        ...
+
 
 class Session:
     """What is known of a drone while it is connected, and the one way to call cflib for it."""
@@ -112,7 +116,7 @@ class Session:
         self.established.set()
         if not self.lost:
             self.lost = words.cause(why)
-            if not self._silent:
+            if self.state is not None and not self._silent:  # else it never came to be
                 self._observer.gone(self.lost)
         self._wake()
 
@@ -220,7 +224,7 @@ class Session:
 
     # Its end
 
-    def let_go(self) -> asyncio.Future[None]:
+    def let_go(self) -> None:
         """End it in a thread of its own: never by a command to the drone."""
         self.lost = self.lost or "it was let go"
         self._looking.cancel()
@@ -234,4 +238,4 @@ class Session:
         self.worker.end()
         cf, self._cf = self._cf, None
         let_go(self.drone, cf, lambda: self.tell(told))
-        return gone
+        self._observer.leaves(gone)

@@ -187,6 +187,9 @@ def uncertain(variance: float | None, most: float) -> str:
     )
 
 
+UNSETTLED = "its estimate of where it is has not settled: let it stand still on the ground"
+
+
 def cannot_fly(state: str) -> str:
     return f"its supervisor does not let it fly ({state})"
 
