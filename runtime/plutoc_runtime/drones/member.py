@@ -34,6 +34,8 @@ CLIMB_LIMIT = 2 * CLIMB_SPEED
 """Metres per second, up and down, at most: the mean is about what plans count with."""
 AMPLE, SPARE = 3.0, 10.0
 """A flight may take so many times what it takes at full speed, and so many seconds more."""
+STALE = 0.5
+"""Seconds of silence that bear a navigation out which says that the link is lost."""
 RECENTLY = 3.0
 """Seconds for which a drone that was seen in the air is believed to have fallen out of it."""
 
@@ -287,7 +289,20 @@ class Member:
     async def _go(
         self, what: str, seconds: float, method: Callable[..., Awaitable[T]], *args: object
     ) -> T:
-        return await self.calls.call(what, seconds * AMPLE + SPARE, method, *args)
+        try:
+            return await self.calls.call(what, seconds * AMPLE + SPARE, method, *args)
+        except FlightFailed as error:
+            self._hears(error)
+            raise
+
+    def _hears(self, error: FlightFailed) -> None:
+        """Believe what a failed command says of the drone: that may be known before it is seen."""
+        if error.failure is Failure.LINK and self.seen.silence > STALE:
+            self.lost(str(error))
+        elif error.failure is Failure.CRASH and self.flew_lately:
+            self.crashed(str(error))
+        elif error.failure is Failure.BATTERY and not self.seen.landed:
+            self.must_come_down(error)
 
     def _in_the_air(self) -> None:
         if self.seen.landed:

@@ -6,6 +6,7 @@ import asyncio
 from typing import TYPE_CHECKING
 
 from ..errors import Failure, FlightFailed
+from ..words import place
 from .member import LOOK
 
 if TYPE_CHECKING:
@@ -37,9 +38,9 @@ async def reach(member: Member, linking: Linking) -> bool:
 
 
 async def _comes_down(member: Member, linking: Linking) -> bool:
-    """Wait while a drone lands by itself, or has crashed and not yet said that it lies there."""
+    """Wait while a drone lands by itself, or has not yet said whether it flies or lies there."""
     patience = round(SETTLING / LOOK)
-    while not member.seen.landed and member.down is not None:
+    while member.seen.is_rising or (not member.seen.landed and member.down is not None):
         await asyncio.sleep(LOOK)
         patience -= not member.must_land
         if patience < 0 or not (member.linked or await linking.within(REACH)):
@@ -67,9 +68,14 @@ async def _is_ready(member: Member) -> bool:
 
 async def fetched(member: Member) -> bool:
     """Wait until a drone stands at home, ready; False: nobody has put it there."""
+    said: tuple[str, ...] = ()
     try:
         async with asyncio.timeout(FETCH):
-            while not await _is_home(member):
+            while missing := await _missing(member):
+                _lands(member)
+                if missing != said:
+                    member.calls.say(f"{member.id} is waited for: {'; '.join(missing)}")
+                    said = missing
                 await asyncio.sleep(OFTEN)
     except TimeoutError:
         return False
@@ -77,8 +83,19 @@ async def fetched(member: Member) -> bool:
     return True
 
 
-async def _is_home(member: Member) -> bool:
-    return member.linked and member.is_docked and not await _reasons(member)
+def _lands(member: Member) -> None:
+    """See to it that a drone comes down which nobody commands any more."""
+    if member.linked and not member.seen.landed and not member.must_land:
+        where = place(member.seen.location)
+        why = f"{member.id} could not be flown home: it lands at {where}"
+        member.must_come_down(member.down or FlightFailed(Failure.REFUSED, why))
+
+
+async def _missing(member: Member) -> tuple[str, ...]:
+    """Return what keeps it from being flown again."""
+    if member.linked and not member.is_docked:
+        return (f"put it home, at {place(member.drone.home)}",)
+    return await _reasons(member)
 
 
 async def _reasons(member: Member) -> tuple[str, ...]:

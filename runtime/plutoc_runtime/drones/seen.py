@@ -77,6 +77,12 @@ class Seen:
         return 0.0 if last is None else last.battery_level
 
     @property
+    def is_rising(self) -> bool:
+        """Whether it may have taken off, and has not said so yet."""
+        self.look()
+        return self._calls.clock() < self.rises_until
+
+    @property
     def landed(self) -> bool:
         """Whether it is on the ground; who was silent for longer than it can fly must be."""
         last, now = self.look(), self._calls.clock()
