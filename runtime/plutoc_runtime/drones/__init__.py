@@ -14,10 +14,24 @@ from .errors import (
     Rejected,
     TargetTimeout,
 )
-from .protocol import Acts, DroneNavigation, Identifiable, Locatable, Readable, Scannable
+from .protocol import (
+    Acts,
+    DroneNavigation,
+    Identifiable,
+    Locatable,
+    Readable,
+    Scannable,
+)
 from .reports import Reports
 from .setup import DroneSetup
-from .telemetry import BATTERY_LOW, CRASHED, LINK_LOST, LOCKED, DroneEvent, DroneTelemetry
+from .telemetry import (
+    BATTERY_LOW,
+    CRASHED,
+    LINK_LOST,
+    LOCKED,
+    DroneEvent,
+    DroneTelemetry,
+)
 
 __all__ = [
     "BATTERY_LOW",
