@@ -92,12 +92,14 @@ def _refused(app: App, options: Options, plan: Plan) -> Iterator[str]:
     except BadInput as error:
         yield f"{app.name} fly would not begin:\n{error}"
         return
+    if options.crtp_sim is not None:  # they are fitted with whatever the plan asks for
+        return
     wanted = real_fleet(plan.fleet, plan.missions).wanted
     categories = {category.name: category for category in plan.app.categories}
     for drone in plan.fleet.drones:
         category = categories[drone.category]
         tasks = [one for one in wanted if category.can(one.action)]
-        for reason in _unfit(plan.fleet, drone, category, tasks):
+        for reason in dict.fromkeys(_unfit(plan.fleet, drone, category, tasks)):
             yield f"{drone.id} would not be flown: {reason}"
 
 

@@ -17,8 +17,11 @@ from plutoc_runtime.crtp.drone import Build
 from plutoc_runtime.crtp.record import InMemory
 from plutoc_runtime.crtp.server import Server
 from plutoc_runtime.files.fleet import load_fleet
+from tests.crtp.radio import Ether, plugged_in
 from tests.runtime.cli.conftest import Command
 from tests.runtime.files.an_app import APP
+
+pytest.importorskip("cflib")
 
 HARMLESS = {"asked", "set led.bitmask", "fault lock"}
 """What may be done to a drone that shall neither be armed nor moved."""
@@ -43,11 +46,16 @@ class Air:
         return list(self.server.uris.values())
 
 
-@pytest.fixture
-def air(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Air]:
-    """Drones that answer; whatever is asked of them, none is armed, and none moves."""
+@pytest.fixture(autouse=True)
+def _own_folders(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Keep nothing in the user's own."""
     monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
     monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
+
+
+@pytest.fixture
+def air() -> Iterator[Air]:
+    """Drones that answer; whatever is asked of them, none is armed, and none moves."""
     record, loop = InMemory(), asyncio.new_event_loop()
     builds = [Build(id=f"cf{n}", home=(float(n), 1.0, 0.0), seed=n) for n in (1, 2, 3)]
     server = Server(builds, record)
@@ -65,27 +73,20 @@ def air(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Air]:
 
 
 def test_crazyflies_say_how_they_are(air: Air, command: Command) -> None:
-    """Where they stand, what their batteries have, what they run; one is not well."""
+    """Where they stand, what their batteries have, what they run; a silent one delays nobody."""
     air.done(air.server.let("cf2", "lock"))
-    code, out, err = command("drones", *air.uris, "--json")
-    first, second, third = json.loads(out)["drones"]
-    assert (code, first["ready"], third["ready"], second["ready"]) == (1, True, True, False)
-    assert "lock" in " ".join(second["problems"])
-    assert [round(along, 1) for along in third["position"]] == [3.0, 1.0, 0.0]
-    assert 3.0 < first["voltage"] < 4.3
-    assert first["facts"]["firmware"]
-    assert "Traceback" not in err
-
-
-def test_one_that_is_not_there_delays_nobody(air: Air, command: Command) -> None:
-    """Its row says so."""
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as nobody:
         nobody.bind(("127.0.0.1", 0))  # takes what comes, and never answers
         silent = f"udp://127.0.0.1:{nobody.getsockname()[1]}"
-        code, out, _ = command("drones", air.uris[0], silent)
-    ready, lost = out.splitlines()[1:3]
-    assert (code, ready.split("  ")[-1]) == (1, "ready")
-    assert "answer" in lost
+        code, out, err = command("drones", *air.uris, silent, "--json")
+    told = json.loads(out)["drones"]
+    assert (code, [drone["ready"] for drone in told]) == (1, [True, False, True, False])
+    assert "lock" in " ".join(told[1]["problems"])
+    assert "answer" in " ".join(told[3]["problems"])
+    assert [round(along, 1) for along in told[2]["position"]] == [3.0, 1.0, 0.0]
+    assert 3.0 < told[0]["voltage"] < 4.3
+    assert told[0]["facts"]["firmware"]
+    assert "Traceback" not in err
 
 
 def test_a_fleet_file_is_made_of_crazyflies(air: Air, command: Command, tmp_path: Path) -> None:
@@ -96,7 +97,6 @@ def test_a_fleet_file_is_made_of_crazyflies(air: Air, command: Command, tmp_path
     assert [drone.uri for drone in fleet.drones] == air.uris
     for number, drone in enumerate(fleet.drones, start=1):
         assert drone.home == pytest.approx((float(number), 1.0, 0.0), abs=0.1)
-    assert command("drones", "--fleet", path)[0] == 0
 
 
 def test_one_blinks(air: Air, command: Command) -> None:
@@ -104,3 +104,21 @@ def test_one_blinks(air: Air, command: Command) -> None:
     code, out, _ = command("drones", "--identify", air.uris[1])
     assert (code, out) == (0, f"{air.uris[1]} has shown itself\n")
     assert {deed.drone for deed in air.record.deeds} <= {"cf2"}
+
+
+def test_crazyflies_are_found_by_radio(command: Command) -> None:
+    """At the addresses that are named; without a dongle it is said what is missing."""
+    record = InMemory()
+    builds = [Build(id=f"cf{n}", home=(float(n), 1.0, 0.0), seed=n) for n in (1, 2)]
+    ether = Ether(builds, record)
+    with plugged_in(ether):
+        words = ["drones", "--address", "E7E7E7E701", "--address", "E7E7E7E702"]
+        code, out, err = command(*words)
+        assert code == 0, out
+        assert [line.split()[1] for line in out.splitlines()[1:3]] == list(ether.uris.values())
+        ether.unplugged = True
+        code, out, err = command(*words)
+        assert (code, out) == (2, "")
+        assert "no Crazyradio is plugged in" in err
+        assert "Traceback" not in err
+    assert {deed.what for deed in record.deeds} <= HARMLESS
