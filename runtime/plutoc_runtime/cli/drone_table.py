@@ -13,8 +13,8 @@ if TYPE_CHECKING:
     from ..drones.telemetry import DroneTelemetry
     from .drone_answers import Answer
 
-FIRMWARE = "firmware"
-"""What a navigation's further facts call it."""
+ONLY_IN_JSON = ("protocol",)
+"""What a navigation tells besides, and a person need not know of a drone that answers."""
 
 LONGEST = 120
 """Characters of a cell: what a drone says of itself may be anything."""
@@ -22,15 +22,17 @@ LONGEST = 120
 
 def drones_table(told: Sequence[Answer]) -> Iterator[str]:
     """Yield a line for each drone."""
+    facts = list(dict.fromkeys(fact for one in told for fact in one.facts))
+    shown = [fact for fact in facts if fact not in ONLY_IN_JSON]
     return table(
-        ("drone", "uri", "firmware", "battery", "position", "ready"),
+        ("drone", "uri", *shown, "battery", "position", "ready"),
         [
             [
                 cell if len(cell) <= LONGEST else f"{cell[: LONGEST - 1]}…"
                 for cell in (
                     one.asked.id if one.asked.known else "—",
                     one.asked.uri or "—",
-                    one.facts.get(FIRMWARE, "—"),
+                    *(one.facts.get(fact, "—") for fact in shown),
                     *_state(heard(one)),
                     "; ".join(one.problems) or "ready",
                 )

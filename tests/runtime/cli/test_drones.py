@@ -71,10 +71,10 @@ def test_all_that_can_be_found_are_asked(command: Command) -> None:
     """Where no fleet is named, none has a name; one that is not ready makes the exit code 1."""
     code, out, err = command("drones", "--navigation", FAKE)
     assert out.splitlines() == [
-        "drone  uri       firmware  battery       position      ready",
-        "—      fake://1  2025.02   4.02 V, 87 %  (0.52, 0.48)  ready",
+        "drone  uri       firmware  decks          battery       position      ready",
+        "—      fake://1  2025.02   bcLighthouse4  4.02 V, 87 %  (0.52, 0.48)  ready",
         (
-            "—      fake://4  2025.02   3.10 V, 87 %  (1.5, 2)      its battery is at 3.10 V; "
+            "—      fake://4  2025.02   bcLighthouse4  3.10 V, 87 %  (1.5, 2)      its battery is at 3.10 V; "
             "it lies on its back"
         ),
         "",
