@@ -14,6 +14,7 @@ from pathlib import Path
 
 import pytest
 
+from plutoc_runtime.crazyflie.navigation import Crazyflie
 from plutoc_runtime.crtp.drone import Build
 from plutoc_runtime.drones import (
     BATTERY_LOW,
@@ -21,6 +22,7 @@ from plutoc_runtime.drones import (
     LINK_LOST,
     LOCKED,
     Crashed,
+    DroneSetup,
     LinkLost,
     Locked,
     NotReady,
@@ -299,6 +301,37 @@ async def a_drone_that_cannot_find_itself_flies_by_what_others_see(folder: Path)
         assert await cf.preflight() == []
         seeing.cancel()
         await asyncio.wait({seeing})
+
+
+@flight
+async def one_that_was_just_switched_on_is_told_where_it_begins(folder: Path) -> None:
+    build = Build(id="cf1", home=(0.1, 0.0, 0.0))
+    async with hangar(folder, {"starts_at_home": True}, build) as one:
+        await one.navigation.connect()
+        assert [(deed.what, deed.values["value"]) for deed in one.deeds] == [
+            ("set kalman.initialX", pytest.approx(0.1)),
+            ("set kalman.initialY", 0.0),
+            ("set kalman.initialZ", 0.0),
+            ("set kalman.resetEstimation", 1.0),
+            ("set kalman.resetEstimation", 0.0),
+        ]
+        assert await one.navigation.preflight() == []
+
+
+@flight
+async def one_that_has_flown_already_keeps_its_place(folder: Path) -> None:
+    async with hangar(folder, {"starts_at_home": True}) as one:
+        await one.navigation.connect()
+        assert one.deeds == []
+
+
+@flight
+async def without_a_uri_it_says_what_is_missing(folder: Path) -> None:
+    setup = DroneSetup(
+        id="cf1", uri=None, home=(0.0, 0.0, 0.0), speed=1.0, options={}, folder=folder
+    )
+    with pytest.raises(NotReady, match="cf1 has no uri in the fleet file"):
+        await Crazyflie(setup).connect()
 
 
 @pytest.fixture(scope="module")

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import asyncio
+from collections.abc import Callable
 from contextlib import suppress
-from math import isclose
+from math import isclose, isfinite
 from typing import TYPE_CHECKING
 
 from ..drones.errors import LinkLost, Rejected
@@ -46,50 +47,64 @@ def known(session: Session) -> dict[str, float]:
 
 async def read(session: Session, name: str) -> float:
     """Return what a parameter is now."""
-    if element_of(session.cf, name) is None:
+    _element(session, name)
+    return await _asked(session, name, lambda cf: cf.param.request_param_update(name))
+
+
+async def write(session: Session, name: str, value: float, *, stays: bool = True) -> None:
+    """Set a parameter, and see that it is so; one that does not stay is a command in disguise."""
+    element = _element(session, name)
+    whole = element.pytype not in _FLOATS
+    if not isfinite(value) or (whole and not float(value).is_integer()):
+        raise Rejected(words.bad_value(session.drone, name, value, element.ctype))
+    number = int(value) if whole else float(value)
+
+    def send(cf: Cf) -> None:
+        try:
+            cf.param.set_value(name, number)
+        except Exception as error:  # out of its range, or one that can only be read
+            wrong = words.bad_value(session.drone, name, value, element.ctype)
+            raise Rejected(f"{wrong} ({error})") from error
+
+    # What it answers to the first is what it was sent; what it has is asked for.
+    has = await _asked(session, name, send, lambda cf: cf.param.request_param_update(name))
+    if stays and not isclose(has, value, rel_tol=_EXACT, abs_tol=_EXACT):
+        raise Rejected(words.not_taken(session.drone, name, value, has))
+
+
+def _element(session: Session, name: str) -> Element:
+    element = element_of(session.cf, name)
+    if element is None:
         raise Rejected(words.no_parameter(session.drone, name))
+    return element
+
+
+async def _asked(session: Session, name: str, *questions: Callable[[Cf], None]) -> float:
+    """Ask one after the other, each when the one before is answered; return the last answer.
+
+    One exchange at a time: an answer does not say what it is to.
+    """
+    if not await complete(session):  # until then, what comes may be what cflib has asked for
+        session.now()
+        raise LinkLost(f"{session.drone}: {words.UNREAD}")
     group, _, variable = name.partition(".")
     told: asyncio.Queue[float] = asyncio.Queue()
 
     def hear(_: str, value: str) -> None:
         session.tell(told.put_nowait, float(value))
 
-    def ask(cf: Cf) -> None:
-        cf.param.add_update_callback(group, variable, hear)
-        cf.param.request_param_update(name)
-
-    await session.call(ask)
-    try:
-        async with asyncio.timeout(_ONE if session.complete.is_set() else _ALL):
-            return await told.get()
-    except TimeoutError:
-        session.now()
-        raise LinkLost(words.not_read(session.drone, name)) from None
-    finally:
-        if not session.lost:
-            parameters = session.cf.param
-            session.worker.post(lambda: parameters.remove_update_callback(group, variable, hear))
-
-
-async def write(session: Session, name: str, value: float, *, stays: bool = True) -> None:
-    """Set a parameter, and see that it is so; one that does not stay is a command in disguise."""
-    element = element_of(session.cf, name)
-    if element is None:
-        raise Rejected(words.no_parameter(session.drone, name))
-    if not await complete(session):  # cflib would wait for that itself, a minute long
-        session.now()
-        raise LinkLost(f"{session.drone}: {words.UNREAD}")
-    whole = element.pytype not in _FLOATS
-    if whole and not float(value).is_integer():
-        raise Rejected(words.bad_value(session.drone, name, value, element.ctype))
-    number = int(value) if whole else float(value)
-    try:
-        await session.call(lambda cf: cf.param.set_value(name, number))
-    except LinkLost:
-        raise
-    except Exception as error:  # out of its range, or one that can only be read
-        wrong = words.bad_value(session.drone, name, value, element.ctype)
-        raise Rejected(f"{wrong} ({error})") from error
-    has = await read(session, name)
-    if stays and not isclose(has, value, rel_tol=_EXACT, abs_tol=_EXACT):
-        raise Rejected(words.not_taken(session.drone, name, value, has))
+    async with session.asking:
+        await session.call(lambda cf: cf.param.add_update_callback(group, variable, hear))
+        try:
+            for question in questions:
+                await session.call(question)
+                async with asyncio.timeout(_ONE):
+                    answer = await told.get()
+        except TimeoutError:
+            session.now()
+            raise LinkLost(words.not_read(session.drone, name)) from None
+        finally:
+            if not session.lost:
+                known = session.cf.param
+                session.worker.post(lambda: known.remove_update_callback(group, variable, hear))
+    return answer

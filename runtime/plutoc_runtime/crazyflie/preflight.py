@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from .state import State
 
 _DECK = "deck."
+_SETTLING = 1.5
+"""Seconds that an estimate may take to settle, after it began anew."""
 
 
 async def problems(session: Session, battery: Battery, options: Options) -> list[str]:
@@ -51,7 +53,7 @@ def _of_battery(state: State, battery: Battery, options: Options) -> Iterator[st
 
 async def _sure(session: Session, by_beacons: bool) -> bool:
     """Say whether it knows where it is; just after connecting, that takes a second to find out."""
-    end = session.loop.time() + LONG + 0.7
+    end = session.loop.time() + LONG + _SETTLING
     while not session.certainty.sure(time.monotonic(), by_beacons=by_beacons):
         variance = session.certainty.variance
         hopeless = by_beacons and variance is not None and variance > MOST

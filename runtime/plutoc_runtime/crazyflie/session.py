@@ -57,6 +57,8 @@ class Session:
         """Whether anything has come at all."""
         self.complete = asyncio.Event()
         """Set when all parameters have been read."""
+        self.asking = asyncio.Lock()
+        """Held by whoever asks for a parameter."""
         self.acknowledged = Acknowledgements()
         self.certainty = Certainty()
         self.state: State | None = None
