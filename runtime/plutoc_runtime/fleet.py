@@ -50,13 +50,16 @@ class Fleet:
         """The next change of any drone, if anybody waits for it."""
         self.retired: set[Drone] = set()
         """Those that nobody may have until they are brought back."""
-        self._unready: set[Drone] = set()
-        """Those that stand somewhere and could not fly when they were asked: nobody waits for them."""
+        self.unready: dict[Drone, str] = {}
+        """Those that stand somewhere and could not fly when they were asked, and why.
+
+        Nobody waits for them when all missions have ended.
+        """
         queue.served = self._fetch_what_is_low
 
     def engage(self, drone: Drone) -> None:
         """A drone is about to fly for a mission: whatever it was doing for itself is over."""
-        self._unready.discard(drone)
+        self.unready.pop(drone, None)
         errand = self.errands.pop(drone, None)
         if errand is not None:
             errand.cancel()
@@ -116,14 +119,15 @@ class Fleet:
 
         It is handed out only once it stands on the ground, well, with nothing aboard.
         """
+        why = ""
         if standing.problems:
             why = cut_off("; ".join(map(printable, standing.problems)), _LONGEST)
             self._trace.note("drone.not_ready", drone=drone.id, reason=why)
         well = standing.reached and standing.landed and not standing.problems
         if not (well and standing.carrying is None and self._rests(drone)):
             self.recover(drone)
-            if standing.problems and standing.landed:
-                self._unready.add(drone)
+            if why and standing.landed:
+                self.unready[drone] = why
 
     def retire(self, drone: Drone) -> None:
         """Nobody gets this drone any more; what it flies for now it flies to the end."""
@@ -155,7 +159,7 @@ class Fleet:
         while under_way := [
             task
             for drone, task in self.errands.items()
-            if not task.is_set and not (drone in self._unready and drone.telemetry.landed)
+            if not task.is_set and not (drone in self.unready and drone.telemetry.landed)
         ]:
             await under_way[0].ended()
 
@@ -245,6 +249,7 @@ class Fleet:
     async def _bring_back(self, drone: Drone) -> None:
         self._become(drone, DroneStatus.RECOVERING)
         if await self._navigation.recover(drone.id):
+            self.unready.pop(drone, None)
             await self._settle(drone)
         else:
             self._become(drone, DroneStatus.LOST)

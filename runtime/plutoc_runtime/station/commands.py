@@ -23,6 +23,7 @@ NEEDS: Mapping[str, Mapping[str, tuple[type, ...]]] = {
     "prioritise": {**_MISSION, **_TRIP, "priority": (int,)},
     "retire": {"drone": (str,)},
     "bring-back": {"drone": (str,)},
+    "cut-motors": {"drone": (str,)},
 }
 """What goes with each command; what may be null may be left out."""
 

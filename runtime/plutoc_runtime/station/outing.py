@@ -173,9 +173,10 @@ class Outing:
 
     def _drones_now(self, life: Life) -> Iterator[rows.Row]:
         work = rows.mission_of_each(life.session.engine.states)
-        retired = life.session.core.fleet.retired
+        fleet = life.session.core.fleet
         for drone in life.session.drones:
-            yield rows.drone_row(drone, work.get(drone.id), drone in retired)
+            why = fleet.unready.get(drone, "")
+            yield rows.drone_row(drone, work.get(drone.id), drone in fleet.retired, why)
 
     def _drones_at_home(self, retired: Sequence[str]) -> list[rows.Row]:
         """Return where drones are of which nobody has heard as yet."""

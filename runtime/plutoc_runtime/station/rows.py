@@ -9,6 +9,7 @@ from ..cli.flown import aside
 from ..control import ANSWERS
 from ..status import Status, TripStatus
 from ..transitions import PRIORITY
+from ..words import cut_off
 from .whereabouts import END, ENDED, blocks_of
 
 if TYPE_CHECKING:
@@ -18,6 +19,9 @@ if TYPE_CHECKING:
     from ..state import State
 
 Row = dict[str, object]
+
+WHY = 200
+"""Characters of why a drone may not fly; all of it is on the console."""
 
 
 def mission_row(
@@ -85,8 +89,11 @@ def recorded_row(name: str, record: Record) -> Row:
     }
 
 
-def drone_row(drone: Drone, mission: str | None, retired: bool) -> Row:
-    """Return what there is to see of a drone; to the centimetre, and the thousandth."""
+def drone_row(drone: Drone, mission: str | None, retired: bool, why: str = "") -> Row:
+    """Return what there is to see of a drone; to the centimetre, and the thousandth.
+
+    `why` is why it may not fly.
+    """
     return _drone_row(
         drone.id,
         drone.status.value,
@@ -95,6 +102,7 @@ def drone_row(drone: Drone, mission: str | None, retired: bool) -> Row:
         mission,
         drone.trips,
         retired,
+        why,
     )
 
 
@@ -119,6 +127,7 @@ def _drone_row(
     mission: str | None,
     trips: int,
     retired: bool,
+    why: str = "",
 ) -> Row:
     x, y, z = at
     return {
@@ -131,6 +140,7 @@ def _drone_row(
         "mission": mission,
         "trips": trips,
         "retired": retired,
+        "why": cut_off(why, WHY),
     }
 
 

@@ -11,11 +11,12 @@ from collections.abc import Mapping
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
+from ..asking import Nobody, Silent
 from ..cli import stop_mark
 from ..cli.flights import Flight
 from ..cli.taken_up import take_up
 from ..errors import BadInput
-from ..gateway.starting import stop_directly
+from ..gateway.starting import cut_directly, stop_directly
 from ..journal import lock, place
 from ..journal.header import header
 from ..journal.store import Store
@@ -112,6 +113,8 @@ class Station:
         match name:
             case "stop":
                 return await self._stop(Down(str(given["how"])))
+            case "cut-motors":
+                return await self._cut_motors(str(given["drone"]))
             case "start":
                 async with self._one_at_a_time:
                     return await self._start(id, given)
@@ -245,6 +248,18 @@ class Station:
             with suppress(BadInput):
                 return await asyncio.to_thread(stop_directly, folder, how, STOP_WITHIN)
         return "nothing flies"
+
+    async def _cut_motors(self, drone: str) -> str:
+        """Let the gateway switch a drone's motors off, whatever the app does meanwhile."""
+        if self.outing is None:
+            raise BadInput("nothing flies")
+        folder = place.gateway_folder(self.outing.journal)
+        try:
+            return await asyncio.to_thread(cut_directly, folder, drone, STOP_WITHIN)
+        except Nobody:
+            raise BadInput("nobody commands the drones now") from None
+        except Silent:
+            raise BadInput("what commands the drones does not answer") from None
 
     async def _of_the_flight(self, name: str, id: str, given: Mapping[str, object]) -> str:
         outing = self.outing

@@ -191,3 +191,24 @@ def test_a_panel_that_was_folded_stays_so(flying: tuple[Station, Page]) -> None:
         "aria-expanded", "false"
     )
     expect(page.get_by_role("button", name="Console")).to_have_attribute("aria-expanded", "true")
+
+
+def test_motors_are_cut_at_the_second_press_and_the_lost_drone_is_brought_back(
+    flying: tuple[Station, Page],
+) -> None:
+    station, page = flying
+    drones = panel(page, "Drones")
+    cut = drones.get_by_role("button", name="Cut motors of").first
+    cut.click()
+    sure = drones.get_by_role("button", name="Really cut motors of")
+    expect(sure).to_have_count(1)
+    who = sure.inner_text().removeprefix("Really cut motors of ").removesuffix("?")
+    assert row(station, "drones", "id", who)["status"] != "LOST"
+    sure.click()
+    line = drones.get_by_role("listitem").filter(has_text=who)
+    expect(line).to_contain_text("Lost")
+    assert row(station, "drones", "id", who)["z"] == 0
+    expect(panel(page, "Console")).to_contain_text(f"{who}'s motors were cut")
+    drones.get_by_role("button", name=f"Bring back drone {who}").click()
+    until(lambda: row(station, "drones", "id", who)["status"] != "LOST", "it is back")
+    expect(drones.get_by_role("button", name=f"Retire drone {who}")).to_be_visible()

@@ -111,6 +111,23 @@ def test_all_fly_home_by_a_stop_and_go_on_where_they_were(serve: Serve) -> None:
     assert each_trip_was_done_once(station)
 
 
+def test_motors_are_cut_one_drone_at_a_time_and_the_others_finish(serve: Serve) -> None:
+    """The flight fails, the drone is lost until it is brought back, all others go on."""
+    station = serve()
+    assert refused(station, "cut-motors", drone="cf1") == (409, "nothing flies")
+    tell(station, "start")
+    until(flies(station), "something flies")
+    who = events(station, "trip.launched")[0]["drone"]
+    assert tell(station, "cut-motors", drone=who) == f"the motors of {who} are cut"
+    until(lambda: any(e["drone"] == who for e in events(station, "drone.lost")), "it is lost")
+    assert refused(station, "cut-motors", drone="cf9")[1].startswith('no drone "cf9" is in the')
+    assert tell(station, "bring-back", drone=who) == f"{who} is asked whether it is well"
+    comes_to(station, "over")
+    reasons = [event["reason"] for event in events(station, "trip.failed")]
+    assert any(reason.startswith(f"{who}'s motors were cut") for reason in reasons)
+    assert tuple(station.statuses().values()).count("COMPLETED") > 0
+
+
 def test_a_killed_station_shows_what_was_interrupted_and_flies_nothing_before_it_is_told(
     serve: Serve,
 ) -> None:

@@ -231,7 +231,7 @@ def test_a_page_elsewhere_gets_no_leave_to_ask() -> None:
     assert not any(name.lower().startswith("access-control") for name, _ in reply.headers)
 
 
-def test_of_too_many_commands_some_are_refused_but_never_a_stop() -> None:
+def test_of_too_many_commands_some_are_refused_but_never_what_brings_drones_down() -> None:
     ask = asked()
     starts = [ask("POST", "/api/start", {"id": f"{n}"}).status for n in range(50)]
     assert starts == [200] * 20 + [429] * 30
@@ -239,6 +239,8 @@ def test_of_too_many_commands_some_are_refused_but_never_a_stop() -> None:
     assert edits == [200] * 20 + [429]
     stops = [ask("POST", "/api/stop", {"id": f"{n}"}).status for n in range(50)]
     assert stops == [200] * 50
+    cuts = [ask("POST", "/api/cut-motors", {"id": f"{n}", "drone": "cf1"}) for n in range(50)]
+    assert [one.status for one in cuts] == [200] * 50
     ask.times.append(0.5)
     assert [ask("POST", "/api/start", {"id": "x"}).status for _ in range(11)][9:] == [200, 429]
 
@@ -262,7 +264,9 @@ def test_a_stop_is_taken_when_everybody_else_waits() -> None:
         assert one_more.status == 503
         assert (await ask.api.answer(request("GET", "/"))).status == 200
         assert (await ask.api.answer(request("POST", "/api/stop", {"id": "s"}))).status == 200
-        assert station.done == [("stop", {})]
+        cut = request("POST", "/api/cut-motors", {"id": "c", "drone": "cf1"})
+        assert (await ask.api.answer(cut)).status == 200
+        assert [what for what, _ in station.done] == ["stop", "cut-motors"]
         gate.set()
         assert {(await each).status for each in waiting} == {200}
         assert [(await each).status for each in polls] == [200] * 32 + [503]

@@ -1,7 +1,7 @@
 // The drones, live on the floor plan with where they are going, and as a list.
 
 import { h, keyed, many, put, set, shown, svg } from "./dom.js";
-import { battery, ended, level, mark, standing } from "./table.js";
+import { battery, ended, level, mark, standing, sureButton } from "./table.js";
 
 const TRAIL = 30; // seconds
 const APART = 0.12; // metres between two points of a trail
@@ -133,20 +133,25 @@ function droneLine({ tell, app, live }, id, chosen) {
   const [stands, charge, trips] = [standing(), battery(), h("span", { class: "muted" })];
   const now = () => live.drones.get(id);
   const mission = h("button", { class: "link", onclick: () => chosen.set(now().mission) });
+  const away = (row) => row.retired || row.status === "LOST";
   const act = h("button", {
     class: "button quiet small",
-    onclick: () => tell(now().retired ? "bring-back" : "retire", { drone: id }),
+    onclick: () => tell(away(now()) ? "bring-back" : "retire", { drone: id }),
   });
+  const cut = sureButton(`Cut motors of ${id}`, () => tell("cut-motors", { drone: id }));
+  const why = h("small");
   const called = h("span", { class: "called" }, id, category && h("small", null, category));
-  const element = h("li", null, called, h("span", { class: "doing" }, stands, mission), charge,
-    trips, act);
+  const doing = h("span", { class: "doing" }, stands, mission, why, cut);
+  const element = h("li", null, called, doing, charge, trips, act);
   element.show = (row) => {
     stands.show(row.retired ? "RETIRED" : row.status);
     charge.show(row.battery);
     put(trips, many(row.trips, "trip"));
     put(mission, row.mission ?? "");
     shown(mission, row.mission);
-    const word = row.retired ? "Bring back" : "Retire";
+    put(why, row.why);
+    shown(cut, row.z > 0.2);
+    const word = away(row) ? "Bring back" : "Retire";
     put(act, word);
     set(act, "aria-label", `${word} drone ${id}`);
     shown(act, live.state.phase === "flying");

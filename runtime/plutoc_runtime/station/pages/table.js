@@ -68,7 +68,7 @@ export function battery() {
 export const mark = (element, yes) => set(element, "data-chosen", yes && "yes");
 
 // For what cannot be undone: the first press asks in place, the second one does it.
-function sureButton(label, act) {
+export function sureButton(label, act) {
   const button = h("button", { class: "button quiet small" }, label);
   const ask = (yes) => {
     set(button, "data-sure", yes);

@@ -20,8 +20,8 @@ from .rates import Rate
 from .refusals import Refusal, Refused
 from .static import handed_out, pages, picture
 
-STOP = "/api/stop"
-"""It brings drones down: whoever may command may always command this."""
+ALWAYS = ("/api/stop", "/api/cut-motors")
+"""They bring drones down: whoever may command may always command these."""
 
 _COMMANDS, _EDITS, _READS = 20.0, 20.0, 100.0
 """A second, for each client; whoever draws the plan has all commands left."""
@@ -100,8 +100,8 @@ class Api:
         return await self._within_limits(request)
 
     async def _within_limits(self, request: Request) -> Reply:
-        """Answer, unless too much is asked; a Stop never is."""
-        if request.path == STOP:
+        """Answer, unless too much is asked; what brings drones down never is."""
+        if request.path in ALWAYS:
             return await change(self._station, self._audit, request)
         if not self._rate(request).allows(request.client):
             raise Refused(refusals.too_many())
