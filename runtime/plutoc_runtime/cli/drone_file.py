@@ -24,6 +24,10 @@ if TYPE_CHECKING:
     from .drone_answers import Answer
 
 
+_ORIGIN = 0.05
+"""Metres from (0, 0): that near says who has just been switched on, and knows of no other place."""
+
+
 def write_fleet(app: App, path: Path, told: Sequence[Answer], navigation: str | None) -> None:
     """Write a fleet file of those that have answered; never over another file."""
     there = [answer for answer in told if heard(answer) is not None]
@@ -84,7 +88,7 @@ class _Homes:
         telemetry = heard(answer)
         x, y, _ = telemetry.position if telemetry is not None else (0.0, 0.0, 0.0)
         said = round(x, 2) + 0.0, round(y, 2) + 0.0
-        if self._is_free(said):
+        if dist(said, (0.0, 0.0)) > _ORIGIN and self._is_free(said):
             self._taken.append(said)
             return f"home = {numbers(said)}  # where it stood"
         free = self._next_of_row()

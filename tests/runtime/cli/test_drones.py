@@ -223,10 +223,11 @@ def test_a_fleet_file_is_made_of_those_that_answer(tmp_path: Path, command: Comm
     """Homes are where they stand, or in a row; categories in turn; the app can read it."""
     THERE["fake://5"] = at((-0.3, 1.0, 0.0))
     THERE["fake://6"] = at((1.5, 2.1, 0.0))
+    THERE["fake://7"] = at((0.01, 0.0, 0.0))
     path = tmp_path / "new.toml"
     code, _, err = command("drones", "--navigation", FAKE, "--save", path)
     assert code == 1  # one of them is not ready
-    assert err.endswith(f"{path}: 4 drones; look at each home before anything flies\n")
+    assert err.endswith(f"{path}: 5 drones; look at each home before anything flies\n")
     fleet = load_fleet(path, APP)
     assert fleet.navigation == FAKE
     assert [(one.id, one.category, one.home, one.uri) for one in fleet.drones] == [
@@ -234,6 +235,7 @@ def test_a_fleet_file_is_made_of_those_that_answer(tmp_path: Path, command: Comm
         ("cf2", "carrier", (1.5, 2.0, 0.0), "fake://4"),
         ("cf3", "scout", (2.0, 0.5, 0.0), "fake://5"),
         ("cf4", "carrier", (3.0, 0.5, 0.0), "fake://6"),
+        ("cf5", "scout", (4.0, 0.5, 0.0), "fake://7"),
     ]
     assert "home = [2.0, 0.5]  # put it there: it said (-0.3, 1)" in path.read_text("utf-8")
 
