@@ -82,6 +82,21 @@ class Half(Good):
     async def act(self, action: str, parameters: Mapping[str, object], item: object) -> None: ...
 
 
+class Looking(Good):
+    """It can look who is there."""
+
+    @staticmethod
+    async def scan(options: Mapping[str, object]) -> list[str]:
+        return []
+
+
+class Shy(Good):
+    """It can look only once it is there itself."""
+
+    async def scan(self, options: Mapping[str, object]) -> list[str]:
+        return []
+
+
 class Choosy(Good):
     """It cannot be made of these options."""
 

@@ -126,6 +126,11 @@ def test_half_of_what_belongs_together_is_not_enough() -> None:
     assert "it has act but no why_not: both belong together" in refused(f"{HERE}:Half")
 
 
+def test_who_is_there_is_asked_of_the_class() -> None:
+    assert load_navigation(f"{HERE}:Looking") == classes.Looking
+    assert "its scan must be a staticmethod" in refused(f"{HERE}:Shy")
+
+
 def test_a_localization_is_looked_at_too() -> None:
     with pytest.raises(BadInput, match=r"__init__ must take .options.; its positions must be"):
         load_localization(f"{HERE}:Blind")

@@ -51,6 +51,8 @@ def _of_method(made: type, method: Method) -> Iterator[str]:
         yield refusals.is_async(method.name)
     elif method.shape is Shape.ITERATES and waits:
         yield refusals.no_iterator(method.name)
+    elif method.of_class and not _stands_alone(made, method):
+        yield refusals.not_static(method.name)
     elif not _takes(attribute, _arguments(made, method)):
         yield refusals.not_taken(method.name, method.takes)
 
@@ -61,10 +63,12 @@ def _attribute(made: type, method: Method) -> object:
 
 def _arguments(made: type, method: Method) -> list[str]:
     """Return what it is called with, looked up on the class: the object itself is one of it."""
-    stands_alone = isinstance(
-        inspect.getattr_static(made, method.name), (staticmethod, classmethod)
-    )
-    return [*([] if stands_alone else ["self"]), *method.takes]
+    return [*([] if _stands_alone(made, method) else ["self"]), *method.takes]
+
+
+def _stands_alone(made: type, method: Method) -> bool:
+    """Say whether a method needs no object."""
+    return isinstance(inspect.getattr_static(made, method.name), (staticmethod, classmethod))
 
 
 def _takes(called: object, arguments: list[str]) -> bool:

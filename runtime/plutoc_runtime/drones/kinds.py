@@ -23,6 +23,8 @@ class Method:
     name: str
     shape: Shape = Shape.WAITS
     takes: tuple[str, ...] = ()
+    of_class: bool = False
+    """Whether it is called without a drone: of the class."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -61,5 +63,6 @@ CAPABILITIES = (
     (Method("read", takes=("name",)), Method("write", takes=("name", "value"))),
     (Method("locate", takes=("position",)),),
     (Method("identify"),),
+    (Method("scan", takes=("options",), of_class=True),),
 )
 LOCALIZATION_METHODS = (Method("positions", Shape.ITERATES),)

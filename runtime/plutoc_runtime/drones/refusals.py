@@ -107,6 +107,10 @@ def not_taken(method: str, arguments: Sequence[str]) -> str:
     return f"its {method} cannot be called so: it {takes}"
 
 
+def not_static(method: str) -> str:
+    return f"its {method} must be a staticmethod: it is called before there is a drone"
+
+
 def no_property() -> str:
     return "its telemetry must be a property: put @property above it"
 
