@@ -10,7 +10,6 @@ from pathlib import Path
 
 import pytest
 
-from plutoc_runtime import again
 from plutoc_runtime.crtp import process
 from plutoc_runtime.crtp.camera import HEIGHT, WIDTH, frames
 from plutoc_runtime.crtp.drone import Build
@@ -19,6 +18,7 @@ from plutoc_runtime.crtp.profile import State, profile
 from plutoc_runtime.crtp.record import InMemory
 from plutoc_runtime.crtp.server import HOST, Server
 from plutoc_runtime.errors import BadInput
+from tests.crtp.starting import COMMAND
 
 ECHO = b"\xfcare you there"
 HOMES = {"cf1": (1.0, 2.0, 0.0), "cf2": (3.0, 2.0, 0.0)}
@@ -83,37 +83,30 @@ def test_each_drone_has_a_port_and_its_own_faults() -> None:
 
 
 @pytest.fixture
-def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+def folder(tmp_path: Path) -> Iterator[Path]:
     """A folder behind which drones may live; none is left."""
-    program = (
-        "import sys; from plutoc_runtime.crtp.process import main; sys.exit(main(sys.argv[2:]))"
-    )
-    started = again.command()[0]
-    monkeypatch.setattr(again, "command", lambda *words: [started, "-c", program, *words])
-    runtime = str(Path(process.__file__).parents[2])
-    monkeypatch.setenv("PYTHONPATH", runtime)
     yield tmp_path / "flight.gateway"
     process.end(tmp_path / "flight.gateway")
     process.wait_for_all()
 
 
 def test_drones_in_a_process_are_found_again_and_stay_where_they_were(folder: Path) -> None:
-    uris = process.start(folder, HOMES)
+    uris = process.start(folder, HOMES, COMMAND)
     assert list(uris) == list(HOMES)
-    assert process.start(folder, HOMES) == uris
+    assert process.start(folder, HOMES, COMMAND) == uris
     process.told(folder, "fault", drone="cf1", name="place", value=[5.0, 4.0, 0.0])
     process.told(folder, "fault", drone="cf2", name="level", value=0.5)
     process.end(folder)
     with pytest.raises(BadInput):
         process.uris_in(folder)
-    assert process.start(folder, HOMES) == uris
+    assert process.start(folder, HOMES, COMMAND) == uris
     state = json.loads(process.told(folder, "state"))
     assert state["cf1"]["at"] == [5.0, 4.0, 0.0]
     assert state["cf2"]["level"] == pytest.approx(0.5, abs=0.01)
 
 
 def test_a_process_refuses_what_cannot_be_asked(folder: Path) -> None:
-    process.start(folder, HOMES)
+    process.start(folder, HOMES, COMMAND)
     with pytest.raises(BadInput, match="there is no drone cf9"):
         process.told(folder, "fault", drone="cf9", name="silent", value=True)
     with pytest.raises(BadInput, match="no such fault"):
@@ -123,7 +116,7 @@ def test_a_process_refuses_what_cannot_be_asked(folder: Path) -> None:
 
 
 def test_a_process_streams_pictures_to_whoever_asks_for_a_camera(folder: Path) -> None:
-    process.start(folder, HOMES)
+    process.start(folder, HOMES, COMMAND)
     host, _, port = process.told(folder, "camera").rpartition(":")
     with socket.create_connection((host, int(port)), timeout=5) as line:
         told, first = b"", frames(0)

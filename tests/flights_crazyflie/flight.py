@@ -36,9 +36,14 @@ class Flight:
     """The folder that the app's package is imported from."""
     folder: Path
     """Where its two files are."""
-    drones: int
+    drones: int | None = None
+    """How many simulated ones the app shall start; None: the fleet file says where they are."""
+    world: Path | None = None
+    """The folder of the simulated drones, if it is not the gateway's."""
     lives: list[str] = field(default_factory=list)
     """What each life has printed."""
+    notes: list[str] = field(default_factory=list)
+    """What was seen besides."""
     _life: subprocess.Popen[bytes] | None = None
 
     @property
@@ -48,16 +53,21 @@ class Flight:
 
     @property
     def gateway(self) -> Path:
-        """The folder of the gateway, and of the simulated drones."""
+        """The folder of the gateway."""
         return gateway_folder(self.journal)
+
+    @property
+    def air(self) -> Path:
+        """The folder of the simulated drones."""
+        return self.world or self.gateway
 
     def start(self) -> None:
         """Let a life begin: the first, or one that goes on where the last one was killed."""
         words = ["resume", str(self.journal)]
         if not self.journal.exists():
             files = [self.folder / "missions.toml", "--fleet", self.folder / "fleet.toml"]
-            flags = ["--crtp-sim", str(self.drones), "--journal", str(self.journal)]
-            words = ["fly", *map(str, files), *flags]
+            simulated = [] if self.drones is None else ["--crtp-sim", str(self.drones)]
+            words = ["fly", *map(str, files), *simulated, "--journal", str(self.journal)]
         with self._printed.open("wb") as out:
             self._life = subprocess.Popen(
                 self._command(*words), env=self._environment, stdout=out, stderr=subprocess.STDOUT
@@ -101,12 +111,12 @@ class Flight:
 
     def let(self, drone: str, fault: str, value: float | bool | list[float] = True) -> None:
         """Let something go wrong with a drone."""
-        process.told(self.gateway, "fault", drone=drone, name=fault, value=value)
+        process.told(self.air, "fault", drone=drone, name=fault, value=value)
 
     @property
     def state(self) -> Mapping[str, Mapping[str, Any]]:
         """How the drones really are."""
-        found: Mapping[str, Mapping[str, Any]] = json.loads(process.told(self.gateway, "state"))
+        found: Mapping[str, Mapping[str, Any]] = json.loads(process.told(self.air, "state"))
         return found
 
     def airborne(self) -> list[str]:
@@ -119,6 +129,10 @@ class Flight:
         """Wait until something holds."""
         if not eventually(holds, seconds):
             raise AssertionError(f"it does not come to that:\n{self.told}")
+
+    def until_up(self, drone: str, height: float = 0.3) -> None:
+        """Wait until a drone is so high."""
+        self.until(lambda: float(self.state[drone]["at"][2]) > height)
 
     @property
     def events(self) -> list[Event]:
@@ -135,12 +149,12 @@ class Flight:
     @property
     def deeds(self) -> list[Deed]:
         """What the drones were commanded."""
-        return list(deeds_in(self.gateway))
+        return list(deeds_in(self.air))
 
     @property
     def trace(self) -> list[Place]:
         """Where the drones were in the air."""
-        return list(trace_in(self.gateway))
+        return list(trace_in(self.air))
 
     @property
     def told(self) -> str:
@@ -156,7 +170,7 @@ class Flight:
         if self._life is not None:
             self.kill()
         end_gateway(self.journal)
-        process.end(self.gateway)
+        process.end(self.air)
 
     def _command(self, *words: str) -> list[str]:
         return [sys.executable, "-m", self.app, *words]

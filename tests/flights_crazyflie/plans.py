@@ -12,18 +12,28 @@ Plan = Mapping[tuple[str, str], tuple[str, tuple[float, float], str]]
 """What each trip of each mission does, where, and what else is said of it."""
 
 CRUISE = 0.5
-DISTRIBUTION = "drugs_distribution"
+DISTRIBUTION, RETRY = "drugs_distribution", "drugs_distribution_retry"
+"""Examples: one that gives up a trip that fails, and one that lets another drone fly it."""
 
 
-def fleet(drones: int, *, after_trip: str = "home", more: str = "") -> str:
-    """Return a fleet file: drones a metre apart, in rows of five."""
-    homes = [(0.5 + place % 5, 0.5 + place // 5) for place in range(drones)]
-    written = "".join(
-        f'[[drone]]\nid = "cf{number}"\nhome = [{x}, {y}]\n'
-        for number, (x, y) in enumerate(homes, 1)
-    )
-    floor = f"[map]\nsize = [6.0, 6.0]\ncruise_height = {CRUISE}\nceiling = 2.5\n"
-    return f'{floor}[fleet]\nafter_trip = "{after_trip}"\n{more}{written}'
+def homes(drones: int) -> dict[str, Target]:
+    """Return where drones stand: a metre apart, in rows of five."""
+    return {
+        f"cf{place + 1}": (0.5 + place % 5, 0.5 + 2.5 * (place // 5), 0.0)
+        for place in range(drones)
+    }
+
+
+def fleet(drones: int, uris: Mapping[str, str] | None = None) -> str:
+    """Return a fleet file; with `uris`, of drones that can measure, where they can be reached."""
+    written = "[map]\nsize = [6.0, 6.0]\nceiling = 2.5\n"
+    written += f'cruise_height = {CRUISE}\n[fleet]\nafter_trip = "home"\n'
+    if uris is not None:
+        written += '[navigation.crazyflie]\nmeasure = { temperature = "bme.temp" }\n'
+    for id, (x, y, _) in homes(drones).items():
+        written += f'[[drone]]\nid = "{id}"\nhome = [{x}, {y}]\n'
+        written += "" if uris is None else f'uri = "{uris[id]}"\n'
+    return written
 
 
 PILLS = 'item = { name = "pills", mass = "8 g" }'
@@ -40,16 +50,11 @@ WARD: Plan = {
 """Five missions with all that a Crazyflie can do."""
 
 
-def tours(drones: int, trips: int = 1) -> Plan:
-    """Return a mission a drone: each measures in front of its home, farther each time."""
+def tours(drones: int, far: float = 1.0) -> Plan:
+    """Return a mission a drone: it measures so many metres in front of a home."""
     return {
-        (f"M{number + 1}", f"t{count + 1}"): (
-            "measure",
-            (0.5 + number % 5, 0.5 + number // 5 + 0.4 + 0.2 * count),
-            "",
-        )
-        for number in range(drones)
-        for count in range(trips)
+        (f"M{place + 1}", "t"): ("measure", (x, y + far), "")
+        for place, (x, y, _) in enumerate(homes(drones).values())
     }
 
 

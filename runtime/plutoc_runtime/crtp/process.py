@@ -44,10 +44,13 @@ _STARTED: list[subprocess.Popen[bytes]] = []
 _FOR_APPS = "crtp: an app starts this by itself when it flies; there is nothing to do by hand"
 
 
-def start(folder: Path, homes: Mapping[str, Point]) -> dict[str, str]:
+def start(
+    folder: Path, homes: Mapping[str, Point], command: Sequence[str] | None = None
+) -> dict[str, str]:
     """See to it that simulated drones live behind a folder; return the URI of each.
 
-    Those that already do stay as they are. Raises `BadInput` if they cannot be started.
+    Those that already do stay as they are. Raises `BadInput` if they cannot be started. `command`
+    starts them, the folder added; default: this very program once more.
     """
     folder.mkdir(mode=0o700, parents=True, exist_ok=True)
     with suppress(BadInput):
@@ -61,7 +64,7 @@ def start(folder: Path, homes: Mapping[str, Point]) -> dict[str, str]:
     _STARTED[:] = [process for process in _STARTED if process.poll() is None]
     with (folder / LOG).open("ab") as log:
         process = subprocess.Popen(
-            again.command(COMMAND, str(folder)),
+            [*(command or again.command(COMMAND)), str(folder)],
             stdin=subprocess.DEVNULL,
             stdout=log,
             stderr=log,

@@ -1,0 +1,160 @@
+"""What goes wrong in the air, fault by fault, and how each flight must end all the same."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from plutoc_runtime.crtp.battery import LOW
+from tests.flights_crazyflie.flight import Flight
+from tests.kill.lives import eventually
+from tests.kill.trial import gateway_of
+
+Doing = Callable[[Flight], None]
+
+ALL = ("cf1", "cf2", "cf3", "cf4")
+"""The drones of each of these flights; three missions are flown, so one of them has time."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Scenario:
+    """A fault, and what must come of it."""
+
+    name: str
+    before: Doing | None = None
+    """What goes wrong before the app starts."""
+    during: Doing | None = None
+    """What goes wrong while it flies."""
+    fails: str = ""
+    """A pattern that the reason of a failed trip must match; empty: no trip fails."""
+    falls: tuple[str, ...] = ()
+    """The drones that may come down otherwise than by landing."""
+    code: int = 0
+
+
+def nothing(_: Flight) -> None:
+    """Let all go well."""
+
+
+def at_once(fault: str, value: float = True, *drones: str) -> Doing:
+    """Return what lets something go wrong with drones."""
+
+    def let(flight: Flight) -> None:
+        for drone in drones or ("cf1",):
+            flight.let(drone, fault, value)
+
+    return let
+
+
+def in_flight(fault: str, value: float = True) -> Doing:
+    """Return what lets something go wrong with a drone once it flies."""
+
+    def let(flight: Flight) -> None:
+        flight.until_up("cf1")
+        flight.let("cf1", fault, value)
+
+    return let
+
+
+def silent_for(seconds: float) -> Doing:
+    """Return what keeps a drone from being heard in its flight, for a while."""
+
+    def let(flight: Flight) -> None:
+        flight.until_up("cf1")
+        flight.let("cf1", "silent", True)
+        time.sleep(seconds)
+        flight.let("cf1", "silent", False)
+
+    return let
+
+
+def silent_until_empty(flight: Flight) -> None:
+    """Silence a drone in its flight until its battery is empty, and it falls."""
+    flight.until_up("cf1")
+    flight.let("cf1", "silent", True)
+    flight.let("cf1", "volts", LOW)
+
+
+def kill_brain(flight: Flight) -> None:
+    """Kill the app; the gateway must land all drones; then go on."""
+    flight.until_up("cf1")
+    flight.kill()
+    began = time.monotonic()
+    flight.until(lambda: not flight.airborne(), 30.0)
+    flight.notes.append(f"all down {time.monotonic() - began:.1f} s after")
+    flight.start()
+
+
+def kill_gateway(flight: Flight) -> None:
+    """Kill the gateway; the app must start it again."""
+    flight.until_up("cf1")
+    old = gateway_of(flight.journal)
+    flight.kill_gateway()
+    began = time.monotonic()
+    flight.until(lambda: gateway_of(flight.journal) not in (None, old), 30.0)
+    flight.notes.append(f"another one {time.monotonic() - began:.1f} s after")
+
+
+def busy_for_a_while(flight: Flight) -> None:
+    """Let a drone refuse each command in its flight, for some seconds."""
+    flight.until_up("cf1")
+    flight.let("cf1", "busy", True)
+    time.sleep(6.0)
+    flight.let("cf1", "busy", False)
+
+
+def fetched(doing: Doing) -> Doing:
+    """Return what does this, and lets a person fetch the drone a little later."""
+
+    def let(flight: Flight) -> None:
+        doing(flight)
+        eventually(lambda: "cf1" not in flight.airborne(), 60.0)
+        time.sleep(2.0)
+        flight.let("cf1", "fetch", True)
+
+    return let
+
+
+LOST_LINK = r"link|answer|silent|heard"
+CRASH = r"tumbl|crash|turned over"
+BATTERY = r"battery"
+REFUSED = r"busy|refus|supervisor"
+
+SCENARIOS = (
+    Scenario(name="nothing", during=nothing),
+    Scenario(name="silent at connect", before=at_once("silent")),
+    Scenario(name="nobody at its port", before=at_once("gone")),
+    Scenario(
+        name="silent in flight, for good",
+        during=silent_until_empty,
+        fails=LOST_LINK,
+        falls=("cf1",),
+    ),
+    Scenario(name="link lost for 5 s", during=silent_for(5.0), fails=LOST_LINK),
+    Scenario(name="tumbles", during=in_flight("tumble"), fails=CRASH, falls=("cf1",)),
+    Scenario(
+        name="tumbles, and is fetched",
+        during=fetched(in_flight("tumble")),
+        fails=CRASH,
+        falls=("cf1",),
+    ),
+    Scenario(name="locks", during=in_flight("lock"), fails=r"lock", falls=("cf1",)),
+    Scenario(
+        name="restarts in flight",
+        during=in_flight("restart"),
+        fails=rf"{LOST_LINK}|{CRASH}",
+        falls=("cf1",),
+    ),
+    Scenario(name="battery to 3.2 V", during=in_flight("volts", 3.18), fails=BATTERY),
+    Scenario(name="1 % of packets lost", before=at_once("loss", 0.01, *ALL)),
+    Scenario(name="5 % of packets lost", before=at_once("loss", 0.05, *ALL)),
+    Scenario(name="100 ms late each way", before=at_once("latency", 0.1, *ALL)),
+    Scenario(name="busy before take-off", before=at_once("busy"), fails=REFUSED),
+    Scenario(name="busy in flight", during=busy_for_a_while, fails=REFUSED),
+    Scenario(name="locked before take-off", before=at_once("lock")),
+    Scenario(name="unsure where it is", before=at_once("unsure")),
+    Scenario(name="empty before take-off", before=at_once("level", 0.02)),
+    Scenario(name="kill -9 of the brain", during=kill_brain),
+    Scenario(name="kill -9 of the gateway", during=kill_gateway),
+)
