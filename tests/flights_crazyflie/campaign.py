@@ -20,9 +20,8 @@ from plutoc_runtime.crtp import process
 from tests.crtp.starting import COMMAND
 from tests.flights_crazyflie.flight import Flight
 from tests.flights_crazyflie.judge import dropped, left_in_the_air, nearest
-from tests.flights_crazyflie.plans import RETRY, fleet, homes, missions, tours, write
+from tests.flights_crazyflie.plans import RETRY, fleet, homes, missions, quick_package, tours, write
 from tests.flights_crazyflie.scenarios import ALL, SCENARIOS, Scenario
-from tests.flying import compiled
 from tests.kill.lives import eventually
 from tests.kill.trial import gateway_of
 
@@ -87,7 +86,7 @@ def main() -> int:
     if any(name not in known for name in names):
         parser.error(f"there are {', '.join(known)}")
     folder = Path(mkdtemp(prefix="crazyflies-"))
-    source = compiled(RETRY, folder / "package") / "src"
+    source = quick_package(folder / "package")
     print(f"flights in {folder}", flush=True)
     bad = 0
     for number, scenario in enumerate(SCENARIOS):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
+from tests.flying import EXAMPLES, compiled_file
 from tests.kill.plans import trip
 
 Target = tuple[float, float, float]
@@ -14,6 +15,16 @@ Plan = Mapping[tuple[str, str], tuple[str, tuple[float, float], str]]
 CRUISE = 0.5
 DISTRIBUTION, RETRY = "drugs_distribution", "drugs_distribution_retry"
 """Examples: one that gives up a trip that fails, and one that lets another drone fly it."""
+
+
+def quick_package(into: Path) -> Path:
+    """Compile the example that lets another drone fly, with quicker drones: return its sources."""
+    text = (EXAMPLES / RETRY / "app.pluto").read_text()
+    quick = text.replace("category nurse(", "category nurse(speed: 2 m/s, ")
+    assert quick != text
+    into.mkdir(parents=True, exist_ok=True)
+    (into / "app.pluto").write_text(quick)
+    return compiled_file(into / "app.pluto", into / RETRY) / "src"
 
 
 def homes(drones: int) -> dict[str, Target]:
