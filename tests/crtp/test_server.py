@@ -87,7 +87,6 @@ def folder(tmp_path: Path) -> Iterator[Path]:
     """A folder behind which drones may live; none is left."""
     yield tmp_path / "flight.gateway"
     process.end(tmp_path / "flight.gateway")
-    process.wait_for_all()
 
 
 def test_drones_in_a_process_are_found_again_and_stay_where_they_were(folder: Path) -> None:

@@ -171,7 +171,6 @@ class Flight:
             self.kill()
         end_gateway(self.journal)
         process.end(self.air)
-        process.wait_for_all()
 
     def _command(self, *words: str) -> list[str]:
         return [sys.executable, "-m", self.app, *words]

@@ -38,8 +38,8 @@ _PATIENCE = 10.0
 """Seconds that it may take to begin, or to answer."""
 _LOOK = 1.0
 
-_STARTED: list[subprocess.Popen[bytes]] = []
-"""What this process has started: what has ended is noticed when the next begins."""
+_STARTED: dict[Path, subprocess.Popen[bytes]] = {}
+"""What this process has started, by the folder: they are noticed to have ended by `end`."""
 
 _FOR_APPS = "crtp: an app starts this by itself when it flies; there is nothing to do by hand"
 
@@ -61,7 +61,6 @@ def start(
     kept = _kept(folder)
     drones = {id: {**kept.get(id, {}), "home": home} for id, home in homes.items()}
     _write(folder, drones)
-    _STARTED[:] = [process for process in _STARTED if process.poll() is None]
     with (folder / LOG).open("ab") as log:
         process = subprocess.Popen(
             [*(command or again.command(COMMAND)), str(folder)],
@@ -70,7 +69,7 @@ def start(
             stderr=log,
             start_new_session=True,
         )
-    _STARTED.append(process)
+    _STARTED[folder] = process
     until = time.monotonic() + _PATIENCE
     while time.monotonic() < until and process.poll() is None:
         with suppress(Nobody):
@@ -100,11 +99,8 @@ def end(folder: Path) -> None:
         while time.monotonic() < until:
             told(folder, "end")
             time.sleep(0.02)
-
-
-def wait_for_all() -> None:
-    """Wait until what this process has started has ended, as it was told."""
-    for process in _STARTED:
+    process = _STARTED.pop(folder, None)
+    if process is not None:
         process.wait(_PATIENCE)
 
 
