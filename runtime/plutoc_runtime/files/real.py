@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 from . import errors
 from .behaviour import CRAZYFLIE
 
-PACE = 16 / 35
-"""Mean speed over peak speed."""
-
 if TYPE_CHECKING:
     from ..app import App
     from .fleet import DroneEntry, FleetFile
     from .free_tables import Options
+
+PACE = 16 / 35
+"""A Crazyflie's mean speed on a course, as a share of its peak speed."""
 
 
 def navigation_of(fleet: FleetFile, drone: DroneEntry) -> str:
@@ -46,9 +46,11 @@ def as_flown(app: App, fleet: FleetFile) -> App:
     """
     slow = {d.category for d in fleet.drones if navigation_of(fleet, d) == CRAZYFLIE}
     categories = tuple(
-        replace(category, speed=category.speed * PACE, top_speed=category.speed)
-        if category.name in slow and category.top_speed is None
-        else category
+        (
+            replace(category, speed=category.speed * PACE, top_speed=category.speed)
+            if category.name in slow and category.top_speed is None
+            else category
+        )
         for category in app.categories
     )
     return replace(app, categories=categories)
