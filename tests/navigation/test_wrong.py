@@ -20,7 +20,7 @@ NAMES = [module.name for module in pkgutil.iter_modules(wrong.__path__)]
 def test_a_wrong_navigation_is_found_by_the_check_that_names_it(name: str) -> None:
     module = import_module(f"{wrong.__name__}.{name}")
     made: type[Simulated] = module.Wrong
-    contract = type("Contract", (SimulatedContract,), {"navigation": made})()
+    contract = type("Contract", (SimulatedContract,), {"navigation": made, "away": 4.0})()
     with pytest.raises(AssertionError) as found:
         getattr(contract, module.FOUND_BY)()
     assert module.SAYS in str(found.value)

@@ -16,6 +16,6 @@ class Wrong(Simulated):
 
     async def go_to(self, target: Point, speed: float) -> None:
         going = asyncio.create_task(super().go_to(target, speed))
-        await asyncio.wait([going], timeout=0.15)
+        await asyncio.wait([going], timeout=0.05)
         if going.done():
             await going

@@ -16,7 +16,8 @@ if TYPE_CHECKING:
 
 WINDOW = 0.5
 """Seconds over which a speed is taken: positions are noisy."""
-MARGIN = 1.1
+MARGIN, JITTER = 1.1, 0.1
+"""How much faster it may seem, as a share, and by how many seconds what it tells may be late."""
 _GROUND = 0.1
 """Metres: so near to where it stood, motors may go off."""
 _KNOWN = tuple(failure.name for failure in Failure if failure is not Failure.UNKNOWN)
@@ -70,26 +71,28 @@ def _beside(point: Point, start: Point, along: Point) -> float:
 
 
 def too_fast(samples: Sequence[Sample], speed: float, noise: float) -> float | None:
-    """Return how fast it was where that is above a limit; None: it never was."""
-    told = [one.telemetry for one in samples]
+    """Return how fast it was where that is above a limit; None: it never was.
+
+    What it tells comes by a link, a little sooner or later: so no moment is looked at alone.
+    """
+    told = [one.telemetry for one in samples if isfinite(one.telemetry.time)]
     begin = 0
-    for end, now in enumerate(told):
-        while now.time - told[begin].time > WINDOW and told[begin + 1].time < now.time:
-            if now.time - told[begin + 1].time < WINDOW:
-                break
+    for now in told:
+        while now.time - told[begin].time > WINDOW:
             begin += 1
         seconds, way = now.time - told[begin].time, dist(now.position, told[begin].position)
-        if end and way > speed * seconds * MARGIN + noise:
-            return way / seconds if seconds else way
+        if seconds > WINDOW / 2 and way > speed * (seconds + JITTER) * MARGIN + noise:
+            return way / seconds
     return None
 
 
-def largest_gap(samples: Sequence[Sample]) -> float:
-    """Return the longest time in which it told nothing, by its own stamps."""
-    times = sorted({one.telemetry.time for one in samples})
-    if len(times) < 2:
-        return samples[-1].at - samples[0].at if samples else 0.0
-    return max(later - earlier for earlier, later in pairwise(times))
+def looks_without_news(samples: Sequence[Sample]) -> int:
+    """Return how often in a row there was nothing new; a busy machine looks less often, too."""
+    most = row = 0
+    for earlier, later in pairwise(samples):
+        row = row + 1 if later.telemetry.time == earlier.telemetry.time else 0
+        most = max(most, row)
+    return most
 
 
 def units_differ(samples: Sequence[Sample], tolerance: float) -> str | None:
