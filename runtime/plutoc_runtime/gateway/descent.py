@@ -6,23 +6,29 @@ Who goes home does so even if it stands somewhere else; what it carries comes al
 from __future__ import annotations
 
 from collections.abc import Callable, Coroutine, Sequence
-from dataclasses import dataclass
 from functools import partial
-from itertools import pairwise
-from math import floor
+from itertools import islice
 from typing import TYPE_CHECKING, Any, Protocol
 
-from ..energy import CLIMB_SPEED, docked, length, share
+from ..energy import docked
 from ..errors import FlightFailed
-from ..geometry import distance
 from ..kernel import FLEET, Kernel, Task
 from ..standing import Down
-from .spots import free_spot
+from .traffic.courses import Course, course
+from .traffic.timetable import Goer, Timetable, timetable
+from .traffic.ways_home import ways_home
 
 if TYPE_CHECKING:
     from ..airspace import Airspace
     from ..model import Category, Point
-    from .controls import Controls
+    from .pilots import Pilots
+    from .traffic.detours import Section
+    from .traffic.traffic import Traffic
+
+_LOOK = 0.1
+"""Seconds between two looks at those who are to pass first."""
+_NEAR = 60
+"""How many ways to the ground are looked at, where it is not straight below."""
 
 _Command = Callable[[], Coroutine[Any, Any, None]]
 
@@ -51,148 +57,148 @@ class Craft(Protocol):
         ...
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class _Way:
-    """A drone's way home, at a height of its own."""
-
-    drone: Craft
-    height: float
-    points: tuple[Point, ...]
-    """From where it is now; the last is above its home."""
-
-    def is_clear_of(self, place: Point, apart: float) -> bool:
-        """Say whether it leads nowhere near a place."""
-        return all(
-            distance(place[:2], a[:2], b[:2]) >= apart
-            for a, b in pairwise((self.points[0], *self.points))
-        )
-
-
 class Descent:
     """Brings down every drone that flies. One that cannot follow keeps no other up."""
 
     def __init__(
         self,
         kernel: Kernel,
-        navigation: Controls,
+        pilots: Pilots,
         drones: Sequence[Craft],
         airspace: Airspace,
-        apart: float,
+        traffic: Traffic | None,
     ) -> None:
-        self._kernel, self._navigation, self._airspace = kernel, navigation, airspace
-        self._drones, self._apart = drones, apart
+        self._kernel, self._pilots, self._airspace = kernel, pilots, airspace
+        self._drones, self._traffic = drones, traffic
+        self._places = {drone.id: drone.index for drone in drones}
         self._tasks: list[Task[bool]] = []
+        self._plan = Timetable()
+        self._at: dict[str, tuple[int, int]] = {}
+        """In which pieces of their ways they are: the one that they left last, and the next stop."""
 
     async def down(self, how: Down) -> None:
         """Bring them down; whoever cancels this leaves them hovering."""
         try:
-            await (self._land() if how is Down.LAND else self._fly_home())
+            goers = self._goers(how)
+            if self._traffic is None:
+                self._at_once(goers)
+            else:
+                self._in_turn(timetable(goers, self._traffic.limit))
+            for task in self._tasks:
+                await task
         finally:
             for task in self._tasks:
                 task.cancel()
 
-    async def _land(self) -> None:
-        for task in self._landings(self._flying()):
-            await task
+    # Who goes where
 
-    def _landings(self, drones: Sequence[Craft]) -> list[Task[bool]]:
-        """Land drones where they are, or beside it where they may not; the lowest choose first."""
-        taken = [self._location(drone) for drone in self._drones if self._is_landed(drone)]
-        tasks = []
-        for drone in drones:
-            here = self._location(drone)
-            spot = free_spot(self._airspace, here, taken, self._apart)
-            taken.append(spot)
-            there = (spot[0], spot[1], here[2])
-            tasks.append(self._send(drone, partial(self._land_at, drone, there)))
-        return tasks
+    def _goers(self, how: Down) -> list[Goer]:
+        """Return who is to come down, and by which ways: home, or near to where it is.
 
-    async def _land_at(self, drone: Craft, place: Point) -> None:
-        if self._location(drone) != place:
-            await self._navigation.go_to(drone.id, place)
-        await self._navigation.land(drone.id)
+        Who has the longest way home chooses first: the others have time. Who lands below others
+        chooses before them.
+        """
+        found = []
+        for drone in self._drones:
+            ways = self._ways_home(drone) if how is Down.HOME else []
+            if not ways and not self._is_landed(drone):
+                ways = self._ways_down(drone)
+            if ways:
+                speed = drone.category.speed
+                courses = sorted((course(way, speed) for way in ways), key=_cost)
+                found.append(Goer(drone.id, courses))
+        sign = 1 if how is Down.LAND else -1
+        return sorted(found, key=lambda goer: sign * goer.courses[0].seconds)
 
-    async def _fly_home(self) -> None:
-        """Let drones fly home, each at a height of its own; as many at once as there are heights."""
-        drones = [*self._strays(), *self._flying()]
-        lowest = self._airspace.cruise_height
-        heights = 1 + max(0, floor((self._airspace.ceiling - lowest) / self._apart + 1e-9))
-        for first in range(0, len(drones), heights):
-            stay, ways = self._ways(drones[first : first + heights], lowest)
-            landing = self._landings(stay)
-            climbing = [(way, self._send(way.drone, partial(self._climb, way))) for way in ways]
-            up = [way for way, task in climbing if await task]
-            for task in landing:
-                await task
-            tasks: dict[_Way, Task[bool]] = {}
-            for way in up:
-                below = [(other, tasks[other]) for other in tasks]
-                tasks[way] = self._send(way.drone, partial(self._follow, way, below))
-            for task in tasks.values():
-                await task
+    def _ways_down(self, drone: Craft) -> list[Section]:
+        if self._traffic is None:
+            return [self._pilots.way_down(drone.id)]
+        return [*islice(self._traffic.ways_down(drone.id), _NEAR)]
 
-    def _ways(self, drones: Sequence[Craft], lowest: float) -> tuple[list[Craft], list[_Way]]:
-        """Return who had better land here, and the ways home of all others, the lowest first."""
-        stay: list[Craft] = []
-        ways: list[_Way] = []
-        for drone in drones:
-            height = lowest + len(ways) * self._apart
-            x, y, z = self._location(drone)
-            route = self._airspace.route((x, y, height), (drone.home[0], drone.home[1], height))
-            if docked((x, y, z), drone.home) or route is None:
-                if not self._is_landed(drone):
-                    stay.append(drone)
-                continue
-            way = _Way(drone, height, ((x, y, height), *route))
-            climbs = abs(height - z) + height
-            seconds = climbs / CLIMB_SPEED + length(way.points[0], route) / drone.category.speed
-            level = self._navigation.telemetry(drone.id).battery_level
-            if share(drone.category, seconds) < level:
-                ways.append(way)
-            elif not self._is_landed(drone):
-                stay.append(drone)
-        return stay, ways
+    def _ways_home(self, drone: Craft) -> list[Section]:
+        """Return ways home; none where it is there, or cannot get there."""
+        telemetry, traffic = self._pilots.telemetry(drone.id), self._traffic
+        if telemetry.landed and docked(telemetry.location, drone.home):
+            return []
+        if traffic is not None and traffic.place_to_land(drone.id, drone.home) is None:
+            return []  # another stands there
+        step = 0.0 if traffic is None else traffic.step
+        ways = ways_home(self._airspace, drone, telemetry.location, telemetry.landed, step)
+        enough = telemetry.battery_level * drone.category.flight_time
+        return [way for way in ways if course(way, drone.category.speed).seconds < enough]
 
-    async def _climb(self, way: _Way) -> None:
-        """Rise, or sink, to the way's height: who is above another now, stays so."""
-        if self._is_landed(way.drone):
-            self._navigation.begins(way.drone.id, None, 0.0)
-            await self._navigation.takeoff(way.drone.id, way.height)
-        await self._navigation.go_to(way.drone.id, way.points[0])
+    # How they go
 
-    async def _follow(self, way: _Way, below: Sequence[tuple[_Way, Task[bool]]]) -> None:
-        """Fly home; then come down through the heights of others once they are out of the way."""
-        for point in way.points[1:]:
-            await self._navigation.go_to(way.drone.id, point)
-        for other, task in below:
-            if not other.is_clear_of(way.drone.home, self._apart):
-                await task
-        await self._navigation.land(way.drone.id)
+    def _at_once(self, goers: Sequence[Goer]) -> None:
+        """Let all go by the quickest way: nobody asks for more."""
+        for goer in goers:
+            self._send(goer.drone, partial(self._flies, goer.drone, goer.courses[0].section))
 
-    def _send(self, drone: Craft, command: _Command) -> Task[bool]:
-        key = FLEET + 1 + drone.index
-        task = self._kernel.spawn(_well(command), key, f"{drone.id} comes down")
-        self._tasks.append(task)
-        return task
+    def _in_turn(self, plan: Timetable) -> None:
+        """Let all go as it was planned, and then those for whom nothing could be."""
+        self._plan = plan
+        self._at = dict.fromkeys(plan.courses, (0, 0))
+        for drone in plan.courses:
+            self._send(drone, partial(self._follows, drone))
+        for goer in plan.without:
+            ways = [one.section for one in goer.courses]
+            self._send(goer.drone, partial(self._flies, goer.drone, *ways))
 
-    def _strays(self) -> list[Craft]:
-        """Return who stands on the ground, but not at home."""
-        return [
-            drone
-            for drone in self._drones
-            if self._is_landed(drone) and not docked(self._location(drone), drone.home)
+    async def _flies(self, drone: str, *ways: Section) -> None:
+        begins = partial(self._pilots.begins, drone)
+        await self._pilots.travels(
+            drone, lambda: ways[0], begins, ways=lambda _: ways, anywhere=True
+        )
+
+    async def _follows(self, drone: str) -> None:
+        """Fly as far as nobody is in the way who was to pass before; and so on, to the end."""
+        one, last = self._plan.courses[drone], len(self._plan.courses[drone].pieces) - 1
+        telemetry, at = self._pilots.telemetry(drone), 0
+        try:
+            self._pilots.begins(drone)
+            while at < last:
+                to = self._free(drone, at)
+                if to == at:
+                    await self._kernel.sleep(_LOOK)
+                    continue
+                self._at[drone] = at, to
+                stretch = one.stretch(telemetry.location, at, to)
+                await self._pilots.travels(
+                    drone, partial(_itself, stretch), ways=_no_other, anywhere=True
+                )
+                if telemetry.landed:
+                    return
+                at = to
+                self._at[drone] = at, at
+        finally:
+            del self._at[drone]
+
+    def _free(self, drone: str, at: int) -> int:
+        """Return the last piece up to which nobody has to pass first."""
+        last = len(self._plan.courses[drone].pieces) - 1
+        waits = [
+            piece for piece, other, its in self._plan.after[drone] if not self._left(other, its)
         ]
+        return min((piece - 1 for piece in waits if piece > at), default=last)
 
-    def _flying(self) -> list[Craft]:
-        """Return who flies, the lowest first."""
-        flying = [drone for drone in self._drones if not self._is_landed(drone)]
-        return sorted(flying, key=lambda drone: (self._location(drone)[2], drone.index))
+    def _left(self, drone: str, piece: int) -> bool:
+        """Say whether a drone has left a piece of its way."""
+        if drone not in self._at:
+            return True  # it is down, or fails
+        first, last = self._at[drone]
+        if last <= piece < first or first > piece:
+            return first > piece
+        if last <= piece and first == last:
+            return False
+        here = self._pilots.telemetry(drone).location
+        return self._plan.courses[drone].piece_at(here, first, last) > piece
 
-    def _location(self, drone: Craft) -> Point:
-        return self._navigation.telemetry(drone.id).location
+    def _send(self, drone: str, command: _Command) -> None:
+        key = FLEET + 1 + self._places[drone]
+        self._tasks.append(self._kernel.spawn(_well(command), key, f"{drone} comes down"))
 
     def _is_landed(self, drone: Craft) -> bool:
-        return self._navigation.telemetry(drone.id).landed
+        return self._pilots.telemetry(drone.id).landed
 
 
 async def _well(command: _Command) -> bool:
@@ -202,3 +208,16 @@ async def _well(command: _Command) -> bool:
     except FlightFailed:
         return False
     return True
+
+
+def _cost(one: Course) -> float:
+    return one.cost
+
+
+def _no_other(section: Section) -> Sequence[Section]:
+    """It was planned so, and all others rely on it."""
+    return (section,)
+
+
+def _itself(section: Section) -> Section:
+    return section

@@ -47,7 +47,7 @@ class Gateway:
         max_airborne: int | None = None,
         patience: float | None = None,
     ) -> None:
-        self.kernel, self._controls = kernel, controls
+        self.kernel = kernel
         self.traffic: Traffic | None = None
         """Keeps drones apart from each other, if anybody wants that."""
         if apart > 0:
@@ -191,7 +191,7 @@ class Gateway:
             descent.cancel()
         for drone in self.drones:
             self.break_off(drone.id)
-        ways = Descent(self.kernel, self._controls, self.drones, self._airspace, self._apart)
+        ways = Descent(self.kernel, self.navigation, self.drones, self._airspace, self.traffic)
         self._how = how
         self.descent = task = self.kernel.spawn(ways.down(how), FLEET, "all drones come down")
         task.over = self._is_down

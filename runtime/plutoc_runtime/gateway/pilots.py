@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from ..standing import Standing
     from .controls import Controls
     from .descent import Craft
-    from .traffic.traffic import Traffic
+    from .traffic.traffic import Traffic, Ways
 
 
 def _nothing() -> None:
@@ -110,10 +110,14 @@ class Pilots:
         """Hover, for as long as an action of the app's own takes; never returns by itself."""
         await self._controls.hold(drone)
 
+    def begins(self, drone: str) -> None:
+        """A flight begins, for nobody but the drone."""
+        self._refuse_if_cut(drone)
+        self._controls.begins(drone, None, 0.0)
+
     async def takeoff(self, drone: str, height: float) -> None:
         """Rise to a height; does nothing for a drone that flies."""
-        begins = partial(self._controls.begins, drone, None, 0.0)
-        self._refuse_if_cut(drone)
+        begins = partial(self.begins, drone)
         if self._controls.telemetry(drone).landed:
             await self._travel(drone, partial(self._up, drone, height), begins)
         else:
@@ -128,10 +132,10 @@ class Pilots:
 
     async def land(self, drone: str) -> None:
         """Land here, or beside it where another stands."""
-        if self._traffic is None or self._controls.telemetry(drone).landed:
+        if self._controls.telemetry(drone).landed:
             await self._controls.land(drone)
         else:
-            await self._travel(drone, partial(self._down, drone))
+            await self.travels(drone, partial(self.way_down, drone), anywhere=True)
 
     async def read(self, drone: str, name: str) -> float:
         """Return what a drone measures under this name."""
@@ -199,7 +203,7 @@ class Pilots:
 
     async def _flies_home(self, drone: str) -> bool:
         telemetry, home = self._controls.telemetry(drone), self._drones[drone].home
-        begins = partial(self._controls.begins, drone, None, 0.0)
+        begins = partial(self.begins, drone)
         try:
             if telemetry.landed and docked(telemetry.location, home):
                 begins()
@@ -216,23 +220,44 @@ class Pilots:
     async def _travel(
         self, drone: str, plan: Callable[[], Section], begins: Callable[[], None] = _nothing
     ) -> None:
-        """Fly a section, as soon as it is free; whoever must wait for long, waits on the ground."""
-        traffic, since = self._traffic, self._kernel.now
-        if traffic is None:
+        if self._traffic is None:  # as quickly as can be
             section = plan()
             begins()
             await self._follow(section)
+        else:
+            await self.travels(drone, plan, begins)
+
+    async def travels(
+        self,
+        drone: str,
+        plan: Callable[[], Section],
+        begins: Callable[[], None] = _nothing,
+        *,
+        ways: Ways | None = None,
+        cleared: Section | None = None,
+        anywhere: bool = False,
+    ) -> None:
+        """Fly a section, or another of these ways to its end, as soon as one is free.
+
+        Who must wait for long, waits on the ground. `cleared` is free already; `anywhere`: it is
+        enough to be on the ground.
+        """
+        traffic, since = self._traffic, self._kernel.now
+        if traffic is None:
+            await self._travel(drone, plan, begins)
             return
         try:
             while True:
-                section = plan()
-                way = traffic.clear(section)
-                if way is None:
-                    way = await traffic.cleared(section, since)
+                if cleared is None:
+                    section = plan()
+                    cleared = traffic.clear(section, ways)
+                    if cleared is None:
+                        cleared = await traffic.cleared(section, since, ways)
                 begins()
+                way, cleared = cleared, None
                 await self._follow(way)
                 traffic.rests(drone)
-                if section.lands or not way.aside:
+                if anywhere or not way.aside:
                     return
         except FlightFailed as error:
             traffic.stopped(drone, fails=error.failure is not Failure.REFUSED)
@@ -278,14 +303,16 @@ class Pilots:
             tail = () if below is None else (below,)
         return Section(drone, tuple(points), stands, False, tail)
 
-    def _down(self, drone: str) -> Section:
-        """Straight down, or beside it."""
+    def way_down(self, drone: str) -> Section:
+        """Return the way straight down, or beside it."""
         here = self._controls.telemetry(drone).location
         traffic = self._traffic
-        below = (here[0], here[1], 0.0)
         if traffic is not None and traffic.place_to_land(drone, here) is None:
             return traffic.beside(drone)
-        return Section(drone, (here, below), False, True)
+        points = [here]
+        if self._airspace.problem(here) is not None:
+            points.append(self._airspace.way_back(here))
+        return Section(drone, (*points, (*points[-1][:2], 0.0)), False, True)
 
     def _home(self, drone: str) -> Section:
         """To its dock, and land there, unless another stands on it."""

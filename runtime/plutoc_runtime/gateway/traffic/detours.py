@@ -7,12 +7,13 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from ...airspace import Airspace
     from ...model import Point
 
 FURTHEST = 1.5
 """How many metres higher or lower a drone flies to let another pass."""
 LOWEST = 0.5
-"""No drone goes out of another's way below this height."""
+"""Below this height a drone only takes off and lands."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,17 +43,21 @@ class Section:
         )
 
 
-def sections(section: Section, step: float, ceiling: float) -> Iterator[Section]:
-    """Yield a section, and then the same at other heights: the smallest detour first."""
+def sections(section: Section, step: float, airspace: Airspace) -> Iterator[Section]:
+    """Yield a section, and then the same at other heights: the smallest detour first.
+
+    None is lower than where drones fly anyway: nobody knows what stands there.
+    """
     yield section
     way = section.points[1 if section.stands else 0 : -1 if section.lands else None]
     if len(way) < 2 or all(point[:2] == way[0][:2] for point in way) or step <= 0:
         return
     heights = [point[2] for point in way]
     most, least = max(heights), min(heights)
+    floor = min(least, airspace.cruise_height)
     count = 1
     while count * step <= FURTHEST + 1e-9:
         for offset in (count * step, -count * step):
-            if most + offset <= ceiling + 1e-9 and (offset > 0 or least + offset >= LOWEST - 1e-9):
+            if floor - 1e-9 <= least + offset and most + offset <= airspace.ceiling + 1e-9:
                 yield section.at_height(offset)
         count += 1

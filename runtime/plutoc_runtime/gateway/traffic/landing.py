@@ -31,9 +31,15 @@ def sections_down(
     x, y, z = here
     if below is not None:
         yield Section(drone, (here, below), False, True, aside=True)
-    for spot in islice(free_spots(airspace, here, taken, step), _SPOTS):
-        if spot[:2] == (x, y):
+    back = () if airspace.problem(here) is None else (airspace.way_back(here),)
+    if back:
+        ((x, y, z),) = back
+    for spot in islice(free_spots(airspace, (x, y, z), taken, step), _SPOTS):
+        if spot[:2] == here[:2]:
             continue
+        if z > LOWEST and airspace.leg_problem((x, y, z), spot) is None:
+            slope = (spot[0], spot[1], LOWEST)
+            yield Section(drone, (here, *back, slope, spot), False, True, aside=True)
         for level in _LEVELS:
             height = z + level * step
             if not (level == 0 or LOWEST / 2 <= height <= airspace.ceiling):
@@ -41,4 +47,5 @@ def sections_down(
             route = airspace.route((x, y, height), (spot[0], spot[1], height))
             if route is not None:
                 up = ((x, y, height),) if level else ()
-                yield Section(drone, (here, *up, *route, spot), False, True, aside=True)
+                points = (here, *back, *up, *route, spot)
+                yield Section(drone, points, False, True, aside=True)

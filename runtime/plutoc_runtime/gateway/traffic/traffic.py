@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from math import hypot
 from typing import TYPE_CHECKING
@@ -33,6 +33,9 @@ OVERSHOOT, STOPPING = 0.6, 2.0
 """How far a real drone shoots past where it was told to stop, in metres, and for how long."""
 _EXACT = 1e-9
 
+Ways = Callable[[Section], Iterable[Section]]
+"""The ways that a drone may take to where it wants to go, the best first."""
+
 
 @dataclass(slots=True, eq=False)
 class _Wait:
@@ -40,6 +43,7 @@ class _Wait:
 
     section: Section
     since: float
+    ways: Ways
     over: Signal[Section] = field(default_factory=Signal)
 
 
@@ -61,7 +65,8 @@ class Traffic:
         self._drones = {drone.id: drone for drone in drones}
         self._telemetry = {drone.id: controls.telemetry(drone.id) for drone in drones}
         self.apart, self.step = apart, apart + slack
-        self._limit = self.step - _EXACT
+        self.limit = self.step - _EXACT
+        self._overshoot = OVERSHOOT if slack else 0.0  # what is simulated stops at once
         self._most = len(drones) if max_airborne is None else max_airborne
         self._claims: dict[str, Claim] = {}
         """Of those in the air, or about to be."""
@@ -76,7 +81,7 @@ class Traffic:
         """See who is in the air that nobody has sent there."""
         for drone, telemetry in self._telemetry.items():
             if drone not in self._claims and not telemetry.landed:
-                self._claim(drone).sinks()
+                self._claim(drone).rests((), 0.0)
 
     def begin_anew(self) -> None:
         """Take drones to be where they are, and nothing else: somebody has flown them otherwise."""
@@ -87,13 +92,13 @@ class Traffic:
 
     # A drone's section
 
-    def clear(self, section: Section) -> Section | None:
+    def clear(self, section: Section, ways: Ways | None = None) -> Section | None:
         """Give a drone its section, or another one to the same place; None: it must wait."""
-        return self._given(section, self._kernel.now)
+        return self._given(section, self._kernel.now, ways or self._at_other_heights)
 
-    async def cleared(self, section: Section, since: float) -> Section:
+    async def cleared(self, section: Section, since: float, ways: Ways | None = None) -> Section:
         """Wait for a section, and return what may be flown: it may only lead out of the way."""
-        wait = _Wait(section, since)
+        wait = _Wait(section, since, ways or self._at_other_heights)
         self._waiting[section.drone] = wait
         if self._timer is None:
             self._look_at(self._kernel.now + AGAIN)
@@ -130,7 +135,7 @@ class Traffic:
         elif claim is None:
             self._claim(drone).rests((), 0.0)
         elif claim.moves:
-            ahead = _ahead(claim.shape(self._kernel.now), OVERSHOOT)
+            ahead = _ahead(claim.shape(self._kernel.now), self._overshoot)
             claim.rests(ahead, self._kernel.now + STOPPING)
         if self._waiting:
             self._released()
@@ -180,15 +185,7 @@ class Traffic:
 
     def aside(self, drone: str) -> Section | None:
         """Give a drone that hovers a way to where it can land, near here; None: there is none now."""
-        here = self._telemetry[drone].location
-        for section in sections_down(
-            self._airspace,
-            drone,
-            here,
-            self.place_to_land(drone, here),
-            self.taken(drone),
-            self.step,
-        ):
+        for section in self.ways_down(drone):
             if self._blocker(section) is None:
                 return self._give(section)
         return None
@@ -196,9 +193,14 @@ class Traffic:
     def beside(self, drone: str) -> Section:
         """Return the shortest way to where a drone can land that may not land where it is."""
         here = self._telemetry[drone].location
-        ways = sections_down(self._airspace, drone, here, None, self.taken(drone), self.step)
         below = Section(drone, (here, (here[0], here[1], 0.0)), False, True)
-        return next(ways, below)
+        return next(iter(self.ways_down(drone)), below)
+
+    def ways_down(self, drone: str) -> Iterable[Section]:
+        """Return ways to the ground, near where a drone hovers: the shortest first."""
+        here = self._telemetry[drone].location
+        below, taken = self.place_to_land(drone, here), self.taken(drone)
+        return sections_down(self._airspace, drone, here, below, taken, self.step)
 
     # Who waits
 
@@ -215,7 +217,7 @@ class Traffic:
         now = self._kernel.now
         self._timer = None
         for drone, wait in sorted(self._waiting.items(), key=lambda item: item[1].since):
-            section = self._given(wait.section, wait.since)
+            section = self._given(wait.section, wait.since, wait.ways)
             if section is None and self._should_land(wait, now):
                 section = self.aside(drone)
             if section is not None:
@@ -233,11 +235,14 @@ class Traffic:
 
     # Who has what
 
-    def _given(self, section: Section, since: float) -> Section | None:
+    def _at_other_heights(self, section: Section) -> Iterable[Section]:
+        return sections(section, self.step, self._airspace)
+
+    def _given(self, section: Section, since: float, ways: Ways) -> Section | None:
         claims = self._claims
         if section.stands and len(claims) >= self._most and not self._makes_room(section.drone):
             return None
-        for way in sections(section, self.step, self._airspace.ceiling):
+        for way in ways(section):
             if self._blocker(way) is None and not (self._waiting and self._is_kept(way, since)):
                 return self._give(way)
         return None
@@ -277,7 +282,7 @@ class Traffic:
         if not claims or (len(claims) == 1 and drone in claims):
             return None
         way = (*section.points, *section.tail) if section.tail else section.points
-        limit = self._limit
+        limit = self.limit
         x, y, z, most_x, most_y, most_z = box_of(way)
         x, y, z = x - limit, y - limit, z - limit
         most_x, most_y, most_z = most_x + limit, most_y + limit, most_z + limit
@@ -297,7 +302,7 @@ class Traffic:
         return None
 
     def _is_in_the_way(self, claim: Claim, way: tuple[Point, ...], stands: bool) -> bool:
-        shape, limit = claim.shape(self._kernel.now), self._limit
+        shape, limit = claim.shape(self._kernel.now), self.limit
         if not meets(way, shape, limit):
             return False
         if claim.moves:
@@ -307,7 +312,7 @@ class Traffic:
         if stands:
             return True
         # Who is too near to somebody that hovers already, may go away, but no nearer.
-        now = nearest(way[:1], shape)
+        now = nearest(way[:1], shape[:1])
         return now >= limit or meets(way, shape, now - 1e-6)
 
     def _is_kept(self, section: Section, since: float) -> bool:
@@ -323,11 +328,11 @@ class Traffic:
                 wait.since < since
                 and self._kernel.now - wait.since >= ELDER
                 and wanted.drone != section.drone
-                and meets(section.points, wanted.points, self._limit)
+                and meets(section.points, wanted.points, self.limit)
                 and (
                     section.stands
-                    or not meets(section.points[:1], wanted.points, self._limit)
-                    or meets(section.points[-1:], wanted.points, self._limit)
+                    or not meets(section.points[:1], wanted.points, self.limit)
+                    or meets(section.points[-1:], wanted.points, self.limit)
                 )
             ):
                 return True
@@ -336,7 +341,7 @@ class Traffic:
 
 def _ahead(shape: tuple[Point, ...], metres: float) -> tuple[Point, ...]:
     """Return to where a drone shoots past the place where it is, on its way."""
-    if len(shape) < 2:
+    if len(shape) < 2 or not metres:
         return ()
     (x, y, z), (tx, ty, tz) = shape[:2]
     far = hypot(tx - x, ty - y, tz - z)
