@@ -9,6 +9,7 @@ import pytest
 from plutoc_runtime.crtp.air import Air
 from plutoc_runtime.crtp.faults import let
 from plutoc_runtime.crtp.ports import NULL, Port
+from plutoc_runtime.crtp.server import collide
 from tests.crtp.bench import CF1, Bench
 
 ARMED, CAN_FLY, FLYING, TUMBLED, LOCKED, CRASHED, ACTIVE, DONE = 1, 3, 4, 5, 6, 7, 8, 9
@@ -128,6 +129,24 @@ def test_a_watchdog_that_is_fed_once_must_be_fed_on() -> None:
     assert not bench.has(LOCKED)
     bench.passes(0.3)
     assert bench.has(LOCKED)
+
+
+def test_two_that_touch_in_the_air_tumble_and_one_that_stands_there_does_not() -> None:
+    one, other, standing = Bench(), Bench(), Bench()
+    for bench in (one, other):
+        bench.up()
+        collide([bench.drone, standing.drone])
+    one.go_to(1.0, 3.0, 1.0, 4.0)
+    one.passes(4.1)
+    collide([one.drone, other.drone])
+    assert one.drone.body.plan is not None
+    one.go_to(1.0, 2.05, 1.0, 4.0)
+    one.passes(4.1)
+    collide([one.drone, other.drone])
+    for bench in (one, other):
+        bench.passes(2.0)
+        assert bench.has(TUMBLED) and bench.z == 0.0
+    assert not standing.has(TUMBLED)
 
 
 def test_nobody_who_talks_to_it_does_not_matter_to_a_drone_that_hovers() -> None:

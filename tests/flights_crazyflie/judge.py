@@ -52,7 +52,7 @@ def beside_its_target(
 
 def dropped(deeds: Sequence[Deed]) -> Iterator[str]:
     """Yield what has cut motors in the air: a link that closed, an emergency stop, a fall."""
-    cutting = ("setpoint", "emergency stop", "stop", "switched off")
+    cutting = ("setpoint", "emergency stop", "stop", "switched off", "collision")
     for deed in deeds:
         if deed.what in cutting and deed.flying:
             yield f"{deed.drone}: {deed.what} in the air at {deed.at}"

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from itertools import combinations
+from math import dist
 from random import Random
 from time import monotonic
 from typing import Any
@@ -17,6 +19,8 @@ from .record import Record
 HOST = "127.0.0.1"
 _TICK = 0.01
 """Seconds."""
+_TOUCH = 0.12
+"""Metres between two drones at which they touch: they are as wide as that."""
 
 Address = tuple[str | Any, int]
 
@@ -151,4 +155,16 @@ class Server:
             now = monotonic()
             for endpoint in self._endpoints.values():
                 endpoint.drone.step(now)
+            collide(self.drones.values())
             await asyncio.sleep(_TICK)
+
+
+def collide(drones: Iterable[SimulatedCrazyflie]) -> None:
+    """Let those tumble whose propellers touch in the air."""
+    flying = [drone for drone in drones if drone.body.plan is not None]
+    for one, other in combinations(flying, 2):
+        if dist(one.body.position, other.body.position) < _TOUCH:
+            for drone in (one, other):
+                drone.note("collision")
+                drone.body.tumbled = True
+                drone.body.cut()
