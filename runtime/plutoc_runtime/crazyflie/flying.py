@@ -39,11 +39,11 @@ async def takeoff(session: Session, height: float, speed: float) -> None:
     # a drone that has just landed is disarmed some time soon: not now
     await session.until(lambda state: not state.flies, _SETTLES)
     await commander.arm(session, True)
-    state = session.well()
+    height_now = session.well().position[2]
     session.took_off_at, session.commanded = session.loop.time(), True
-    seconds = seconds_for(abs(height - state.position[2]), speed)
+    seconds = seconds_for(abs(height - height_now), speed)
     try:
-        await commander.takeoff(session, height, seconds)
+        await _begin(session, height, seconds)
     except Rejected:
         with suppress(NavigationError):
             await commander.arm(session, False)
@@ -55,6 +55,17 @@ async def takeoff(session: Session, height: float, speed: float) -> None:
     if await session.until(risen, seconds + SLACK) is None:
         off = abs(session.now().position[2] - height)
         raise TargetTimeout(words.not_arrived(session.drone, "risen", off))
+
+
+async def _begin(session: Session, height: float, seconds: float) -> None:
+    """Begin to rise; once more, if it was disarmed at the very moment, as it is some time after use."""
+    try:
+        await commander.takeoff(session, height, seconds)
+    except Rejected:
+        if await session.until(lambda state: not state.armed, _SEEN) is None:
+            raise
+        await commander.arm(session, True)
+        await commander.takeoff(session, height, seconds)
 
 
 async def go_to(session: Session, target: Point, speed: float) -> None:

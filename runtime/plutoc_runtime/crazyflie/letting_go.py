@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import suppress
-from threading import Thread, Timer
+from threading import Lock, Thread, Timer
 from time import sleep
 from typing import TYPE_CHECKING
 
@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
 _LONGEST = 1.5
 """Seconds that cflib's own threads take to see that they are to end."""
+_SENDING = 2.5
+"""Seconds that a packet may take to be sent, and more."""
 _HANGS = 0.3
 """Seconds after which a driver that is to end must be waiting for a dongle that is gone."""
 
@@ -65,6 +67,15 @@ def _put_away(cf: Cf) -> None:
         cf.incoming.join(_LONGEST)
     cf.link = None  # so that cflib does not send its goodbye even to nowhere
     cf.close_link()
+    _unlock(cf)
+
+
+def _unlock(cf: Cf) -> None:
+    """Free the threads that wait for ever to send something, as one fell over while it sent."""
+    lock: Lock | None = getattr(cf, "_send_lock", None)
+    if lock is not None:
+        lock.acquire(timeout=_SENDING)
+        lock.release()  # one that is let in finds no link, and lets in the next
 
 
 def _wake(link: Link) -> None:

@@ -149,7 +149,7 @@ class Crazyflie:
         if state.steered:
             await flying.go_to(session, target, speed)
             return
-        reasons = await self.preflight()
+        reasons = await preflight.problems(session, self._battery, self._options)
         if reasons:
             raise NotReady(f"{self._id} is not ready: {'; '.join(reasons)}")
         await flying.takeoff(session, height, speed)

@@ -41,7 +41,7 @@ async def _open(session: Session, folder: Path) -> None:
     # Its pings measure what nobody asks for, and the thread that sends them may die holding the lock
     # that every other sender needs.
     await session.call(lambda cf: cf.link_statistics.stop())
-    await session.worker.call(lambda: logs.begin(session), _OPEN)
+    await session.call(lambda _: logs.begin(session), _OPEN)
     if await session.until_told(TELEMETRY) is None:
         raise LinkLost(words.no_telemetry(session.drone))
 

@@ -13,7 +13,7 @@ from contextlib import suppress
 from math import inf
 from typing import TYPE_CHECKING, Protocol
 
-from ..drones.errors import Crashed, LinkLost, Locked
+from ..drones.errors import Crashed, LinkLost, Locked, NavigationError
 from . import words
 from .acknowledgements import Acknowledgements
 from .certainty import Certainty
@@ -189,7 +189,15 @@ class Session:
     async def call(self, call: Callable[[Cf], object], limit: float = 2.5) -> None:
         """Call something of cflib in the drone's own thread."""
         cf = self.cf
-        await self.worker.call(lambda: call(cf), limit)
+        try:
+            await self.worker.call(lambda: call(cf), limit)
+        except NavigationError:
+            raise
+        except Exception as error:
+            # a link that is lost while something is sent is None in cflib, and falls over that
+            if cf.link is not None and not self.lost:
+                raise
+            raise LinkLost(words.ended(self.drone, self.lost or words.WHILE_SENDING)) from error
 
     async def until(
         self, ready: Callable[[State], bool], limit: float, *, well: bool = True

@@ -58,6 +58,9 @@ def ended(drone: str, why: str) -> str:
     return f"the link to {drone} was lost: {why}"
 
 
+WHILE_SENDING = "it was closed while something was sent"
+
+
 def stuck(drone: str, seconds: float) -> str:
     return f"the radio did not take a command for {drone} in {number(seconds)} s"
 
