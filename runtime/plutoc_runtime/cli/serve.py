@@ -52,6 +52,7 @@ def serve(app: App, options: Options) -> int:
         where = str(options.fleet or app.name)
         check_real(settings.fleet, where, stand_ins=options.crtp_sim is not None)
         app = as_flown(app, settings.fleet)
+    _make_room(settings)
     if options.supervise:
         return _supervised(app, options, settings)
     with _alone(settings):
@@ -128,7 +129,7 @@ def _settings(app: App, options: Options) -> Settings:
             image = floor_plan(options.fleet.parent, fleet.image)
         except BadInput as error:
             raise BadInput(f"{options.fleet}: {error}") from None
-    settings = Settings(
+    return Settings(
         folder=folder,
         fleet=fleet,
         fleet_text=text,
@@ -139,6 +140,11 @@ def _settings(app: App, options: Options) -> Settings:
         faults=options.fail,
         speed=options.speed,
     )
+
+
+def _make_room(settings: Settings) -> None:
+    """See to it that the station's folder is there."""
+    folder = settings.folder
     try:
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)  # nobody else's, and so all in it
         settings.own_folder.mkdir(mode=0o700, exist_ok=True)
@@ -148,7 +154,6 @@ def _settings(app: App, options: Options) -> Settings:
         raise BadInput(
             f"{folder}: the station cannot keep anything there: {error.strerror}"
         ) from None
-    return settings
 
 
 def _plan(app: App, options: Options, settings: Settings) -> Plan:

@@ -61,6 +61,14 @@ def test_fly_says_what_to_install_before_anything_begins(
     assert sorted(missions.parent.rglob("*")) == before
 
 
+def test_a_station_says_so_before_it_serves(missions: Path, fleet: Path, command: Command) -> None:
+    """Its folder is not made, and nothing listens."""
+    folder = missions.with_name("kept")
+    code, out, err = command("serve", "--fleet", fleet, "--folder", folder, "--port", "0")
+    assert (code, out, err) == (2, "", "to fly Crazyflies, cflib is needed: pip install cflib\n")
+    assert not folder.exists()
+
+
 def test_drones_says_so_too(missions: Path, fleet: Path, command: Command) -> None:
     """Before it looks for any."""
     said = "to fly Crazyflies, cflib is needed: pip install cflib\n"
