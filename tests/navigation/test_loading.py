@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import sys
 from pathlib import Path
 
 import pytest
@@ -78,6 +79,18 @@ def test_a_name_that_nobody_offers_is_told_with_those_that_are(
 def test_a_module_must_be_installed() -> None:
     assert "PYTHONPATH" in refused("no_such_module_here:Drone")
     assert '"tests.navigation.nowhere"' in refused("tests.navigation.nowhere:Drone")
+
+
+def test_the_folder_where_one_happens_to_be_is_no_place_for_code(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Not even for `python -m`, which looks there first; unless it is named on purpose."""
+    (tmp_path / "found_beside_a_fleet_file.py").write_text("class Drone: pass")
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(sys, "path", [str(tmp_path), *sys.path])
+    assert "in no module that is installed" in refused("found_beside_a_fleet_file:Drone")
+    monkeypatch.setattr(sys, "path", [str(tmp_path), str(tmp_path), *sys.path[1:]])
+    assert "it has no method connect" in refused("found_beside_a_fleet_file:Drone")
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,10 @@ is no place for code.
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Mapping
+import os
+import sys
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from functools import cache
 from importlib import import_module
 from typing import TYPE_CHECKING, TypeVar, cast
@@ -114,7 +117,8 @@ def _imported(kind: Kind, name: str, written: str) -> object:
     if not all(part.isidentifier() for part in [*module.split("."), *path.split(".")]):
         raise refusals.no_class_written(kind, name)
     try:
-        found: object = import_module(module)
+        with _only_what_is_installed():
+            found: object = import_module(module)
     except ModuleNotFoundError as error:
         missing = error.name or module
         if f"{module}.".startswith(f"{missing}."):
@@ -128,6 +132,24 @@ def _imported(kind: Kind, name: str, written: str) -> object:
         if found is None:
             raise refusals.no_such_class(kind, name, part, classes)
     return found
+
+
+@contextmanager
+def _only_what_is_installed() -> Iterator[None]:
+    """Look for no module in the folder where somebody happens to be, as `python -m` would.
+
+    Nor does the gateway's process: so both find the same.
+    """
+    first = sys.path[:1]
+    here = not sys.flags.safe_path and any(os.path.isdir(one or ".") for one in first)
+    here = here and os.path.samefile(first[0] or ".", ".")
+    if here:
+        del sys.path[0]
+    try:
+        yield
+    finally:
+        if here:
+            sys.path[:0] = first
 
 
 def _said(error: BaseException) -> str:
