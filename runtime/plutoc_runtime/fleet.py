@@ -119,15 +119,20 @@ class Fleet:
 
         It is handed out only once it stands on the ground, well, with nothing aboard.
         """
-        why = ""
-        if standing.problems:
-            why = cut_off("; ".join(map(printable, standing.problems)), _LONGEST)
-            self._trace.note("drone.not_ready", drone=drone.id, reason=why)
+        why = self._say_why_not(drone, standing)
         well = standing.reached and standing.landed and not standing.problems
         if not (well and standing.carrying is None and self._rests(drone)):
             self.recover(drone)
             if why and standing.landed:
                 self.unready[drone] = why
+
+    def _say_why_not(self, drone: Drone, standing: Standing) -> str:
+        """Let people know why a drone may not fly, and return it."""
+        if not standing.problems:
+            return ""
+        why = cut_off("; ".join(map(printable, standing.problems)), _LONGEST)
+        self._trace.note("drone.not_ready", drone=drone.id, reason=why)
+        return why
 
     def retire(self, drone: Drone) -> None:
         """Nobody gets this drone any more; what it flies for now it flies to the end."""
@@ -140,7 +145,7 @@ class Fleet:
         self.retired.discard(drone)
         if drone.status is DroneStatus.LOST:
             self._navigation.mended(drone.id)
-            self.recover(drone)
+            self._send(drone, DroneStatus.RECOVERING, self._come_back, "comes back")
         elif drone.status is DroneStatus.OFFLINE and not self._rests(drone):
             self.send_home(drone)
 
@@ -253,6 +258,13 @@ class Fleet:
             await self._settle(drone)
         else:
             self._become(drone, DroneStatus.LOST)
+
+    async def _come_back(self, drone: Drone) -> None:
+        """Bring home whom a person has looked after; if that was in vain, say why."""
+        await self._bring_back(drone)
+        if drone.status is DroneStatus.LOST:
+            standing = await self._navigation.roll_call(drone.id)
+            self.unready[drone] = self._say_why_not(drone, standing)
 
     async def _settle(self, drone: Drone) -> None:
         """It stands on the ground, well: is there enough in its battery to be handed out?

@@ -7,6 +7,7 @@ import subprocess
 import sys
 from contextlib import ExitStack
 from pathlib import Path
+from threading import Timer
 
 import pytest
 
@@ -21,6 +22,15 @@ def test_a_second_process_is_refused_and_told_who_holds_the_drone(tmp_path: Path
     said = "is commanded by process {} already"
     with _holder(tmp_path, RADIO) as first, pytest.raises(Held, match=said.format(first.pid)):
         _hold(tmp_path, cf1=RADIO)
+
+
+def test_whoever_is_just_leaving_is_waited_for(tmp_path: Path) -> None:
+    """A gateway whose drones are down closes its links, and then lets go."""
+    with _holder(tmp_path, RADIO) as first:
+        assert first.stdin is not None
+        Timer(0.1, first.stdin.close).start()
+        with holding({"cf1": RADIO}, tmp_path, patience=20.0):
+            assert first.wait() == 0
 
 
 def test_whoever_is_killed_holds_nothing_any_more(tmp_path: Path) -> None:

@@ -10,7 +10,8 @@ import pytest
 
 from plutoc_runtime.errors import BadInput, Failure, FlightFailed
 from plutoc_runtime.gateway import remote, starting
-from plutoc_runtime.gateway.starting import speed_in, stop_directly
+from plutoc_runtime.gateway.process import LOG
+from plutoc_runtime.gateway.starting import let_end, speed_in, still_runs, stop_directly
 from plutoc_runtime.model import Photo
 from plutoc_runtime.standing import Down, JobState
 from tests.gateway.flights import THERE, Task
@@ -152,6 +153,24 @@ def test_all_can_be_brought_down_by_the_brain_and_without_it(tmp_path: Path) -> 
         assert roll.drones["cf1"].location[0] > 2
 
     played(tmp_path, play)
+
+
+def test_a_gateway_to_which_nobody_comes_back_lands_its_drones_and_ends(tmp_path: Path) -> None:
+    """At once, not after the time in which another brain might come; until then it can be seen."""
+
+    async def play(brain: Brain) -> None:
+        link = await brain.linked()
+        brain.kernel.post(link.fly, Task(), lambda _: None)
+        await brain.until(lambda: link.telemetry("cf1").location[0] > 2)
+        assert still_runs(tmp_path) == pid(tmp_path)
+        await link.close()
+        let_end(tmp_path)
+        await brain.until(lambda: still_runs(tmp_path) is None)
+        let_end(tmp_path)  # whom nobody hears any more
+        assert "all drones are down" in (tmp_path / LOG).read_text()
+
+    played(tmp_path, play, idle=1000.0)
+    assert still_runs(tmp_path / "nowhere") is None
 
 
 def test_an_older_brain_is_refused_and_a_newer_one_cuts_it_off(tmp_path: Path) -> None:

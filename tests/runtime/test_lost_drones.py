@@ -61,14 +61,21 @@ def test_a_lost_drone_flies_again_when_somebody_has_looked_after_it() -> None:
 
 
 def test_one_that_is_as_lost_as_before_stays_so(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Nobody had looked after it: it is asked, and it is LOST again."""
+    """Nobody had looked after it: it is asked, and it is LOST again, with the reason."""
+
+    async def roll_call(drone: str) -> Standing:
+        return replace(fleet.navigation.bodies[drone].standing, problems=("it lies on its back",))
+
     fleet = living(*"ab")
     monkeypatch.setattr(fleet.navigation, "mended", lambda _: None)
+    fleet.at(20.0, lambda: vars(fleet.navigation).update(roll_call=roll_call))
     crashes(fleet, 5.0)
     fleet.at(40.0, lambda: fleet.life.control.bring_back("cf1"))
     assert fleet.run() == ["COMPLETED"] * 2
     assert drone(fleet).status is DroneStatus.LOST
     assert len(fleet.named("drone.lost")) == 2
+    (event,) = fleet.named("drone.not_ready")
+    assert event["reason"] == "it lies on its back"
 
 
 def test_what_a_person_has_said_of_a_lost_drone_outlives_the_app() -> None:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import fcntl
 import os
 import tempfile
+import time
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from hashlib import sha256
@@ -18,17 +19,27 @@ from ..errors import BadInput
 from ..private import is_private
 from ..words import quoted
 
+LEAVING = 8.0
+"""Seconds that a gateway whose drones are down may take to let go of them."""
+
+_EACH = 0.05
+"""Seconds between two looks."""
+
 
 class Held(BadInput):
     """Another process commands one of these drones."""
 
 
 @contextmanager
-def holding(drones: Mapping[str, str], folder: Path | None = None) -> Iterator[None]:
+def holding(
+    drones: Mapping[str, str], folder: Path | None = None, patience: float = 0.0
+) -> Iterator[None]:
     """Let no other process command these drones, by their ids and URIs; `Held` if one does.
 
     `folder` is where the locks are; default: where they are for all processes of this user.
+    Whoever held them last may just be leaving: `patience` is for how many seconds that is waited for.
     """
+    until = time.monotonic() + patience
     place = folder or _folder()
     locks: dict[str, int] = {}
     owners: dict[str, str] = {}
@@ -37,7 +48,7 @@ def holding(drones: Mapping[str, str], folder: Path | None = None) -> Iterator[N
             name = _name(uri)
             if name in locks:
                 raise BadInput(f"{owners[name]} and {id} have the same URI {quoted(uri)}")
-            owners[name], locks[name] = id, _taken(place / name, id, uri)
+            owners[name], locks[name] = id, _taken(place / name, id, uri, until)
         yield
     finally:
         for lock in locks.values():
@@ -45,21 +56,30 @@ def holding(drones: Mapping[str, str], folder: Path | None = None) -> Iterator[N
                 os.close(lock)
 
 
-def _taken(file: Path, id: str, uri: str) -> int:
+def _taken(file: Path, id: str, uri: str, until: float) -> int:
     lock = os.open(file, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC | os.O_NOFOLLOW, 0o600)
-    try:
-        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
+    while not _is_free(lock):
+        if time.monotonic() < until:
+            time.sleep(_EACH)
+            continue
         who = os.pread(lock, 20, 0).decode("ascii", "replace").strip()
         os.close(lock)
         whose = f"process {who}" if who.isdecimal() else "another process"
         raise Held(
             f"{id} ({quoted(uri)}) is commanded by {whose} already, and two must not fly one drone:"
-            " stop that flight first"
-        ) from None
+            " stop that flight first, or wait: a minute after its drones are down it lets go of them"
+        )
     os.ftruncate(lock, 0)
     os.pwrite(lock, f"{os.getpid()}\n".encode(), 0)
     return lock
+
+
+def _is_free(lock: int) -> bool:
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
+    return True
 
 
 def _name(uri: str) -> str:

@@ -25,7 +25,7 @@ from ..simulation.world import World
 from .ending import Ending
 from .file_ledger import FileLedger
 from .gateway import Gateway
-from .holding import holding
+from .holding import LEAVING, holding
 from .real import SLACK
 from .server import Server
 from .settings import Settings, settings_of
@@ -83,7 +83,8 @@ async def run(folder: Path, settings: Settings) -> None:
         return
     from ..drones.making import make_team  # a simulation does without
 
-    with holding({drone.id: drone.uri or drone.id for drone in settings.real.drones}):
+    uris = {drone.id: drone.uri or drone.id for drone in settings.real.drones}
+    with holding(uris, patience=LEAVING):
         team = make_team(kernel, settings.drones, settings.real, settings.airspace, folder, _say)
         team.begin()
         try:

@@ -143,13 +143,30 @@ def cut_directly(folder: Path, drone: str | None, patience: float) -> str:
     return ask(folder / NOTE, {"do": "cut-motors", **which}, patience)
 
 
+def still_runs(folder: Path) -> int | None:
+    """Return the number of the process that is the gateway of a folder; None: none runs."""
+    with suppress(OSError, ValueError), (folder / LOCK).open("rb") as lock:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_SH | fcntl.LOCK_NB)
+        except BlockingIOError:  # so the number in it is that of whoever has it
+            return int(lock.read())
+    return None
+
+
+def let_end(folder: Path) -> None:
+    """Let the gateway of a folder end once all its drones are down: nobody comes back to it."""
+    process = still_runs(folder)
+    if process is not None:
+        with suppress(OSError):
+            os.kill(process, signal.SIGTERM)
+
+
 def _end(folder: Path) -> None:
     """Kill a gateway that hangs: it flies nothing any more, and another one can."""
-    with suppress(OSError), (folder / LOCK).open("rb") as lock:
-        try:
-            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:  # so the number in it is that of whoever has it
-            os.kill(int(lock.read()), signal.SIGKILL)
+    process = still_runs(folder)
+    if process is not None:
+        with suppress(OSError):
+            os.kill(process, signal.SIGKILL)
 
 
 def _ended(folder: Path) -> str:

@@ -16,7 +16,7 @@ from ..cli import stop_mark
 from ..cli.flights import Flight
 from ..cli.taken_up import take_up
 from ..errors import BadInput
-from ..gateway.starting import cut_directly, stop_directly
+from ..gateway.starting import cut_directly, let_end, still_runs, stop_directly
 from ..journal import lock, place
 from ..journal.header import header
 from ..journal.store import Store
@@ -46,6 +46,9 @@ REMEMBERED = 1_000
 STOP_WITHIN = 5.0
 """Seconds for a gateway without a brain to answer."""
 
+LOOK_EACH = 0.1
+"""Seconds between two looks whether it has ended."""
+
 
 class Station:
     """One app, its fleet, the plan that people draw, and what flies of it."""
@@ -61,6 +64,8 @@ class Station:
         self._answers: OrderedDict[str, asyncio.Future[str]] = OrderedDict()
         self._scene = Scene(self)
         self._one_at_a_time = asyncio.Lock()
+        self._before: Path | None = None
+        """The folder of the gateway that was put away last: its drones may still be coming down."""
 
     @property
     def image(self) -> Path | None:
@@ -134,6 +139,7 @@ class Station:
             raise BadInput("the drones are coming down: wait until they are")
         if phase in (Phase.STOPPED, Phase.INTERRUPTED):
             raise BadInput("the last flight has not ended: resume it, or put it away")
+        await self._others_are_down()
         missions, keys = self.plan.launchable()
         if not missions and phase is Phase.FLYING:  # somebody else was quicker
             return "every mission of the plan flies already"
@@ -226,10 +232,26 @@ class Station:
         folder = place.gateway_folder(self.outing.journal)
         with suppress(BadInput):  # nothing flies any more, as it should be
             await asyncio.to_thread(stop_directly, folder, Down.LAND, STOP_WITHIN)
+        let_end(folder)
+        self._before = folder
         leftover.put_away(self._settings, self.outing.journal)
         self.outing = None
         self.plan.unlock()
         return "put away; its journal is kept"
+
+    async def _others_are_down(self) -> None:
+        """Let no second gateway command drones that are still coming down by the one before."""
+        if self._settings.sim or self._before is None:
+            return
+        until = asyncio.get_running_loop().time() + STOP_WITHIN
+        while still_runs(self._before) is not None:
+            if asyncio.get_running_loop().time() > until:
+                raise BadInput(
+                    "the drones of the flight that was put away are still coming down:"
+                    " start again when they are"
+                )
+            await asyncio.sleep(LOOK_EACH)
+        self._before = None
 
     async def _stop(self, how: Down) -> str:
         """Bring all drones down: nothing stands between this and the drones."""
