@@ -61,6 +61,18 @@ class Wire(Link):
         """Hover."""
         return self._far(partial(self._real.hold, drone))
 
+    def read(self, drone: str, name: str) -> Coroutine[Any, Any, float]:
+        """Return what a drone measures."""
+        return self._far(partial(self._real.read, drone, name))
+
+    def write(self, drone: str, name: str, value: float) -> Coroutine[Any, Any, None]:
+        """Set what a drone has."""
+        return self._far(partial(self._real.write, drone, name, value))
+
+    def mended(self, drone: str) -> None:
+        """A person has looked after a lost drone."""
+        self._send(partial(self._real.mended, drone))
+
     def takeoff(self, drone: str, height: float) -> Coroutine[Any, Any, None]:
         """Rise to a height."""
         return self._far(partial(self._real.takeoff, drone, height))
