@@ -132,7 +132,7 @@ async def identified(asked: Asked, folder: Path) -> None:
 def setup_of(asked: Asked, folder: Path) -> DroneSetup:
     """Return what its navigation is told of a drone."""
     return DroneSetup(
-        id=asked.id,
+        id=asked.id if asked.known else "it",  # so that sentences about it can be read
         uri=asked.uri,
         home=asked.home,
         speed=asked.speed,

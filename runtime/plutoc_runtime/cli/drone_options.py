@@ -36,7 +36,7 @@ def add_drones(command: Command) -> None:
         dest="addresses",
         action="append",
         default=[],
-        help="find those at this radio address, too (default E7E7E7E7E7); may be given again",
+        help="find those at this radio address, not at E7E7E7E7E7; may be given several times",
     )
     what = drones.add_mutually_exclusive_group()
     what.add_argument(
