@@ -21,7 +21,7 @@ from ..drones.setup import DroneSetup
 from ..errors import BadInput
 from ..files.behaviour import OWN
 from ..gateway.holding import Held, holding
-from ..words import number, quoted
+from ..words import number, printable, quoted
 
 if TYPE_CHECKING:
     from ..drones.protocol import DroneNavigation
@@ -186,9 +186,10 @@ async def _ask(navigation: DroneNavigation, so_far: _Heard) -> None:
     if so_far.telemetry.flying:
         so_far.problems = (IN_THE_AIR,)
         return
-    so_far.problems = tuple(await _within(ANSWER, navigation.preflight()))
+    so_far.problems = tuple(map(str, await _within(ANSWER, navigation.preflight())))
     if inspect.iscoroutinefunction(getattr(navigation, "facts", None)):
-        so_far.facts = await _within(ANSWER, cast(Tells, navigation).facts())
+        facts = await _within(ANSWER, cast(Tells, navigation).facts())
+        so_far.facts = {str(name): str(fact) for name, fact in facts.items()}
     so_far.telemetry = navigation.telemetry
 
 
@@ -218,9 +219,10 @@ async def _within(seconds: float, coroutine: Coroutine[object, object, T]) -> T:
 
 def _why(error: Exception) -> str:
     """Return what went wrong: in the world, or in the navigation itself."""
+    said = printable(str(error))
     if hasattr(error, "failure"):
-        return str(error)
-    return f"its navigation made a mistake: {type(error).__name__}: {error}"
+        return said
+    return f"its navigation made a mistake: {type(error).__name__}: {said}"
 
 
 def heard(answer: Answer) -> DroneTelemetry | None:

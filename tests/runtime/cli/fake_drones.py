@@ -51,7 +51,7 @@ class Bare:
         if self.uri == "fake://silent":
             await asyncio.Event().wait()
         if self.uri == "fake://wrong":
-            raise TypeError("not a float")
+            raise TypeError("not a \x1b[2Jfloat")
         self._telemetry = THERE[self.uri]
 
     async def preflight(self) -> Sequence[str]:

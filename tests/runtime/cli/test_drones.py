@@ -167,9 +167,9 @@ def test_drones_are_told_where_they_are_meanwhile(
 
 
 def test_a_mistake_of_a_navigation_is_one_rows(fleet: Path, command: Command) -> None:
-    """The others are asked all the same, and there is no traceback."""
+    """The others are asked all the same; there is no traceback, and nothing for the terminal."""
     code, out, err = command("drones", "cf1", "fake://wrong", "--fleet", fleet)
-    assert "its navigation made a mistake: TypeError: not a float" in out
+    assert "its navigation made a mistake: TypeError: not a \\x1b[2Jfloat" in out
     assert (code, "Traceback" in err, out.splitlines()[1].endswith("ready")) == (1, False, True)
 
 
