@@ -41,23 +41,6 @@ def left() -> list[str]:
     return [one for one in names if one.startswith(THREADS) and not one.startswith("Shared")]
 
 
-def test_drones_on_one_dongle_fly_and_land(tmp_path: Path) -> None:
-    air = ether()
-
-    async def fly() -> None:
-        flown = [navigation(air, drone, tmp_path) for drone in IDS]
-        await asyncio.gather(*(one.connect() for one in flown))
-        await asyncio.gather(*(one.takeoff(0.5, 2.0) for one in flown))
-        assert all(drone.body.airborne for drone in air.drones.values())
-        await asyncio.gather(*(one.land(2.0) for one in flown))
-        await asyncio.gather(*(one.close() for one in flown))
-
-    with plugged_in(air):
-        asyncio.run(fly())
-    assert not any(drone.body.airborne for drone in air.drones.values())
-    assert left() == []
-
-
 def test_a_dongle_that_is_pulled_out_is_a_lost_link_and_back_it_is_used_again(
     tmp_path: Path,
 ) -> None:
@@ -83,7 +66,8 @@ def test_a_dongle_that_is_pulled_out_is_a_lost_link_and_back_it_is_used_again(
 
     with plugged_in(air):
         asyncio.run(fly())
-    assert not any(drone.supervisor.locked for drone in air.drones.values())
+    for drone in air.drones.values():
+        assert not drone.body.airborne and not drone.supervisor.locked
     assert left() == []
 
 
@@ -93,11 +77,10 @@ def test_a_dongle_that_hangs_holds_nobody_up(tmp_path: Path) -> None:
     async def fly() -> None:
         one = navigation(air, "cf1", tmp_path)
         await one.connect()
-        await one.takeoff(0.5, 2.0)
         air.stalled = True
         with pytest.raises(LinkLost):
             async with asyncio.timeout(5.0):
-                await one.go_to((9.0, 1.0, 0.5), 1.0)
+                await one.read("pm.vbat")
         with pytest.raises(LinkLost):
             async with asyncio.timeout(12.0):
                 await one.connect()
