@@ -141,6 +141,13 @@ class Instant:
     async def hold(self, drone: str) -> None:
         """Hover."""
 
+    async def read(self, drone: str, name: str) -> float:
+        """Measure nothing."""
+        return 0.0
+
+    async def write(self, drone: str, name: str, value: float) -> None:
+        """Set nothing."""
+
     async def takeoff(self, drone: str, height: float) -> None:
         """Rise."""
 
@@ -149,6 +156,9 @@ class Instant:
 
     async def land(self, drone: str) -> None:
         """Land."""
+
+    def mended(self, drone: str) -> None:
+        """Nobody was lost."""
 
     async def recover(self, drone: str) -> bool:
         """Come home."""

@@ -16,7 +16,7 @@ from .model import AfterTrip
 from .navigation import permitted_way
 from .signals import Signal
 from .status import DroneStatus
-from .words import cut_off, printable
+from .words import cut_off, place, printable
 
 if TYPE_CHECKING:
     from .airspace import Airspace
@@ -51,10 +51,9 @@ class Fleet:
         self.retired: set[Drone] = set()
         """Those that nobody may have until they are brought back."""
         self.unready: dict[Drone, str] = {}
-        """Those that stand somewhere and could not fly when they were asked, and why.
-
-        Nobody waits for them when all missions have ended.
-        """
+        """Those that stand somewhere and could not fly when they were asked, and why."""
+        self.somebody_comes = True
+        """Whether who needs a person is waited for when all missions have ended."""
         queue.served = self._fetch_what_is_low
 
     def engage(self, drone: Drone) -> None:
@@ -160,13 +159,33 @@ class Fleet:
         self.errands.clear()
 
     async def all_down(self) -> None:
-        """Wait until every drone has done what it does for itself: return, land, recover."""
-        while under_way := [
-            task
-            for drone, task in self.errands.items()
-            if not task.is_set and not (drone in self.unready and drone.telemetry.landed)
-        ]:
-            await under_way[0].ended()
+        """Wait until every drone has done what it does for itself: return, land, recover.
+
+        One that stands on the ground and needs a person is not waited for, unless somebody comes.
+        """
+        stands_since: dict[Drone, float] = {}
+        while under_way := {one: task for one, task in self.errands.items() if not task.is_set}:
+            if self.somebody_comes:
+                await next(iter(under_way.values())).ended()
+                continue
+            now = self._kernel.now
+            for drone in self.drones:
+                if drone not in under_way or not self._stands(drone):
+                    stands_since.pop(drone, None)
+                else:
+                    stands_since.setdefault(drone, now)
+            if all(now - stands_since.get(drone, now) >= _HELPLESS for drone in under_way):
+                self._leave_to_a_person(tuple(under_way))
+                return
+            await self._kernel.sleep(1.0)
+
+    def _stands(self, drone: Drone) -> bool:
+        return drone.status is DroneStatus.RECOVERING and drone.telemetry.landed
+
+    def _leave_to_a_person(self, drones: Sequence[Drone]) -> None:
+        for drone in drones:
+            text = f"{drone.id} stands at {place(drone.location)} and needs somebody: go and look"
+            self._trace.note("log", mission=None, text=text)
 
     def _send(
         self,
@@ -326,6 +345,9 @@ _FREE = DroneStatus.FREE
 
 _LOOK_AGAIN = 10.0
 """Seconds between two looks at a battery that should be full enough by now."""
+
+_HELPLESS = 12.0
+"""Seconds after which a drone that stands there will not fly home by itself: it would have begun."""
 
 _LONGEST = 500
 """Characters of why a drone may not fly."""

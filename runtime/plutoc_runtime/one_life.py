@@ -80,6 +80,7 @@ class OneLife:
             watcher=setting.tell,
         )
         life.session.engine.patient = setting.patient
+        life.session.core.fleet.somebody_comes = setting.sim
         life.control.stopped.watch(lambda _: self._end.set(End.STOPPED))
         stops.stop_now = self._stop
         async with listening(setting.note, self.answer):

@@ -47,6 +47,8 @@ class Setting:
     tell: Callable[[Event], object]
     """Shows an event to whoever watches, once it is on record."""
     speed: float = 1.0
+    sim: bool = True
+    """Whether drones are simulated: somebody always comes then who carries one home."""
     patient: bool = False
     """Whether it goes on for as long as a mission waits for a person's decision."""
 

@@ -140,11 +140,25 @@ def test_who_is_not_ready_is_named_and_nobody_waits_for_it_in_the_end(
     monkeypatch.setattr(Pilots, "roll_call", roll_call)
     fleet = living(*"ab")
     vars(fleet.gateway.navigation).update(recover=fetched)
+    fleet.life.session.core.fleet.somebody_comes = False
     assert fleet.run() == ["COMPLETED"] * 2
     assert names(fleet.named("trip.launched"), "drone") == ["cf2", "cf2"]
     assert drone(fleet).status is DroneStatus.RECOVERING
+    assert "cf1 stands at (0.5, 0.5) and needs somebody: go and look" in names(
+        fleet.named("log"), "text"
+    )
     (event,) = fleet.named("drone.not_ready")
     line = str(line_of(event))
     assert "cf1 is not ready: its battery has 3.4 V; \\x1b[31mxxx" in line
     assert line.endswith("x…")
     assert len(line) < 600
+
+
+def test_who_flies_home_after_a_failure_is_waited_for() -> None:
+    """It needs nobody."""
+    fleet = living("a", homes=1)
+    fleet.life.session.core.fleet.somebody_comes = False
+    fleet.at(8.0, lambda: fleet.life.control.cancel("a"))
+    assert fleet.run() == ["CANCELLED"]
+    assert names(fleet.named("drone.recovering"), "drone") == ["cf1"]
+    assert drone(fleet).status is DroneStatus.FREE

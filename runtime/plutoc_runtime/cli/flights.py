@@ -142,6 +142,7 @@ async def lives(
         note=note_of(flight.journal),
         tell=watcher.tell,
         speed=flight.speed,
+        sim=flight.sim,
         patient=watcher.patient,
     )
     deaths, done = 0, -1
