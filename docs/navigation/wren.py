@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 from collections.abc import AsyncIterator, Sequence
 from contextlib import closing
 from math import dist, radians
@@ -15,7 +14,7 @@ from plutoc_runtime.model import Point
 
 class Wren:
     def __init__(self, setup: DroneSetup) -> None:
-        self.radio, self.reports, self.mode = Radio(setup.uri or ""), Reports(setup), ""
+        self.radio, self.reports = Radio(setup.uri or ""), Reports(setup)
 
     @property
     def telemetry(self) -> DroneTelemetry:
@@ -25,7 +24,6 @@ class Wren:
         return self.reports.events()
 
     def hear(self, told: State) -> None:
-        self.mode = told.mode
         self.reports.tell(
             position=(told.x / 100, told.y / 100, told.z / 100),
             yaw=radians(told.heading),
@@ -35,8 +33,7 @@ class Wren:
         )
 
     async def connect(self) -> None:
-        loop = asyncio.get_running_loop()  # the library calls back from a thread of its own
-        self.radio.open(lambda told: loop.call_soon_threadsafe(self.hear, told))
+        self.radio.open(self.reports.from_thread(self.hear))
         await self.reports.until(lambda told: True, seconds=5)
 
     async def preflight(self) -> Sequence[str]:
@@ -49,12 +46,11 @@ class Wren:
     async def go_to(self, target: Point, speed: float) -> None:
         self.reports.refuse(target, speed)
         self.radio.send("go", *(value * 100 for value in target), speed * 100)
-        seconds = dist(self.telemetry.position, target) / speed * 2 + 5
-        await self.reports.until(lambda told: dist(told.position, target) < 0.05, seconds)
+        await self.reports.until(lambda told: dist(told.position, target) < 0.05, seconds=300)
 
     async def hold(self) -> None:
         self.radio.send("stop")
-        await self.reports.until(lambda told: self.mode != "moving", seconds=5)
+        await self.reports.until(lambda told: self.radio.mode != "moving", seconds=5)
 
     async def land(self, speed: float) -> None:
         self.radio.send("down", speed * 100)
@@ -64,7 +60,6 @@ class Wren:
         self.radio.send("off")
 
     async def close(self) -> None:
-        self.reports.close()
-        with closing(self.radio):
+        with closing(self.radio), closing(self.reports):
             if self.telemetry.flying:
                 await self.land(0.3)

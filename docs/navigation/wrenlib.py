@@ -41,9 +41,10 @@ class Radio:
         self.silent, self._shut = False, Event()
 
     def open(self, hear: Callable[[State], object]) -> None:
-        """Listen to it: from now on `hear` is called, by a thread of the library's own."""
-        self._shut.clear()
-        Thread(target=self._run, args=(hear,), daemon=True, name="wren").start()
+        """Listen to it: from now on `hear` alone is called, by a thread of the library's own."""
+        self.close()
+        self._shut = Event()
+        Thread(target=self._run, args=(hear, self._shut), daemon=True, name="wren").start()
 
     def close(self) -> None:
         """Listen no longer."""
@@ -67,9 +68,9 @@ class Radio:
             case "off", ():
                 self.goal, self.mode = (x, y, 0.0), "crashed" if flies else "standing"
 
-    def _run(self, hear: Callable[[State], object]) -> None:
+    def _run(self, hear: Callable[[State], object], shut: Event) -> None:
         then = time.monotonic()
-        while self.at is not None and not self._shut.wait(TICK):
+        while self.at is not None and not shut.wait(TICK):
             now = time.monotonic()
             self._fly(now - then)
             then = now

@@ -64,6 +64,7 @@ class Simulated:
         """Listen to it."""
         if not self._there:
             raise LinkLost(f"{self.id} is not there")
+        await self._listen_no_more()
         self._telemetry = self._look(time.monotonic())
         self._ticking = asyncio.create_task(self._tick())
 
@@ -93,10 +94,13 @@ class Simulated:
 
     async def close(self) -> None:
         """Let go."""
+        await self._listen_no_more()
+        self._events.put_nowait(None)
+
+    async def _listen_no_more(self) -> None:
         if self._ticking is not None:
             self._ticking.cancel()
             await asyncio.wait([self._ticking])
-        self._events.put_nowait(None)
 
     async def events(self) -> AsyncIterator[DroneEvent]:
         """Yield what happens."""

@@ -10,8 +10,9 @@ from __future__ import annotations
 import asyncio
 import time
 from collections.abc import AsyncIterator, Callable
+from contextlib import suppress
 from math import inf, isfinite
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 from .errors import Crashed, LinkLost, OutsideArea, Rejected, TargetTimeout
 from .telemetry import CRASHED, DroneEvent, DroneTelemetry
@@ -19,6 +20,8 @@ from .telemetry import CRASHED, DroneEvent, DroneTelemetry
 if TYPE_CHECKING:
     from ..model import Point
     from .setup import DroneSetup
+
+T = TypeVar("T")
 
 SILENCE = 1.0
 """Seconds without a word, after which a link is lost."""
@@ -60,6 +63,16 @@ class Reports:
         if crashed and not self.crashed:
             self.happened(CRASHED, crashed)
         self.crashed = crashed
+
+    def from_thread(self, hear: Callable[[T], object]) -> Callable[[T], object]:
+        """Return what any thread may call, for `hear` to be called within the event loop."""
+        loop = asyncio.get_running_loop()
+
+        def hand_over(told: T) -> None:
+            with suppress(RuntimeError):  # the loop is closed: nobody wants to hear any more
+                loop.call_soon_threadsafe(hear, told)
+
+        return hand_over
 
     def happened(self, kind: str, reason: str) -> None:
         """Tell of something that nobody has asked for, once."""

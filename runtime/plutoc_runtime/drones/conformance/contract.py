@@ -44,6 +44,14 @@ class NavigationContract(Author):
         ensure(not told.flying, "its drone flies once it is connected")
         ensure(0 <= told.battery_level <= 1, f"battery_level is {told.battery_level}, not a share")
 
+    def test_it_connects_again_and_goes_on_telling(self) -> None:
+        """As after a lost link, though this one is well."""
+        record = self._tour()
+        record.step("connect again").done()
+        after = record.during("after connect again")
+        ensure(len({one.telemetry.time for one in after}) > 1, "it tells nothing any more")
+        ensure(stands_still(after, self.tolerance), "it moved by connecting again")
+
     def test_preflight_has_no_reason_and_moves_nothing(self) -> None:
         record = self._tour()
         for name in ("preflight", "preflight in the air"):

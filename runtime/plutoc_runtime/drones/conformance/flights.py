@@ -183,6 +183,8 @@ async def tour(subject: Subject) -> Record:
         await flight.does("land on the ground", lambda: drone.land(speed), 5.0)
         await flight.does("hold on the ground", drone.hold, 5.0)
         await flight.rests()
+        await flight.tries("connect again", drone.connect, subject.connect_limit)
+        await flight.rests()
         await flight.does("close", drone.close, 20.0)
     return flight.record
 
