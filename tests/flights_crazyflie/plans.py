@@ -17,14 +17,14 @@ DISTRIBUTION, RETRY = "drugs_distribution", "drugs_distribution_retry"
 """Examples: one that gives up a trip that fails, and one that lets another drone fly it."""
 
 
-def quick_package(into: Path) -> Path:
-    """Compile the example that lets another drone fly, with quicker drones: return its sources."""
-    text = (EXAMPLES / RETRY / "app.pluto").read_text()
-    quick = text.replace("category nurse(", "category nurse(speed: 2 m/s, ")
+def quick_package(into: Path, speed: float = 2.0, app: str = RETRY) -> Path:
+    """Compile an example with drones of another speed; return the folder of its sources."""
+    text = (EXAMPLES / app / "app.pluto").read_text()
+    quick = text.replace("category nurse(", f"category nurse(speed: {speed:g} m/s, ")
     assert quick != text
     into.mkdir(parents=True, exist_ok=True)
     (into / "app.pluto").write_text(quick)
-    return compiled_file(into / "app.pluto", into / RETRY) / "src"
+    return compiled_file(into / "app.pluto", into / app) / "src"
 
 
 def homes(drones: int) -> dict[str, Target]:

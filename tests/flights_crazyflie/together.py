@@ -1,0 +1,144 @@
+"""Ten Crazyflies in the air at once, crossing each other's ways home, and then Stop, as one flight.
+
+    python -m tests.flights_crazyflie.together
+    python -m tests.flights_crazyflie.together --speed 1.5
+
+flies it for Land and for return to launch, and prints how long it took and how near they came.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from argparse import ArgumentParser
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import dist
+from pathlib import Path
+from tempfile import mkdtemp
+
+from plutoc_runtime.asking import ask, note_of
+from plutoc_runtime.crazyflie.courses import SHORTEST, seconds_for
+from plutoc_runtime.crtp.record import Deed, Point
+from plutoc_runtime.drones.member import CLIMB_LIMIT
+from plutoc_runtime.journal.values import point_of
+from tests.flights_crazyflie.flight import Flight
+from tests.flights_crazyflie.judge import dropped, left_in_the_air, nearest
+from tests.flights_crazyflie.plans import (
+    DISTRIBUTION,
+    Plan,
+    fleet,
+    homes,
+    missions,
+    quick_package,
+    write,
+)
+from tests.flights_crazyflie.plans import targets as targets_of
+
+TEN = 10
+APART = 0.5
+LATER = 2.0
+"""Seconds that the last may be down after the slowest would be alone."""
+STOPPED = 130
+_HOVERS = "[navigation.crazyflie]\nmeasure_seconds = 100\n"
+
+
+@dataclass(frozen=True, slots=True)
+class Figures:
+    """What came of it."""
+
+    how: str
+    last: float
+    """Seconds from the Stop until the last was down."""
+    slowest: float
+    """Seconds that the slowest would have taken alone."""
+    least: float
+    """Metres to which two have come near in the air."""
+    problems: tuple[str, ...]
+
+    def __str__(self) -> str:
+        return (
+            f"{self.how}: ten down in {self.last:.1f} s, the slowest alone {self.slowest:.1f} s,"
+            f" never nearer than {self.least:.2f} m"
+        )
+
+
+def crossing() -> Plan:
+    """Return a mission a drone: each measures before the home of its neighbour."""
+    places = list(homes(TEN).values())
+    aims = [places[row * 5 + (column + 1) % 5] for row in range(2) for column in range(5)]
+    return {
+        (f"M{number}", "t"): ("measure", (x, y + 1.2), "")
+        for number, (x, y, _) in enumerate(aims, 1)
+    }
+
+
+AIMS = list(targets_of(crossing()).values())
+
+
+def stopped(how: str, source: Path, folder: Path, speed: float) -> Figures:
+    """Fly ten drones to where they measure, stop them so, and return what came of it."""
+    write(folder, missions(crossing()), fleet(TEN) + _HOVERS)
+    flight = Flight(app=DISTRIBUTION, source=source, folder=folder, drones=TEN)
+    try:
+        flight.start()
+        flight.until(lambda: _all_there(flight), 120.0)
+        places = {id: point_of(one["at"]) for id, one in flight.state.items()}
+        began = time.monotonic()
+        ask(note_of(flight.journal), {"command": "stop", "how": how}, 90.0)
+        code = flight.wait()
+        deeds = flight.deeds
+        problems = [*dropped(deeds), *left_in_the_air(deeds)]
+        if code != STOPPED:
+            problems.append(f"exit code {code}")
+        for id, home in homes(TEN).items():
+            if how == "rtl" and dist(flight.state[id]["at"][:2], home[:2]) > 0.2:
+                problems.append(f"{id} is not home")
+        least, who = nearest(flight.trace)
+        if least < APART:
+            problems.append(f"{least:.2f} m apart: {who}")
+        goals = homes(TEN) if how == "rtl" else {}
+        alone = (_alone(at, goals.get(id), speed) for id, at in places.items())
+        return Figures(how, _last(deeds) - began, max(alone), least, tuple(problems))
+    finally:
+        flight.end()
+
+
+def _all_there(flight: Flight) -> bool:
+    """Whether all hover where they measure."""
+    if len(flight.airborne()) < TEN:
+        return False
+    places = [point_of(one["at"]) for one in flight.state.values()]
+    return all(any(dist(place, there) < 0.15 for place in places) for there in AIMS)
+
+
+def _alone(where: Point, home: Point | None, speed: float) -> float:
+    """Return the seconds that a drone takes to come down with nobody else in the air."""
+    x, y, z = where
+    way = 0.0 if home is None else seconds_for(dist((x, y), home[:2]), speed)
+    return SHORTEST + way + seconds_for(z, CLIMB_LIMIT)
+
+
+def _last(deeds: Sequence[Deed]) -> float:
+    """Return when the last was down."""
+    return max(deed.time for deed in deeds if deed.what == "down")
+
+
+def main() -> int:
+    """Print the figures of both; 1 if anything was wrong."""
+    parser = ArgumentParser(prog="python -m tests.flights_crazyflie.together", description=__doc__)
+    parser.add_argument("--speed", type=float, default=0.5, help="m/s at most (default: 0.5)")
+    speed = parser.parse_args().speed
+    folder = Path(mkdtemp(prefix="crazyflies-"))
+    source = quick_package(folder / "package", speed, DISTRIBUTION)
+    bad = False
+    for how in ("land", "rtl"):
+        figures = stopped(how, source, folder / how, speed)
+        late = figures.last - figures.slowest > LATER
+        bad = bad or late or bool(figures.problems)
+        print(f"{figures}{', TOO LATE' if late else ''}", *figures.problems, sep="\n  ", flush=True)
+    return 1 if bad else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
