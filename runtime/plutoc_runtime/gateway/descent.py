@@ -83,7 +83,7 @@ class Descent:
             if self._traffic is None:
                 self._at_once(goers)
             else:
-                self._in_turn(timetable(goers, self._traffic.limit))
+                self._in_turn(timetable(goers, self._traffic.limit, self._traffic.is_real))
             for task in self._tasks:
                 await task
         finally:
@@ -104,8 +104,7 @@ class Descent:
             if not ways and not self._is_landed(drone):
                 ways = self._ways_down(drone)
             if ways:
-                speed = drone.category.speed
-                courses = sorted((course(way, speed) for way in ways), key=_cost)
+                courses = sorted((self._course(drone, way) for way in ways), key=_cost)
                 found.append(Goer(drone.id, courses))
         sign = 1 if how is Down.LAND else -1
         return sorted(found, key=lambda goer: sign * goer.courses[0].seconds)
@@ -125,7 +124,11 @@ class Descent:
         step = 0.0 if traffic is None else traffic.step
         ways = ways_home(self._airspace, drone, telemetry.location, telemetry.landed, step)
         enough = telemetry.battery_level * drone.category.flight_time
-        return [way for way in ways if course(way, drone.category.speed).seconds < enough]
+        return [way for way in ways if self._course(drone, way).seconds < enough]
+
+    def _course(self, drone: Craft, way: Section) -> Course:
+        traffic = self._traffic
+        return course(way, drone.category.speed, traffic is not None and traffic.is_real)
 
     # How they go
 

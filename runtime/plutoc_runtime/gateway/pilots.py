@@ -108,6 +108,7 @@ class Pilots:
 
     async def hold(self, drone: str) -> None:
         """Hover, for as long as an action of the app's own takes; never returns by itself."""
+        self._refuse_if_cut(drone)
         await self._controls.hold(drone)
 
     def begins(self, drone: str) -> None:
@@ -125,6 +126,7 @@ class Pilots:
 
     async def go_to(self, drone: str, target: Point) -> None:
         """Fly straight to a point."""
+        self._refuse_if_cut(drone)
         if self._controls.telemetry(drone).landed:
             await self._controls.go_to(drone, target)  # says why not
         else:
@@ -132,6 +134,7 @@ class Pilots:
 
     async def land(self, drone: str) -> None:
         """Land here, or beside it where another stands."""
+        self._refuse_if_cut(drone)
         if self._controls.telemetry(drone).landed:
             await self._controls.land(drone)
         else:

@@ -20,6 +20,8 @@ PIECE = 0.5
 """Metres: where two ways come near each other, one drone waits until another has left a piece."""
 _BESIDE = 3.0
 """Seconds that a drone rather waits than land beside where it is."""
+_PEAK, _AT_LEAST = 2.19, 1.0
+"""From rest to rest a drone is faster at its fastest than on the mean; and seconds, however short."""
 _BLURRED = 0.05
 """Metres: so exactly is it known where a drone is."""
 
@@ -81,8 +83,8 @@ class Course:
         )
 
 
-def course(section: Section, speed: float) -> Course:
-    """Cut a section into pieces."""
+def course(section: Section, speed: float, from_rest: bool) -> Course:
+    """Cut a section into pieces; `from_rest`: each leg begins and ends at rest, as real ones do."""
     first = section.points[0]
     pieces, now = [Piece(first, first, 0.0, 0.0)], 0.0
     legs = [Leg(0, 1, first, first, (*first, *first))]
@@ -90,18 +92,23 @@ def course(section: Section, speed: float) -> Course:
     for number, (a, b) in enumerate(pairwise(section.points)):
         length = dist(a, b)
         slow = (number == 0 and section.stands) or (number == last and section.lands)
-        pace = CLIMB_SPEED if slow else speed
+        lasts = seconds(length, CLIMB_SPEED if slow else speed, from_rest)
         count = max(1, ceil(length / PIECE - 1e-9))
         legs.append(Leg(len(pieces), len(pieces) + count, a, b, box_of((a, b))))
         at = a
         for part in range(1, count + 1):
             to = b if part == count else _between(a, b, part / count)
-            until = now + length / count / pace
+            until = now + lasts / count
             pieces.append(Piece(at, to, now, until))
             at, now = to, until
     beside = dist(first[:2], section.points[-1][:2]) if section.aside else 0.0
     cost = now + _BESIDE + 2 * beside if beside else now
     return Course(section, tuple(pieces), tuple(legs), now, cost)
+
+
+def seconds(length: float, speed: float, from_rest: bool) -> float:
+    """Return how long a leg lasts."""
+    return max(_AT_LEAST, _PEAK * length / speed) if from_rest else length / speed
 
 
 def _between(a: Point, b: Point, part: float) -> Point:

@@ -17,8 +17,8 @@ MARGIN = 0.3
 """Seconds between one's leaving and another's coming: so much later it may be without a wait."""
 _TRIES = 16
 """How often all is planned anew, with whoever is latest going first."""
-_MOMENT = 1.5
-"""Seconds that it takes to be gone from where one is."""
+_MOMENT, _REAL_MOMENT = 1.5, 3.0
+"""Seconds that it takes to be gone from where one is: simulated, and for real."""
 _GOOD = 1.0
 """Seconds later than the slowest alone: nothing better is looked for."""
 
@@ -48,11 +48,11 @@ class Timetable:
     """Those for whom there was no way among the others."""
 
 
-def timetable(goers: Sequence[Goer], limit: float) -> Timetable:
+def timetable(goers: Sequence[Goer], limit: float, is_real: bool) -> Timetable:
     """Plan for all, so that no two come nearer than that; the first chooses first, if that does."""
     order = list(goers)
     good = max((goer.courses[0].seconds for goer in goers), default=0.0) + _GOOD
-    planner = _Planner(limit)
+    planner = _Planner(limit, _REAL_MOMENT if is_real else _MOMENT)
     best, chance = Timetable(without=tuple(goers)), Random(0)
     for _ in range(_TRIES):
         plan, worst = planner.planned(order)
@@ -70,8 +70,8 @@ def timetable(goers: Sequence[Goer], limit: float) -> Timetable:
 class _Planner:
     """Remembers which pieces of which courses are near to each other."""
 
-    def __init__(self, limit: float) -> None:
-        self._limit = limit
+    def __init__(self, limit: float, moment: float) -> None:
+        self._limit, self._moment = limit, moment
         self._near: dict[tuple[Course, Course], _Pairs] = {}
         self._starts: dict[tuple[Course, Goer], list[int]] = {}
 
@@ -115,7 +115,7 @@ class _Planner:
         for goer in others:
             for mine in self._near_start(course, goer):
                 a = course.pieces[mine]
-                forbidden.append((-a.leaves - MARGIN, _MOMENT - a.enters))
+                forbidden.append((-a.leaves - MARGIN, self._moment - a.enters))
         for drone, other in plan.courses.items():
             if self._land_together(course, other):
                 return None

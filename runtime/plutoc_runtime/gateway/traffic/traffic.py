@@ -66,7 +66,9 @@ class Traffic:
         self._telemetry = {drone.id: controls.telemetry(drone.id) for drone in drones}
         self.apart, self.step = apart, apart + slack
         self.limit = self.step - _EXACT
-        self._overshoot = OVERSHOOT if slack else 0.0  # what is simulated stops at once
+        self.is_real = slack > 0
+        """What is simulated stops at once, and goes on as fast."""
+        self._overshoot = OVERSHOOT if self.is_real else 0.0
         self._most = len(drones) if max_airborne is None else max_airborne
         self._claims: dict[str, Claim] = {}
         """Of those in the air, or about to be."""

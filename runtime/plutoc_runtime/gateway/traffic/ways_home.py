@@ -39,6 +39,8 @@ def ways_home(
         height = cruise + level * step
         if height <= airspace.ceiling + 1e-9:
             over = ((x, y, height), *((px, py, height) for px, py, _ in route))
+            if len(route) == 1 and level:
+                ways.append((start, _along(over[0], over[1], 0.5, 1.0), end))
             ways += [
                 way for slope in _SLOPES if (way := _sloping(start, over, end, slope)) is not None
             ]
