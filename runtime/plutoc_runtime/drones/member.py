@@ -14,6 +14,7 @@ from ..errors import Failure, FlightFailed
 from ..words import percent, place
 from .calls import Calls, shortened
 from .lane import Lane
+from .outcome import outcome_of
 from .protocol import Acts, Readable
 from .seen import EMPTY, RISING, Seen
 
@@ -242,7 +243,7 @@ class Member:
         )
         if action in (PICK, RELEASE):
             self.cargo.carries(self.id, item.name if action == PICK and item is not None else None)
-        return value
+        return outcome_of(self.id, action, value)
 
     def why_not(self, action: str, parameters: Mapping[str, Plain]) -> str | None:
         """Return why its hardware cannot do an action, or None."""

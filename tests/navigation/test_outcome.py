@@ -1,0 +1,57 @@
+"""What an action gave is what the app knows, whichever copy of the runtime its navigation has."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from math import inf, nan
+
+import pytest
+
+from plutoc_runtime.drones.outcome import outcome_of
+from plutoc_runtime.errors import FlightFailed
+from plutoc_runtime.model import Photo, Point
+
+
+@dataclass
+class Picture:
+    """A photo of another copy of the runtime, an older one."""
+
+    position: Point
+    width: float
+    height: float
+
+
+def test_a_number_is_a_float() -> None:
+    for gave in (21, 21.0, Fraction(21)):
+        measured = outcome_of("cf1", "measure", gave)
+        assert measured == 21.0 and type(measured) is float
+
+
+def test_a_photo_is_one_of_this_copy() -> None:
+    gave = Picture((1, 2, 3), 2, 1.5)
+    assert outcome_of("cf1", "take_photo", gave) == Photo(
+        position=(1.0, 2.0, 3.0), width=2.0, height=1.5
+    )
+    whole = Photo(position=(1, 2, 3), width=2, height=1, sees=("bloom",), sharpness=0.5, file="a")
+    assert outcome_of("cf1", "take_photo", whole) == whole
+
+
+def test_what_is_carried_gives_nothing() -> None:
+    assert outcome_of("cf1", "pick_item", True) is None
+    assert outcome_of("cf1", "release_item", "ok") is None
+
+
+@pytest.mark.parametrize(
+    ("action", "gave"),
+    [
+        ("measure", None),
+        ("measure", "21"),
+        ("measure", nan),
+        ("take_photo", 3.0),
+        ("take_photo", Picture((1, 2, inf), 1, 1)),
+    ],
+)
+def test_anything_else_is_a_mistake_of_the_navigation(action: str, gave: object) -> None:
+    with pytest.raises(FlightFailed, match=f"navigation of cf1 made a mistake: {action} gave"):
+        outcome_of("cf1", action, gave)
