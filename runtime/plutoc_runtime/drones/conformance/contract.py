@@ -8,6 +8,7 @@ from math import dist, hypot, isfinite, pi
 from ...errors import Failure
 from ..checking import problems
 from ..loading import NAVIGATION
+from ..telemetry import CRASHED, LOCKED
 from .author import Author
 from .flights import LOOK
 from .record import Record, ensure, said
@@ -245,6 +246,8 @@ class NavigationContract(Author):
         self._needs("crash")
         record = self._flown("crashed")
         self._failed_by(record, "go_to", Failure.CRASH)
+        kinds = [event.kind for event in record.events]
+        ensure(CRASHED in kinds or LOCKED in kinds, f"no event told that it crashed, only {kinds}")
 
     def _failed_by(self, record: Record, name: str, failure: Failure) -> None:
         step = record.step(name)
