@@ -202,6 +202,29 @@ async def nobody_there_is_said_within_the_limit(folder: Path) -> None:
 
 
 @flight
+async def who_is_slow_to_tell_its_tables_is_connected_to_by_and_by(folder: Path) -> None:
+    async with hangar(folder) as one:
+        await one.let("latency", 0.02)
+        with pytest.raises(TimeoutError):
+            async with asyncio.timeout(1.0):
+                await one.navigation.connect()
+        await one.navigation.connect()  # the same one goes on: there is but one question
+        assert len(one.record.deeds) == 1 and one.record.deeds[0].what == "asked"
+        assert await one.navigation.preflight() == []
+
+
+@flight
+async def closing_while_connecting_ends_that(folder: Path) -> None:
+    async with hangar(folder, build=Build(id="cf9", home=(1.0, 2.0, 0.0))) as one:
+        await one.let("latency", 0.02)
+        with pytest.raises(TimeoutError):
+            async with asyncio.timeout(0.5):
+                await one.navigation.connect()
+        await one.navigation.close()
+        assert not [task for task in asyncio.all_tasks() if "cf9" in task.get_name()]
+
+
+@flight
 async def a_drone_that_tumbles_has_crashed(folder: Path) -> None:
     async with hangar(folder) as one:
         cf = one.navigation

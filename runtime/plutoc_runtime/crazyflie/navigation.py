@@ -45,19 +45,30 @@ class Crazyflie:
         self._events: asyncio.Queue[DroneEvent | None] = asyncio.Queue()
         self._commanded = False
         """Whether it may fly because of an earlier link."""
+        self._opening: asyncio.Task[None] | None = None
         self._leaving: set[asyncio.Future[None]] = set()
         self._closed = False
 
     # The link
 
     async def connect(self) -> None:
-        """Reach it, or reach it anew: what is left of an earlier link is put away."""
+        """Reach it, or reach it anew: what is left of an earlier link is put away.
+
+        The first time takes long, as it tells all its tables, and longer with many others on the
+        air. Who does not wait so long finds it further on the next time.
+        """
         uri = self._setup.uri
         if uri is None:
             raise NotReady(words.no_uri(self._id))
+        if self._session is not None and self._session.alive:
+            return
+        if self._opening is None or self._opening.done():
+            self._opening = asyncio.create_task(self._open(uri), name=f"connecting to {self._id}")
+            self._opening.add_done_callback(_heard)
+        await asyncio.shield(self._opening)
+
+    async def _open(self, uri: str) -> None:
         if self._session is not None:
-            if self._session.alive:
-                return
             self._commanded = self._session.commanded
             self._session.let_go()
             self._session = None
@@ -74,6 +85,9 @@ class Crazyflie:
         What does not listen, and what somebody else has sent up, hovers on: the link ends without a
         command to the drone.
         """
+        if self._opening is not None:
+            self._opening.cancel()
+            await asyncio.wait({self._opening})
         session = self._session
         if session is not None:
             if session.commanded and session.alive:
@@ -225,3 +239,9 @@ class Crazyflie:
     async def scan(options: Mapping[str, object]) -> Sequence[str]:
         """Return the URIs of all Crazyflies that answer."""
         return await scan(options_of("scan", options))
+
+
+def _heard(opening: asyncio.Task[None]) -> None:
+    """Take note of how it ended: it may be that nobody waits for it any more."""
+    if not opening.cancelled():
+        opening.exception()

@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 _CACHE = "crazyflie"
 """A folder for tables of contents: they take long over the radio, and seldom change."""
 _IMPORT, _OPEN = 20.0, 5.0
-ANSWER, ALL, TELEMETRY = 5.0, 13.0, 3.0
-"""Seconds until a drone must have answered, have told its tables, and begin to tell how it is."""
+ANSWER, TELEMETRY = 5.0, 3.0
+"""Seconds in which it must tell something more of itself, and begin to tell how it is."""
 _AGAIN = 0.5
 
 
@@ -56,13 +56,15 @@ def _begin(session: Session, found: Borrowed, cache: Path) -> None:
 
 
 async def _answer(session: Session) -> None:
-    """Wait until it has told its tables."""
-    began = session.loop.time()
+    """Wait until it has told its tables: for as long as there is more and more of them."""
+    heard, at = 0, session.loop.time()
     while not session.established.is_set():
-        passed = session.loop.time() - began
-        if passed > (ALL if session.answered else ANSWER):
+        entries = _entries(session.cf)
+        if entries > heard:
+            heard, at = entries, session.loop.time()
+        if session.loop.time() - at > ANSWER:
             if session.answered:
-                raise LinkLost(words.not_complete(session.drone, ALL))
+                raise LinkLost(words.not_complete(session.drone, ANSWER))
             raise LinkLost(words.no_answer(session.drone, session.uri, ANSWER))
         with suppress(TimeoutError):
             async with asyncio.timeout(_AGAIN):
@@ -72,6 +74,13 @@ async def _answer(session: Session) -> None:
             await session.call(lambda cf: _ask_again(session, cf))
     if session.lost:
         raise LinkLost(words.no_connection(session.drone, session.uri, session.lost))
+
+
+def _entries(cf: Cf) -> int:
+    """Return how much is known of its tables; read while a thread of cflib's fills them."""
+    tables = (cf.log.toc, cf.param.toc)
+    groups = [group for toc in tables if toc is not None for group in list(toc.toc.values())]
+    return sum(map(len, groups))
 
 
 def _ask_again(session: Session, cf: Cf) -> None:

@@ -39,7 +39,7 @@ def no_connection(drone: str, uri: str, why: str) -> str:
 
 
 def not_complete(drone: str, seconds: float) -> str:
-    return f"{drone} answers, but did not finish connecting in {number(seconds)} s"
+    return f"{drone} answered, and then told nothing more of itself in {number(seconds)} s"
 
 
 def no_telemetry(drone: str) -> str:
