@@ -12,13 +12,10 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
-from ..drones.loading import make_navigation
 from ..drones.member import CLIMB_LIMIT
 from ..drones.protocol import Acts
-from ..drones.setup import DroneSetup
 from ..energy import CLIMB_SPEED
 from ..errors import BadInput
-from ..files.real import navigation_of, options_of
 from ..gateway.real import SLACK, real_fleet
 from ..session import simulate
 from ..simulation.faults import Faults
@@ -27,7 +24,7 @@ from . import output
 from .events import line_of
 from .given import Given
 from .plans import load
-from .real import check_real
+from .real import check_real, made
 from .report import report, table
 from .verdict import exit_code
 
@@ -36,11 +33,10 @@ if TYPE_CHECKING:
 
     from ..app import App
     from ..files.drones import DroneEntry
-    from ..files.fleet import FleetFile
     from ..gateway.controls import Controls
     from ..gateway.real import Wanted
     from ..kernel import Kernel
-    from ..model import Category, Point
+    from ..model import Point
     from ..session import Outcome
     from .given import Command
     from .options import Options
@@ -86,9 +82,8 @@ def dry_run(app: App, options: Options) -> int:
 def _refused(app: App, options: Options, plan: Plan) -> Iterator[str]:
     """Yield what keeps `fly` from beginning, or a drone from being flown, as far as it is known."""
     try:
-        check_real(
-            plan.fleet, str(options.fleet or app.name), stand_ins=options.crtp_sim is not None
-        )
+        where = str(options.fleet or app.name)
+        check_real(app, plan.fleet, where, stand_ins=options.crtp_sim is not None)
     except BadInput as error:
         yield f"{app.name} fly would not begin:\n{error}"
         return
@@ -99,28 +94,14 @@ def _refused(app: App, options: Options, plan: Plan) -> Iterator[str]:
     for drone in plan.fleet.drones:
         category = categories[drone.category]
         tasks = [one for one in wanted if category.can(one.action)]
-        for reason in dict.fromkeys(_unfit(plan.fleet, drone, category, tasks)):
+        for reason in dict.fromkeys(_unfit(plan, drone, tasks)):
             yield f"{drone.id} would not be flown: {reason}"
 
 
-def _unfit(
-    fleet: FleetFile, drone: DroneEntry, category: Category, wanted: Sequence[Wanted]
-) -> Iterator[str]:
+def _unfit(plan: Plan, drone: DroneEntry, wanted: Sequence[Wanted]) -> Iterator[str]:
     """Yield what a drone's navigation says it cannot do, before there is any drone."""
     with TemporaryDirectory() as folder:
-        setup = DroneSetup(
-            id=drone.id,
-            uri=drone.uri,
-            home=drone.home,
-            speed=category.top_speed or category.speed,
-            options=options_of(fleet, drone),
-            folder=Path(folder),
-        )
-        try:
-            navigation = make_navigation(navigation_of(fleet, drone), setup)
-        except BadInput as error:
-            yield str(error)
-            return
+        navigation = made(plan.app, plan.fleet, drone, Path(folder))
         for one in wanted:
             if not isinstance(navigation, Acts):
                 yield f"{drone.id} has no action {one.action}"
@@ -128,7 +109,7 @@ def _unfit(
             with suppress(Exception):  # it is only asked to know this once it is connected
                 why = navigation.why_not(one.action, one.parameters)
                 if why is not None:
-                    yield why
+                    yield str(why)
 
 
 def _refuse_what_does_not_go_together(options: Options) -> None:

@@ -30,7 +30,7 @@ def fly(app: App, options: Options) -> int:
     plan = load(app, options)
     if options.is_real:
         where = str(options.fleet or app.name)
-        check_real(plan.fleet, where, stand_ins=options.crtp_sim is not None)
+        check_real(app, plan.fleet, where, stand_ins=options.crtp_sim is not None)
     journal = options.journal or place.new(app.name, time.time())
     if os.path.lexists(journal):
         raise exists(journal)

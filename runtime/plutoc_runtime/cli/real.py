@@ -2,24 +2,30 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 from ..crazyflie.borrowed import require
 from ..drones import refusals
-from ..drones.loading import hears, load_localization, load_navigation
+from ..drones.loading import hears, load_localization, load_navigation, make_navigation
+from ..drones.setup import DroneSetup
 from ..errors import BadInput
 from ..files.behaviour import CRAZYFLIE, OWN
 from ..files.reading import shortened
-from ..files.real import navigation_of, not_real
+from ..files.real import navigation_of, not_real, options_of
 
 if TYPE_CHECKING:
+    from ..app import App
+    from ..drones.protocol import DroneNavigation
+    from ..files.drones import DroneEntry
     from ..files.fleet import FleetFile
 
 
-def check_real(fleet: FleetFile, where: str, *, stand_ins: bool) -> None:
+def check_real(app: App, fleet: FleetFile, where: str, *, stand_ins: bool) -> None:
     """Raise `BadInput` if this fleet cannot be flown from here; nothing has started.
 
-    `where` its file is, for whoever must mend it.
+    `where` its file is, for whoever must mend it. Navigations are made, and reach for nothing.
     """
     problems = [] if stand_ins else not_real(fleet)
     if problems:
@@ -34,3 +40,31 @@ def check_real(fleet: FleetFile, where: str, *, stand_ins: bool) -> None:
         deaf = [one.id for one in fleet.drones if not hears(navigation_of(fleet, one))]
         if deaf:
             raise refusals.deaf(fleet.localization, deaf)
+    if not stand_ins:
+        _check_options(app, fleet, where)
+
+
+def _check_options(app: App, fleet: FleetFile, where: str) -> None:
+    problems: list[str] = []
+    with TemporaryDirectory() as folder:
+        for drone in fleet.drones:
+            try:
+                made(app, fleet, drone, Path(folder))
+            except BadInput as error:
+                problems.append(f"{where}:{drone.line}: {error}" if drone.line else str(error))
+    if problems:
+        raise BadInput(shortened(problems))
+
+
+def made(app: App, fleet: FleetFile, drone: DroneEntry, folder: Path) -> DroneNavigation:
+    """Return what flies one drone; nothing is reached yet. `BadInput`: its options are wrong."""
+    (category,) = (one for one in app.categories if one.name == drone.category)
+    setup = DroneSetup(
+        id=drone.id,
+        uri=drone.uri,
+        home=drone.home,
+        speed=category.top_speed or category.speed,
+        options=options_of(fleet, drone),
+        folder=folder,
+    )
+    return make_navigation(navigation_of(fleet, drone), setup)

@@ -55,4 +55,4 @@ def _check(options: Options, taken: TakenUp) -> None:
     if options.sim:
         raise BadInput(f"{path}: its drones are real ones: go on without --sim")
     options.refuse_what_is_simulated()
-    check_real(taken.fleet, f"{path} (its fleet)", stand_ins=stand_ins is not None)
+    check_real(taken.app, taken.fleet, f"{path} (its fleet)", stand_ins=stand_ins is not None)

@@ -50,7 +50,7 @@ def serve(app: App, options: Options) -> int:
     settings = _settings(app, options)
     if options.is_real:
         where = str(options.fleet or app.name)
-        check_real(settings.fleet, where, stand_ins=options.crtp_sim is not None)
+        check_real(app, settings.fleet, where, stand_ins=options.crtp_sim is not None)
         app = as_flown(app, settings.fleet)
     _make_room(settings)
     if options.supervise:

@@ -116,7 +116,7 @@ def test_a_drone_that_lacks_what_the_plan_asks_for_is_told(
     fleet.write_text(f'{plain}[drone.options]\ncamra = "10.0.0.1:5000"\n', encoding="utf-8")
     code, _, err = command("fly", *plan, "--dry-run")
     assert code == 2
-    assert "cf2 would not be flown: " in err
+    assert err.startswith(f"alfalfa fly would not begin:\n{fleet}:12: "), err
     assert '"camra"' in err
     assert RECORD == []
 
