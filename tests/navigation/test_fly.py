@@ -10,6 +10,7 @@ from pathlib import Path
 import plutoc_runtime
 from tests.flying import compiled
 from tests.kill.trial import end_gateway
+from tests.navigation.test_loading import offered
 
 DOCS = Path(__file__).parents[2] / "docs/navigation"
 MISSIONS = """
@@ -24,7 +25,7 @@ parameters = { dose = "10 mg" }
 [[mission.trip]]
 name = "far"
 action = "pollinate"
-target = [0.5, 1.0]
+target = [3.5, 1.0]
 parameters = { dose = "10 mg" }
 """
 FLEET = """
@@ -39,6 +40,15 @@ category = "carrier"
 home = [1.0, 0.5]
 uri = "wren:100,50"
 """
+OFFERED = """
+[[drone]]
+id = "w2"
+category = "carrier"
+home = [3.0, 0.5]
+uri = "wren:300,50"
+navigation = "wren"
+"""
+"""A drone that is flown by what an installed package offers."""
 
 
 def fly(folder: Path, fleet: str) -> subprocess.CompletedProcess[str]:
@@ -46,6 +56,7 @@ def fly(folder: Path, fleet: str) -> subprocess.CompletedProcess[str]:
     source = compiled("alfalfa", folder / "package") / "src"
     (folder / "missions.toml").write_text(MISSIONS)
     (folder / "fleet.toml").write_text(fleet)
+    offered(folder, "pluto-wren", "plutoc.navigations", "wren = wren:Wren")
     runtime = Path(plutoc_runtime.__path__[0]).parent
     words = ["fly", "missions.toml", "--fleet", "fleet.toml", "--journal", "flight.journal"]
     try:
@@ -54,7 +65,7 @@ def fly(folder: Path, fleet: str) -> subprocess.CompletedProcess[str]:
             cwd=folder,
             env={
                 **os.environ,
-                "PYTHONPATH": os.pathsep.join(map(str, [source, DOCS, runtime])),
+                "PYTHONPATH": os.pathsep.join(map(str, [source, DOCS, runtime, folder])),
                 "XDG_STATE_HOME": str(folder / "state"),
             },
             capture_output=True,
@@ -67,9 +78,11 @@ def fly(folder: Path, fleet: str) -> subprocess.CompletedProcess[str]:
 
 
 def test_the_navigation_of_forty_lines_flies_an_app(tmp_path: Path) -> None:
-    done = fly(tmp_path, FLEET)
+    """By its class for one drone, and for the other as what a package offers."""
+    done = fly(tmp_path, FLEET + OFFERED)
     assert done.returncode == 0, done.stdout + done.stderr
-    assert "field: trip far completed (w1)" in done.stdout
+    assert "trip near completed (w1)" in done.stdout
+    assert "trip far completed (w2)" in done.stdout
     assert "1 of 1 mission completed" in done.stdout
 
 
@@ -78,6 +91,14 @@ def test_a_class_that_is_not_there_is_refused_before_anything_begins(tmp_path: P
     assert done.returncode == 2
     assert 'its module has no class "Robin"' in done.stderr
     assert not (tmp_path / "flight.journal").exists()
+
+
+def test_a_drone_that_cannot_be_made_is_refused_before_anything_is_written(tmp_path: Path) -> None:
+    done = fly(tmp_path, FLEET.replace("wren:100,50", "wren:here"))
+    assert done.returncode == 2
+    assert "could not be made for w1: ValueError" in done.stderr
+    assert not (tmp_path / "flight.journal").exists()
+    assert "Traceback" not in done.stderr
 
 
 def test_drones_that_cannot_hear_where_they_are_are_refused(tmp_path: Path) -> None:
