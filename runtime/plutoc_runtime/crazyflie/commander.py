@@ -59,7 +59,7 @@ async def takeoff(session: Session, height: float, seconds: float) -> None:
         _check(session, "takeoff", code)
         if await session.until(begun, _SEEN) is not None:
             return
-    raise LinkLost(words.not_begun(session.drone, "takeoff"))
+    raise Rejected(words.not_begun(session.drone, "takeoff"))
 
 
 async def land(session: Session, seconds: float) -> None:
@@ -95,7 +95,7 @@ async def go_to(
         _check(session, "go_to", code)
         if await session.until(begun, _SEEN) is not None:
             return
-    raise LinkLost(words.not_begun(session.drone, "go_to"))
+    raise Rejected(words.not_begun(session.drone, "go_to"))
 
 
 async def _answered(
