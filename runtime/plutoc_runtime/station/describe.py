@@ -27,7 +27,7 @@ def described(app: App, settings: Settings) -> Shape:
     return {
         "name": app.name,
         "title": app.title or app.name,
-        "sim": settings.sim,
+        "sim": settings.sim or settings.crtp_sim is not None,
         "speed": settings.speed or 1.0,
         "fields": {
             entity.value: [_field(field) for field in app.fields if field.on is entity]
