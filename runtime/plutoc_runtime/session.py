@@ -28,9 +28,9 @@ from .words import duration
 
 if TYPE_CHECKING:
     from .app import App
+    from .controls import Controls
     from .files.fleet import FleetFile
     from .gateway.commanding import Commanding
-    from .gateway.controls import Controls
     from .journal.recorder import Recorder
     from .navigation import Navigation
     from .simulation.faults import Faults

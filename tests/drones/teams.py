@@ -13,9 +13,9 @@ import pytest
 
 from plutoc_runtime.airspace import Airspace
 from plutoc_runtime.drones.feeding import Feeding
+from plutoc_runtime.drones.real_fleet import Wanted
 from plutoc_runtime.drones.team import Team, TeamDrone
 from plutoc_runtime.errors import FlightFailed
-from plutoc_runtime.gateway.real import Wanted
 from plutoc_runtime.kernel import FLEET, Task
 from plutoc_runtime.model import Category
 from plutoc_runtime.realtime import RealTime

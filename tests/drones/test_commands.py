@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from plutoc_runtime.drones.real_fleet import Wanted
 from plutoc_runtime.errors import Failure
-from plutoc_runtime.gateway.real import Wanted
 from plutoc_runtime.model import Category, Item
 from tests.drones.fakes import FakeDrone
 from tests.drones.jumping import run, the_loop

@@ -11,9 +11,9 @@ import pytest
 from plutoc_runtime.airspace import Airspace
 from plutoc_runtime.drones.feeding import Feeding
 from plutoc_runtime.drones.making import make_team
+from plutoc_runtime.drones.real_fleet import RealDrone, RealFleet
 from plutoc_runtime.drones.team import TeamDrone
 from plutoc_runtime.errors import BadInput, Failure
-from plutoc_runtime.gateway.real import RealDrone, RealFleet
 from plutoc_runtime.model import Point
 from plutoc_runtime.realtime import RealTime
 from tests.drones.fakes import FakeDrone

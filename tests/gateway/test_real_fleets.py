@@ -8,9 +8,9 @@ import pytest
 
 from plutoc_runtime.airspace import Airspace
 from plutoc_runtime.cli.stand_ins import with_stand_ins
+from plutoc_runtime.drones.real_fleet import RealDrone, Wanted, real_data, real_fleet, real_of
 from plutoc_runtime.errors import BadInput
 from plutoc_runtime.files.fleet import DroneEntry, FleetFile
-from plutoc_runtime.gateway.real import RealDrone, Wanted, real_data, real_fleet, real_of
 from plutoc_runtime.simulation.drones import SimulatedNavigation
 from plutoc_runtime.standing import Standing
 from plutoc_runtime.status import DroneStatus, Status
@@ -20,7 +20,9 @@ from tests.runtime.living import Living, enterable
 FLEET = FleetFile(
     airspace=Airspace(),
     drones=(
-        DroneEntry(id="a", category="scout", home=(1.0, 1.0, 0.0), uri="radio://0/80/2M/E7E7E7E701"),
+        DroneEntry(
+            id="a", category="scout", home=(1.0, 1.0, 0.0), uri="radio://0/80/2M/E7E7E7E701"
+        ),
         DroneEntry(
             id="b",
             category="scout",

@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING
 
 from ..drones.member import CLIMB_LIMIT
 from ..drones.protocol import Acts
+from ..drones.real_fleet import SLACK, real_fleet
 from ..energy import CLIMB_SPEED
 from ..errors import BadInput
-from ..gateway.real import SLACK, real_fleet
 from ..session import simulate
 from ..simulation.faults import Faults
 from ..words import counted, number
@@ -32,9 +32,9 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from ..app import App
+    from ..controls import Controls
+    from ..drones.real_fleet import Wanted
     from ..files.drones import DroneEntry
-    from ..gateway.controls import Controls
-    from ..gateway.real import Wanted
     from ..kernel import Kernel
     from ..model import Point
     from ..session import Outcome

@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Any
 
 from .. import again
 from ..asking import note_of
+from ..drones.real_fleet import real_fleet
 from ..errors import BadInput
 from ..fly import Recovered, live
-from ..gateway.real import real_fleet
 from ..gateway.settings import settings_for
 from ..gateway.starting import connect
 from ..journal.place import gateway_folder
@@ -28,8 +28,8 @@ from .supervise import Supervised, supervise
 
 if TYPE_CHECKING:
     from ..app import App
+    from ..drones.real_fleet import RealFleet
     from ..files.fleet import FleetFile
-    from ..gateway.real import RealFleet
     from ..journal.fold import Records
     from ..model import Drone, Mission
     from ..one_life import OneLife

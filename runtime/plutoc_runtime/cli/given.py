@@ -10,7 +10,7 @@ from ..files.toml_text import text, value
 
 if TYPE_CHECKING:
     from ..actions import Plain
-    from ..gateway.controls import Controls
+    from ..controls import Controls
     from ..kernel import Kernel
     from ..model import Item, Point, Telemetry
     from ..navigation import Job

@@ -7,7 +7,7 @@ from itertools import count
 from typing import TYPE_CHECKING
 
 from ..files.behaviour import CRAZYFLIE, OWN
-from ..gateway.spots import free_spot
+from ..spots import free_spot
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

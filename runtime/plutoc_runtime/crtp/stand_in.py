@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from .process import told
 
 if TYPE_CHECKING:
-    from ..gateway.real import Wanted
+    from ..drones.real_fleet import Wanted
 
 _SENSORS = {"temperature": "bme.temp", "humidity": "bme.humidity", "pressure": "baro.pressure"}
 _ANY = "sim.measured"

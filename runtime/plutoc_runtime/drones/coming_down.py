@@ -8,7 +8,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from ..errors import FlightFailed
-from ..gateway.spots import free_spot
+from ..spots import free_spot
 from .member import LAND
 from .stray import is_over_no_fly
 

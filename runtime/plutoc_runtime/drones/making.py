@@ -17,10 +17,10 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from ..airspace import Airspace
-    from ..gateway.real import RealFleet
     from ..kernel import Kernel
     from ..model import Category, Point
     from .protocol import DroneNavigation
+    from .real_fleet import RealFleet
 
 FILES = "files"
 """The folder, in the gateway's, where navigations keep photos and the like."""

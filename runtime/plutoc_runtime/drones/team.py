@@ -26,11 +26,11 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from ..airspace import Airspace
-    from ..gateway.real import Wanted
     from ..kernel import Kernel
     from ..model import Item, Point, Telemetry
     from ..navigation import Job
     from .feeding import Feeding
+    from .real_fleet import Wanted
 
 __all__ = ["Team", "TeamDrone"]
 

@@ -22,7 +22,7 @@ from .traffic.traffic import Traffic
 
 if TYPE_CHECKING:
     from ..airspace import Airspace
-    from .controls import Controls
+    from ..controls import Controls
     from .given import Report
     from .ledger import Ledger
 

@@ -15,10 +15,10 @@ from .traffic.detours import Section
 
 if TYPE_CHECKING:
     from ..airspace import Airspace
+    from ..controls import Controls
     from ..model import Point, Telemetry
     from ..navigation import Job
     from ..standing import Standing
-    from .controls import Controls
     from .descent import Craft
     from .traffic.traffic import Traffic, Ways
 

@@ -14,6 +14,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ..drones.real_fleet import SLACK
 from ..errors import BadInput
 from ..private import new_address, publish, withdraw
 from ..realtime import RealTime
@@ -26,13 +27,12 @@ from .ending import Ending
 from .file_ledger import FileLedger
 from .gateway import Gateway
 from .holding import LEAVING, holding
-from .real import SLACK
 from .server import Server
 from .settings import Settings, settings_of
 from .wire import LONGEST_TOLD
 
 if TYPE_CHECKING:
-    from .controls import Controls
+    from ..controls import Controls
 
 NOTE, SETTINGS, LEDGER, LOCK, LOG = "gateway", "settings.json", "ledger", "lock", "log"
 """What lies in its folder; NOTE says where it listens."""

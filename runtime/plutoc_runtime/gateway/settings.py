@@ -7,11 +7,11 @@ from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
 from ..airspace import Airspace
+from ..drones.real_fleet import RealFleet, real_data, real_of
 from ..model import Category
 from ..simulation.body import SimulatedDrone
 from ..simulation.faults import Faults
 from ..simulation.world import Feature, Source, WorldData
-from .real import RealFleet, real_data, real_of
 
 if TYPE_CHECKING:
     from ..app import App

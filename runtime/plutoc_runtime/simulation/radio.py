@@ -12,7 +12,7 @@ from ..signals import Signal
 
 if TYPE_CHECKING:
     from ..actions import Plain
-    from ..gateway.controls import Controls
+    from ..controls import Controls
     from ..model import Item, Point, Telemetry
     from ..navigation import Job
     from ..standing import Standing

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from ..app import App
-    from ..gateway.controls import Controls
+    from ..controls import Controls
     from ..simulation.deeds import Deed
     from .case import Case
 

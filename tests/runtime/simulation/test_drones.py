@@ -9,9 +9,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from plutoc_runtime.airspace import Airspace
+from plutoc_runtime.controls import Controls
 from plutoc_runtime.energy import needed
 from plutoc_runtime.errors import Failure
-from plutoc_runtime.gateway.controls import Controls
 from plutoc_runtime.kernel import FLEET, Kernel
 from plutoc_runtime.model import Category, Item, Photo, Point
 from plutoc_runtime.realtime import RealTime

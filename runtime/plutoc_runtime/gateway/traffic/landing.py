@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from itertools import islice
 from typing import TYPE_CHECKING
 
-from ..spots import free_spots
+from ...spots import free_spots
 from .detours import LOWEST, Section
 
 if TYPE_CHECKING:

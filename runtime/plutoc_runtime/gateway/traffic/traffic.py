@@ -17,8 +17,8 @@ from .landing import sections_down
 
 if TYPE_CHECKING:
     from ...airspace import Airspace
+    from ...controls import Controls
     from ...model import Point
-    from ..controls import Controls
     from ..descent import Craft
 
 AGAIN = 0.5

@@ -7,8 +7,8 @@ from math import ceil, cos, hypot, pi, sin
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from ..airspace import Airspace
-    from ..model import Point
+    from .airspace import Airspace
+    from .model import Point
 
 _STEP = 0.25
 """Metres between the places that are looked at."""

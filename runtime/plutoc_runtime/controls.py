@@ -2,7 +2,7 @@
 
 Metres, seconds. Each command returns when it is done: on arrival, when landed; it raises
 `FlightFailed` when the drone cannot finish. A command that is cancelled leaves the drone hovering
-where it is. Where a drone may fly, and who flies there now, is not known here: see `pilots`.
+where it is. Where a drone may fly, and who flies there now, is not known here: see `gateway/pilots.py`.
 """
 
 from __future__ import annotations
@@ -11,10 +11,10 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
-    from ..actions import Plain
-    from ..model import Item, Point, Telemetry
-    from ..navigation import Job
-    from ..standing import Standing
+    from .actions import Plain
+    from .model import Item, Point, Telemetry
+    from .navigation import Job
+    from .standing import Standing
 
 
 class Controls(Protocol):
