@@ -1,0 +1,148 @@
+"""A gateway and its team of Crazyflies in this very loop: simulated, but reached through cflib."""
+
+from __future__ import annotations
+
+import asyncio
+import threading
+from collections.abc import AsyncIterator, Coroutine, Mapping
+from contextlib import asynccontextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+from time import monotonic
+from typing import Any, TypeVar
+
+from plutoc_runtime.actions import Plain
+from plutoc_runtime.airspace import Airspace
+from plutoc_runtime.drones.making import make_team
+from plutoc_runtime.drones.real_fleet import SLACK, RealDrone, RealFleet
+from plutoc_runtime.drones.team import Team
+from plutoc_runtime.errors import FlightFailed
+from plutoc_runtime.gateway.gateway import Gateway
+from plutoc_runtime.gateway.link import Link
+from plutoc_runtime.kernel import FLEET, Task
+from plutoc_runtime.model import Category, Item, Point
+from plutoc_runtime.realtime import RealTime
+from tests.kill.lives import eventually
+
+T = TypeVar("T")
+
+QUICK = Category(name="quick", speed=1.0, flight_time=420, charge_time=1200)
+HALL = Airspace(size=(20.0, 20.0), cruise_height=0.8, ceiling=6.0)
+APART = 0.5
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Craft:
+    """A drone as the gateway knows it."""
+
+    id: str
+    home: Point
+    index: int
+    category: Category = QUICK
+
+
+@dataclass(slots=True, kw_only=True)
+class Measuring:
+    """A job: fly there, and measure."""
+
+    drone: str
+    stops: tuple[Point, ...]
+    action: str | None = "measure"
+    parameters: Mapping[str, Plain] = field(default_factory=dict)
+    item: Item | None = None
+    seconds: float = 1.0
+    number: int = 1
+
+    @property
+    def id(self) -> str:
+        """Which flight it is."""
+        return f"Hall/{self.drone}/0/{self.number}"
+
+    def begins(self) -> None:
+        """The action is about to be done."""
+
+
+class Flown:
+    """What a test does with them."""
+
+    def __init__(self, kernel: RealTime, team: Team, gateway: Gateway, log: list[str]) -> None:
+        self.kernel, self.team, self.gateway, self.log = kernel, team, gateway, log
+        self.link: Link = gateway.link(1)
+
+    def begin(self, command: Coroutine[Any, Any, T]) -> Task[T]:
+        """Have the kernel do something."""
+        begun: list[Task[T]] = []
+
+        def begin() -> None:
+            task = self.kernel.spawn(command, FLEET, "a test")
+            task.watch(lambda _: None)
+            begun.append(task)
+
+        self.kernel.post(begin)
+        return begun[0]
+
+    async def do(self, command: Coroutine[Any, Any, T], limit: float = 60.0) -> T:
+        """Have the kernel do something, and return what came of it."""
+        async with asyncio.timeout(limit):
+            return await self.kernel.offer(self.begin(command))
+
+    async def flies(
+        self, drone: str, *stops: Point, action: str | None = "measure", number: int = 1
+    ) -> object:
+        """Let a drone fly a job, and return what was reported of it."""
+        heard: asyncio.Future[object] = asyncio.get_running_loop().create_future()
+        job = Measuring(drone=drone, stops=stops, action=action, number=number)
+        self.kernel.post(self.link.fly, job, heard.set_result)
+        async with asyncio.timeout(150.0):
+            return await heard
+
+    async def fails(self, drone: str, *stops: Point) -> FlightFailed:
+        """Let a drone fly a job that cannot end well, and return why."""
+        result = await self.flies(drone, *stops)
+        assert isinstance(result, FlightFailed), result
+        return result
+
+
+@asynccontextmanager
+async def commanded(
+    folder: Path, homes: Mapping[str, Point], uris: Mapping[str, str], options: Mapping[str, object]
+) -> AsyncIterator[Flown]:
+    """Fly these drones; in the end all are landed, and nothing is left: no thread, no task."""
+    crafts = [Craft(id=id, home=home, index=i) for i, (id, home) in enumerate(homes.items())]
+    real = RealFleet(
+        drones=tuple(
+            RealDrone(id=id, navigation="crazyflie", uri=uris[id], options=options) for id in homes
+        ),
+        localization="own",
+        localization_options={},
+    )
+    before, log, began = set(asyncio.all_tasks()), list[str](), monotonic()
+    kernel = RealTime()
+
+    def say(line: str) -> None:
+        log.append(f"{monotonic() - began:6.2f} {line}")
+
+    team = make_team(kernel, crafts, real, HALL, folder, say)
+    gateway = Gateway(kernel, team, crafts, HALL, apart=APART, slack=SLACK)
+    team.begin()
+    try:
+        yield Flown(kernel, team, gateway, log)
+    finally:
+        await team.close()
+        for task in list(kernel.tasks):
+            kernel.post(task.cancel)
+        await asyncio.sleep(0)
+        await asyncio.sleep(0)
+    if kernel.crashed is not None:
+        raise kernel.crashed
+    assert asyncio.all_tasks() - before == set(), log
+
+
+def no_thread_is_left() -> bool:
+    """Say whether all threads end: those of cflib take a moment."""
+    fine = ("MainThread", "pytest", "execnet", "Shared Radio")  # cflib never lets go of a dongle
+
+    def over() -> bool:
+        return all(thread.name.startswith(fine) for thread in threading.enumerate())
+
+    return eventually(over, 15.0)

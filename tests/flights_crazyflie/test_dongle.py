@@ -1,0 +1,60 @@
+"""Ten Crazyflies on one dongle, which is pulled out while they fly; cflib's own radio driver."""
+
+from __future__ import annotations
+
+import asyncio
+from pathlib import Path
+
+import pytest
+
+from plutoc_runtime.crtp.drone import Build
+from plutoc_runtime.crtp.record import InMemory
+from plutoc_runtime.errors import Failure, FlightFailed
+from plutoc_runtime.model import Point
+from tests.crtp.radio import Ether, plugged_in
+from tests.flights_crazyflie.team import commanded, no_thread_is_left
+
+pytest.importorskip("cflib")
+pytestmark = pytest.mark.filterwarnings(
+    # the thread of cflib's that has the dongle ends so when it is pulled out
+    "ignore:Exception in thread Shared Radio:pytest.PytestUnhandledThreadExceptionWarning"
+)
+
+COUNT = 10
+HOMES: dict[str, Point] = {
+    f"cf{i}": (1.0 + 1.2 * (i % 5), 1.0 + 1.2 * (i // 5), 0.0) for i in range(COUNT)
+}
+
+
+def test_without_their_dongle_all_hover_and_come_home_when_it_is_back(tmp_path: Path) -> None:
+    """Each flight fails with the reason, and nothing hangs; cflib itself would, for ever."""
+    ether = Ether([Build(id=id, home=at) for id, at in HOMES.items()], InMemory())
+
+    async def fly() -> None:
+        async with commanded(tmp_path, HOMES, ether.uris, {}) as flown:
+            roll = await flown.do(flown.link.call())
+            assert all(standing.reached for standing in roll.drones.values()), flown.log
+            jobs = [
+                flown.flies(id, (x, y + 3.0, 0.8), action=None) for id, (x, y, _) in HOMES.items()
+            ]
+            flights = asyncio.gather(*jobs)
+            async with asyncio.timeout(20.0):
+                while not all(drone.body.airborne for drone in ether.drones.values()):
+                    await asyncio.sleep(0.1)
+            ether.unplugged = True
+            async with asyncio.timeout(10.0):
+                ends = await flights
+            failed = [end.failure for end in ends if isinstance(end, FlightFailed)]
+            assert failed == [Failure.LINK] * COUNT, flown.log
+            assert all(drone.body.airborne for drone in ether.drones.values())
+            recovers = [flown.begin(flown.gateway.recover(id)) for id in HOMES]
+            await asyncio.sleep(2.0)
+            ether.unplugged = False
+            async with asyncio.timeout(60.0):
+                for recovered in recovers:
+                    assert await flown.kernel.offer(recovered), flown.log
+            assert not any(drone.body.airborne for drone in ether.drones.values())
+
+    with plugged_in(ether):
+        asyncio.run(fly())
+    assert no_thread_is_left()
