@@ -85,7 +85,8 @@ def case_of(app: App, missions: int, trips: int, drones: int) -> Case:
             for number, home in enumerate(homes)
         ),
         after_trip=AfterTrip.STAY,
-        world=WorldData(),  # nothing to see: it is not photos that are measured
+        apart=0.0,  # a thousand drones at once: it is not their traffic that is measured
+        world=WorldData(),  # nothing to see: nor is it photos
     )
     weather = Weather(link=0.01, action=0.01, battery=0.01)
     return Case(seed=1, missions=tuple(flown), fleet=fleet, weather=weather, blows=blows_of(BLOWS))

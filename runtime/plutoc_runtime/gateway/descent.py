@@ -112,14 +112,14 @@ class Descent:
     def _ways_down(self, drone: Craft) -> list[Section]:
         if self._traffic is None:
             return [self._pilots.way_down(drone.id)]
-        return [*islice(self._traffic.ways_down(drone.id), _NEAR)]
+        return [*islice(self._traffic.ground.ways_down(drone.id), _NEAR)]
 
     def _ways_home(self, drone: Craft) -> list[Section]:
         """Return ways home; none where it is there, or cannot get there."""
         telemetry, traffic = self._pilots.telemetry(drone.id), self._traffic
         if telemetry.landed and docked(telemetry.location, drone.home):
             return []
-        if traffic is not None and traffic.place_to_land(drone.id, drone.home) is None:
+        if traffic is not None and traffic.ground.below(drone.id, drone.home) is None:
             return []  # another stands there
         step = 0.0 if traffic is None else traffic.step
         ways = ways_home(self._airspace, drone, telemetry.location, telemetry.landed, step)

@@ -200,7 +200,5 @@ class Gateway:
     def _is_down(self, task: Task[None]) -> None:
         if self.descent is task:
             self.descent = None
-        if self.traffic is not None:
-            self.traffic.begin_anew()
         if task.error is not None and not isinstance(task.error, Cancelled):
             self.kernel.crash(task.error)

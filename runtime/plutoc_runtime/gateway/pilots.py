@@ -199,6 +199,8 @@ class Pilots:
             if self._traffic is not None:
                 self._traffic.lost(drone)
             return False
+        if self._traffic is not None:
+            self._traffic.found(drone)
         if not await self._flies_home(drone) and not await controls.fetched(drone):
             return False
         controls.unload(drone)
@@ -237,13 +239,11 @@ class Pilots:
         begins: Callable[[], None] = _nothing,
         *,
         ways: Ways | None = None,
-        cleared: Section | None = None,
         anywhere: bool = False,
     ) -> None:
         """Fly a section, or another of these ways to its end, as soon as one is free.
 
-        Who must wait for long, waits on the ground. `cleared` is free already; `anywhere`: it is
-        enough to be on the ground.
+        Who must wait for long, waits on the ground. `anywhere`: it is enough to be there.
         """
         traffic, since = self._traffic, self._kernel.now
         if traffic is None:
@@ -251,13 +251,11 @@ class Pilots:
             return
         try:
             while True:
-                if cleared is None:
-                    section = plan()
-                    cleared = traffic.clear(section, ways)
-                    if cleared is None:
-                        cleared = await traffic.cleared(section, since, ways)
+                section = plan()
+                way = traffic.clear(section, ways)
+                if way is None:
+                    way = await traffic.cleared(section, since, ways)
                 begins()
-                way, cleared = cleared, None
                 await self._follow(way)
                 traffic.rests(drone)
                 if anywhere or not way.aside:
@@ -302,16 +300,15 @@ class Pilots:
         points += self._envelope.straight(points[-1], target)
         tail: tuple[Point, ...] = ()
         if self._traffic is not None and docked(target, self._drones[drone].home):
-            below = self._traffic.place_to_land(drone, target)
+            below = self._traffic.ground.below(drone, target)
             tail = () if below is None else (below,)
         return Section(drone, tuple(points), stands, False, tail)
 
     def way_down(self, drone: str) -> Section:
         """Return the way straight down, or beside it."""
         here = self._controls.telemetry(drone).location
-        traffic = self._traffic
-        if traffic is not None and traffic.place_to_land(drone, here) is None:
-            return traffic.beside(drone)
+        if self._traffic is not None:
+            return self._traffic.ground.way_down(drone)
         points = [here]
         if self._airspace.problem(here) is not None:
             points.append(self._airspace.way_back(here))
@@ -323,7 +320,7 @@ class Pilots:
         points, stands = self._start(drone, self._airspace.cruise_height)
         points += self._envelope.way(drone, points[-1], (x, y, points[-1][2]))
         traffic = self._traffic
-        lands = traffic is None or traffic.place_to_land(drone, (x, y, z)) is not None
+        lands = traffic is None or traffic.ground.below(drone, (x, y, z)) is not None
         if lands:
             points.append((x, y, 0.0))
         return Section(drone, tuple(points), stands, lands)

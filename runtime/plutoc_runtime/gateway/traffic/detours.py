@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from math import dist
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from ...airspace import Airspace
     from ...model import Point
 
-FURTHEST = 1.5
-"""How many metres higher or lower a drone flies to let another pass."""
+FURTHEST, SHARE = 1.5, 0.05
+"""How many metres higher or lower a drone flies to let another pass; on long ways, which share."""
 LOWEST = 0.5
 """Below this height a drone only takes off and lands."""
 
@@ -55,8 +56,9 @@ def sections(section: Section, step: float, airspace: Airspace) -> Iterator[Sect
     heights = [point[2] for point in way]
     most, least = max(heights), min(heights)
     floor = min(least, airspace.cruise_height)
+    furthest = max(FURTHEST, SHARE * sum(map(dist, way, way[1:])))
     count = 1
-    while count * step <= FURTHEST + 1e-9:
+    while count * step <= furthest + 1e-9:
         for offset in (count * step, -count * step):
             if floor - 1e-9 <= least + offset and most + offset <= airspace.ceiling + 1e-9:
                 yield section.at_height(offset)

@@ -7,13 +7,12 @@ from dataclasses import dataclass, field
 from math import hypot
 from typing import TYPE_CHECKING
 
-from ...energy import docked
 from ...errors import Failure, FlightFailed
 from ...kernel import FLEET, Kernel, Kind, Timer
 from ...signals import Signal
 from .claims import Claim, box_of, meets, nearest
 from .detours import Section, sections
-from .landing import sections_down
+from .landing import Ground
 
 if TYPE_CHECKING:
     from ...airspace import Airspace
@@ -43,7 +42,9 @@ class _Wait:
 
     section: Section
     since: float
-    ways: Ways
+    ways: Sequence[Section]
+    blockers: list[str]
+    """For each of the ways, somebody who was on it when it was looked at last; else empty."""
     over: Signal[Section] = field(default_factory=Signal)
 
 
@@ -76,7 +77,10 @@ class Traffic:
         """Who is lost, and until when it may still be in the air."""
         self._waiting: dict[str, _Wait] = {}
         """The oldest first."""
+        self._free: dict[str, None] = {}
+        """Who has given something free at this instant."""
         self._timer: Timer | None = None
+        self.ground = Ground(self._drones, self._telemetry, airspace, self.step)
         self.look_around()
 
     def look_around(self) -> None:
@@ -85,25 +89,26 @@ class Traffic:
             if drone not in self._claims and not telemetry.landed:
                 self._claim(drone).rests((), 0.0)
 
-    def begin_anew(self) -> None:
-        """Take drones to be where they are, and nothing else: somebody has flown them otherwise."""
-        self._claims.clear()
-        self.look_around()
-        if self._waiting:
-            self._released()
-
     # A drone's section
 
     def clear(self, section: Section, ways: Ways | None = None) -> Section | None:
         """Give a drone its section, or another one to the same place; None: it must wait."""
-        return self._given(section, self._kernel.now, ways or self._at_other_heights)
+        if not self._has_room(section):
+            return None
+        now = self._kernel.now
+        for way in sections(section, self.step, self._airspace) if ways is None else ways(section):
+            if self._blocker(way) is None and not (self._waiting and self._is_kept(way, now)):
+                return self._give(way)
+        return None
 
     async def cleared(self, section: Section, since: float, ways: Ways | None = None) -> Section:
         """Wait for a section, and return what may be flown: it may only lead out of the way."""
-        wait = _Wait(section, since, ways or self._at_other_heights)
+        found = sections(section, self.step, self._airspace) if ways is None else ways(section)
+        wait = _Wait(section, since, tuple(found), [])
+        wait.blockers += [""] * len(wait.ways)
         self._waiting[section.drone] = wait
         if self._timer is None:
-            self._look_at(self._kernel.now + AGAIN)
+            self._timer = self._look_at(self._kernel.now + AGAIN, self._look)
         try:
             return await wait.over
         finally:
@@ -114,7 +119,7 @@ class Traffic:
         """A drone has come to the next point of its section."""
         self._claims[drone].at += 1
         if self._waiting:
-            self._released()
+            self._released(drone)
 
     def rests(self, drone: str) -> None:
         """A drone is at the end of its section."""
@@ -124,7 +129,7 @@ class Traffic:
             claim = self._claim(drone)
             claim.rests(claim.tail, self._kernel.now + STOPPING)
         if self._waiting:
-            self._released()
+            self._released(drone)
 
     def stopped(self, drone: str, fails: bool) -> None:
         """A drone has broken off what it was doing, or it fails."""
@@ -140,7 +145,7 @@ class Traffic:
             ahead = _ahead(claim.shape(self._kernel.now), self._overshoot)
             claim.rests(ahead, self._kernel.now + STOPPING)
         if self._waiting:
-            self._released()
+            self._released(drone)
 
     def break_off(self, drone: str) -> None:
         """Whatever a drone waits for, it gets it no more."""
@@ -157,97 +162,68 @@ class Traffic:
         """A drone is heard of again."""
         self._silent.pop(drone, None)
 
-    # Where to land
-
-    def place_to_land(self, drone: str, here: Point) -> Point | None:
-        """Return where to land: here, if nobody stands in the way; None: nearby, where there is room."""
-        below, home = (here[0], here[1], 0.0), self._drones[drone].home
-        if docked(below, home):
-            stands_there = (
-                other != drone and telemetry.landed and docked(telemetry.location, home)
-                for other, telemetry in self._telemetry.items()
-            )
-            return None if any(stands_there) else below
-        taken = self.taken(drone)
-        if self._airspace.problem(below) is not None or any(
-            hypot(below[0] - x, below[1] - y) < self.apart - _EXACT for x, y, _ in taken
-        ):
-            return None
-        return below
-
-    def taken(self, drone: str) -> list[Point]:
-        """Return where others stand on the ground, or will want to."""
-        docks = [other.home for other in self._drones.values() if other.id != drone]
-        standing = (
-            telemetry.location
-            for other, telemetry in self._telemetry.items()
-            if other != drone and telemetry.landed
-        )
-        return [*docks, *standing]
-
-    def aside(self, drone: str) -> Section | None:
-        """Give a drone that hovers a way to where it can land, near here; None: there is none now."""
-        for section in self.ways_down(drone):
-            if self._blocker(section) is None:
-                return self._give(section)
-        return None
-
-    def beside(self, drone: str) -> Section:
-        """Return the shortest way to where a drone can land that may not land where it is."""
-        here = self._telemetry[drone].location
-        below = Section(drone, (here, (here[0], here[1], 0.0)), False, True)
-        return next(iter(self.ways_down(drone)), below)
-
-    def ways_down(self, drone: str) -> Iterable[Section]:
-        """Return ways to the ground, near where a drone hovers: the shortest first."""
-        here = self._telemetry[drone].location
-        below, taken = self.place_to_land(drone, here), self.taken(drone)
-        return sections_down(self._airspace, drone, here, below, taken, self.step)
-
     # Who waits
 
-    def _released(self) -> None:
-        if self._timer is not None:
-            self._timer.cancel()
-        self._look_at(self._kernel.now)
+    def _released(self, drone: str) -> None:
+        """Somebody has given something free: look at those whom it kept, at the end of this."""
+        if not self._free:
+            self._look_at(self._kernel.now, self._look_at_some)
+        self._free[drone] = None
 
-    def _look_at(self, when: float) -> None:
-        self._timer = self._kernel.at(when, Kind.CLOCK, FLEET, self._look)
+    def _look_at(self, when: float, look: Callable[[], None]) -> Timer:
+        return self._kernel.at(when, Kind.CLOCK, FLEET, look)
+
+    def _look_at_some(self) -> None:
+        """Give those what they can get who waited for somebody that has gone."""
+        free, self._free = self._free, {}
+        for wait in self._in_turn():
+            is_for_room = wait.section.stands and self._most < len(self._drones)
+            if is_for_room or not free.keys().isdisjoint(wait.blockers):
+                self._serve(wait)
 
     def _look(self) -> None:
-        """Give those who wait what they can get, the oldest first."""
-        now = self._kernel.now
+        """Give those who wait what they can get: others fly on, and do not say so all the time."""
         self._timer = None
-        for drone, wait in sorted(self._waiting.items(), key=lambda item: item[1].since):
-            section = self._given(wait.section, wait.since, wait.ways)
-            if section is None and self._should_land(wait, now):
-                section = self.aside(drone)
-            if section is not None:
-                del self._waiting[drone]
-                wait.over.set(section)
-        if self._waiting and self._timer is None:
-            self._look_at(now + AGAIN)
+        for wait in self._in_turn():
+            self._serve(wait)
+        if self._waiting:
+            self._timer = self._look_at(self._kernel.now + AGAIN, self._look)
 
-    def _should_land(self, wait: _Wait, now: float) -> bool:
+    def _in_turn(self) -> list[_Wait]:
+        return sorted(self._waiting.values(), key=lambda wait: wait.since)
+
+    def _serve(self, wait: _Wait) -> None:
+        section = self._found(wait)
+        if section is None and self._should_land(wait):
+            ways = self.ground.ways_down(wait.section.drone)
+            section = next((way for way in ways if self._blocker(way) is None), None)
+        if section is not None:
+            del self._waiting[section.drone]
+            wait.over.set(self._give(section))
+
+    def _found(self, wait: _Wait) -> Section | None:
+        """Return a way that is free now. Most are still blocked by whoever blocked them before."""
+        if not self._has_room(wait.section):
+            return None
+        for index, way in enumerate(wait.ways):
+            claim = self._claims.get(wait.blockers[index])
+            if claim is not None and self._is_in_the_way(claim, _whole(way), way.stands):
+                continue
+            claim = self._blocker(way)
+            wait.blockers[index] = "" if claim is None else claim.drone
+            if claim is None and not self._is_kept(way, wait.since):
+                return way
+        return None
+
+    def _should_land(self, wait: _Wait) -> bool:
         """Whether a drone that waits had better do so on the ground."""
-        if wait.section.stands or now - wait.since < PATIENT:
+        waited = self._kernel.now - wait.since
+        if wait.section.stands or waited < PATIENT:
             return False
-        blocker = self._blocker(wait.section)
-        return blocker is None or not blocker.moves or now - wait.since >= AT_LAST
+        blocker = self._claims.get(wait.blockers[0])
+        return blocker is None or not blocker.moves or waited >= AT_LAST
 
     # Who has what
-
-    def _at_other_heights(self, section: Section) -> Iterable[Section]:
-        return sections(section, self.step, self._airspace)
-
-    def _given(self, section: Section, since: float, ways: Ways) -> Section | None:
-        claims = self._claims
-        if section.stands and len(claims) >= self._most and not self._makes_room(section.drone):
-            return None
-        for way in ways(section):
-            if self._blocker(way) is None and not (self._waiting and self._is_kept(way, since)):
-                return self._give(way)
-        return None
 
     def _give(self, section: Section) -> Section:
         claim = self._claim(section.drone)
@@ -260,16 +236,15 @@ class Traffic:
             claim = self._claims[drone] = Claim(drone, self._telemetry[drone])
         return claim
 
-    def _makes_room(self, drone: str) -> bool:
-        """Say whether fewer are in the air than it seems: some have come down by themselves."""
-        gone = [
-            other
-            for other, claim in self._claims.items()
-            if not claim.moves and self._is_over(claim)
-        ]
-        for other in gone:
-            del self._claims[other]
-        return len(self._claims) < self._most or drone in self._claims
+    def _has_room(self, section: Section) -> bool:
+        """Say whether a drone may take off: so many may be in the air."""
+        claims = self._claims
+        if not section.stands or len(claims) < self._most:
+            return True
+        for claim in [*claims.values()]:  # some may have come down by themselves
+            if not claim.moves and self._is_over(claim):
+                del claims[claim.drone]
+        return len(claims) < self._most
 
     def _is_over(self, claim: Claim) -> bool:
         """Whether a drone that should hover, or fails, is in the air no more."""
@@ -283,8 +258,7 @@ class Traffic:
         claims, drone = self._claims, section.drone
         if not claims or (len(claims) == 1 and drone in claims):
             return None
-        way = (*section.points, *section.tail) if section.tail else section.points
-        limit = self.limit
+        way, limit = _whole(section), self.limit
         x, y, z, most_x, most_y, most_z = box_of(way)
         x, y, z = x - limit, y - limit, z - limit
         most_x, most_y, most_z = most_x + limit, most_y + limit, most_z + limit
@@ -339,6 +313,11 @@ class Traffic:
             ):
                 return True
         return False
+
+
+def _whole(section: Section) -> tuple[Point, ...]:
+    """Return a way, and where it goes on at once."""
+    return (*section.points, *section.tail) if section.tail else section.points
 
 
 def _ahead(shape: tuple[Point, ...], metres: float) -> tuple[Point, ...]:
