@@ -26,6 +26,8 @@ class FakeDrone:
         self.id, self.home = id, home
         self.told: list[str] = []
         """The commands that reached it."""
+        self.attempts = 0
+        """How often somebody has tried to connect to it."""
         self.answers = True
         """Whether it can be reached, and tells where it is."""
         self.reasons: Sequence[str] = ()
@@ -36,6 +38,8 @@ class FakeDrone:
         self.raises: dict[str, BaseException] = {}
         self.blocks: dict[str, float] = {}
         """The methods that hold up everybody, and for how many seconds."""
+        self.slow: dict[str, float] = {}
+        """The methods that take some seconds longer."""
         self.level = 1.0
         self.motors = False
         self.position = home
@@ -86,6 +90,7 @@ class FakeDrone:
 
     async def connect(self) -> None:
         """Reach it."""
+        self.attempts += 1
         await self._does("connect")
         if not self.answers:
             await asyncio.sleep(2)
@@ -225,5 +230,5 @@ class FakeDrone:
             except asyncio.CancelledError:
                 if method not in self.clings:
                     raise
-        if method != "connect":
-            await asyncio.sleep(0)
+        if method != "connect" or method in self.slow:
+            await asyncio.sleep(self.slow.get(method, 0.0))

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from plutoc_runtime.drones.real_fleet import Wanted
-from plutoc_runtime.errors import Failure
+from plutoc_runtime.errors import Failure, FlightFailed
 from plutoc_runtime.model import Category, Item
 from tests.drones.fakes import FakeDrone
 from tests.drones.jumping import run, the_loop
@@ -82,6 +82,26 @@ def test_a_roll_call_says_what_keeps_a_drone_from_flying(tmp_path: Path) -> None
             assert failed.failure is Failure.REFUSED
             assert "cf1 is not ready: its position is uncertain; " in str(failed)
             assert drone.told == []
+
+    run(flight())
+
+
+def test_a_drone_without_the_hardware_of_the_plan_is_not_handed_out(tmp_path: Path) -> None:
+    """After the roll call it is waited for until somebody has mended it."""
+
+    async def flight() -> None:
+        drone, wanted = FakeDrone(), [Wanted(action="take_photo", parameters={})]
+        drone.lacks = {"take_photo"}
+        async with flying(tmp_path, drone, wanted=wanted) as flown:
+            standing = await flown.do(flown.team.roll_call("cf1"))
+            assert standing.problems == ("cf1 cannot take_photo",)
+            assert await flown.do(flown.team.reach("cf1"))
+            with pytest.raises(FlightFailed, match="cf1 is not ready: cf1 cannot take_photo"):
+                flown.team.begins("cf1", None, 0.0)
+            fetched = flown.begin(flown.team.fetched("cf1"))
+            the_loop().call_later(60, drone.lacks.clear)
+            assert await flown.until(lambda: fetched.is_set) > 59
+            assert fetched.result()
 
     run(flight())
 

@@ -156,3 +156,36 @@ def test_a_drone_on_the_ground_is_linked_again_quietly(tmp_path: Path) -> None:
             await flown.do(team.takeoff("cf1", 1.0))
 
     run(flight())
+
+
+def test_who_takes_long_to_connect_is_connected_all_the_same(tmp_path: Path) -> None:
+    """The roll call does not wait for it; a radio that many share is slow."""
+
+    async def flight() -> None:
+        drone = FakeDrone()
+        drone.slow = {"connect": 25.0}
+        async with flying(tmp_path, drone) as flown:
+            standing = await flown.do(flown.team.roll_call("cf1"))
+            assert (standing.reached, standing.problems) == (False, ("cf1 did not answer in 15 s",))
+            assert await flown.do(flown.team.reach("cf1"))
+            assert the_loop().time() < 1000 + 27
+
+    run(flight())
+
+
+def test_a_drone_that_is_away_for_long_is_looked_for_rarely(tmp_path: Path) -> None:
+    """Others need the radio; but as soon as somebody asks for it, it is tried."""
+
+    async def flight() -> None:
+        drone = FakeDrone()
+        drone.answers = False
+        async with flying(tmp_path, drone) as flown:
+            await flown.until(lambda: the_loop().time() > 1300)
+            attempts = drone.attempts
+            await flown.until(lambda: the_loop().time() > 1600)
+            assert drone.attempts - attempts < 12
+            drone.answers = True
+            assert (await flown.do(flown.team.roll_call("cf1"))).reached
+            assert flown.log.count("cf1 does not answer") == 1
+
+    run(flight())

@@ -64,6 +64,8 @@ class Member:
         self.drone, self.id, self.navigation = drone, drone.id, drone.navigation
         self.blind: Callable[[], str | None] = _seeing
         """Says why it does not know where it is, if somebody else must tell it and does not."""
+        self.lacks: Callable[[], tuple[str, ...]] = tuple
+        """Says what the plan asks for, and its hardware does not do."""
         self.cargo, self.calls = cargo, Calls(drone.id, say, clock)
         self.seen = Seen(
             drone.home,

@@ -103,5 +103,5 @@ async def _reasons(member: Member) -> tuple[str, ...]:
     if not member.linked:
         return (member.out_of_reach,)
     if member.is_docked and member.seen.battery_level < member.drone.category.reserve:
-        return ()
-    return await member.preflight()
+        return member.lacks()
+    return (*await member.preflight(), *member.lacks())

@@ -56,8 +56,9 @@ class Team:
         self._links = {id: Linking(member) for id, member in self._members.items()}
         self._watch = Watch(tuple(self._members.values()), airspace, say, clock)
         self._tasks: list[asyncio.Task[None]] = []
-        if feeding is not None:
-            for member in self._members.values():
+        for member in self._members.values():
+            member.lacks = partial(self._lacks, member)
+            if feeding is not None:
                 member.blind = partial(feeding.silent, member.id)
 
     def begin(self) -> None:
@@ -186,9 +187,9 @@ class Team:
         if not member.seen.landed:
             return ()
         reasons = () if member.down is None else (str(member.down),)
-        return (*reasons, *await member.preflight(), *self._lacks(member))
+        return (*reasons, *await member.preflight(), *member.lacks())
 
-    def _lacks(self, member: Member) -> list[str]:
+    def _lacks(self, member: Member) -> tuple[str, ...]:
         """Return which actions its category can do, and its hardware cannot."""
         lacks: list[str] = []
         for wanted in self._wanted:
@@ -196,4 +197,4 @@ class Team:
                 why = member.why_not(wanted.action, wanted.parameters)
                 if why is not None and why not in lacks:
                     lacks.append(why)
-        return lacks
+        return tuple(lacks)
