@@ -308,6 +308,28 @@ async def the_emergency_stop_stops_in_the_air(folder: Path) -> None:
 
 
 @flight
+async def the_emergency_stop_is_sent_to_a_drone_that_is_not_heard(folder: Path) -> None:
+    async with hangar(folder) as one:
+        cf = one.navigation
+        await cf.connect()
+        await cf.takeoff(0.5, FAST)
+        await one.let("silent")
+        await one.hears(LINK_LOST)
+        stopping = asyncio.create_task(cf.emergency_stop())
+        await asyncio.sleep(0.1)
+        await one.let("silent", False)
+        await stopping
+        assert one.drone.supervisor.locked
+
+
+@flight
+async def a_folder_that_takes_no_files_keeps_nobody_from_flying(folder: Path) -> None:
+    async with hangar(folder / "not there") as one:
+        await one.navigation.connect()
+        assert await one.navigation.preflight() == []
+
+
+@flight
 async def a_drone_that_cannot_find_itself_flies_by_what_others_see(folder: Path) -> None:
     build = Build(id="cf1", home=(1.0, 2.0, 0.0), knows_where=False)
     async with hangar(folder, build=build) as one:

@@ -103,6 +103,20 @@ def test_where_it_was_long_ago_says_nothing_of_its_speed() -> None:
     assert courses.stop(None, state(5.0, x=3.0)) == ((3.0, 0.0, 1.0), courses.SHORTEST)
 
 
+@given(st.floats(0.0001, 0.5), st.floats(-20.0, 20.0))
+def test_a_drone_that_stops_is_never_sent_far_whatever_its_telemetry_makes_believe(
+    passed: float, jump: float
+) -> None:
+    target, seconds = courses.stop(state(0.0), state(passed, x=jump))
+    assert abs(target[0] - jump) <= 1.0
+    assert target[2] == 1.0 and courses.SHORTEST <= seconds <= 5.0
+
+
+def test_two_words_that_come_at_one_moment_are_no_great_speed() -> None:
+    usual = courses.stop(state(0.0), state(0.1, x=0.05))
+    assert courses.stop(state(0.0), state(0.001, x=0.05)) == usual
+
+
 # The battery
 
 

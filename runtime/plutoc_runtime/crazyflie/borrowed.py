@@ -207,7 +207,7 @@ class Radios(Protocol):
 class MakesCf(Protocol):
     """The class of drones."""
 
-    def __call__(self, *, rw_cache: str) -> Cf: ...
+    def __call__(self, *, rw_cache: str | None) -> Cf: ...
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

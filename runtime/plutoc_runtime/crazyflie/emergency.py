@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 from typing import TYPE_CHECKING
 
 from ..drones.errors import LinkLost
@@ -38,8 +39,11 @@ async def cut(session: Session) -> None:
     try:
         for _ in range(_TIMES):
             await worker.call(send, 2.5)
-            if await session.until(off, _EACH, well=False) is not None:
-                return
+            try:
+                if await session.until(off, _EACH, well=False) is not None:
+                    return
+            except LinkLost:  # it may hear, though it is not heard
+                await asyncio.sleep(_EACH)
     finally:
         worker.end()
     raise LinkLost(words.not_stopped(session.drone))

@@ -48,9 +48,12 @@ async def _open(session: Session, folder: Path) -> None:
 
 def _begin(session: Session, found: Borrowed, cache: Path) -> None:
     """Open the link; called in the worker."""
-    cache.mkdir(exist_ok=True)  # all drones make it at once, and cflib does not bear that
+    kept = None
+    with suppress(OSError):  # a full disk keeps nobody from flying
+        cache.mkdir(exist_ok=True)  # all drones make it at once, and cflib does not bear that
+        kept = str(cache)
     found.forget_dead_radios()
-    cf = found.crazyflie(rw_cache=str(cache))
+    cf = found.crazyflie(rw_cache=kept)
     session.listen(found, cf)
     cf.open_link(session.uri)
 
