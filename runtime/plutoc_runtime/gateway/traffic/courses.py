@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
-from math import ceil, dist
+from math import ceil, dist, sqrt
 from typing import TYPE_CHECKING
 
 from ...energy import CLIMB_SPEED
@@ -20,8 +20,11 @@ PIECE = 0.5
 """Metres: where two ways come near each other, one drone waits until another has left a piece."""
 _BESIDE = 3.0
 """Seconds that a drone rather waits than land beside where it is."""
-_PEAK, _AT_LEAST = 2.19, 1.0
-"""From rest to rest a drone is faster at its fastest than on the mean; and seconds, however short."""
+_AT_LEAST = 1.0
+"""Seconds that a leg takes from rest to rest, however short."""
+_PUSH, _MOST = 7.52, 4.0
+"""On such a leg: the peak acceleration over distance and squared time; metres per second squared
+that it usually may be. Speeds are mean ones already: see `files.real`."""
 _BLURRED = 0.05
 """Metres: so exactly is it known where a drone is."""
 
@@ -108,7 +111,9 @@ def course(section: Section, speed: float, from_rest: bool) -> Course:
 
 def seconds(length: float, speed: float, from_rest: bool) -> float:
     """Return how long a leg lasts."""
-    return max(_AT_LEAST, _PEAK * length / speed) if from_rest else length / speed
+    if not from_rest:
+        return length / speed
+    return max(_AT_LEAST, length / speed, sqrt(_PUSH * length / _MOST))
 
 
 def _between(a: Point, b: Point, part: float) -> Point:
