@@ -19,8 +19,17 @@ from tempfile import mkdtemp
 from plutoc_runtime.crtp import process
 from tests.crtp.starting import COMMAND
 from tests.flights_crazyflie.flight import Flight
-from tests.flights_crazyflie.judge import dropped, left_in_the_air, nearest
-from tests.flights_crazyflie.plans import RETRY, fleet, homes, missions, quick_package, tours, write
+from tests.flights_crazyflie.judge import astray, dropped, left_in_the_air, nearest
+from tests.flights_crazyflie.plans import (
+    RETRY,
+    SIZE,
+    fleet,
+    homes,
+    missions,
+    quick_package,
+    tours,
+    write,
+)
 from tests.flights_crazyflie.scenarios import ALL, SCENARIOS, Scenario
 from tests.kill.lives import eventually
 from tests.kill.trial import gateway_of
@@ -70,6 +79,7 @@ def _wrong(scenario: Scenario, flight: Flight, code: int) -> Iterator[str]:
     deeds = flight.deeds
     unmeant = [*dropped(deeds), *left_in_the_air(deeds)]
     yield from (one for one in unmeant if not one.startswith(scenario.falls or ("-",)))
+    yield from astray(deeds, SIZE)
     least, who = nearest(flight.trace)
     if least < APART:
         yield f"{least:.2f} m apart: {who}"

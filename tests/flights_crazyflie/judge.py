@@ -18,6 +18,8 @@ _STILL = (0.35, 0.1)
 """Seconds before an action's end was written down, between which its drone was still there."""
 _SLOT = 0.02
 """Seconds: drones are held against each other where they were within one slot."""
+_HIGH = 4.0
+"""Metres above which no plan of these flights leads."""
 _OFF_GROUND = 0.1
 """Metres above which a drone counts as being in the air."""
 
@@ -67,6 +69,15 @@ def left_in_the_air(deeds: Sequence[Deed]) -> Iterator[str]:
         elif deed.what in ("down", "switched off"):
             last[deed.drone] = "down"
     yield from (f"{drone} is still in the air" for drone, what in last.items() if what == "up")
+
+
+def astray(deeds: Sequence[Deed], size: tuple[float, float]) -> Iterator[str]:
+    """Yield the commands to fly where nobody wants a drone: far outside of the floor, or high up."""
+    for deed in deeds:
+        if deed.what == "go_to":
+            x, y, z = (deed.values[axis] for axis in "xyz")
+            if not (-1.0 < x < size[0] + 1.0 and -1.0 < y < size[1] + 1.0 and 0.0 < z < _HIGH):
+                yield f"{deed.drone} was told to fly to ({x:.1f}, {y:.1f}, {z:.1f})"
 
 
 def nearest(trace: Sequence[Place]) -> tuple[float, str]:

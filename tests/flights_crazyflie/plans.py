@@ -13,6 +13,7 @@ Plan = Mapping[tuple[str, str], tuple[str, tuple[float, float], str]]
 """What each trip of each mission does, where, and what else is said of it."""
 
 CRUISE = 0.5
+SIZE = (6.0, 6.0)
 DISTRIBUTION, RETRY = "drugs_distribution", "drugs_distribution_retry"
 """Examples: one that gives up a trip that fails, and one that lets another drone fly it."""
 
@@ -37,7 +38,7 @@ def homes(drones: int) -> dict[str, Target]:
 
 def fleet(drones: int, uris: Mapping[str, str] | None = None) -> str:
     """Return a fleet file; with `uris`, of drones that can measure, where they can be reached."""
-    written = "[map]\nsize = [6.0, 6.0]\nceiling = 2.5\n"
+    written = f"[map]\nsize = {[*SIZE]}\nceiling = 2.5\n"
     written += f'cruise_height = {CRUISE}\n[fleet]\nafter_trip = "home"\n'
     if uris is not None:
         written += '[navigation.crazyflie]\nmeasure = { temperature = "bme.temp" }\n'

@@ -3,8 +3,14 @@
 from __future__ import annotations
 
 from tests.flights_crazyflie.conftest import NewFlight
-from tests.flights_crazyflie.judge import beside_its_target, dropped, left_in_the_air, nearest
-from tests.flights_crazyflie.plans import WARD, fleet, missions, targets
+from tests.flights_crazyflie.judge import (
+    astray,
+    beside_its_target,
+    dropped,
+    left_in_the_air,
+    nearest,
+)
+from tests.flights_crazyflie.plans import SIZE, WARD, fleet, missions, targets
 from tests.kill.trial import gateway_of
 
 APART = 0.5
@@ -20,6 +26,6 @@ def test_all_trips_are_completed_at_their_targets_and_every_drone_lands_before_i
     flight.until(lambda: gateway_of(flight.journal) is None)  # all links are closed
     events, deeds, trace = flight.events, flight.deeds, flight.trace
     assert list(beside_its_target(events, trace, targets(WARD))) == []
-    assert [*dropped(deeds), *left_in_the_air(deeds)] == []
+    assert [*dropped(deeds), *left_in_the_air(deeds), *astray(deeds, SIZE)] == []
     least, who = nearest(trace)
     assert least > APART, who

@@ -23,9 +23,10 @@ from plutoc_runtime.crtp.record import Deed, Point
 from plutoc_runtime.drones.member import CLIMB_LIMIT
 from plutoc_runtime.journal.values import point_of
 from tests.flights_crazyflie.flight import Flight
-from tests.flights_crazyflie.judge import dropped, left_in_the_air, nearest
+from tests.flights_crazyflie.judge import astray, dropped, left_in_the_air, nearest
 from tests.flights_crazyflie.plans import (
     DISTRIBUTION,
+    SIZE,
     Plan,
     fleet,
     homes,
@@ -88,7 +89,7 @@ def stopped(how: str, source: Path, folder: Path, speed: float) -> Figures:
         ask(note_of(flight.journal), {"command": "stop", "how": how}, 90.0)
         code = flight.wait()
         deeds = flight.deeds
-        problems = [*dropped(deeds), *left_in_the_air(deeds)]
+        problems = [*dropped(deeds), *left_in_the_air(deeds), *astray(deeds, SIZE)]
         if code != STOPPED:
             problems.append(f"exit code {code}")
         for id, home in homes(TEN).items():
