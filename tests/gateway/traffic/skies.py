@@ -5,6 +5,7 @@ from __future__ import annotations
 from itertools import combinations
 from math import dist, inf
 from random import Random
+from typing import Any
 
 from plutoc_runtime.airspace import Airspace
 from plutoc_runtime.energy import docked
@@ -51,9 +52,9 @@ class Sky:
             self.kernel, self.drones, World(1, self.airspace), Faults(), 1, self.airspace
         )
         self.max_airborne, self.slack = max_airborne, slack
-        self.gateway = self.another()
-        self.link: Link = self.gateway.link(1)
         self.epoch = 1
+        self.gateway = self.another()
+        self.link: Link = self.gateway.link(self.epoch)
         self.nearest = inf
         """How near two drones in the air have come to each other; those that fail do not count."""
         self.airborne = 0
@@ -83,7 +84,7 @@ class Sky:
         for a, b in combinations(at, 2):
             self.nearest = min(self.nearest, dist(a, b))
 
-    def until(self, done: Signal[object] | Coroutine[None], most: float) -> bool:
+    def until(self, done: Signal[Any], most: float) -> bool:
         """Let time pass, with open eyes; say whether it was done by then."""
         kernel, end = self.kernel, self.kernel.now + most
         while not done.is_set:
@@ -119,6 +120,14 @@ class Sky:
             await self.link.land(drone)
         except FlightFailed:
             await self.link.recover(drone)
+
+    def puts(self, *places: Point) -> None:
+        """Let the drones hover at these places, before a gateway that has not seen them take off."""
+        for drone, there in zip(self.drones, places, strict=True):
+            body = self.navigation.bodies[drone.id]
+            body.lift_off(self.kernel.now)
+            body.move(there, self.kernel.now, self.kernel.now)
+        self.link = self.another().link(self.epoch)
 
     async def pause(self, seconds: float) -> None:
         """Let a drone do something for so long."""

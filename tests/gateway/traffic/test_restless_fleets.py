@@ -1,0 +1,71 @@
+"""Whatever a fleet does, no two come too near to each other, and all is over some time."""
+
+from __future__ import annotations
+
+from random import Random
+
+import pytest
+
+from plutoc_runtime.airspace import Airspace
+from plutoc_runtime.kernel import FLEET
+from plutoc_runtime.model import Point
+from plutoc_runtime.standing import Down
+from tests.gateway.traffic.skies import Restless, Sky, is_home
+
+CASES = 60
+
+
+def sky_of(chance: Random) -> tuple[Sky, list[Point]]:
+    """Return a fleet, most often in too small a place, and targets: some the same, some stacked."""
+    side, ceiling = chance.choice([3.0, 5.0, 8.0, 20.0]), chance.choice([10.0, 3.0, 1.8, 1.4])
+    no_fly = (((2.0, 2.0), (3.0, 2.0), (3.0, 5.0), (2.0, 5.0)),) if side >= 8 else ()
+    airspace = Airspace(
+        size=(side, side), ceiling=ceiling, no_fly=no_fly if chance.random() < 0.4 else ()
+    )
+    every = range(int(side / 0.6))
+    spots = [(x * 0.6 + 0.3, y * 0.6 + 0.3) for x in every for y in every]
+    spots = [(x, y) for x, y in spots if airspace.problem((x, y, 0.0)) is None]
+    count = chance.choice([2, 3, 4, 5, 6, 8])
+    homes = chance.sample(spots if chance.random() < 0.7 else spots[: count + 3], count)
+    targets = []
+    for _ in range(chance.choice([1, 2, 4, 10])):
+        x, y = chance.choice(homes if chance.random() < 0.3 else spots)
+        for _ in range(chance.choice([1, 1, 3])):
+            targets.append((x, y, chance.choice([1.2, 1.2, 1.0, 0.8, min(ceiling, 1.7)])))
+    sky = Sky(
+        homes,
+        airspace=airspace,
+        max_airborne=chance.choice([None, None, 2, 1]),
+        slack=chance.choice([0.0, 0.15]),
+    )
+    return sky, targets
+
+
+@pytest.mark.parametrize("seed", range(CASES))
+def test_every_flight_ends_and_none_comes_too_near(seed: int) -> None:
+    """Drones fail in flight, targets are the same, ceilings low, and few may be in the air."""
+    chance = Random(seed)
+    sky, targets = sky_of(chance)
+    flights = Restless(sky, seed, targets, chance.choice([1, 3]), chance.choice([0.0, 0.3])).begin()
+    assert all(sky.until(flight, 3000) for flight in flights)
+    assert sky.nearest >= sky.apart - 1e-6
+    if sky.max_airborne is not None:
+        assert sky.airborne <= sky.max_airborne
+    sky.kernel.close()
+
+
+@pytest.mark.parametrize("seed", range(CASES // 2))
+def test_a_stop_in_between_brings_all_down(seed: int) -> None:
+    """Whatever they are at; who is well and can get home is home, if that was asked for."""
+    chance = Random(1000 + seed)
+    sky, targets = sky_of(chance)
+    Restless(sky, seed, targets, 3, 0.0).begin()
+    sky.advance(chance.uniform(1, 60))
+    how = chance.choice([Down.LAND, Down.HOME])
+    down = sky.kernel.spawn(sky.link.bring_down(how), FLEET, "down")
+    assert sky.until(down, 500)
+    assert sky.nearest >= sky.apart - 1e-6
+    assert all(sky.navigation.telemetry(drone.id).landed for drone in sky.drones)
+    if how is Down.HOME:
+        assert sum(is_home(sky, drone) for drone in sky.drones) >= len(sky.drones) - 1
+    sky.kernel.close()

@@ -1,0 +1,201 @@
+"""Who flies first, who goes round, who waits, and where."""
+
+from __future__ import annotations
+
+from math import hypot
+
+import pytest
+
+from plutoc_runtime.airspace import Airspace
+from plutoc_runtime.errors import Failure, FlightFailed
+from plutoc_runtime.kernel import FLEET, Task
+from plutoc_runtime.model import Point
+from tests.gateway.traffic.skies import Sky
+
+APART = 0.5
+LOW = Airspace(ceiling=1.3)
+"""So low that nobody can go over anybody."""
+
+
+def gives(sky: Sky, drone: str, *stops: Point) -> Task[object]:
+    """Give a drone a job."""
+    return sky.kernel.spawn(sky.fly(drone, *stops), FLEET + 50, f"{drone} is given a job")
+
+
+def at(sky: Sky, drone: str) -> Point:
+    """Return where a drone is."""
+    return sky.navigation.telemetry(drone).location
+
+
+def test_one_of_two_that_cross_goes_over_the_other() -> None:
+    """Both leave at once, and neither waits."""
+    sky = Sky([(1, 5), (5, 1)])
+    jobs = gives(sky, "cf1", (9, 5, 1.2)), gives(sky, "cf2", (5, 9, 1.2))
+    assert all(sky.until(job, 24) for job in jobs)
+    assert sky.nearest >= APART - 1e-6
+    assert sky.navigation.flown("cf1") == pytest.approx(9.2)
+    assert sky.navigation.flown("cf2") == pytest.approx(9.2 + 2 * APART)
+
+
+def test_below_a_low_ceiling_one_waits_on_the_ground_until_the_other_has_passed() -> None:
+    """What lies behind a drone is free: it need not have arrived."""
+    sky = Sky([(1, 5), (5, 1)], airspace=LOW)
+    first, second = gives(sky, "cf1", (9, 5, 1.2)), gives(sky, "cf2", (5, 9, 1.2))
+    sky.advance(10)
+    assert at(sky, "cf2") == (5, 1, 0)
+    assert not first.is_set
+    sky.advance(4)
+    assert at(sky, "cf2")[2] > 0
+    assert not first.is_set
+    assert sky.until(second, 30)
+    assert sky.nearest >= APART - 1e-6
+
+
+def test_of_two_with_the_same_target_the_second_comes_when_the_first_has_gone() -> None:
+    """Nothing else helps."""
+    sky = Sky([(1, 1), (9, 1)])
+    first, second = gives(sky, "cf1", (5, 5, 1.2)), gives(sky, "cf2", (5, 5, 1.2))
+    assert sky.until(first, 60)
+    assert not sky.until(second, 60)
+    home = sky.kernel.spawn(sky.goes_home("cf1"), FLEET, "cf1 goes home")
+    assert sky.until(second, 60)
+    assert sky.until(home, 60)
+    assert sky.nearest >= APART - 1e-6
+
+
+def test_two_that_hover_in_each_others_way_do_not_wait_for_ever() -> None:
+    """They change places below a low ceiling: one lands, and goes on when the other is home."""
+    sky = Sky([(1, 5), (9, 5)], airspace=Airspace(size=(10, 5.2), ceiling=1.3))
+    sky.puts((2, 5, 1.2), (8, 5, 1.2))
+
+    async def there_and_home(drone: str, target: Point) -> Point:
+        assert await sky.fly(drone, target) is None
+        reached = at(sky, drone)
+        await sky.goes_home(drone)
+        return reached
+
+    first = sky.kernel.spawn(there_and_home("cf1", (8, 5, 1.2)), FLEET + 1, "cf1 is given a job")
+    second = sky.kernel.spawn(there_and_home("cf2", (2, 5, 1.2)), FLEET + 2, "cf2 is given a job")
+    assert sky.until(first, 200)
+    assert sky.until(second, 200)
+    assert sky.nearest >= APART - 1e-6
+    assert (first.result(), second.result()) == ((8, 5, 1.2), (2, 5, 1.2))
+
+
+def test_nobody_lands_on_another() -> None:
+    """Nor in another's dock; in its own it may, beside whoever stands there."""
+    sky = Sky([(1, 1), (1.3, 1), (5, 5)])
+    jobs = [gives(sky, "cf2", (5, 5, 1.2)), gives(sky, "cf1", (8, 8, 1.2))]
+    assert all(sky.until(job, 60) for job in jobs)
+    land = sky.kernel.spawn(sky.link.land("cf2"), FLEET, "cf2 lands")
+    assert sky.until(land, 30)
+    x, y, z = at(sky, "cf2")
+    assert z == 0
+    assert APART <= hypot(x - 5, y - 5) <= APART + 0.3
+    for drone in ("cf1", "cf2"):
+        assert sky.until(sky.kernel.spawn(sky.goes_home(drone), FLEET, f"{drone} returns"), 80)
+    assert at(sky, "cf1") == pytest.approx((1, 1, 0))
+    assert at(sky, "cf2") == pytest.approx((1.3, 1, 0))
+
+
+def test_who_has_waited_long_keeps_younger_ones_from_what_it_wants() -> None:
+    """Else those who come and go could keep it for ever."""
+    sky = Sky([(5, 0.5), (1, 5), (9, 7)], airspace=LOW)
+    sky.puts((5, 1, 1.2), (5, 5, 1.2), (9, 7, 1.2))
+    for drone in ("cf1", "cf3"):
+        assert sky.until(sky.kernel.spawn(sky.link.land(drone), FLEET, "down"), 20)
+    elder = gives(sky, "cf1", (5, 9, 1.2))  # cf2 hovers there
+    sky.advance(25)
+    younger = gives(sky, "cf3", (1, 7, 1.2))  # its way is free, but for what cf1 wants
+    sky.advance(5)
+    assert at(sky, "cf3") == (9, 7, 0)
+    home = sky.kernel.spawn(sky.goes_home("cf2"), FLEET, "cf2 makes room")
+    assert sky.until(elder, 60)
+    assert not younger.is_set
+    assert sky.until(younger, 60)
+    assert home.is_set
+    assert sky.nearest >= APART - 1e-6
+
+
+def test_no_more_are_in_the_air_than_may_be() -> None:
+    """Also if the brain asks for more: the others wait on the ground."""
+    sky = Sky([(1, 1), (4, 1), (7, 1)], max_airborne=2)
+    jobs = [gives(sky, f"cf{n}", (3 * n - 2, 5, 1.2)) for n in (1, 2, 3)]
+    assert not sky.until(jobs[2], 60)
+    assert sky.until(sky.kernel.spawn(sky.goes_home("cf1"), FLEET, "home"), 60)
+    assert sky.until(jobs[2], 60)
+    assert sky.airborne == 2
+
+
+def test_who_waits_can_be_told_not_to() -> None:
+    """Its flight is over, and it stays where it is."""
+    sky = Sky([(1, 5), (5, 1)], airspace=LOW)
+    gives(sky, "cf1", (5, 5, 1.2))
+    waits = gives(sky, "cf2", (5, 5, 1.2))
+    sky.advance(5)
+    sky.link.break_off("cf2")
+    sky.advance(40)
+    assert not waits.is_set
+    assert sky.navigation.flown("cf2") == 0
+    home = sky.kernel.spawn(sky.goes_home("cf2"), FLEET, "cf2 is told something else")
+    assert sky.until(home, 60)
+
+
+@pytest.mark.parametrize("slack", [0.0, 0.15])
+def test_real_drones_keep_further_apart(slack: float) -> None:
+    """By what their positions may be wrong."""
+    sky = Sky([(1, 5), (5, 1)], slack=slack)
+    jobs = gives(sky, "cf1", (9, 5, 1.2)), gives(sky, "cf2", (5, 9, 1.2))
+    assert all(sky.until(job, 30) for job in jobs)
+    assert APART + slack - 1e-6 <= sky.nearest
+
+
+def test_what_a_stopped_drone_may_still_fly_into_stays_its_own_for_a_moment() -> None:
+    """A real one shoots past where it was told to stop."""
+    sky = Sky([(1, 5), (3.9, 4.5)], airspace=LOW, slack=0.1)
+    gives(sky, "cf1", (9, 5, 1.2))
+    sky.advance(4 + 4.2)
+    sky.link.break_off("cf1")
+    assert at(sky, "cf1") == pytest.approx((3.1, 5, 1.2))
+    up = gives(sky, "cf2", (3.9, 1, 1.2))
+    sky.advance(1)
+    assert at(sky, "cf2")[2] == 0
+    assert sky.until(up, 20)
+
+
+def test_a_drone_that_is_found_in_the_air_has_its_place() -> None:
+    """Another gateway begins from where all are."""
+    sky = Sky([(1, 1), (5, 1)], airspace=LOW)
+    sky.puts((5, 4, 1.2), (9, 1, 1.2))
+    sky.advance(0)
+    down = sky.kernel.spawn(sky.link.land("cf2"), FLEET, "down")
+    assert sky.until(down, 20)
+    blocked = gives(sky, "cf2", (5, 4, 1.2))
+    assert not sky.until(blocked, 40)
+    assert sky.nearest >= APART
+
+
+def test_a_drone_that_sinks_has_the_air_below_it() -> None:
+    """Until it is down; then it lies there, and others fly over it."""
+    sky = Sky([(1, 1), (5, 1)], airspace=LOW)
+    flown = gives(sky, "cf1", (5, 5, 1.2))
+    assert sky.until(flown, 60)
+    hovers = sky.kernel.spawn(sky.link.hold("cf1"), FLEET, "hold")
+    hovers.watch(lambda _: None)
+    sky.advance(1)
+    sky.navigation.strike("cf1", Failure.LINK)
+    other = gives(sky, "cf2", (5, 9, 1.2))
+    sky.advance(1)
+    assert at(sky, "cf2") == (5, 1, 0)
+    assert sky.until(other, 40)
+    with pytest.raises(FlightFailed):
+        hovers.result()
+
+
+def test_without_a_distance_nothing_is_done() -> None:
+    """Each flies as if it were alone."""
+    sky = Sky([(1, 5), (5, 1)], apart=0.0)
+    assert sky.gateway.traffic is None
+    jobs = gives(sky, "cf1", (9, 5, 1.2)), gives(sky, "cf2", (5, 9, 1.2))
+    assert all(sky.until(job, 21) for job in jobs)
+    assert sky.nearest < 0.1
