@@ -11,7 +11,7 @@ from tests.flights_crazyflie.together import LATER, stopped
 
 pytest.importorskip("cflib")
 
-SPEED = 2.0
+SPEED = 1.0
 """Metres per second; with `python -m tests.flights_crazyflie.together` they take their time."""
 
 
