@@ -35,6 +35,8 @@ class FakeDrone:
         """The methods that never return."""
         self.clings: set[str] = set()
         """Of those, the ones that do not even let go when cancelled."""
+        self.clung = False
+        """Whether it has not let go once."""
         self.raises: dict[str, BaseException] = {}
         self.blocks: dict[str, float] = {}
         """The methods that hold up everybody, and for how many seconds."""
@@ -230,5 +232,6 @@ class FakeDrone:
             except asyncio.CancelledError:
                 if method not in self.clings:
                     raise
+                self.clung = True
         if method != "connect" or method in self.slow:
             await asyncio.sleep(self.slow.get(method, 0.0))

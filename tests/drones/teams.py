@@ -112,7 +112,7 @@ async def flying(
         await flown.team.close()
     assert threading.active_count() == before
     others = asyncio.all_tasks() - {asyncio.current_task()}
-    clung = any(drone.clings for drone in flown.drones.values())
+    clung = any(drone.clung for drone in flown.drones.values())
     for drone in flown.drones.values():
         drone.clings.clear()
     assert clung or not others
