@@ -155,7 +155,7 @@ class Descent:
 
     async def _follows(self, drone: str) -> None:
         """Fly as far as nobody is in the way who was to pass before; and so on, to the end."""
-        one, last = self._plan.courses[drone], len(self._plan.courses[drone].pieces) - 1
+        last = len(self._plan.courses[drone].pieces) - 1
         telemetry, at = self._pilots.telemetry(drone), 0
         try:
             self._pilots.begins(drone)
@@ -165,9 +165,8 @@ class Descent:
                     await self._kernel.sleep(_LOOK)
                     continue
                 self._at[drone] = at, to
-                stretch = one.stretch(telemetry.location, at, to)
                 await self._pilots.travels(
-                    drone, partial(_itself, stretch), ways=_no_other, anywhere=True
+                    drone, partial(self._stretch, drone), ways=_no_other, anywhere=True
                 )
                 if telemetry.landed:
                     return
@@ -175,6 +174,14 @@ class Descent:
                 self._at[drone] = at, at
         finally:
             del self._at[drone]
+
+    def _stretch(self, drone: str) -> Section:
+        """Return what a drone flies next, from where it is: it may have been stopped on the way."""
+        (first, last), one = self._at[drone], self._plan.courses[drone]
+        telemetry = self._pilots.telemetry(drone)
+        here = telemetry.location
+        first = max(first, one.piece_at(here, first, last) - 1)
+        return one.stretch(here, telemetry.landed, first, last)
 
     def _free(self, drone: str, at: int) -> int:
         """Return the last piece up to which nobody has to pass first."""
@@ -220,7 +227,3 @@ def _cost(one: Course) -> float:
 def _no_other(section: Section) -> Sequence[Section]:
     """It was planned so, and all others rely on it."""
     return (section,)
-
-
-def _itself(section: Section) -> Section:
-    return section

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Coroutine, Sequence
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from ..energy import docked, flight_seconds
 from ..errors import Failure, FlightFailed
@@ -21,6 +21,12 @@ if TYPE_CHECKING:
     from ..standing import Standing
     from .descent import Craft
     from .traffic.traffic import Traffic, Ways
+
+
+T = TypeVar("T")
+
+_HOVERS_ON = (Failure.REFUSED, Failure.ACTION)
+"""What goes wrong with a drone that hovers as before."""
 
 
 def _nothing() -> None:
@@ -85,7 +91,8 @@ class Pilots:
         if job.action is None:
             return None
         job.begins()
-        return await controls.act(drone, job.action, job.parameters, job.item, job.id)
+        action = controls.act(drone, job.action, job.parameters, job.item, job.id)
+        return await self._noticed(drone, action)
 
     def _check(self, job: Job) -> None:
         """Refuse what the hardware cannot do, before it takes off."""
@@ -109,7 +116,7 @@ class Pilots:
     async def hold(self, drone: str) -> None:
         """Hover, for as long as an action of the app's own takes; never returns by itself."""
         self._refuse_if_cut(drone)
-        await self._controls.hold(drone)
+        await self._noticed(drone, self._controls.hold(drone))
 
     def begins(self, drone: str) -> None:
         """A flight begins, for nobody but the drone."""
@@ -220,6 +227,15 @@ class Pilots:
             return False
         return True
 
+    async def _noticed(self, drone: str, hovering: Coroutine[Any, Any, T]) -> T:
+        """Let a drone do something where it hovers; if it fails there, others keep away."""
+        try:
+            return await hovering
+        except FlightFailed as error:
+            if self._traffic is not None and error.failure not in _HOVERS_ON:
+                self._traffic.stopped(drone, fails=True)
+            raise
+
     # Ways
 
     async def _travel(
@@ -249,16 +265,17 @@ class Pilots:
         if traffic is None:
             await self._travel(drone, plan, begins)
             return
+        begun = False
         try:
             while True:
                 section = plan()
                 way = traffic.clear(section, ways)
                 if way is None:
                     way = await traffic.cleared(section, since, ways)
-                begins()
-                await self._follow(way)
-                traffic.rests(drone)
-                if anywhere or not way.aside:
+                if way.stands or not begun:
+                    begins()
+                    begun = True
+                if await self._arrives(way, traffic) and (anywhere or not way.aside):
                     return
         except FlightFailed as error:
             traffic.stopped(drone, fails=error.failure is not Failure.REFUSED)
@@ -266,6 +283,19 @@ class Pilots:
         except WHATEVER:
             traffic.stopped(drone, fails=False)
             raise
+
+    async def _arrives(self, way: Section, traffic: Traffic) -> bool:
+        """Follow a way; False: traffic has stopped the drone, and it must take another."""
+        traffic.halted.pop(way.drone, None)
+        try:
+            await self._follow(way)
+        except FlightFailed as error:
+            if error.failure is not Failure.REFUSED or way.drone not in traffic.halted:
+                raise
+            traffic.stopped(way.drone, fails=False)
+            return False
+        traffic.rests(way.drone)
+        return True
 
     async def _follow(self, section: Section) -> None:
         controls, traffic, drone = self._controls, self._traffic, section.drone

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import hypot
+from math import dist, hypot
 
 import pytest
 
@@ -199,3 +199,22 @@ def test_without_a_distance_nothing_is_done() -> None:
     jobs = gives(sky, "cf1", (9, 5, 1.2)), gives(sky, "cf2", (5, 9, 1.2))
     assert all(sky.until(job, 21) for job in jobs)
     assert sky.nearest < 0.1
+
+
+def test_nobody_flies_below_a_drone_that_sinks() -> None:
+    """Who is on its way there stops, and goes on by another, or when the air is free again."""
+    sky = Sky([(5, 4), (1, 5)])
+    assert sky.until(gives(sky, "cf1", (5, 5, 2.2)), 60)
+    hovers = sky.kernel.spawn(sky.link.hold("cf1"), FLEET, "hold")
+    hovers.watch(lambda _: None)
+    below = gives(sky, "cf2", (9, 5, 1.2))
+    sky.advance(4 + 4)
+    assert at(sky, "cf2") == pytest.approx((3, 5, 1.2))
+    sky.navigation.strike("cf1", Failure.LINK)
+    nearest = APART
+    while not below.is_set and sky.kernel.now < 100:
+        if not sky.navigation.telemetry("cf1").landed:
+            nearest = min(nearest, dist(at(sky, "cf1"), at(sky, "cf2")))
+        sky.advance(0.1)
+    assert below.result() is None
+    assert nearest == APART

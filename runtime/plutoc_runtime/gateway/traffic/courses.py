@@ -70,8 +70,8 @@ class Course:
         near = min(far) + _BLURRED
         return first + next(index for index, metres in enumerate(far) if metres <= near)
 
-    def stretch(self, here: Point, first: int, last: int) -> Section:
-        """Return the section from here, in one piece, to the end of another."""
+    def stretch(self, here: Point, stands: bool, first: int, last: int) -> Section:
+        """Return the section from here, where one piece ends or soon after, to another's end."""
         ends = {leg.last - 1 for leg in self.legs}
         points = [
             piece.end
@@ -81,7 +81,7 @@ class Course:
         return Section(
             self.section.drone,
             (here, *points),
-            self.section.stands and first == 0,
+            stands,
             self.section.lands and last == len(self.pieces) - 1,
         )
 

@@ -62,7 +62,7 @@ class Traffic:
         slack: float = 0.0,
         max_airborne: int | None = None,
     ) -> None:
-        self._kernel, self._airspace = kernel, airspace
+        self._kernel, self._controls, self._airspace = kernel, controls, airspace
         self._drones = {drone.id: drone for drone in drones}
         self._telemetry = {drone.id: controls.telemetry(drone.id) for drone in drones}
         self.apart, self.step = apart, apart + slack
@@ -79,6 +79,8 @@ class Traffic:
         """The oldest first."""
         self._free: dict[str, None] = {}
         """Who has given something free at this instant."""
+        self.halted: dict[str, None] = {}
+        """Who was stopped on its way, because somebody fails, and goes on by another."""
         self._timer: Timer | None = None
         self.ground = Ground(self._drones, self._telemetry, airspace, self.step)
         self.look_around()
@@ -139,6 +141,7 @@ class Traffic:
             self._claims.pop(drone, None)
         elif fails:
             self._claim(drone).sinks()
+            self._stop_before(drone)
         elif claim is None:
             self._claim(drone).rests((), 0.0)
         elif claim.moves:
@@ -146,6 +149,17 @@ class Traffic:
             claim.rests(ahead, self._kernel.now + STOPPING)
         if self._waiting:
             self._released(drone)
+
+    def _stop_before(self, drone: str) -> None:
+        """Let nobody fly below a drone that sinks; who is there already had better fly on."""
+        column = self._claims[drone].shape(self._kernel.now)
+        for other, claim in self._claims.items():
+            if other == drone or not claim.moves or other in self.halted:
+                continue
+            shape = claim.shape(self._kernel.now)
+            if meets(shape, column, self.limit) and not meets(shape[:1], column, self.limit):
+                self.halted[other] = None
+                self._controls.break_off(other)
 
     def break_off(self, drone: str) -> None:
         """Whatever a drone waits for, it gets it no more."""
