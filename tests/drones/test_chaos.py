@@ -117,12 +117,14 @@ async def flights(flown: Flown, gateway: Gateway, drone: str, chance: Random) ->
         job = measuring(drone, target)
         job.id = f"{job.id}/{number}"
         flown.kernel.post(link.fly, job, report)
-        # a job that was broken off reports nothing any more: whoever broke it off knows
-        await flown.until(
-            lambda heard=heard: heard.done() or not gateway.jobs.is_flown_by(drone), LONG
-        )
+
+        def over(heard: asyncio.Future[object] = heard) -> bool:
+            return heard.done() or not gateway.jobs.is_flown_by(drone)  # if it was broken off
+
+        await flown.until(over, LONG)
         rescue = flown.begin(gateway.recover(drone))
-        await flown.until(lambda rescue=rescue: rescue.is_set, LONG)
+        async with asyncio.timeout(LONG):
+            await asyncio.wait((asyncio.ensure_future(flown.kernel.offer(rescue)),))
 
 
 @pytest.mark.parametrize("seed", range(SEEDS))
