@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Awaitable, Callable
+from itertools import groupby
 from pathlib import Path
 
 import pytest
@@ -119,7 +120,8 @@ async def it_blinks_and_has_its_lights_back(folder: Path) -> None:
     async with hangar(folder) as one:
         await one.navigation.connect()
         await one.navigation.identify()
-        values = [deed.values["value"] for deed in one.did("set led.bitmask")]
+        told = [deed.values["value"] for deed in one.did("set led.bitmask")]
+        values = [value for value, _ in groupby(told)]  # cflib may say something twice
         assert values == [191.0, 128.0] * 8 + [0.0]
         assert {deed.what for deed in one.deeds} == {"set led.bitmask"}
 
