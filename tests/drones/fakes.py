@@ -59,7 +59,11 @@ class FakeDrone:
 
     def happens(self, kind: str, reason: str = "so it is") -> None:
         """Let it tell an event."""
-        self._events.put_nowait(DroneEvent(kind=kind, reason=reason))
+        self.events_told(DroneEvent(kind=kind, reason=reason))
+
+    def events_told(self, event: DroneEvent) -> None:
+        """Let it tell whatever this is."""
+        self._events.put_nowait(event)
 
     def falls(self, *, tells: bool = True) -> None:
         """Let it fall to the ground."""

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import asyncio
+from collections.abc import Sequence
 from pathlib import Path
+from typing import cast
 
 import pytest
 
-from plutoc_runtime.drones import NavigationError
+from plutoc_runtime.drones import BATTERY_LOW, DroneEvent, NavigationError
 from plutoc_runtime.errors import Failure, FlightFailed
 from tests.drones.fakes import FakeDrone
 from tests.drones.jumping import run, the_loop
@@ -176,5 +178,51 @@ def test_telemetry_that_makes_no_sense_is_silence(tmp_path: Path) -> None:
             assert seen.location == before
             assert any("made a mistake: KeyError" in line for line in flown.log)
             drone.raises = {}
+
+    run(flight())
+
+
+def test_answers_that_are_none_are_mistakes(tmp_path: Path) -> None:
+    """Whatever a navigation gives: nobody who asked it falls over that."""
+
+    class Odd(FakeDrone):
+        async def read(self, name: str) -> float:
+            return cast("float", "much")
+
+        async def preflight(self) -> Sequence[str]:
+            return cast("Sequence[str]", self.says)
+
+        says: object = 7
+
+    async def flight() -> None:
+        drone = Odd()
+        async with flying(tmp_path, drone) as flown:
+            problems = (await flown.do(flown.team.roll_call("cf1"))).problems
+            assert problems == ("its preflight gave no list of reasons",)
+            drone.says = [None] * 1000
+            assert len((await flown.do(flown.team.roll_call("cf1"))).problems) == 20
+            drone.says = ()
+            await flown.do(flown.team.takeoff("cf1", 1.0))
+            assert "made a mistake: ValueError" in str(
+                await flown.failure(flown.team.read("cf1", "range.front"))
+            )
+            drone.events_told(cast("DroneEvent", object()))
+            drone.happens(BATTERY_LOW)
+            await flown.until(lambda: not drone.motors)
+
+    run(flight())
+
+
+def test_if_the_watch_breaks_all_ends_and_all_land_first(tmp_path: Path) -> None:
+    """Nobody flies where nobody watches."""
+
+    async def flight() -> None:
+        drone = FakeDrone()
+        with pytest.raises(ZeroDivisionError):
+            async with flying(tmp_path, drone) as flown:
+                await flown.up()
+                flown.team._members["cf1"].blind = lambda: str(1 / 0)
+                await flown.until(lambda: flown.kernel.crashed)
+        assert not drone.motors
 
     run(flight())

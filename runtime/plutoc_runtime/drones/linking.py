@@ -37,16 +37,15 @@ class Linking:
         self._task: asyncio.Task[None] | None = None
         member.on_lost = self._wanted.set
 
-    def start(self) -> None:
-        """Connect, from now on."""
+    def start(self) -> asyncio.Task[None]:
+        """Connect, from now on, for as long as this task runs."""
         self._task = asyncio.ensure_future(self._keep())
+        return self._task
 
-    def stop(self) -> list[asyncio.Task[None]]:
-        """Do not try any more; return what ends now."""
-        if self._task is None:
-            return []
-        self._task.cancel()
-        return [self._task]
+    def stop(self) -> None:
+        """Do not try any more."""
+        if self._task is not None:
+            self._task.cancel()
 
     async def once(self) -> bool:
         """Say whether it is linked; if it is not, after one more attempt."""

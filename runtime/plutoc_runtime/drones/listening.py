@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from functools import partial
 from typing import TYPE_CHECKING
 
 from ..errors import Failure, FlightFailed
@@ -23,7 +24,8 @@ async def listen(member: Member) -> None:
     try:
         events = member.navigation.events().__aiter__()
         while True:
-            hear(member, await Timed(events.__anext__(), calls.clock, calls.took))
+            event = await Timed(events.__anext__(), calls.clock, calls.took)
+            calls.ask("events", partial(hear, member, event), None)
     except StopAsyncIteration:
         pass
     except (asyncio.CancelledError, KeyboardInterrupt):
@@ -34,7 +36,7 @@ async def listen(member: Member) -> None:
 
 def hear(member: Member, event: DroneEvent) -> None:
     """Do what an event calls for."""
-    kind, reason = event.kind, shortened(event.reason)
+    kind, reason = str(event.kind), shortened(str(event.reason))
     who, where = member.id, place(member.seen.location)
     if kind == LINK_LOST:
         member.lost(reason)

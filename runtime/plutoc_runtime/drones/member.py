@@ -35,6 +35,8 @@ CLIMB_LIMIT = 2 * CLIMB_SPEED
 """Metres per second, up and down, at most: the mean is about what plans count with."""
 AMPLE, SPARE = 3.0, 10.0
 """A flight may take so many times what it takes at full speed, and so many seconds more."""
+MANY = 20
+"""Reasons of one preflight that are heard."""
 STALE = 0.5
 """Seconds of silence that bear a navigation out which says that the link is lost."""
 RECENTLY = 3.0
@@ -152,7 +154,9 @@ class Member:
         except FlightFailed as error:
             return (str(error),)
         one = (reasons,) if isinstance(reasons, str) else reasons
-        told = self.calls.ask("preflight", lambda: tuple(shortened(str(why)) for why in one), None)
+        told = self.calls.ask(
+            "preflight", lambda: tuple(shortened(str(why)) for why in one)[:MANY], None
+        )
         if told is None:
             told = ("its preflight gave no list of reasons",)
         blind = self.blind()
@@ -264,7 +268,10 @@ class Member:
         if not isinstance(self.navigation, Readable):
             raise FlightFailed(Failure.ACTION, f"{self.id} has nothing that can be read")
         value = await self.calls.call(f"read {name}", READ, self.navigation.read, name)
-        return float(value)
+        try:
+            return float(value)
+        except (TypeError, ValueError) as error:
+            raise self.calls.mistake("read", error) from error
 
     async def write(self, name: str, value: float) -> None:
         """Set what it has under this name."""

@@ -10,7 +10,7 @@ import asyncio
 import time
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NoReturn
 
 from ..actions import BUILT_IN, Plain
 from ..standing import Standing
@@ -68,7 +68,15 @@ class Team:
         self._tasks.append(asyncio.ensure_future(self._watch.run()))
         for member in self._members.values():
             self._tasks.append(asyncio.ensure_future(listen(member)))
-            self._links[member.id].start()
+            self._tasks.append(self._links[member.id].start())
+        for task in self._tasks:
+            task.add_done_callback(self._ended)
+
+    def _ended(self, task: asyncio.Task[None]) -> None:
+        """Nobody may fly where nobody watches: if that breaks, all ends, and all land first."""
+        error = None if task.cancelled() else task.exception()
+        if error is not None:
+            self._kernel.post(_raise, error)
 
     async def close(self) -> None:
         """Land what flies, wait until it has, and let go of all drones; nothing is left of it."""
@@ -76,8 +84,6 @@ class Team:
             *(close(member, self._links[id]) for id, member in self._members.items())
         )
         tasks = [*self._tasks, *self._watch.stop()]
-        for link in self._links.values():
-            tasks += link.stop()
         for task in tasks:
             task.cancel()
         await asyncio.gather(*tasks, return_exceptions=True)
@@ -198,3 +204,7 @@ class Team:
                 if why is not None and why not in lacks:
                     lacks.append(why)
         return tuple(lacks)
+
+
+def _raise(error: BaseException) -> NoReturn:
+    raise error
