@@ -19,6 +19,7 @@ from plutoc_runtime.crazyflie.battery import Battery, level_at_rest
 from plutoc_runtime.crazyflie.certainty import Certainty
 from plutoc_runtime.crazyflie.options import options_of
 from plutoc_runtime.crazyflie.state import State, state_of
+from plutoc_runtime.crazyflie.tables import kept_in
 from plutoc_runtime.crazyflie.worker import Worker
 from plutoc_runtime.crtp.profile import State as Start
 from plutoc_runtime.crtp.profile import profile
@@ -29,9 +30,23 @@ FLYING, TUMBLED, LOCKED_BIT = 1 << 4 | 1 << 8, 1 << 5, 1 << 6
 
 
 def state(
-    time: float, *, volts: float = 4.0, bits: int = 0, power: int = 0, x: float = 0.0
+    time: float,
+    *,
+    volts: float = 4.0,
+    bits: int = 0,
+    power: int = 0,
+    x: float = 0.0,
+    sent: float | None = None,
 ) -> State:
-    return State(time=time, position=(x, 0.0, 1.0), yaw=0.0, volts=volts, power=power, bits=bits)
+    return State(
+        time=time,
+        sent=time if sent is None else sent,
+        position=(x, 0.0, 1.0),
+        yaw=0.0,
+        volts=volts,
+        power=power,
+        bits=bits,
+    )
 
 
 # The worker
@@ -103,18 +118,25 @@ def test_where_it_was_long_ago_says_nothing_of_its_speed() -> None:
     assert courses.stop(None, state(5.0, x=3.0)) == ((3.0, 0.0, 1.0), courses.SHORTEST)
 
 
-@given(st.floats(0.0001, 0.5), st.floats(-20.0, 20.0))
-def test_a_drone_that_stops_is_never_sent_far_whatever_its_telemetry_makes_believe(
-    passed: float, jump: float
+@given(sent=st.floats(0.0, 16777.0), passed=st.floats(0.0, 9.0), x=st.floats(-500.0, 500.0))
+def test_it_is_never_sent_far_to_stop_whatever_its_telemetry_makes_believe(
+    sent: float, passed: float, x: float
 ) -> None:
-    target, seconds = courses.stop(state(0.0), state(passed, x=jump))
-    assert abs(target[0] - jump) <= 1.0
-    assert target[2] == 1.0 and courses.SHORTEST <= seconds <= 5.0
+    target, seconds = courses.stop(state(0.0, sent=sent), state(0.1, x=x, sent=sent + passed))
+    assert abs(target[0] - x) <= 1.0 + 1e-9 and courses.SHORTEST <= seconds <= 5.0
 
 
-def test_two_words_that_come_at_one_moment_are_no_great_speed() -> None:
-    usual = courses.stop(state(0.0), state(0.1, x=0.05))
-    assert courses.stop(state(0.0), state(0.001, x=0.05)) == usual
+def test_two_states_that_arrive_at_one_moment_were_not_sent_at_one() -> None:
+    before, now = state(5.0, sent=1.0), state(5.0001, x=0.1, sent=1.1)
+    assert courses.stop(before, now)[0][0] == pytest.approx(0.3)
+    at_once = state(5.0001, x=0.1, sent=1.001)
+    assert courses.stop(before, at_once) == ((0.1, 0.0, 1.0), courses.SHORTEST)
+
+
+def test_the_clock_of_the_log_begins_anew_in_flight() -> None:
+    before, now = state(0.0, sent=16777.2), state(0.1, x=0.1, sent=0.084)
+    assert now.since(before) == pytest.approx(0.1)
+    assert courses.stop(before, now)[0][0] == pytest.approx(0.3, abs=0.001)
 
 
 # The battery
@@ -185,7 +207,7 @@ def test_tumbling_and_locking_are_told_when_they_begin() -> None:
 
 def test_a_state_is_in_radians_and_knows_its_bits() -> None:
     told = {"stateEstimate.yaw": 180.0, "supervisor.info": 0b1000011010, "pm.vbat": 4.0}
-    read = state_of(told, 5.0)
+    read = state_of(told, 5.0, 1.0)
     assert read.yaw == pytest.approx(3.14159, abs=1e-4) and read.position == (0.0, 0.0, 0.0)
     assert read.armed and read.can_fly and read.flies and read.finished
     assert not (read.steered or read.crashed or read.locked)
@@ -247,6 +269,25 @@ def test_options_have_their_defaults() -> None:
     options = options_of("cf1", {"camera": "[::1]:5000", "decks": "bcFlow2"})
     assert options.camera == ("::1", 5000) and options.decks == ("bcFlow2",)
     assert options.least_voltage == 3.7 and options.grip is None and dict(options.measure) == {}
+
+
+# Tables of contents
+
+
+def test_tables_are_kept_where_nobody_else_may_write(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """For cflib runs what it finds in them."""
+    flight, cache = tmp_path / "flight", tmp_path / "cache"
+    flight.mkdir()
+    monkeypatch.setenv("XDG_CACHE_HOME", str(cache))
+    ours = cache / "pluto" / "crazyflie"
+    assert kept_in(flight) == str(ours) and ours.stat().st_mode & 0o077 == 0
+    ours.chmod(0o777)
+    assert kept_in(flight) == str(flight / "crazyflie")
+    (flight / "crazyflie").chmod(0o777)
+    assert kept_in(flight) is None
+    assert kept_in(tmp_path / "nowhere") is None
 
 
 # cflib

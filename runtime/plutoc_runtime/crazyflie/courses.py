@@ -6,7 +6,7 @@ its peak speed is 35/16 of its mean one, and over a short way it is the accelera
 
 from __future__ import annotations
 
-from math import dist, isfinite, sqrt
+from math import isfinite, sqrt
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -27,12 +27,12 @@ SLACK = 4.0
 _AHEAD, _BRAKE = 0.2, 3.6
 """The share of the way that it would make while it stops, which it is let go on: it cannot stop at once,
 and is flown back less. What it then brakes with, at one metre per second and in one second."""
-_RECENT = 0.5
-"""Seconds between two states from which a speed can be told."""
-_EACH = 0.1
-"""Seconds between two words of its telemetry when they were sent, however they came."""
-_FARTHEST, _LONGEST = 1.0, 5.0
-"""Metres and seconds that it may take to stop."""
+_SOON, _RECENT = 0.05, 0.5
+"""Seconds between two states, by the drone's clock, from which a speed can be told."""
+_FASTEST = 5.0
+"""Metres per second; what seems faster is a position that has jumped, or a clock."""
+_FARTHEST = 1.0
+"""Metres that it may take to stop."""
 _LOWEST = 0.2
 """Metres above the ground at which it may hover."""
 
@@ -55,22 +55,18 @@ def is_target(target: Point) -> bool:
 def stop(before: State | None, state: State) -> tuple[Point, float]:
     """Return where a drone is to hover that is to stop now, and how long that takes.
 
-    That is never far, whatever its telemetry makes believe: two words of it may come at one moment,
-    and a position may jump.
+    That is never far, whatever its telemetry makes believe: else it is where it says that it is.
     """
     target, seconds = state.position, SHORTEST
-    if before is not None and 0.0 < state.time - before.time < _RECENT:
-        speed = dist(state.position, before.position) / max(_EACH, state.time - before.time)
-        seconds = min(_LONGEST, max(SHORTEST, _BRAKE * speed / _MOST))
-        ahead = min(_FARTHEST, _AHEAD * seconds * speed)
-        target = _beyond(before.position, state.position, ahead)
+    passed = 0.0 if before is None else state.since(before)
+    if before is not None and _SOON <= passed <= _RECENT:
+        speed = state.distance(before.position) / passed
+        if speed <= _FASTEST:
+            seconds = max(SHORTEST, _BRAKE * speed / _MOST)
+            share = min(_AHEAD * seconds, _FARTHEST / speed if speed else 0.0) / passed
+            x, y, z = (
+                now + (now - then) * share
+                for now, then in zip(state.position, before.position, strict=True)
+            )
+            target = x, y, z
     return (target[0], target[1], max(_LOWEST, target[2])), seconds
-
-
-def _beyond(start: Point, end: Point, metres: float) -> Point:
-    """Return the point that lies so far behind the end, seen from the start."""
-    way = dist(start, end)
-    if way == 0.0:
-        return end
-    x, y, z = (b + (b - a) * metres / way for a, b in zip(start, end, strict=True))
-    return x, y, z

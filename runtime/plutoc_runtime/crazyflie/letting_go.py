@@ -65,9 +65,22 @@ def _put_away(cf: Cf) -> None:
             waking.cancel()
     if cf.incoming.is_alive():
         cf.incoming.join(_LONGEST)
+    _dismiss(cf)
     cf.link = None  # so that cflib does not send its goodbye even to nowhere
     cf.close_link()
     _unlock(cf)
+
+
+def _dismiss(cf: Cf) -> None:
+    """Let threads end that wait for an answer, or to ask again."""
+    timers: dict[object, Timer] = getattr(cf, "_answer_patterns", {})
+    for timer in list(timers.values()):
+        timer.cancel()
+    for entry in list(getattr(cf.incoming, "cb", ())):
+        owner = getattr(entry.callback, "__self__", None)
+        end = getattr(owner, "_close", None)
+        if isinstance(owner, Thread) and end is not None:
+            end()
 
 
 def _unlock(cf: Cf) -> None:

@@ -26,8 +26,8 @@ def begin(session: Session) -> None:
     """Let it tell how it is, from now on; called in the worker, once the tables are there."""
     borrowed, cf = session.borrowed, session.cf
 
-    def state(_: int, values: Mapping[str, float], __: object) -> None:
-        session.tell(session.hear, state_of(values, time.monotonic()))
+    def state(sent: int, values: Mapping[str, float], _: object) -> None:
+        session.tell(session.hear, state_of(values, time.monotonic(), sent / 1000.0))
 
     def certainty(_: int, values: Mapping[str, float], __: object) -> None:
         told = tuple(values[name] for name in CERTAINTY if name in values)

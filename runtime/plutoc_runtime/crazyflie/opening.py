@@ -9,18 +9,18 @@ from typing import TYPE_CHECKING
 
 from ..drones.errors import LinkLost
 from . import logs, words
-from .borrowed import LINK_CONTROL, borrowed
+from .borrowed import LINK_CONTROL, PLATFORM, borrowed
 from .session import Observer, Session
+from .tables import kept_in
 
 if TYPE_CHECKING:
     from .borrowed import Borrowed, Cf
 
-_CACHE = "crazyflie"
-"""A folder for tables of contents: they take long over the radio, and seldom change."""
 _IMPORT, _OPEN = 20.0, 5.0
 ANSWER, TELEMETRY = 5.0, 3.0
 """Seconds in which it must tell something more of itself, and begin to tell how it is."""
-_AGAIN = 0.5
+_AGAIN = 1.0
+"""Seconds until something is asked again: were it answered twice, cflib would begin twice."""
 
 
 async def open_session(drone: str, uri: str, folder: Path, observer: Observer) -> Session:
@@ -36,7 +36,7 @@ async def open_session(drone: str, uri: str, folder: Path, observer: Observer) -
 
 async def _open(session: Session, folder: Path) -> None:
     found = await session.worker.call(borrowed, _IMPORT)
-    await session.worker.call(lambda: _begin(session, found, folder / _CACHE), _OPEN)
+    await session.worker.call(lambda: _begin(session, found, folder), _OPEN)
     await _answer(session)
     # Its pings measure what nobody asks for, and the thread that sends them may die holding the lock
     # that every other sender needs.
@@ -46,14 +46,10 @@ async def _open(session: Session, folder: Path) -> None:
         raise LinkLost(words.no_telemetry(session.drone))
 
 
-def _begin(session: Session, found: Borrowed, cache: Path) -> None:
+def _begin(session: Session, found: Borrowed, folder: Path) -> None:
     """Open the link; called in the worker."""
-    kept = None
-    with suppress(OSError):  # a full disk keeps nobody from flying
-        cache.mkdir(exist_ok=True)  # all drones make it at once, and cflib does not bear that
-        kept = str(cache)
     found.forget_dead_radios()
-    cf = found.crazyflie(rw_cache=kept)
+    cf = found.crazyflie(rw_cache=kept_in(folder))
     session.listen(found, cf)
     cf.open_link(session.uri)
 
@@ -87,9 +83,12 @@ def _entries(cf: Cf) -> int:
 
 
 def _ask_again(session: Session, cf: Cf) -> None:
-    """Ask for the protocol's version once more: of all that cflib asks, this it asks only once."""
+    """Ask once more what cflib asks only once: who it is, and its protocol's version."""
     if cf.platform.get_protocol_version() < 0:
         packet = session.borrowed.packet()
-        packet.set_header(LINK_CONTROL, 1)
+        if session.answered:
+            packet.set_header(PLATFORM, 1)
+        else:
+            packet.set_header(LINK_CONTROL, 1)
         packet.data = b"\0"
         cf.send_packet(packet)

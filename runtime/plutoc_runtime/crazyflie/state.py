@@ -16,6 +16,8 @@ VOLTS, POWER, INFO = "pm.vbat", "pm.state", "supervisor.info"
 STATE = (X, Y, Z, YAW, VOLTS, POWER, INFO)
 CERTAINTY = ("kalman.varPX", "kalman.varPY", "kalman.varPZ")
 
+ROUND = (1 << 24) / 1000.0
+"""Seconds after which the clock of the log begins anew."""
 LOW_POWER = 3
 """What `pm.state` says of a battery that is low; above it, it switches off."""
 
@@ -30,6 +32,8 @@ class State:
 
     time: float
     """By `time.monotonic()`, when it arrived here."""
+    sent: float
+    """By the drone's own clock: two that arrive at one moment were not sent at one."""
     position: Point
     yaw: float
     """Radians."""
@@ -78,6 +82,10 @@ class State:
         """Whether it is in the air, or was two seconds ago."""
         return bool(self.bits & (_FLIES | _STEERED))
 
+    def since(self, before: State) -> float:
+        """Return the seconds that have passed for the drone; its clock begins anew every few hours."""
+        return (self.sent - before.sent) % ROUND
+
     def distance(self, place: Point) -> float:
         """Return how far away a place is, in metres."""
         return dist(self.position, place)
@@ -95,7 +103,7 @@ class State:
         return ", ".join(word for true, word in facts if true) or "ready"
 
 
-def state_of(values: Mapping[str, float], time: float) -> State:
+def state_of(values: Mapping[str, float], time: float, sent: float) -> State:
     """Return what a block of the log says; what this firmware has not is 0."""
 
     def get(name: str) -> float:
@@ -103,6 +111,7 @@ def state_of(values: Mapping[str, float], time: float) -> State:
 
     return State(
         time=time,
+        sent=sent,
         position=(get(X), get(Y), get(Z)),
         yaw=radians(get(YAW)),
         volts=get(VOLTS),
