@@ -13,7 +13,7 @@ from plutoc_runtime.standing import Down
 from tests.gateway.traffic.skies import Sky, is_home
 
 TEN = 10
-CASES = 15
+CASES = 10
 
 
 def apart_from(chance: Random, side: float, height: float | None) -> list[Point]:

@@ -16,6 +16,9 @@ from tests.gateway.traffic.skies import Sky
 
 WALL = Airspace(size=(10, 10), ceiling=2.0, no_fly=(((4, 2), (6, 2), (6, 8), (4, 8)),))
 
+STEPS = [i / 4 for i in range(41)]
+PERMITTED = [(x, y) for x in STEPS for y in STEPS if WALL.problem((x, y, 1.0)) is None]
+
 
 def said(sky: Sky, drone: str, target: tuple[float, float, float]) -> str:
     """Send a drone straight to a point, as a brain may; return why it does not go."""
@@ -77,9 +80,8 @@ def test_the_way_back_is_short_and_leads_to_where_it_may_be(
     assert WALL.problem(back) is None
     if WALL.problem(point) is None:
         assert dist(back, point) < 1e-6
-    steps = [i / 4 for i in range(41)]
-    permitted = [(x, y, min(max(point[2], 0.0), 2.0)) for x in steps for y in steps]
-    nearest = min(dist(one, point) for one in permitted if WALL.problem(one) is None)
+    height = min(max(point[2], 0.0), 2.0)
+    nearest = min(dist((x, y, height), point) for x, y in PERMITTED)
     assert dist(back, point) <= nearest + 1e-6
 
 

@@ -12,7 +12,7 @@ from plutoc_runtime.model import Point
 from plutoc_runtime.standing import Down
 from tests.gateway.traffic.skies import Restless, Sky, is_home
 
-CASES = 60
+CASES = 40
 
 
 def sky_of(chance: Random) -> tuple[Sky, list[Point]]:
