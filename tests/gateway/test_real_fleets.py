@@ -11,6 +11,7 @@ from plutoc_runtime.cli.stand_ins import with_stand_ins
 from plutoc_runtime.drones.real_fleet import RealDrone, Wanted, real_data, real_fleet, real_of
 from plutoc_runtime.errors import BadInput
 from plutoc_runtime.files.fleet import DroneEntry, FleetFile
+from plutoc_runtime.journal.values import trip_data
 from plutoc_runtime.simulation.drones import SimulatedNavigation
 from plutoc_runtime.standing import Standing
 from plutoc_runtime.status import DroneStatus, Status
@@ -62,6 +63,16 @@ def test_what_the_plan_asks_for_is_told_once() -> None:
         Wanted(action="measure", parameters={"quantity": "pm10"}),
         Wanted(action="take_photo", parameters={}),
     )
+
+
+def test_what_goes_on_asks_for_the_same_as_when_it_began() -> None:
+    """After a Stop a plan is in the journal; in another round all trips are flown once more."""
+    app = apps.app(apps.flow())
+    first, *rest = [trip_data(app, trip) for trip in MISSIONS[0].trips]
+    goes_on = {"ended": False, "done": [first], "todo": rest}
+    over = {"ended": True, "done": [{"action": "pick_item"}], "todo": []}
+    going_on = real_fleet(FLEET, (), records=[over, goes_on])
+    assert going_on == real_fleet(FLEET, MISSIONS)
 
 
 def test_a_real_fleet_is_read_as_it_was_written() -> None:

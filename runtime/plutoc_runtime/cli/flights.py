@@ -131,7 +131,7 @@ async def lives(
         flight.fleet,
         seed=flight.seed,
         faults=flight.faults,
-        real=None if flight.sim else await _real(flight, folder),
+        real=None if flight.sim else await _real(flight, folder, known),
         speed=flight.speed,
     )
     setting = Setting(
@@ -166,9 +166,10 @@ async def lives(
         store = Store.open(flight.journal)
 
 
-async def _real(flight: Flight, folder: Path) -> RealFleet:
+async def _real(flight: Flight, folder: Path, known: Recovered | None) -> RealFleet:
     """Return how the drones are flown; simulated Crazyflies are there when this returns."""
-    real = real_fleet(flight.fleet, flight.missions)
+    records = () if known is None else known.records.missions.values()
+    real = real_fleet(flight.fleet, flight.missions, records=records)
     if not flight.crtp:
         return real
     from ..crtp.process import start  # few want them

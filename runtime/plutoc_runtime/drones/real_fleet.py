@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -48,9 +48,16 @@ class RealFleet:
 
 
 def real_fleet(
-    fleet: FleetFile, missions: Iterable[Mission[Any]], uris: Mapping[str, str] | None = None
+    fleet: FleetFile,
+    missions: Iterable[Mission[Any]],
+    uris: Mapping[str, str] | None = None,
+    *,
+    records: Iterable[Mapping[str, Any]] = (),
 ) -> RealFleet:
-    """Return how a fleet's drones are flown for these missions; `uris` instead of the file's."""
+    """Return how a fleet's drones are flown for these missions; `uris` instead of the file's.
+
+    `records`: what a journal says of missions that go on.
+    """
     uris = uris or {}
     return RealFleet(
         drones=tuple(
@@ -64,18 +71,29 @@ def real_fleet(
         ),
         localization=fleet.localization,
         localization_options=fleet.localization_options,
-        wanted=_wanted(missions),
+        wanted=_wanted([*_planned(missions), *_recorded(records)]),
     )
 
 
-def _wanted(missions: Iterable[Mission[Any]]) -> tuple[Wanted, ...]:
-    """Return what the trips ask for, each once, in their order."""
-    found: list[Wanted] = []
+def _planned(missions: Iterable[Mission[Any]]) -> Iterator[Wanted]:
     for mission in missions:
         for trip in mission.trips:
-            wanted = Wanted(action=trip.action, parameters=dict(trip.parameters))
-            if trip.action in BUILT_IN and wanted not in found:
-                found.append(wanted)
+            yield Wanted(action=trip.action, parameters=dict(trip.parameters))
+
+
+def _recorded(records: Iterable[Mapping[str, Any]]) -> Iterator[Wanted]:
+    """Yield what is asked for by what goes on: in another round, by what was done already, too."""
+    for record in records:
+        for trip in () if record["ended"] else (*record["done"], *record["todo"]):
+            yield Wanted(action=trip["action"], parameters=trip.get("parameters", {}))
+
+
+def _wanted(trips: Iterable[Wanted]) -> tuple[Wanted, ...]:
+    """Return what the trips ask for, each once, in their order."""
+    found: list[Wanted] = []
+    for wanted in trips:
+        if wanted.action in BUILT_IN and wanted not in found:
+            found.append(wanted)
     return tuple(found)
 
 
