@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -10,6 +11,10 @@ import pytest
 
 import plutoc_runtime
 from tests.runtime.cli.conftest import Command
+
+INSTALL = "'carrier[crazyflie]'" if "PLUTO_EMBEDDED" in os.environ else "cflib"
+"""What is to be installed: within a package it is an extra of that package."""
+SAID = f"to fly Crazyflies, cflib is needed: pip install {INSTALL}\n"
 
 FLEET = """
 [[drone]]
@@ -55,9 +60,8 @@ def test_fly_says_what_to_install_before_anything_begins(
     journal = missions.with_name("j.journal")
     before = sorted(missions.parent.rglob("*"))
     words = ["fly", missions, "--fleet", fleet, *supervise]
-    said = "to fly Crazyflies, cflib is needed: pip install cflib\n"
-    assert command(*words) == (2, "", said)
-    assert command(*words, "--journal", journal) == (2, "", said)
+    assert command(*words) == (2, "", SAID)
+    assert command(*words, "--journal", journal) == (2, "", SAID)
     assert sorted(missions.parent.rglob("*")) == before
 
 
@@ -65,16 +69,15 @@ def test_a_station_says_so_before_it_serves(missions: Path, fleet: Path, command
     """Its folder is not made, and nothing listens."""
     folder = missions.with_name("kept")
     code, out, err = command("serve", "--fleet", fleet, "--folder", folder, "--port", "0")
-    assert (code, out, err) == (2, "", "to fly Crazyflies, cflib is needed: pip install cflib\n")
+    assert (code, out, err) == (2, "", SAID)
     assert not folder.exists()
 
 
 def test_drones_says_so_too(missions: Path, fleet: Path, command: Command) -> None:
     """Before it looks for any."""
-    said = "to fly Crazyflies, cflib is needed: pip install cflib\n"
-    assert command("drones") == (2, "", said)
-    assert command("drones", "--fleet", fleet) == (2, "", said)
-    assert command("drones", "--fleet", fleet, "--identify", "cf1") == (2, "", said)
+    assert command("drones") == (2, "", SAID)
+    assert command("drones", "--fleet", fleet) == (2, "", SAID)
+    assert command("drones", "--fleet", fleet, "--identify", "cf1") == (2, "", SAID)
 
 
 def test_all_else_works(missions: Path, fleet: Path, command: Command) -> None:
@@ -83,7 +86,7 @@ def test_all_else_works(missions: Path, fleet: Path, command: Command) -> None:
     assert command("simulate", missions, "--fleet", fleet)[0] == 0
     code, out, err = command("fly", missions, "--fleet", fleet, "--dry-run")
     assert (code, "take off" in out) == (2, True)
-    assert err.endswith("pip install cflib\n")
+    assert err.endswith(SAID)
 
 
 def test_every_module_of_the_runtime_is_imported_without_it() -> None:
