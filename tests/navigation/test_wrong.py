@@ -11,7 +11,7 @@ import pytest
 from plutoc_runtime.drones import DroneNavigation
 from plutoc_runtime.drones.conformance import NavigationContract
 from tests.navigation import wrong
-from tests.navigation.simulated import Simulated, SimulatedContract, setup
+from tests.navigation.simulated import SPEED, Simulated, SimulatedContract, setup
 
 NAMES = [module.name for module in pkgutil.iter_modules(wrong.__path__)]
 
@@ -28,6 +28,8 @@ def test_a_wrong_navigation_is_found_by_the_check_that_names_it(name: str) -> No
 
 class Bare(NavigationContract):
     """An author who can neither silence a drone nor look at it."""
+
+    height, away, speed, rest = 1.0, 2.0, SPEED, 0.1
 
     def make(self) -> DroneNavigation:
         return Simulated(setup())
