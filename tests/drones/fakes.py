@@ -35,6 +35,8 @@ class FakeDrone:
         """The methods that never return."""
         self.clings: set[str] = set()
         """Of those, the ones that do not even let go when cancelled."""
+        self.fell: type[Exception] = Crashed
+        """What a flight raises that ends on the ground."""
         self.clung = False
         """Whether it has not let go once."""
         self.raises: dict[str, BaseException] = {}
@@ -221,7 +223,7 @@ class FakeDrone:
                 await asyncio.sleep(1)
                 raise LinkLost(f"{self.id} stopped answering")
             if not self.motors:
-                raise Crashed(f"{self.id} fell")
+                raise self.fell(f"{self.id} fell")
         self.position = self.place
         self._leg = None
 

@@ -110,11 +110,11 @@ async def flying(
         yield flown
     finally:
         await flown.team.close()
+        for drone in flown.drones.values():
+            drone.clings.clear()
     assert threading.active_count() == before
     others = asyncio.all_tasks() - {asyncio.current_task()}
     clung = any(drone.clung for drone in flown.drones.values())
-    for drone in flown.drones.values():
-        drone.clings.clear()
     assert clung or not others
     for task in others:
         task.cancel()

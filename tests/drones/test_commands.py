@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from plutoc_runtime.drones import Rejected
 from plutoc_runtime.drones.real_fleet import Wanted
 from plutoc_runtime.errors import Failure, FlightFailed
 from plutoc_runtime.model import Category, Item
@@ -236,6 +237,7 @@ def test_cut_motors_waits_for_nothing(tmp_path: Path, hangs: bool) -> None:
     async def flight() -> None:
         async with flying(tmp_path) as flown:
             drone, team = await flown.up(), flown.team
+            drone.fell = Rejected  # it says no more than that it will not
             if hangs:
                 drone.hangs = drone.clings = {"go_to", "hold"}
             flies = flown.begin(team.go_to("cf1", (5.0, 1.0, 1.0)))
@@ -248,6 +250,10 @@ def test_cut_motors_waits_for_nothing(tmp_path: Path, hangs: bool) -> None:
             assert str(flies.error) == "cf1's motors were cut"
             assert drone.told[-1] == "emergency stop"
             assert "motors were cut" in str(await flown.failure(team.takeoff("cf1", 1.0)))
+            flown.begin(team.land("cf1"))
+            flown.kernel.post(team.break_off, "cf1")
+            await flown.until(lambda: team.telemetry("cf1").landed)
+            assert drone.told[-1] == "emergency stop"
             team.mended("cf1")
             team.begins("cf1", None, 0.0)
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from ..errors import FlightFailed
 from ..words import place
+from .flying import land
 
 if TYPE_CHECKING:
     from .linking import Linking
@@ -38,7 +39,7 @@ async def _land(member: Member, linking: Linking) -> None:
             return
         await linking.once()
         try:
-            await member.land()
+            await land(member)
         except FlightFailed as error:
             member.calls.say(f"{member.id} was to land: {error}")
             await asyncio.sleep(_PAUSE)

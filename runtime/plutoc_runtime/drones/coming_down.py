@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from ..errors import FlightFailed
 from ..spots import free_spot
+from . import flying
 from .member import LAND
 from .stray import is_over_no_fly
 
@@ -37,7 +38,7 @@ async def _down(member: Member, airspace: Airspace, others: Sequence[Point]) -> 
     if is_over_no_fly(airspace, here):
         x, y, _ = free_spot(airspace, here, others, _BESIDE)
         try:
-            await member.fly((x, y, min(max(here[2], _BESIDE), airspace.ceiling)))
+            await flying.fly(member, (x, y, min(max(here[2], _BESIDE), airspace.ceiling)))
         except FlightFailed as error:
             member.calls.say(f"{member.id} was to leave the no-fly area: {error}")
-    await member.come_down()
+    await flying.come_down(member)

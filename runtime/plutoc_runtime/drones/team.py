@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, NoReturn
 
 from ..actions import BUILT_IN, Plain
 from ..standing import Standing
+from . import acting, flying
 from .cargo import Cargo
 from .closing import close
 from .linking import Linking
@@ -98,7 +99,7 @@ class Team:
 
     def why_not(self, drone: str, action: str, parameters: Mapping[str, Plain]) -> str | None:
         """Return why a drone's hardware cannot do a built-in action, or None."""
-        return self._members[drone].why_not(action, parameters)
+        return acting.why_not(self._members[drone], action, parameters)
 
     def begins(self, drone: str, job: Job | None, seconds: float) -> None:
         """A flight begins: raise `FlightFailed` where the drone takes no commands."""
@@ -106,19 +107,19 @@ class Team:
 
     async def takeoff(self, drone: str, height: float) -> None:
         """Rise straight up to a height, if it is ready; does nothing for a drone that flies."""
-        await self._kernel.call_hook(self._members[drone].takeoff, height)
+        await self._kernel.call_hook(flying.takeoff, self._members[drone], height)
 
     async def go_to(self, drone: str, target: Point) -> None:
         """Fly straight to a point."""
-        await self._kernel.call_hook(self._members[drone].go_to, target)
+        await self._kernel.call_hook(flying.go_to, self._members[drone], target)
 
     async def land(self, drone: str) -> None:
         """Land here; does nothing for a drone that stands on the ground."""
-        await self._kernel.call_hook(self._members[drone].land)
+        await self._kernel.call_hook(flying.land, self._members[drone])
 
     async def hold(self, drone: str) -> None:
         """Hover, for as long as an action of the app's own takes; never returns by itself."""
-        await self._kernel.call_hook(self._members[drone].hold)
+        await self._kernel.call_hook(flying.hold, self._members[drone])
 
     async def act(
         self,
@@ -129,16 +130,18 @@ class Team:
         job: str | None,
     ) -> object:
         """Do one of the built-in actions here, and return what came of it."""
-        return await self._kernel.call_hook(self._members[drone].act, action, parameters, item)
+        return await self._kernel.call_hook(
+            acting.act, self._members[drone], action, parameters, item
+        )
 
     async def read(self, drone: str, name: str) -> float:
         """Return what a drone measures under this name."""
-        value = await self._kernel.call_hook(self._members[drone].read, name)
+        value = await self._kernel.call_hook(acting.read, self._members[drone], name)
         return float(str(value))
 
     async def write(self, drone: str, name: str, value: float) -> None:
         """Set what a drone has under this name."""
-        await self._kernel.call_hook(self._members[drone].write, name, value)
+        await self._kernel.call_hook(acting.write, self._members[drone], name, value)
 
     def break_off(self, drone: str) -> None:
         """Stop whatever a drone does, and hover; a command under way raises `FlightFailed`."""
@@ -146,7 +149,7 @@ class Team:
 
     async def cut(self, drone: str) -> None:
         """Switch its motors off now, wherever it is."""
-        await self._kernel.call_hook(self._members[drone].cut)
+        await self._kernel.call_hook(flying.cut, self._members[drone])
 
     def mended(self, drone: str) -> None:
         """A person has looked after a lost drone: it may be asked anew."""
@@ -200,7 +203,7 @@ class Team:
         lacks: list[str] = []
         for wanted in self._wanted:
             if wanted.action in BUILT_IN and member.drone.category.can(wanted.action):
-                why = member.why_not(wanted.action, wanted.parameters)
+                why = acting.why_not(member, wanted.action, wanted.parameters)
                 if why is not None and why not in lacks:
                     lacks.append(why)
         return tuple(lacks)
