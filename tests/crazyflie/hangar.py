@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import AsyncIterator, Mapping
+import threading
+from collections.abc import AsyncIterator, Awaitable, Callable, Mapping, Sequence
 from contextlib import asynccontextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -17,6 +18,10 @@ from plutoc_runtime.model import Point
 
 FAST = 2.0
 """Metres per second: nobody wants to wait."""
+
+Flight = Callable[[Path], Awaitable[None]]
+Outcomes = Mapping[Flight, BaseException | None]
+"""What each of many flights has come to; None: all was well."""
 
 
 @dataclass(slots=True)
@@ -104,3 +109,20 @@ async def hangar(
         async with asyncio.timeout(2.0):
             await listening  # the events end
         await server.close()
+
+
+def all_at_once(flights: Sequence[Flight], new_folder: Callable[[], Path]) -> Outcomes:
+    """Fly all of these, each with a folder of its own."""
+
+    async def fly() -> list[BaseException | None]:
+        flown = (flight(new_folder()) for flight in flights)
+        return await asyncio.gather(*flown, return_exceptions=True)
+
+    return dict(zip(flights, asyncio.run(fly()), strict=True))
+
+
+def threads_left() -> list[str]:
+    """Return the threads that somebody has started and not ended."""
+    fine = ("MainThread", "pytest", "execnet")
+    names = [thread.name for thread in threading.enumerate()]
+    return [name for name in names if not name.startswith(fine)]

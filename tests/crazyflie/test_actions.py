@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Awaitable, Callable
 from itertools import groupby
 from pathlib import Path
 
@@ -12,13 +11,12 @@ import pytest
 from plutoc_runtime.crtp.camera import camera, picture, port_of
 from plutoc_runtime.drones import ActionNotDone, Rejected
 from plutoc_runtime.model import Item, Photo
-from tests.crazyflie.hangar import FAST, hangar
+from tests.crazyflie.hangar import FAST, Flight, Outcomes, all_at_once, hangar
 
 pytest.importorskip("cflib")
 
 PILLS = Item(name="pills", mass=0.004)
 GRIP = {"parameter": "gripper.closed", "pick": 1, "release": 0, "seconds": 0.1}
-Deed = Callable[[Path], Awaitable[None]]
 
 
 async def it_measures_what_the_fleet_file_names(folder: Path) -> None:
@@ -135,7 +133,7 @@ async def it_says_what_it_is(folder: Path) -> None:
         assert one.deeds == []
 
 
-DEEDS: list[Deed] = [
+DEEDS: list[Flight] = [
     it_measures_what_the_fleet_file_names,
     it_picks_and_releases_by_a_parameter,
     what_it_has_not_it_says_before_it_flies,
@@ -149,19 +147,13 @@ DEEDS: list[Deed] = [
 
 
 @pytest.fixture(scope="module")
-def outcomes(tmp_path_factory: pytest.TempPathFactory) -> dict[Deed, BaseException | None]:
+def outcomes(tmp_path_factory: pytest.TempPathFactory) -> Outcomes:
     """Let all of them be done at once, each by a drone of its own."""
-
-    async def do() -> list[BaseException | None]:
-        folders = (tmp_path_factory.mktemp("deed") for _ in DEEDS)
-        done = (one(folder) for one, folder in zip(DEEDS, folders, strict=True))
-        return await asyncio.gather(*done, return_exceptions=True)
-
-    return dict(zip(DEEDS, asyncio.run(do()), strict=True))
+    return all_at_once(DEEDS, lambda: tmp_path_factory.mktemp("deed"))
 
 
 @pytest.mark.parametrize("deed", DEEDS, ids=lambda deed: deed.__name__)
-def test_action(deed: Deed, outcomes: dict[Deed, BaseException | None]) -> None:
+def test_action(deed: Flight, outcomes: Outcomes) -> None:
     """Each is done as its name says."""
     outcome = outcomes[deed]
     if outcome is not None:
