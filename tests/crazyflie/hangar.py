@@ -18,6 +18,8 @@ from plutoc_runtime.model import Point
 
 FAST = 2.0
 """Metres per second: nobody wants to wait."""
+PATIENCE = 30.0
+"""Seconds until what does not end is said to hang: the machine may be busy."""
 
 Flight = Callable[[Path], Awaitable[None]]
 Outcomes = Mapping[Flight, BaseException | None]
@@ -65,7 +67,7 @@ class Hangar:
 
     async def hears(self, kind: str) -> DroneEvent:
         """Return an event of this kind, as soon as there is one."""
-        async with asyncio.timeout(20.0):
+        async with asyncio.timeout(PATIENCE):
             while True:
                 for event in self.events:
                     if event.kind == kind:
@@ -106,7 +108,7 @@ async def hangar(
         yield one
     finally:
         await one.navigation.close()
-        async with asyncio.timeout(2.0):
+        async with asyncio.timeout(PATIENCE):
             await listening  # the events end
         await server.close()
 
@@ -123,6 +125,6 @@ def all_at_once(flights: Sequence[Flight], new_folder: Callable[[], Path]) -> Ou
 
 def threads_left() -> list[str]:
     """Return the threads that somebody has started and not ended."""
-    fine = ("MainThread", "pytest", "execnet")
+    fine = ("MainThread", "pytest", "execnet", "Shared Radio")  # cflib never lets go of a dongle
     names = [thread.name for thread in threading.enumerate()]
     return [name for name in names if not name.startswith(fine)]

@@ -48,7 +48,7 @@ async def silence_in_the_air_is_a_lost_link_and_connecting_again_lands_it(folder
         began = time.monotonic()
         with pytest.raises(LinkLost, match="cf1 stopped answering"):
             await flying
-        assert time.monotonic() - began < 5.0  # and not the twenty that the course takes
+        assert time.monotonic() - began < 10.0  # and not the twenty that the course takes
         assert (await one.hears(LINK_LOST)).reason.startswith("it has told nothing for")
         assert time.monotonic() - cf.telemetry.time > 0.9
         with pytest.raises(LinkLost, match="does not answer"):

@@ -12,6 +12,7 @@ from plutoc_runtime.crazyflie.navigation import Crazyflie
 from plutoc_runtime.crtp.drone import Build
 from plutoc_runtime.crtp.record import InMemory
 from plutoc_runtime.drones import LINK_LOST, DroneSetup, LinkLost
+from tests.crazyflie.hangar import PATIENCE
 from tests.crtp.radio import Ether, plugged_in
 
 pytest.importorskip("cflib")
@@ -52,7 +53,7 @@ def test_a_dongle_that_is_pulled_out_is_a_lost_link_and_back_it_is_used_again(
         await asyncio.gather(*(one.takeoff(0.5, 2.0) for one in flown))
         air.unplugged = True
         for one in flown:
-            async with asyncio.timeout(5.0):
+            async with asyncio.timeout(PATIENCE):
                 event = await anext(aiter(one.events()))
             assert event.kind == LINK_LOST
         again = await asyncio.gather(*(one.connect() for one in flown), return_exceptions=True)
@@ -79,12 +80,12 @@ def test_a_dongle_that_hangs_holds_nobody_up(tmp_path: Path) -> None:
         await one.connect()
         air.stalled = True
         with pytest.raises(LinkLost):
-            async with asyncio.timeout(5.0):
+            async with asyncio.timeout(PATIENCE):
                 await one.read("pm.vbat")
         with pytest.raises(LinkLost):
-            async with asyncio.timeout(12.0):
+            async with asyncio.timeout(PATIENCE):
                 await one.connect()
-        async with asyncio.timeout(6.0):
+        async with asyncio.timeout(PATIENCE):
             await one.close()
 
     with plugged_in(air):

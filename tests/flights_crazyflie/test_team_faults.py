@@ -130,7 +130,7 @@ async def has_a_low_battery(hall: Hall) -> None:
     assert not recovers.is_set
     await hall.server.let("flat", "volts", 4.1)
     await hall.server.let("flat", "fetch")
-    async with asyncio.timeout(40):
+    async with asyncio.timeout(100):
         assert await hall.flown.kernel.offer(recovers)
 
 
@@ -173,7 +173,7 @@ def test_each_fault_fails_its_own_flight_and_no_other(tmp_path: Path) -> None:
                 roll = await flown.do(flown.link.call())
                 silent = [id for id, standing in roll.drones.items() if not standing.reached]
                 assert silent == ["mute"], flown.log
-                assert monotonic() - began < 20
+                assert monotonic() - began < 30
                 stories = {story.__name__: story(hall) for story in STORIES}
                 stories |= {drone: hall.does_well(drone) for drone in ("well", "lossy1", "lossy5")}
                 ends = await asyncio.gather(*stories.values(), return_exceptions=True)
