@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import asyncio
+import socket
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from pathlib import Path
@@ -9,15 +11,22 @@ from pathlib import Path
 import pytest
 
 from plutoc_runtime.drones import BATTERY_LOW
+from plutoc_runtime.drones.real_fleet import RealFleet
 from plutoc_runtime.errors import Failure, FlightFailed
+from plutoc_runtime.gateway.ending import LINGERS, Ending
 from plutoc_runtime.gateway.gateway import Gateway
+from plutoc_runtime.gateway.server import Server
+from plutoc_runtime.gateway.wire import line
 from plutoc_runtime.model import Point
+from plutoc_runtime.signals import Signal
 from tests.drones.fakes import FakeDrone
 from tests.drones.jumping import run, the_loop
 from tests.drones.teams import FIELD, Flown, flying
 from tests.gateway.flights import Task
+from tests.gateway.processes import settings
 
 PATIENCE = 6.0
+NOBODY = RealFleet(drones=(), localization="own", localization_options={})
 
 
 class Craft:
@@ -132,5 +141,39 @@ def test_without_a_brain_all_land_and_a_silent_one_delays_nobody(tmp_path: Path)
             lost.answers = True
             await flown.until(lambda: not lost.motors, 30)
             await flown.until(lambda: not gateway.flies, 1)
+
+    run(flight())
+
+
+@pytest.mark.parametrize("back", [True, False])
+def test_a_goodbye_leaves_nobody_behind_in_the_air(tmp_path: Path, back: bool) -> None:
+    """The brain may go at once; who was silent is landed when it is back, and given up in the end."""
+
+    async def flight() -> None:
+        async with commanded(tmp_path, 2, PATIENCE) as (flown, gateway):
+            over, link, lost = Signal[None](), gateway.link(1), flown.drones["cf2"]
+            ending = Ending(gateway, over, settings(real=NOBODY, speed=1.0))
+            server = Server(gateway, flown.log.append, ending.goodbye)
+            ending.server = server
+            ours, theirs = socket.socketpair()
+            server.accept(*await asyncio.open_unix_connection(sock=ours))
+            reader, writer = await asyncio.open_unix_connection(sock=theirs)
+            flown.kernel.post(ending.look)
+            await flown.do(link.call())
+            for id in flown.drones:
+                await flown.do(flown.team.takeoff(id, 1.2))
+            writer.write(line({"do": "link", "epoch": 2}))
+            writer.write(line({"do": "goodbye"}))
+            lost.goes_silent()
+            async with asyncio.timeout(10):  # or the brain would be kept waiting
+                await reader.read()
+            assert not flown.drones["cf1"].motors
+            assert not over.is_set
+            lost.answers = back
+            seconds = await flown.until(lambda: over.is_set, LINGERS + 2)
+            assert lost.motors is not back
+            assert seconds < 30 if back else seconds > LINGERS - 2
+            writer.close()
+            await server.close()
 
     run(flight())

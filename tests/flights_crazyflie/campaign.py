@@ -35,7 +35,7 @@ from tests.kill.lives import eventually
 from tests.kill.trial import gateway_of
 
 APART = 0.5
-_LEAVES = 90.0
+_LEAVES = 180.0
 """Seconds within which the gateway ends, once the app has."""
 
 

@@ -19,7 +19,7 @@ from ..gateway.starting import connect
 from ..journal.place import gateway_folder
 from ..journal.store import Store
 from ..setting import End, Lived, Setting, Stops
-from ..words import in_shell
+from ..words import in_shell, place
 from . import output, stop_mark
 from .events import line_of
 from .flown import finished, records_in, report_of, waiting_lines
@@ -80,11 +80,24 @@ def see_through(flight: Flight, store: Store, known: Recovered | None = None) ->
     interrupts = Interrupts(stops, lambda: flight.journal, flight.how_to_go_on)
     with interrupts.listening():
         lived = asyncio.run(_heard(flight, store, stops, interrupts, known))
+    aloft = [] if flight.sim else [one for one in lived.drones if not one.telemetry.landed]
+    if aloft:
+        output.tell(unheard(aloft))
     if lived.end is End.STOPPED:
-        output.tell(f"all drones are down; {flight.how_to_go_on}")
+        who = "all other drones" if aloft else "all drones"
+        output.tell(f"{who} are down; {flight.how_to_go_on}")
         return interrupts.code or STOPPED
     output.line()
     return reported(flight.app, flight.journal, lived.records, lived.drones)
+
+
+def unheard(aloft: Sequence[Drone]) -> str:
+    """Return what to tell people of drones that were last heard of in the air."""
+    places = ", ".join(f"{drone.id} at {place(drone.location)}" for drone in aloft)
+    return (
+        f"no word that these have landed: {places}. They may still hover: keep out from under them."
+        " The gateway lands whichever answers within two minutes"
+    )
 
 
 def reported(app: App, journal: Path, records: Records, drones: Sequence[Drone] = ()) -> int:

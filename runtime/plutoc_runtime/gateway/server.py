@@ -58,7 +58,10 @@ class Server:
     @property
     def has_a_brain(self) -> bool:
         """Whether somebody commands."""
-        return any(connection.link is not None for connection in self.connected.values())
+        return any(
+            connection.link is not None and not connection.leaves
+            for connection in self.connected.values()
+        )
 
     def accept(self, reader: StreamReader, writer: StreamWriter) -> None:
         """Serve somebody, unless there are too many."""
@@ -70,6 +73,12 @@ class Server:
         task = asyncio.ensure_future(connection.serve(reader))
         self.connected[task] = connection
         task.add_done_callback(self.connected.pop)
+
+    def hang_up(self) -> None:
+        """Let those go who have said goodbye: whatever is still to be done, they need not wait."""
+        for connection in self.connected.values():
+            if connection.leaves:
+                connection.hang_up()
 
     async def close(self) -> None:
         """Say goodbye to everybody."""
@@ -89,6 +98,13 @@ class Connection:
         """Commands that are not answered yet, by their numbers."""
         self._seen: dict[str, tuple[object, ...]] = {}
         """What was told of the drones last."""
+        self.leaves = False
+        """Whether it has said goodbye."""
+
+    def hang_up(self) -> None:
+        """End the connection."""
+        with suppress(OSError):
+            self._writer.close()
 
     async def serve(self, reader: StreamReader) -> None:
         """Do what is asked, line by line, until nothing more comes."""
@@ -251,6 +267,7 @@ class Connection:
                 if task is not None:
                     _call_off(task)
             case "goodbye":
+                self.leaves = True
                 self._server.on_goodbye()
             case _:
                 self._begin(int(message["n"]), what, asked(link, what, message, self._known))
