@@ -197,8 +197,10 @@ LEFT_OUT = {
 a modifier's status, what both ask, and other policies. Blocks' steps are looked at above."""
 
 
-FOR_TESTS = ("gateway.line", "journal.memory", "simulation.radio")
+FOR_TESTS = ("files.fleet_text", "gateway.line", "journal.memory", "simulation.radio")
 """What only the simulation of crashes needs, beside all of `testing` but the invariants."""
+FOR_AUTHORS = "drones.conformance."
+"""The kit for whoever writes a navigation, who has plutoc installed."""
 INVARIANTS = re.compile(r"testing\.(invariants|.*_rules?)")
 
 
@@ -208,7 +210,11 @@ def test_modules_that_nothing_needs_stay_behind(example: str) -> None:
     text = (EXAMPLES / example / "app.pluto").read_text(encoding="utf-8")
     carried = {path.partition("/_runtime/")[2] for path in package_of(text).owned}
     left_out = [name for name in modules() if f"{name.replace('.', '/')}.py" not in carried]
-    of_tests = [name for name in left_out if name.startswith("testing.") or name in FOR_TESTS]
+    of_tests = [
+        name
+        for name in left_out
+        if name.startswith(("testing.", FOR_AUTHORS)) or name in FOR_TESTS
+    ]
     assert [name for name in left_out if name not in of_tests] == LEFT_OUT[example].split()
     assert all(name in of_tests for name in FOR_TESTS)
     assert not any(INVARIANTS.fullmatch(name) for name in of_tests)
