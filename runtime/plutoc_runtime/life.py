@@ -18,7 +18,7 @@ from .journal.recorder import Recorder, Sink
 from .kernel import FLEET, Kernel, Task
 from .recovery import go_on
 from .session import Listener, Session
-from .words import quoted
+from .words import of, quoted
 
 if TYPE_CHECKING:
     from .app import App
@@ -132,6 +132,6 @@ class Life:
 
 def _refuse_if_none_is_ready(roll: RollCall) -> None:
     """Raise `BadInput` if no drone may fly: nothing has begun."""
-    problems = [f"{drone}: {'; '.join(one.problems)}" for drone, one in roll.drones.items()]
+    problems = [of(drone, "; ".join(one.problems)) for drone, one in roll.drones.items()]
     if problems and all(standing.problems for standing in roll.drones.values()):
         raise BadInput(shortened(["no drone is ready to fly", *problems]))

@@ -63,6 +63,11 @@ def counted(count: int, one: str, many: str | None = None) -> str:
     return f"{count} {one if count == 1 else many or one + 's'}"
 
 
+def of(drone: str, reason: str) -> str:
+    """Say of which drone a reason speaks, if it does not say so itself."""
+    return reason if reason.startswith(f"{drone} ") else f"{drone}: {reason}"
+
+
 def printable(text: str) -> str:
     """Escape what a terminal would take as a command."""
     return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in text)

@@ -166,3 +166,16 @@ def test_what_is_made_is_made_of_the_setup() -> None:
         return make_navigation(f"{HERE}:Good", setup())
 
     assert isinstance(asyncio.run(made()), classes.Good)
+
+
+def test_what_a_module_raises_commands_no_terminal(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Nor does it fill one: somebody else wrote it."""
+    (tmp_path / "loud_drones.py").write_text(
+        "raise RuntimeError('\\x1b[31mred\\n' + 9999 * 'very ')"
+    )
+    monkeypatch.syspath_prepend(tmp_path)
+    said = refused("loud_drones:Drone")
+    assert said.isprintable()
+    assert len(said) < 500

@@ -21,7 +21,7 @@ from ..drones.setup import DroneSetup
 from ..errors import BadInput
 from ..files.behaviour import OWN
 from ..gateway.holding import Held, holding
-from ..words import number, printable, quoted
+from ..words import number, of, printable, quoted
 
 if TYPE_CHECKING:
     from ..drones.protocol import DroneNavigation
@@ -122,9 +122,9 @@ async def identified(asked: Asked, folder: Path) -> None:
             await _within(CONNECT, navigation.connect())
             await _within(CONNECT, navigation.identify())
         except _Silent:
-            raise BadInput(f"{asked.id}: {no_answer(CONNECT)}") from None
+            raise BadInput(of(asked.id, no_answer(CONNECT))) from None
         except Exception as error:
-            raise BadInput(f"{asked.id}: {_why(error)}") from error
+            raise BadInput(of(asked.id, _why(error))) from error
         finally:
             await _let_go(navigation)
 

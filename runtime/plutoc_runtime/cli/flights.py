@@ -93,10 +93,10 @@ def see_through(flight: Flight, store: Store, known: Recovered | None = None) ->
 
 def unheard(aloft: Sequence[Drone]) -> str:
     """Return what to tell people of drones that were last heard of in the air."""
-    places = ", ".join(f"{drone.id} at {place(drone.location)}" for drone in aloft)
+    places = ", ".join(f"{drone.id} (last heard of at {place(drone.location)})" for drone in aloft)
     return (
-        f"no word that these have landed: {places}. They may still hover: keep out from under them."
-        " The gateway lands whichever answers within two minutes"
+        f"no word of a landing from {places}: what may still hover, nobody should stand under;"
+        " the gateway lands whichever answers within two minutes"
     )
 
 

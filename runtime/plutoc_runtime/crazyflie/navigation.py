@@ -37,7 +37,7 @@ class Crazyflie:
 
     def __init__(self, setup: DroneSetup) -> None:
         self._setup, self._id = setup, setup.id
-        self._options = options_of(setup.id, setup.options)
+        self._options = options_of(setup.options)
         self._session: Session | None = None
         self._readings: logs.Readings | None = None
         self._battery, self._alarms = Battery(), Alarms()
@@ -238,7 +238,7 @@ class Crazyflie:
     @staticmethod
     async def scan(options: Mapping[str, object]) -> Sequence[str]:
         """Return the URIs of all Crazyflies that answer."""
-        return await scan(options_of("scan", options))
+        return await scan(options_of(options))
 
 
 def _heard(opening: asyncio.Task[None]) -> None:

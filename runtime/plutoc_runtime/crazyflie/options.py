@@ -52,12 +52,12 @@ _LEAST_VOLTAGE = 3.7
 _ADDRESS = "E7E7E7E7E7"
 
 
-def options_of(drone: str, given: Mapping[str, object]) -> Options:
+def options_of(given: Mapping[str, object]) -> Options:
     """Return what the fleet file says; raise `BadInput` naming the key that cannot be used."""
     for key in given:
         if key not in _KNOWN:
-            raise BadInput(words.unknown_option(drone, key, _KNOWN))
-    reading = _Reading(drone, given)
+            raise BadInput(words.unknown_option(key, _KNOWN))
+    reading = _Reading(given)
     return Options(
         measure=reading.names("measure"),
         measure_seconds=reading.number("measure_seconds", 1.0, least=0.0),
@@ -74,13 +74,12 @@ def options_of(drone: str, given: Mapping[str, object]) -> Options:
 
 @dataclass(frozen=True, slots=True)
 class _Reading:
-    """A table, and whose it is."""
+    """A table of options."""
 
-    drone: str
     given: Mapping[str, object]
 
     def bad(self, key: str, wanted: str) -> BadInput:
-        return BadInput(words.bad_option(self.drone, key, wanted))
+        return BadInput(words.bad_option(key, wanted))
 
     def number(self, key: str, default: float, *, least: float) -> float:
         value = _number(self.given.get(key, default))

@@ -87,7 +87,7 @@ def cause(message: str) -> str:
 
 
 def no_scan(why: str) -> str:
-    return f"nobody can be looked for by radio: {why}"
+    return f"the radio finds nobody: {why}"
 
 
 def no_address(address: str) -> str:
@@ -269,9 +269,9 @@ def not_kept(drone: str, folder: str, why: str) -> str:
 # Options
 
 
-def unknown_option(drone: str, key: str, known: Sequence[str]) -> str:
-    return f"{drone}: a Crazyflie has no option {quoted(key)}; it has {', '.join(known)}"
+def unknown_option(key: str, known: Sequence[str]) -> str:
+    return f"a Crazyflie has no option {quoted(key)}; it has {', '.join(known)}"
 
 
-def bad_option(drone: str, key: str, wanted: str) -> str:
-    return f"{drone}: its option {key} must be {wanted}"
+def bad_option(key: str, wanted: str) -> str:
+    return f"its option {key} must be {wanted}"

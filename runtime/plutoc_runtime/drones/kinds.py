@@ -36,6 +36,8 @@ class Kind:
     """Of entry points."""
     argument: str
     """What the class is called with."""
+    such_as: str
+    """One that somebody could write."""
     methods: tuple[Method, ...]
     together: tuple[tuple[Method, ...], ...] = ()
     """What only some have: all of such a group, or none of it."""

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, TypeVar, cast
 
 from ..errors import BadInput
 from . import refusals
+from .calls import shortened
 from .checking import problems
 from .kinds import CAPABILITIES, LOCALIZATION_METHODS, NAVIGATION_METHODS, Kind
 
@@ -41,6 +42,7 @@ NAVIGATION = Kind(
     ours=(("crazyflie", _crazyflie),),
     group="plutoc.navigations",
     argument="setup",
+    such_as="my_drones.parrot:Parrot",
     methods=NAVIGATION_METHODS,
     together=CAPABILITIES,
 )
@@ -48,6 +50,7 @@ LOCALIZATION = Kind(
     word="localization",
     group="plutoc.localizations",
     argument="options",
+    such_as="my_cameras:Ceiling",
     methods=LOCALIZATION_METHODS,
 )
 
@@ -154,4 +157,5 @@ def _only_what_is_installed() -> Iterator[None]:
 
 
 def _said(error: BaseException) -> str:
-    return str(error) if isinstance(error, BadInput) else f"{type(error).__name__}: {error}"
+    said = str(error) if isinstance(error, BadInput) else f"{type(error).__name__}: {error}"
+    return shortened(said)

@@ -22,7 +22,7 @@ def no_such_name(kind: Kind, name: str, names: Sequence[str]) -> BadInput:
     there = f"there is: {', '.join(names)}; or write" if names else "write"
     return BadInput(
         f"no {kind.word} {quoted(name)} is installed; {hint}{there} module:Class, "
-        f'such as "my_drones.parrot:Parrot"'
+        f'such as "{kind.such_as}"'
     )
 
 

@@ -23,6 +23,7 @@ from ..simulation.drones import SimulatedNavigation
 from ..simulation.keeping import Keeper
 from ..simulation.moments import this_moment
 from ..simulation.world import World
+from ..words import printable
 from .ending import Ending
 from .file_ledger import FileLedger
 from .gateway import Gateway
@@ -146,6 +147,10 @@ async def _command(folder: Path, settings: Settings, kernel: RealTime, controls:
 
 
 def _say(what: str) -> None:
-    """Write a line of the log; one that nobody can take is no reason to let drones fall."""
+    """Write a line of the log; one that nobody can take is no reason to let drones fall.
+
+    What others' classes say is in it, and must command no terminal on which it is read.
+    """
+    said = "\n".join(map(printable, what.split("\n")))
     with suppress(OSError):
-        print(f"{time.strftime('%Y-%m-%d %H:%M:%S')} {what}", file=sys.stderr, flush=True)
+        print(f"{time.strftime('%Y-%m-%d %H:%M:%S')} {said}", file=sys.stderr, flush=True)
