@@ -11,7 +11,7 @@ import pytest
 from plutoc_runtime.crtp.camera import camera, picture, port_of
 from plutoc_runtime.drones import ActionNotDone, Rejected
 from plutoc_runtime.model import Item, Photo
-from tests.crazyflie.hangar import FAST, Flight, Outcomes, all_at_once, hangar
+from tests.crazyflie.hangar import FAST, Flight, Outcomes, hangar
 
 pytest.importorskip("cflib")
 
@@ -133,7 +133,7 @@ async def it_says_what_it_is(folder: Path) -> None:
         assert one.deeds == []
 
 
-DEEDS: list[Flight] = [
+FLIGHTS: list[Flight] = [
     it_measures_what_the_fleet_file_names,
     it_picks_and_releases_by_a_parameter,
     what_it_has_not_it_says_before_it_flies,
@@ -146,15 +146,9 @@ DEEDS: list[Flight] = [
 ]
 
 
-@pytest.fixture(scope="module")
-def outcomes(tmp_path_factory: pytest.TempPathFactory) -> Outcomes:
-    """Let all of them be done at once, each by a drone of its own."""
-    return all_at_once(DEEDS, lambda: tmp_path_factory.mktemp("deed"))
-
-
-@pytest.mark.parametrize("deed", DEEDS, ids=lambda deed: deed.__name__)
-def test_action(deed: Flight, outcomes: Outcomes) -> None:
+@pytest.mark.parametrize("flown", FLIGHTS, ids=lambda flown: flown.__name__)
+def test_action(flown: Flight, outcomes: Outcomes) -> None:
     """Each is done as its name says."""
-    outcome = outcomes[deed]
+    outcome = outcomes[flown]
     if outcome is not None:
         raise outcome

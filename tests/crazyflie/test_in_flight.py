@@ -22,7 +22,7 @@ from plutoc_runtime.drones import (
     OutsideArea,
     Rejected,
 )
-from tests.crazyflie.hangar import FAST, Flight, Outcomes, all_at_once, hangar, threads_left
+from tests.crazyflie.hangar import FAST, Flight, Outcomes, hangar, threads_left
 
 pytest.importorskip("cflib")
 
@@ -217,12 +217,6 @@ FLIGHTS: list[Flight] = [
     the_emergency_stop_stops_in_the_air,
     a_drone_that_cannot_find_itself_flies_by_what_others_see,
 ]
-
-
-@pytest.fixture(scope="module")
-def outcomes(tmp_path_factory: pytest.TempPathFactory) -> Outcomes:
-    """Fly all of them, and return what each has come to."""
-    return all_at_once(FLIGHTS, lambda: tmp_path_factory.mktemp("flight"))
 
 
 @pytest.mark.parametrize("flown", FLIGHTS, ids=lambda flown: flown.__name__)

@@ -20,7 +20,7 @@ from plutoc_runtime.drones import (
     LinkLost,
     NotReady,
 )
-from tests.crazyflie.hangar import FAST, Flight, Outcomes, all_at_once, hangar, threads_left
+from tests.crazyflie.hangar import FAST, Flight, Outcomes, hangar, threads_left
 
 pytest.importorskip("cflib")
 
@@ -176,12 +176,6 @@ FLIGHTS: list[Flight] = [
     one_that_has_flown_already_keeps_its_place,
     without_a_uri_it_says_what_is_missing,
 ]
-
-
-@pytest.fixture(scope="module")
-def outcomes(tmp_path_factory: pytest.TempPathFactory) -> Outcomes:
-    """Fly all of them, and return what each has come to."""
-    return all_at_once(FLIGHTS, lambda: tmp_path_factory.mktemp("flight"))
 
 
 @pytest.mark.parametrize("flown", FLIGHTS, ids=lambda flown: flown.__name__)
