@@ -66,9 +66,8 @@ def _put_away(cf: Cf) -> None:
     if cf.incoming.is_alive():
         cf.incoming.join(_LONGEST)
     _dismiss(cf)
-    cf.link = None  # so that cflib does not send its goodbye even to nowhere
+    _cut(cf)
     cf.close_link()
-    _unlock(cf)
 
 
 def _dismiss(cf: Cf) -> None:
@@ -83,12 +82,19 @@ def _dismiss(cf: Cf) -> None:
             end()
 
 
-def _unlock(cf: Cf) -> None:
-    """Free the threads that wait for ever to send something, as one fell over while it sent."""
+def _cut(cf: Cf) -> None:
+    """Take the link away while nobody sends, so that cflib says no goodbye even to nowhere.
+
+    Whoever sends looks for a link and then uses it, under a lock. One that fell over while it sent has
+    left it locked, and all others wait for ever: they are let in, and find no link.
+    """
     lock: Lock | None = getattr(cf, "_send_lock", None)
     if lock is not None:
         lock.acquire(timeout=_SENDING)
-        lock.release()  # one that is let in finds no link, and lets in the next
+    cf.link = None
+    if lock is not None:
+        with suppress(RuntimeError):  # whoever had it was only slow
+            lock.release()
 
 
 def _wake(link: Link) -> None:
