@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 import json
+from dataclasses import dataclass, replace
+from pathlib import Path
 
 import pytest
 
 from plutoc_runtime.airspace import Airspace
+from plutoc_runtime.cli.flights import Flight, aloft, may_hover
 from plutoc_runtime.cli.stand_ins import with_stand_ins
 from plutoc_runtime.drones.real_fleet import RealDrone, Wanted, real_data, real_fleet, real_of
 from plutoc_runtime.errors import BadInput
 from plutoc_runtime.files.fleet import DroneEntry, FleetFile
 from plutoc_runtime.journal.values import trip_data
+from plutoc_runtime.model import Drone, Point
 from plutoc_runtime.simulation.drones import SimulatedNavigation
+from plutoc_runtime.simulation.faults import Faults
 from plutoc_runtime.standing import Standing
 from plutoc_runtime.status import DroneStatus, Status
 from tests.runtime import apps
@@ -141,3 +146,37 @@ def test_the_others_fly_without_a_drone_that_is_not_ready(monkeypatch: pytest.Mo
     assert (second["event"], second["drone"]) == ("drone.recovering", "cf1")
     assert living.life.missions[0].status is Status.COMPLETED
     assert {drone.status for drone in living.life.session.drones} == {DroneStatus.FREE}
+
+
+@dataclass(frozen=True)
+class Heard:
+    """The last word of a drone."""
+
+    location: Point
+    battery_level: float
+    landed: bool
+
+
+def test_of_a_drone_that_is_silent_in_the_air_people_are_warned(tmp_path: Path) -> None:
+    """A simulated one hurts nobody."""
+    scout = apps.app(apps.flow()).categories[0]
+    one, two = (
+        Drone(
+            id=id, category=scout, home=(1.0, 1.0, 0.0), telemetry=Heard((2.0, 3.0, z), 1.0, z == 0)
+        )
+        for id, z in (("a", 0.0), ("b", 1.2))
+    )
+    real = Flight(
+        app=apps.app(apps.flow()),
+        journal=tmp_path / "j",
+        missions=(),
+        fleet=FLEET,
+        speed=1.0,
+        seed=0,
+        faults=Faults(),
+        sim=False,
+    )
+    assert aloft(real, (one, two)) == [two]
+    assert aloft(replace(real, sim=True), (one, two)) == []
+    said = "no word of a landing from b (last heard of at (2, 3)): what may still hover"
+    assert may_hover([two]).startswith(said)

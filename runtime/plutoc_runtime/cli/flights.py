@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import closing, suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -80,20 +80,22 @@ def see_through(flight: Flight, store: Store, known: Recovered | None = None) ->
     interrupts = Interrupts(stops, lambda: flight.journal, flight.how_to_go_on)
     with interrupts.listening():
         lived = asyncio.run(_heard(flight, store, stops, interrupts, known))
-    aloft = [] if flight.sim else [one for one in lived.drones if not one.telemetry.landed]
-    if aloft:
-        output.tell(unheard(aloft))
     if lived.end is End.STOPPED:
-        who = "all other drones" if aloft else "all drones"
+        who = "all other drones" if aloft(flight, lived.drones) else "all drones"
         output.tell(f"{who} are down; {flight.how_to_go_on}")
         return interrupts.code or STOPPED
     output.line()
     return reported(flight.app, flight.journal, lived.records, lived.drones)
 
 
-def unheard(aloft: Sequence[Drone]) -> str:
-    """Return what to tell people of drones that were last heard of in the air."""
-    places = ", ".join(f"{drone.id} (last heard of at {place(drone.location)})" for drone in aloft)
+def aloft(flight: Flight, drones: Iterable[Drone]) -> list[Drone]:
+    """Return the real drones that were last heard of in the air, though all were to be down."""
+    return [] if flight.sim else [drone for drone in drones if not drone.telemetry.landed]
+
+
+def may_hover(drones: Iterable[Drone]) -> str:
+    """Return what to tell people of those."""
+    places = ", ".join(f"{drone.id} (last heard of at {place(drone.location)})" for drone in drones)
     return (
         f"no word of a landing from {places}: what may still hover, nobody should stand under;"
         " the gateway lands whichever answers within two minutes"
@@ -165,6 +167,8 @@ async def lives(
             lived = await live(setting, store, stops, known, watcher.born)
         known = None
         if lived.end is not End.LOST:
+            if unheard := aloft(flight, lived.drones):
+                watcher.say(may_hover(unheard))
             return lived
         before, done = done, finished(lived.records)
         deaths = 1 if done > before else deaths + 1

@@ -195,8 +195,9 @@ class Team:
             return (member.out_of_reach,)
         if not member.seen.landed:
             return ()
-        reasons = () if member.down is None else (str(member.down),)
-        return (*reasons, *await member.preflight(), *member.lacks())
+        down = () if member.down is None else (str(member.down),)
+        news = [why for why in await member.preflight() if not any(why in one for one in down)]
+        return (*down, *news, *member.lacks())
 
     def _lacks(self, member: Member) -> tuple[str, ...]:
         """Return which actions its category can do, and its hardware cannot."""
