@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from tests.flights_crazyflie.plans import DISTRIBUTION, quick_package
-from tests.flights_crazyflie.together import LATER, stopped
+from tests.flights_crazyflie.together import LATER, Figures, stopped
 
 pytest.importorskip("cflib")
 
@@ -21,11 +21,22 @@ def source(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return quick_package(tmp_path_factory.mktemp("quick"), SPEED, DISTRIBUTION)
 
 
+def landed(how: str, source: Path, folder: Path) -> Figures:
+    """Fly until it is the drones that are judged, and not a machine that stood still for a second."""
+    for attempt in range(2):
+        try:
+            return stopped(how, source, folder / str(attempt), SPEED)
+        except AssertionError as error:
+            if "told nothing for" not in str(error):
+                raise
+    return stopped(how, source, folder, SPEED)
+
+
 @pytest.mark.parametrize("how", ["land", "rtl"])
 def test_all_are_down_soon_after_the_slowest_alone_and_never_too_near(
     how: str, source: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    figures = stopped(how, source, tmp_path, SPEED)
+    figures = landed(how, source, tmp_path)
     with capsys.disabled():
         print(f"\n{figures}")
     assert figures.problems == ()

@@ -163,7 +163,7 @@ def test_a_stop_counts_although_the_gateway_dies_meanwhile(new_flight: NewFlight
 
 
 def test_missions_are_paused_skipped_and_cancelled_while_they_fly(new_flight: NewFlight) -> None:
-    flight = new_flight(10.0)
+    flight = new_flight(5.0)  # none shall have ended before they are paused
     flight.start()
     flight.until_it_says("launched")
 

@@ -82,7 +82,7 @@ def test_the_way_back_is_short_and_leads_to_where_it_may_be(
         assert dist(back, point) < 1e-6
     height = min(max(point[2], 0.0), 2.0)
     nearest = min(dist((x, y, height), point) for x, y in PERMITTED)
-    assert dist(back, point) <= nearest + 1e-6
+    assert dist(back, point) <= nearest + 1e-5
 
 
 def test_heights_and_targets_are_refused_and_never_made_to_fit() -> None:

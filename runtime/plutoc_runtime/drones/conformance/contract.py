@@ -123,7 +123,7 @@ class NavigationContract(Author):
                 isfinite(turned) and abs(turned) <= 2 * pi,
                 f"yaw is {turned:.2f}: radians are between -3.15 and 3.15",
             )
-        different = units_differ(record.samples, 3 * self.tolerance)
+        different = units_differ(record.samples, 3 * self.tolerance, self.speed)
         ensure(different is None, str(different))
 
     def test_it_is_never_faster_than_it_was_told(self) -> None:

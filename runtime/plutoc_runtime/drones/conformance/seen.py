@@ -95,14 +95,18 @@ def looks_without_news(samples: Sequence[Sample]) -> int:
     return most
 
 
-def units_differ(samples: Sequence[Sample], tolerance: float) -> str | None:
-    """Return in what telemetry and truth differ, by more than a drone's own error; None: nothing."""
-    for one in samples:
+def units_differ(samples: Sequence[Sample], tolerance: float, speed: float) -> str | None:
+    """Return in what telemetry and truth differ, by more than a drone's own error; None: nothing.
+
+    What it tells is a little old, and a busy machine looks late: it may have flown on meanwhile.
+    """
+    for earlier, one in pairwise(samples):
         if one.truth is None or not isfinite(one.telemetry.time):
             continue  # nobody knows, or it has not told anything yet
         position, yaw = one.telemetry.position, one.telemetry.yaw
         off = dist(position, one.truth.position)
-        if off > tolerance:
+        late = one.at - min(earlier.at, one.telemetry.time)
+        if off > tolerance + 2 * speed * late:
             return (
                 f"it says it is at {_written(position)} m, and is at "
                 f"{_written(one.truth.position)} m: which units, and which frame?"
