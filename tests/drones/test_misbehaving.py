@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Sequence
+from collections.abc import AsyncIterator, Sequence
 from pathlib import Path
 from typing import cast
 
@@ -209,6 +209,24 @@ def test_answers_that_are_none_are_mistakes(tmp_path: Path) -> None:
             drone.events_told(cast("DroneEvent", object()))
             drone.happens(BATTERY_LOW)
             await flown.until(lambda: not drone.motors)
+
+    run(flight())
+
+
+def test_one_that_is_never_out_of_news_holds_up_nobody(tmp_path: Path) -> None:
+    """Its events come one after the other without a pause; the log is not filled with them."""
+
+    class Chatty(FakeDrone):
+        async def events(self) -> AsyncIterator[DroneEvent]:
+            while True:
+                yield DroneEvent(kind="news", reason="still here")
+
+    async def flight() -> None:
+        chatty, other = Chatty(), FakeDrone("cf2", (3.0, 1.0, 0.0))
+        async with flying(tmp_path, chatty, other) as flown:
+            await flown.up("cf2")
+            await flown.until(lambda: the_loop().time() > 1005)
+            assert flown.log.count("cf1: news: still here") == 1
 
     run(flight())
 

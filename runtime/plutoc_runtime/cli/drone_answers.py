@@ -32,6 +32,7 @@ if TYPE_CHECKING:
 CONNECT, ANSWER, CLOSE, SCAN = 15.0, 5.0, 10.0, 90.0
 """Seconds that each may take."""
 
+LOST = "it does not tell where it is"
 IN_THE_AIR = "it is in the air: nothing more was asked of it"
 
 T = TypeVar("T")
@@ -168,6 +169,8 @@ async def _answer(asked: Asked, navigation: DroneNavigation, feeding: Feeding | 
     match end:
         case None:
             problems = so_far.problems
+            if not isfinite(sum(so_far.telemetry.position if so_far.telemetry else ())):
+                problems = (*problems, LOST)
             lost = None if feeding is None else feeding.silent(asked.id)
             if lost is not None:
                 problems = (*problems, lost)
@@ -228,4 +231,6 @@ def _why(error: Exception) -> str:
 def heard(answer: Answer) -> DroneTelemetry | None:
     """Return what a drone has told of itself, if it has told anything."""
     telemetry = answer.telemetry
-    return telemetry if telemetry is not None and isfinite(telemetry.time) else None
+    if telemetry is None or not all(map(isfinite, (telemetry.time, *telemetry.position))):
+        return None
+    return telemetry

@@ -82,6 +82,11 @@ class Calls:
             self.say(f"{failed} ({what})\n{trace}")
         return failed
 
+    def note(self, what: str) -> None:
+        """Put a line into the log, unless it was put there a moment ago."""
+        if self._is_news(what):
+            self.say(what)
+
     def took(self, seconds: float) -> None:
         """Hear how long it has kept everybody waiting."""
         if seconds > BLOCKED and self._is_news("blocked"):

@@ -78,6 +78,7 @@ class Feeding:
                 positions = self._source.positions()
                 async for one in positions:
                     self._hear(one)
+                    await asyncio.sleep(0)  # or one that is never out of news would hold up all
                 why = "it ended"
             except _MISTAKES as error:
                 why = f"{type(error).__name__}: {error}"

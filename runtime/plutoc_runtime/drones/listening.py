@@ -17,6 +17,9 @@ if TYPE_CHECKING:
     from .member import Member
     from .telemetry import DroneEvent
 
+BETWEEN = 0.01
+"""Seconds between two events: one that never ends to have news would let nobody else do anything."""
+
 
 async def listen(member: Member) -> None:
     """Hear of all events of a drone, until it is let go of."""
@@ -26,6 +29,7 @@ async def listen(member: Member) -> None:
         while True:
             event = await Timed(events.__anext__(), calls.clock, calls.took)
             calls.ask("events", partial(hear, member, event), None)
+            await asyncio.sleep(BETWEEN)
     except StopAsyncIteration:
         pass
     except (asyncio.CancelledError, KeyboardInterrupt):
@@ -46,7 +50,7 @@ def hear(member: Member, event: DroneEvent) -> None:
         why = f"the battery of {who} is low at {where}, where it lands: {reason}"
         member.must_come_down(FlightFailed(Failure.BATTERY, why))
     else:
-        member.calls.say(f"{who}: {shortened(kind)}: {reason}")
+        member.calls.note(f"{who}: {shortened(kind)}: {reason}")
 
 
 def _is_down(member: Member) -> bool:
