@@ -32,6 +32,8 @@ NOTE, DRONES, LOCK, LOG = "crtp", "crtp.json", "crtp.lock", "crtp.log"
 """What lies in its folder; NOTE says where it listens to `ask`."""
 COMMAND = "crtp"
 
+GATEWAY_LOCK = "lock"
+"""What the gateway of a flight keeps locked in this folder."""
 _IDLE = 60.0
 """Seconds with nobody in the air and nobody who talks, after which it ends."""
 _PATIENCE = 10.0
@@ -134,7 +136,7 @@ async def _run(folder: Path) -> None:
             while not over.is_set():
                 record.flush()
                 _write(folder, _state(server))
-                if server.quiet > _IDLE and not server.airborne:
+                if server.quiet > _IDLE and not server.airborne and not is_flown(folder):
                     break
                 with suppress(TimeoutError):
                     async with asyncio.timeout(_LOOK):
@@ -209,6 +211,16 @@ def _state(server: Server) -> dict[str, dict[str, object]]:
         }
         for id, endpoint in server.endpoints.items()
     }
+
+
+def is_flown(folder: Path) -> bool:
+    """Say whether the gateway of this folder runs: it hears drones that stand, and tells them nothing."""
+    with suppress(OSError), (folder / GATEWAY_LOCK).open("rb") as lock:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_SH | fcntl.LOCK_NB)
+        except BlockingIOError:
+            return True
+    return False
 
 
 def _kept(folder: Path) -> dict[str, dict[str, Any]]:
