@@ -211,9 +211,7 @@ def test_modules_that_nothing_needs_stay_behind(example: str) -> None:
     carried = {path.partition("/_runtime/")[2] for path in package_of(text).owned}
     left_out = [name for name in modules() if f"{name.replace('.', '/')}.py" not in carried]
     of_tests = [
-        name
-        for name in left_out
-        if name.startswith(("testing.", FOR_AUTHORS)) or name in FOR_TESTS
+        name for name in left_out if name.startswith(("testing.", FOR_AUTHORS)) or name in FOR_TESTS
     ]
     assert [name for name in left_out if name not in of_tests] == LEFT_OUT[example].split()
     assert all(name in of_tests for name in FOR_TESTS)
