@@ -134,4 +134,5 @@ def _refuse_if_none_is_ready(roll: RollCall) -> None:
     """Raise `BadInput` if no drone may fly: nothing has begun."""
     problems = [of(drone, "; ".join(one.problems)) for drone, one in roll.drones.items()]
     if problems and all(standing.problems for standing in roll.drones.values()):
-        raise BadInput(shortened(["no drone is ready to fly", *problems]))
+        whole = shortened(["no drone is ready to fly", *problems])
+        raise BadInput(f"{whole}\nnothing has begun: mend that, and begin anew, with a new journal")

@@ -143,6 +143,20 @@ def test_a_drone_that_takes_long_to_hear_keeps_nobody_and_hears_the_latest() -> 
     played(play)
 
 
+def test_a_drone_that_never_hears_does_not_know_where_it_is() -> None:
+    """However often it is seen."""
+
+    async def play(scene: Scene) -> None:
+        scene.cf1.free.clear()
+        await scene.sees(("cf1", (1, 1, 1)))
+        scene.now += 1.5
+        await scene.sees(("cf1", (1, 1, 1)), ("cf2", (1, 1, 1)))
+        assert scene.feeding.silent("cf1") == "no position from eyes for 1.5 s"
+        assert scene.feeding.silent("cf2") is None
+
+    played(play)
+
+
 def test_a_drone_that_cannot_hear_is_told_of_once_and_tried_again() -> None:
     async def play(scene: Scene) -> None:
         scene.cf1.broken = True

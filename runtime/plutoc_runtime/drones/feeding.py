@@ -44,6 +44,7 @@ class Feeding:
         """As the fleet file has it."""
         self._source, self._drones, self._log, self._clock = source, drones, log, clock
         self._heard = dict.fromkeys(drones, clock())
+        """When each was told where it is: what is only on its way helps no drone."""
         self._latest: dict[str, Point] = {}
         """What a drone is still to be told; older positions are not worth it."""
         self._telling: dict[str, asyncio.Task[None]] = {}
@@ -102,7 +103,7 @@ class Feeding:
         elif not all(isfinite(value) for value in position):
             self._say(f"the localization {self.name} gave {drone} a position that is no number")
         else:
-            self._heard[drone], self._latest[drone] = self._clock(), position
+            self._latest[drone] = position
             if drone not in self._telling:
                 telling = asyncio.create_task(self._tell(drone), name=f"position of {drone}")
                 self._telling[drone] = telling
@@ -111,6 +112,7 @@ class Feeding:
         try:
             while (position := self._latest.pop(drone, None)) is not None:
                 await self._drones[drone].locate(position)
+                self._heard[drone] = self._clock()
         except _MISTAKES as error:
             self._say(f"{drone} could not be told where it is: {type(error).__name__}: {error}")
         finally:
