@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING
 
 from ..crazyflie.borrowed import require
 from ..drones import refusals
-from ..drones.loading import hears, load_localization, load_navigation, make_navigation
-from ..drones.setup import DroneSetup
+from ..drones.loading import hears, load_localization, load_navigation
+from ..drones.making import make_one
+from ..drones.real_fleet import real_fleet
 from ..errors import BadInput
 from ..files.behaviour import CRAZYFLIE, OWN
 from ..files.reading import shortened
-from ..files.real import navigation_of, not_real, options_of
+from ..files.real import navigation_of, not_real
 
 if TYPE_CHECKING:
     from ..app import App
@@ -59,12 +60,5 @@ def _check_options(app: App, fleet: FleetFile, where: str) -> None:
 def made(app: App, fleet: FleetFile, drone: DroneEntry, folder: Path) -> DroneNavigation:
     """Return what flies one drone; nothing is reached yet. `BadInput`: its options are wrong."""
     (category,) = (one for one in app.categories if one.name == drone.category)
-    setup = DroneSetup(
-        id=drone.id,
-        uri=drone.uri,
-        home=drone.home,
-        speed=category.top_speed or category.speed,
-        options=options_of(fleet, drone),
-        folder=folder,
-    )
-    return make_navigation(navigation_of(fleet, drone), setup)
+    (how,) = (one for one in real_fleet(fleet, ()).drones if one.id == drone.id)
+    return make_one(how, drone.home, category, folder)

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from ..kernel import Kernel
     from ..model import Category, Point
     from .protocol import DroneNavigation
-    from .real_fleet import RealFleet
+    from .real_fleet import RealDrone, RealFleet
 
 FILES = "files"
 """The folder, in the gateway's, where navigations keep photos and the like."""
@@ -45,6 +45,19 @@ class Craft(Protocol):
         ...
 
 
+def make_one(drone: RealDrone, home: Point, category: Category, folder: Path) -> DroneNavigation:
+    """Return what flies one drone; nothing is reached yet. `BadInput`: its options are wrong."""
+    setup = DroneSetup(
+        id=drone.id,
+        uri=drone.uri,
+        home=home,
+        speed=category.top_speed or category.speed,
+        options=drone.options,
+        folder=folder,
+    )
+    return make_navigation(drone.navigation, setup)
+
+
 def make_team(
     kernel: Kernel,
     drones: Sequence[Craft],
@@ -59,15 +72,7 @@ def make_team(
     how = {drone.id: drone for drone in real.drones}
     navigations: dict[str, DroneNavigation] = {}
     for drone in drones:
-        setup = DroneSetup(
-            id=drone.id,
-            uri=how[drone.id].uri,
-            home=drone.home,
-            speed=drone.category.top_speed or drone.category.speed,
-            options=how[drone.id].options,
-            folder=files,
-        )
-        navigations[drone.id] = make_navigation(how[drone.id].navigation, setup)
+        navigations[drone.id] = make_one(how[drone.id], drone.home, drone.category, files)
     return Team(
         kernel,
         [
