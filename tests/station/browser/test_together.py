@@ -9,7 +9,7 @@ from playwright.sync_api import Route, expect
 
 from tests.station.browser.conftest import Serve, Visit
 from tests.station.browser.exercise import COMPLETED, DONE, put_in
-from tests.station.browser.serving import until
+from tests.station.browser.serving import Station, until
 from tests.station.browser.steps import (
     add_mission,
     drag,
@@ -19,9 +19,15 @@ from tests.station.browser.steps import (
     sees_all,
     start,
 )
+from tests.station.browser.watched import Watch
+
+# Whoever is told that somebody was quicker draws on top of that: a browser calls the answer an
+# error.
+SOMEBODY_WAS_QUICKER = "409 (Conflict)"
 
 
-def test_what_one_draws_the_other_sees(serve: Serve, visit: Visit) -> None:
+def test_what_one_draws_the_other_sees(serve: Serve, visit: Visit, watch: Watch) -> None:
+    watch.expected.append(SOMEBODY_WAS_QUICKER)  # the trip may still be on its way to the other
     station = serve("drugs_distribution")
     one, other = visit(station), visit(station)
     add_mission(one, "From here")
@@ -31,6 +37,38 @@ def test_what_one_draws_the_other_sees(serve: Serve, visit: Visit) -> None:
     open_page(one, "Missions")
     expect(missions_listed(one)).to_have_text(["From here", "From there"])
     until(lambda: len(station.get("/api/plan")["missions"]) == 2, "both are kept")
+
+
+def test_what_two_draw_in_one_moment_is_kept_of_both(
+    serve: Serve, visit: Visit, watch: Watch
+) -> None:
+    watch.expected.append(SOMEBODY_WAS_QUICKER)
+    station = serve("drugs_distribution")
+    one, other = visit(station), visit(station)
+    held: list[Route] = []
+
+    def hold_the_first(route: Route) -> None:
+        if held or route.request.method != "PUT":
+            route.fallback()
+        else:
+            held.append(route)
+
+    one.route("**/api/plan", hold_the_first)
+    with one.expect_request(lambda request: request.method == "PUT"):
+        add_mission(one, "From here")
+    add_mission(other, "From there")
+    until(lambda: _names(station) == ["From there"], "the quicker one is kept")
+    assert watch.complaints == []
+    held[0].continue_()
+    for page in (one, other):
+        open_page(page, "Missions")
+        expect(missions_listed(page)).to_have_text(["From there", "From here"])
+    until(lambda: _names(station) == ["From there", "From here"], "both are kept")
+    assert [SOMEBODY_WAS_QUICKER in one for one in watch.complaints] == [True]
+
+
+def _names(station: Station) -> list[str]:
+    return [mission["name"] for mission in station.get("/api/plan")["missions"]]
 
 
 def test_two_who_press_start_at_once_start_once_and_see_the_same(
