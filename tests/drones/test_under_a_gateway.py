@@ -14,6 +14,7 @@ from plutoc_runtime.drones import BATTERY_LOW
 from plutoc_runtime.drones.real_fleet import RealFleet
 from plutoc_runtime.errors import Failure, FlightFailed
 from plutoc_runtime.gateway.ending import LINGERS, Ending
+from plutoc_runtime.gateway.file_ledger import FileLedger
 from plutoc_runtime.gateway.gateway import Gateway
 from plutoc_runtime.gateway.server import Server
 from plutoc_runtime.gateway.wire import line
@@ -40,14 +41,24 @@ class Craft:
 
 @asynccontextmanager
 async def commanded(
-    folder: Path, count: int = 1, patience: float | None = None
+    folder: Path,
+    count: int = 1,
+    patience: float | None = None,
+    ledger: FileLedger | None = None,
 ) -> AsyncIterator[tuple[Flown, Gateway]]:
     """Begin a gateway over some fake drones, and call the roll."""
     drones = [FakeDrone(f"cf{i}", (float(i), 1.0, 0.0)) for i in range(1, count + 1)]
     async with flying(folder, *drones) as flown:
         crafts = [Craft(flown, index) for index in range(count)]
         gateway = Gateway(
-            flown.kernel, flown.team, crafts, FIELD, apart=0.5, slack=0.15, patience=patience
+            flown.kernel,
+            flown.team,
+            crafts,
+            FIELD,
+            ledger=ledger,
+            apart=0.5,
+            slack=0.15,
+            patience=patience,
         )
         try:
             yield flown, gateway
@@ -141,6 +152,37 @@ def test_without_a_brain_all_land_and_a_silent_one_delays_nobody(tmp_path: Path)
             lost.answers = True
             await flown.until(lambda: not lost.motors, 30)
             await flown.until(lambda: not gateway.flies, 1)
+
+    run(flight())
+
+
+def test_another_gateway_flies_nobody_whose_motors_were_cut(tmp_path: Path) -> None:
+    """Whatever the drone says of itself: it was switched off and on, and has forgotten."""
+
+    async def flight() -> None:
+        ledger = FileLedger(tmp_path / "ledger")
+        async with commanded(tmp_path, ledger=ledger) as (flown, gateway):
+            await flown.up()
+            assert await flown.do(gateway.cut_motors("cf1")) == ""
+            assert not flown.drones["cf1"].motors
+        ledger.close()
+        ledger = FileLedger(tmp_path / "ledger")
+        async with commanded(tmp_path, ledger=ledger) as (flown, gateway):
+            link, heard, drone = gateway.link(1), list[object](), flown.drones["cf1"]
+            roll = await flown.do(link.call())
+            assert roll.drones["cf1"].problems == ("cf1's motors were cut",)
+            flown.kernel.post(link.fly, measuring("cf1", (1.0, 5.0, 1.2)), heard.append)
+            await flown.until(lambda: heard)
+            assert str(heard[0]) == "cf1's motors were cut"
+            assert not await flown.do(gateway.recover("cf1"))
+            assert drone.told == []
+            flown.kernel.post(link.mended, "cf1")
+            assert await flown.do(gateway.recover("cf1"))
+            again = measuring("cf1", (2.0, 1.0, 1.2))
+            flown.kernel.post(link.fly, again, heard.append)
+            await flown.until(lambda: len(heard) == 2)
+            assert heard[1] == 21.5
+        ledger.close()
 
     run(flight())
 

@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 import asyncio
+import os
+import signal
 from pathlib import Path
 
 import pytest
 
 from plutoc_runtime.errors import BadInput, Failure, FlightFailed
+from plutoc_runtime.gateway.file_ledger import FileLedger
+from plutoc_runtime.gateway.process import LEDGER
 from plutoc_runtime.gateway.starting import cut_directly
 from plutoc_runtime.kernel import FLEET
+from plutoc_runtime.simulation.keeping import DRONES
 from plutoc_runtime.standing import Down
 from tests.gateway.flights import THERE, Field, Task
-from tests.gateway.processes import Brain, played
+from tests.gateway.processes import Brain, pid, played
 from tests.runtime.simulation.flights import failure, fly
 
 
@@ -86,6 +91,139 @@ def test_a_drone_that_cannot_be_told_is_not_taken_for_cut(monkeypatch: pytest.Mo
     monkeypatch.setattr(type(field.navigation), "cut", unreachable)
     assert cut(field) == "cf1 cannot be reached"
     assert fly(field.virtual, field.gateway.link(1).recover("cf1")) is True
+
+
+class Kept(Field):
+    """A field whose gateways keep their ledger on the disk."""
+
+    def __init__(self, folder: Path) -> None:
+        self.file = folder / LEDGER
+        super().__init__(ledger=FileLedger(self.file))
+
+    def is_killed(self) -> None:
+        """Kill the gateway and begin another, while somebody switches cf1 off and on again."""
+        self.gateway.crash()
+        assert isinstance(self.ledger, FileLedger)
+        self.ledger.close()
+        self.navigation.mended("cf1")
+        self.ledger = FileLedger(self.file)
+        self.another()
+
+    def roll(self, epoch: int) -> tuple[str, ...]:
+        """Call the roll, and return why cf1 may not fly."""
+        return fly(self.virtual, self.gateway.link(epoch).call()).drones["cf1"].problems
+
+
+def test_another_gateway_knows_whose_motors_were_cut(tmp_path: Path) -> None:
+    """The drone itself may have forgotten it: whoever looks after it says so, once and for all."""
+    field, heard = Kept(tmp_path), list[object]()
+    cut(field)
+    field.is_killed()
+    assert field.roll(1) == ("cf1's motors were cut",)
+    link = field.gateway.link(2)
+    fly(field.virtual, link.call())
+    for command in (link.takeoff("cf1", 1.2), link.go_to("cf1", THERE)):
+        assert failure(field.virtual, command).failure is Failure.CRASH
+    assert fly(field.virtual, link.recover("cf1")) is False
+    assert fly(field.virtual, link.recover("cf2")) is True
+    link.mended("cf1")
+    field.is_killed()
+    assert field.roll(3) == ()
+    field.gateway.link(4).fly(Task(), heard.append)
+    field.advance(100)
+    assert field.navigation.flown("cf1") > 0
+    field.virtual.close()
+
+
+def test_it_is_on_record_before_it_is_done(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Nobody knows when a process is killed; what then flies on is landed, and stays down."""
+    field = Kept(tmp_path)
+    on_record: list[list[str]] = []
+
+    async def killed(_: object, drone: str) -> None:
+        there = FileLedger(field.file)
+        there.close()
+        on_record.append(list(there.cut))
+
+    link = field.gateway.link(1)
+    fly(field.virtual, link.takeoff("cf1", 1.2))
+    with monkeypatch.context() as patch:
+        patch.setattr(type(field.navigation), "cut", killed)
+        cut(field)
+    assert on_record == [["cf1"]]
+    field.is_killed()
+    assert field.roll(2) == ()
+    link = field.gateway.link(3)
+    fly(field.virtual, link.bring_down(Down.LAND))
+    assert field.navigation.bodies["cf1"].landed
+    assert field.roll(4) == ("cf1's motors were cut",)
+    field.virtual.close()
+
+
+def test_who_could_not_be_told_is_as_before(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A drone whose motors were cut before is not taken for well because it is out of reach now."""
+
+    async def unreachable(_: object, drone: str) -> None:
+        raise FlightFailed(Failure.LINK, f"{drone} cannot be reached")
+
+    field = Kept(tmp_path)
+    cut(field, "cf1")
+    monkeypatch.setattr(type(field.navigation), "cut", unreachable)
+    assert cut(field, "cf1") == "cf1 cannot be reached"
+    assert cut(field, "cf2") == "cf2 cannot be reached"
+    for epoch in (1, 2):
+        assert field.roll(epoch) == ("cf1's motors were cut",)
+        link = field.gateway.link(epoch)
+        fly(field.virtual, link.call())
+        assert fly(field.virtual, link.recover("cf2")) is True
+        field.is_killed()
+    field.virtual.close()
+
+
+def test_a_full_disk_keeps_no_motors_on(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What a person wants off is off."""
+
+    def full(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    field = Field()
+    monkeypatch.setattr(type(field.ledger), "write_cut", full)
+    monkeypatch.setattr(type(field.ledger), "make_sure", full)
+    assert cut(field) == ""
+    link = field.gateway.link(1)
+    assert str(failure(field.virtual, link.takeoff("cf1", 1.2))) == "cf1's motors were cut"
+    link.mended("cf1")
+    assert fly(field.virtual, link.recover("cf1")) is True
+
+
+def test_a_gateway_that_is_killed_right_after_a_cut_comes_back_knowing_it(tmp_path: Path) -> None:
+    """So does the one after somebody has brought the drone back: that it is well again."""
+
+    async def killed(brain: Brain) -> None:
+        number = pid(tmp_path)
+        assert number is not None
+        os.kill(number, signal.SIGKILL)
+        await brain.kernel.run(brain.lost)
+        (tmp_path / DRONES).unlink()  # as if the drones had been switched off and on again
+
+    async def play(brain: Brain) -> None:
+        link = await brain.linked()
+        await brain.told(link.call())
+        await asyncio.to_thread(cut_directly, tmp_path, "cf1", 5)
+        await killed(brain)
+        link = await brain.linked()
+        roll = await brain.told(link.call())
+        assert roll.drones["cf1"].problems == ("cf1's motors were cut",)
+        assert not await brain.told(link.recover("cf1"))
+        brain.kernel.post(link.mended, "cf1")
+        assert await brain.told(link.recover("cf1"))
+        await killed(brain)
+        link = await brain.linked()
+        assert (await brain.told(link.call())).drones["cf1"].problems == ()
+
+    played(tmp_path, play)
 
 
 def test_motors_are_cut_while_the_brain_hangs(tmp_path: Path) -> None:

@@ -136,6 +136,27 @@ def test_the_file_does_not_grow_for_ever(tmp_path: Path) -> None:
     assert kept(path) == {"stays": JobState.DONE}
 
 
+def test_whose_motors_are_cut_is_there_for_the_next_process(tmp_path: Path) -> None:
+    """The last word on each drone counts, also when the file was written anew."""
+    path = tmp_path / "ledger"
+    ledger = FileLedger(path)
+    for drone, is_cut in (("cf1", True), ("cf2", True), ("cf3", True), ("cf1", False)):
+        ledger.write_cut(drone, is_cut)
+    ledger.make_sure()
+    ledger.write(entry("a"))
+    assert list(ledger.cut) == ["cf2", "cf3"]
+    ledger.close()
+    ledger = FileLedger(path)
+    for number in range(1010):
+        ledger.forget(str(number))
+    ledger.close()
+    for _ in range(2):
+        ledger = FileLedger(path)
+        assert (list(ledger.cut), [one.id for one in ledger.entries()]) == (["cf2", "cf3"], ["a"])
+        ledger.close()
+    assert path.stat().st_size < 1000
+
+
 def test_an_action_that_cannot_be_written_down_is_not_begun(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

@@ -25,6 +25,8 @@ class FileLedger:
     def __init__(self, path: Path) -> None:
         self._path = path
         self._entries: dict[str, Entry] = {}
+        self.cut: dict[str, None] = {}
+        """The drones whose motors are cut."""
         self.is_whole = True
         """Whether every line could be read, but for one at the end that was never finished."""
         self._lines = self._end = 0
@@ -51,6 +53,15 @@ class FileLedger:
         """Drop a job. Should that be lost, it is only known for longer than it need be."""
         with suppress(OSError):
             self._append({"forget": id}, sync=False)
+
+    def write_cut(self, drone: str, is_cut: bool) -> None:
+        """Keep whether a drone's motors are cut; if the computer dies, only after `make_sure`."""
+        self._append(_motors(drone, is_cut), sync=False)
+        self._turned(drone, is_cut)
+
+    def make_sure(self) -> None:
+        """Return when all is on the disk."""
+        _sync(self._file)
 
     def close(self) -> None:
         """Leave the file as it is."""
@@ -85,13 +96,22 @@ class FileLedger:
         if "forget" in data:
             self._entries.pop(str(data["forget"]), None)
             return
+        if "motors" in data:
+            self._turned(str(data["motors"]), data["cut"] is True)
+            return
         entry = _entry(data)
         self._entries[entry.id] = entry
+
+    def _turned(self, drone: str, is_cut: bool) -> None:
+        self.cut.pop(drone, None)
+        if is_cut:
+            self.cut[drone] = None
 
     def _write_anew(self) -> None:
         """Leave out what has been overtaken or forgotten: beside the file, then in its place."""
         part = self._path.with_name(f"{self._path.name}.part")
-        text = b"".join(_line(_text(entry)) for entry in self._entries.values())
+        kept = [_text(entry) for entry in self._entries.values()]
+        text = b"".join(map(_line, [*kept, *(_motors(drone, True) for drone in self.cut)]))
         with suppress(OSError):
             part.write_bytes(text)
             file = os.open(part, os.O_WRONLY | os.O_CLOEXEC)
@@ -111,6 +131,10 @@ def _text(job: Written) -> dict[str, object]:
         "failure": job.failure,
         "reason": job.reason,
     }
+
+
+def _motors(drone: str, is_cut: bool) -> dict[str, object]:
+    return {"motors": drone, "cut": is_cut}
 
 
 def _entry(data: Mapping[str, object]) -> Entry:

@@ -60,7 +60,7 @@ class Gateway:
                 slack=slack,
                 max_airborne=max_airborne,
             )
-        self.navigation = Pilots(kernel, controls, drones, airspace, self.traffic)
+        self.navigation = Pilots(kernel, controls, drones, airspace, self.traffic, ledger)
         self.envelope = Envelope(airspace)
         self.drones, self._airspace, self._apart = tuple(drones), airspace, apart
         self._keys = {drone.id: FLEET + 1 + drone.index for drone in drones}

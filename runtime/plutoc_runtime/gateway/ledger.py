@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from typing import Protocol
 
 from ..standing import Entry, JobState
@@ -67,6 +67,22 @@ class Ledger(Protocol):
         """Drop a job: nobody will ask for it any more."""
         ...
 
+    @property
+    def cut(self) -> Collection[str]:
+        """The drones whose motors are cut."""
+        ...
+
+    def write_cut(self, drone: str, is_cut: bool) -> None:
+        """Keep whether a drone's motors are cut; if the computer dies, only after `make_sure`.
+
+        Waits for no disk, for motors are cut right after that. `OSError`: it is not kept.
+        """
+        ...
+
+    def make_sure(self) -> None:
+        """Return when all is kept, whatever dies. `OSError`: perhaps not."""
+        ...
+
 
 class MemoryLedger:
     """A ledger for simulations and tests: it outlives a simulated gateway, not the process."""
@@ -75,6 +91,7 @@ class MemoryLedger:
 
     def __init__(self) -> None:
         self._kept: dict[str, tuple[str, JobState, int, object, str, str]] = {}
+        self.cut: dict[str, None] = {}
 
     def entries(self) -> Iterator[Entry]:
         """Yield what is kept, in the order in which the jobs were given."""
@@ -96,3 +113,13 @@ class MemoryLedger:
     def forget(self, id: str) -> None:
         """Drop a job: nobody will ask for it any more."""
         self._kept.pop(id, None)
+
+    def write_cut(self, drone: str, is_cut: bool) -> None:
+        """Keep whether a drone's motors are cut."""
+        if is_cut:
+            self.cut[drone] = None
+        else:
+            self.cut.pop(drone, None)
+
+    def make_sure(self) -> None:
+        """All is kept already."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Coroutine, Sequence
+from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -10,6 +11,7 @@ from ..energy import docked, flight_seconds
 from ..errors import Failure, FlightFailed
 from ..kernel import FLEET, WHATEVER, Cancelled, Kernel, Task
 from ..navigation import motors_cut
+from .cutting import CutMotors
 from .envelope import Envelope
 from .traffic.detours import Section
 
@@ -20,6 +22,7 @@ if TYPE_CHECKING:
     from ..navigation import Job
     from ..standing import Standing
     from .descent import Craft
+    from .ledger import Ledger
     from .traffic.traffic import Traffic, Ways
 
 
@@ -43,6 +46,7 @@ class Pilots:
         drones: Sequence[Craft],
         airspace: Airspace,
         traffic: Traffic | None = None,
+        ledger: Ledger | None = None,
     ) -> None:
         self._kernel, self._controls, self._airspace = kernel, controls, airspace
         self._traffic = traffic
@@ -53,8 +57,7 @@ class Pilots:
         """The jobs under way, by the drones' ids."""
         self._rescues: dict[str, Task[bool]] = {}
         """The latest rescue of each drone."""
-        self._cut: dict[str, None] = {}
-        """Whose motors were cut, until a person has looked after them."""
+        self._cut = CutMotors(ledger, lambda drone: not controls.telemetry(drone).landed)
 
     def telemetry(self, drone: str) -> Telemetry:
         """Return what is known of a drone; the value stays current."""
@@ -157,12 +160,8 @@ class Pilots:
 
     async def cut_motors(self, drone: str) -> None:
         """Switch a drone's motors off now, wherever it is; it is lost then."""
-        self._cut[drone] = None
-        try:
+        with self._cut.cutting(drone):
             await self._controls.cut(drone)
-        except FlightFailed:  # it cannot be told: if it can later on, it shall come home
-            del self._cut[drone]
-            raise
 
     def _refuse_if_cut(self, drone: str) -> None:
         """Let no motor turn again before a person has looked after the drone."""
@@ -174,13 +173,16 @@ class Pilots:
         standing = await self._controls.roll_call(drone)
         if self._traffic is not None:
             self._traffic.look_around()
+        why = str(motors_cut(drone))
+        if drone in self._cut and why not in standing.problems:
+            return replace(standing, problems=(*standing.problems, why))
         return standing
 
     # After a failure
 
     def mended(self, drone: str) -> None:
         """A person has looked after a lost drone: it may be asked again."""
-        self._cut.pop(drone, None)
+        self._cut.mended(drone)
         self._controls.mended(drone)
 
     async def recover(self, drone: str) -> bool:
