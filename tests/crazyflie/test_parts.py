@@ -271,6 +271,13 @@ def test_options_have_their_defaults() -> None:
     assert options.least_voltage == 3.7 and options.grip is None and dict(options.measure) == {}
 
 
+def test_one_variable_may_be_what_every_other_quantity_is_measured_by() -> None:
+    options = options_of({"measure": {"dust": "sps.pm25", "*": "sim.measured"}})
+    assert options.variable_of("dust") == "sps.pm25"
+    assert options.variable_of("anything at all") == "sim.measured"
+    assert options_of({"measure": {"dust": "sps.pm25"}}).variable_of("light") is None
+
+
 # Tables of contents
 
 

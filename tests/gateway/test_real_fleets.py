@@ -10,7 +10,7 @@ import pytest
 
 from plutoc_runtime.airspace import Airspace
 from plutoc_runtime.cli.flights import Flight, aloft, may_hover
-from plutoc_runtime.cli.stand_ins import with_stand_ins
+from plutoc_runtime.cli.stand_ins import who_is_missing, with_stand_ins
 from plutoc_runtime.drones.real_fleet import RealDrone, Wanted, real_data, real_fleet, real_of
 from plutoc_runtime.errors import BadInput
 from plutoc_runtime.files.fleet import DroneEntry, FleetFile
@@ -95,7 +95,19 @@ def test_stand_ins_are_crazyflies_whatever_the_file_says() -> None:
         ("crazyflie", "udp://x:1"),
         ("crazyflie", "udp://x:2"),
     ]
+    assert both.drones[1].options == both.drones[0].options  # nothing that was for a Tello
     assert [drone.id for drone in with_stand_ins(FLEET, 3).drones] == ["a", "b", "cf1"]
+
+
+def test_whoever_leaves_out_a_whole_category_is_told_so() -> None:
+    """Hooks may ask for its drones when all others are in the air."""
+    carrier = replace(FLEET.drones[1], id="c", category="carrier")
+    fleet = replace(FLEET, drones=(*FLEET.drones, carrier))
+    assert who_is_missing(fleet, 3) is None
+    assert who_is_missing(fleet, 5) is None
+    assert who_is_missing(fleet, 2) == (
+        "no carrier is among the first 2 drones of the fleet file: --crtp-sim 3 flies all of them"
+    )
 
 
 class Unready:

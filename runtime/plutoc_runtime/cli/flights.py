@@ -189,14 +189,14 @@ async def _real(flight: Flight, folder: Path, known: Recovered | None) -> RealFl
     real = real_fleet(flight.fleet, flight.missions, records=records)
     if not flight.crtp:
         return real
-    from ..crtp.process import start  # few want them
+    from ..crtp.process import start, told  # few want them
     from ..crtp.stand_in import fitted
 
     homes = {drone.id: drone.home for drone in flight.fleet.drones}
     uris = await asyncio.to_thread(start, folder, homes)
-    options = await asyncio.to_thread(fitted, folder, real.wanted)
+    camera = await asyncio.to_thread(told, folder, "camera")
     drones = (
-        replace(drone, uri=uris[drone.id], options={**options, **drone.options})
+        replace(drone, uri=uris[drone.id], options=fitted(drone.options, camera))
         for drone in real.drones
     )
     return replace(real, drones=tuple(drones))

@@ -83,6 +83,11 @@ class Options:
         """Raise `BadInput` if real drones are meant, and flags that only simulated ones obey."""
         given = {"--speed": self.speed, "--fail": self.fail, "--seed": self.seed}
         for flag, value in given.items():
+            if value and self.crtp_sim is not None:
+                raise BadInput(
+                    f"{flag} does not go with --crtp-sim, whose drones fly as real ones do: it goes"
+                    " with --sim"
+                )
             if value and not self.sim:
                 raise BadInput(f"{flag} is for simulated drones: it goes with --sim")
 

@@ -12,7 +12,8 @@ from ..files.missions import missions_of
 from ..files.reading import parsed, shortened, text_of
 from ..files.real import as_flown
 from ..plan_check import endless, problems
-from .stand_ins import with_stand_ins
+from . import output
+from .stand_ins import who_is_missing, with_stand_ins
 
 if TYPE_CHECKING:
     from ..app import App
@@ -59,6 +60,10 @@ def load(app: App, options: Options) -> Plan:
 def load_fleet(app: App, options: Options) -> tuple[FleetFile, str | None]:
     """Return the fleet of a command's file, and that file's text; None: there is none."""
     text = text_of(options.fleet) if options.fleet else None
+    if text is not None and options.crtp_sim is not None and not options.supervised:
+        whole = fleet_of(parsed(str(options.fleet), text), app)
+        if missing := who_is_missing(whole, options.crtp_sim):
+            output.tell(missing)
     return _fleet(app, str(options.fleet), text, options.crtp_sim), text
 
 

@@ -41,8 +41,7 @@ def check_real(app: App, fleet: FleetFile, where: str, *, stand_ins: bool) -> No
         deaf = [one.id for one in fleet.drones if not hears(navigation_of(fleet, one))]
         if deaf:
             raise refusals.deaf(fleet.localization, deaf)
-    if not stand_ins:
-        _check_options(app, fleet, where)
+    _check_options(app, fleet, where)
 
 
 def _check_options(app: App, fleet: FleetFile, where: str) -> None:

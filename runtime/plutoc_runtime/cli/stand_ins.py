@@ -7,6 +7,7 @@ from itertools import count
 from typing import TYPE_CHECKING
 
 from ..files.behaviour import CRAZYFLIE, OWN
+from ..files.real import navigation_of
 from ..spots import free_spot
 
 if TYPE_CHECKING:
@@ -21,13 +22,32 @@ def with_stand_ins(fleet: FleetFile, number: int) -> FleetFile:
 
     They are the first of the fleet file; those that it lacks are like them, and stand beside them.
     """
-    drones = [replace(one, navigation=None, uri=None) for one in fleet.drones[:number]]
+    drones = [_as_crazyflie(fleet, one) for one in fleet.drones[:number]]
     for place in range(len(drones), number):
         taken = [one.home for one in drones]
         home = free_spot(fleet.airspace, taken[-1], taken, max(fleet.apart, _BESIDE))
         like = drones[place % len(fleet.drones)]
         drones.append(replace(like, id=_free_id(drones), home=home))
     return replace(fleet, drones=tuple(drones), navigation=CRAZYFLIE, localization=OWN)
+
+
+def who_is_missing(fleet: FleetFile, number: int) -> str | None:
+    """Return a sentence that names the categories which the first drones of a fleet lack; None: none."""
+    there = {one.category for one in fleet.drones[:number]}
+    missing = dict.fromkeys(one.category for one in fleet.drones if one.category not in there)
+    if not missing:
+        return None
+    first = "the first drone" if number == 1 else f"the first {number} drones"
+    return (
+        f"no {' and no '.join(missing)} is among {first} of the fleet file:"
+        f" --crtp-sim {len(fleet.drones)} flies all of them"
+    )
+
+
+def _as_crazyflie(fleet: FleetFile, one: DroneEntry) -> DroneEntry:
+    """Return a Crazyflie in the place of a drone; what is said of another navigation is not for it."""
+    options = one.options if navigation_of(fleet, one) == CRAZYFLIE else {}
+    return replace(one, navigation=None, uri=None, options=options)
 
 
 _BESIDE = 0.7

@@ -36,7 +36,7 @@ def why_not(
     cf = None if session is None or session.lost else session.cf
     if action == MEASURE:
         quantity = _quantity(parameters_)
-        name = options.measure.get(quantity)
+        name = options.variable_of(quantity)
         if name is None:
             return words.no_quantity(drone, quantity, tuple(options.measure))
         if cf is not None and not logs.has(cf, name):
@@ -72,7 +72,8 @@ async def act(hands: Hands, action: str, parameters_: Mapping[str, Plain]) -> ob
         raise ActionNotDone(reason)
     try:
         if action == MEASURE:
-            name = options.measure[_quantity(parameters_)]
+            name = options.variable_of(_quantity(parameters_))
+            assert name is not None  # or there is a reason why not
             return await hands.readings.mean(name, options.measure_seconds)
         if action == PHOTO and options.camera is not None:
             return await _photo(hands, options.camera)

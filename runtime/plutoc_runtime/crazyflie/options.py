@@ -26,7 +26,7 @@ class Options:
     """All of it, checked."""
 
     measure: Mapping[str, str]
-    """The log variable of each quantity that can be measured."""
+    """The log variable of each quantity that can be measured; ANY_OTHER: of all that it lacks."""
     measure_seconds: float
     """Over how long it is averaged."""
     camera: tuple[str, int] | None
@@ -45,6 +45,13 @@ class Options:
     udp: tuple[str, ...]
     """Simulated drones to look at then."""
 
+    def variable_of(self, quantity: str) -> str | None:
+        """Return the log variable of a quantity; None: it has none."""
+        return self.measure.get(quantity, self.measure.get(ANY_OTHER))
+
+
+ANY_OTHER = "*"
+"""What stands in `measure` for every quantity that is not named there."""
 
 _KNOWN = tuple(field.name for field in fields(Options))
 _VIEW = (65.0, 50.0)

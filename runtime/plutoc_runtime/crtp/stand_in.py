@@ -2,28 +2,49 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from pathlib import Path
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
 
-from .process import told
-
-if TYPE_CHECKING:
-    from ..drones.real_fleet import Wanted
+from .drone import Build, SimulatedCrazyflie
+from .record import InMemory
+from .variables import parameters, variables
 
 _SENSORS = {"temperature": "bme.temp", "humidity": "bme.humidity", "pressure": "baro.pressure"}
-_ANY = "sim.measured"
-"""The log variable for any other quantity."""
+_ANY = {"*": "sim.measured"}
+"""A sensor for every other quantity, also for those that nobody has asked for yet."""
+_GRIP = {"parameter": "gripper.closed", "pick": 1, "release": 0, "seconds": 0.5}
 
 
-def fitted(folder: Path, wanted: Iterable[Wanted]) -> Mapping[str, object]:
-    """Return the options for the simulated drones of a folder: camera, gripper and sensors.
+def fitted(given: Mapping[str, object], camera: str) -> dict[str, object]:
+    """Return the options of a simulated drone, whose camera streams there.
 
-    There is a sensor for whatever the plan wants to be measured.
+    They are those of the fleet file, which is known to be right; where that names a part of a real
+    drone that a simulated one lacks, it has one of its own instead.
     """
-    quantities = [str(one.parameters.get("quantity", "temperature")) for one in wanted]
     return {
-        "camera": told(folder, "camera"),
-        "grip": {"parameter": "gripper.closed", "pick": 1, "release": 0, "seconds": 0.5},
-        "measure": {quantity: _SENSORS.get(quantity, _ANY) for quantity in quantities},
+        **given,
+        "camera": camera,
+        "decks": [],
+        "grip": _grip(given.get("grip")),
+        "measure": {**_SENSORS, **_sensors(given.get("measure")), **_ANY},
     }
+
+
+def _grip(given: object) -> Mapping[str, object]:
+    if not isinstance(given, Mapping):
+        return _GRIP
+    if any(one.name == given["parameter"] for one in parameters()):
+        return given
+    return {**_GRIP, "seconds": given.get("seconds", _GRIP["seconds"])}
+
+
+def _sensors(given: object) -> Mapping[str, str]:
+    """Return which of the log variables that a file names there are."""
+    there = variables(SimulatedCrazyflie(_SAMPLE, InMemory(), lambda _: None))
+    named = given if isinstance(given, Mapping) else {}
+    return {
+        quantity: name if name in there else _SENSORS.get(quantity, _ANY["*"])
+        for quantity, name in named.items()
+    }
+
+
+_SAMPLE = Build(id="any", home=(0.0, 0.0, 0.0))

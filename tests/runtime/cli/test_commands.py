@@ -53,6 +53,9 @@ def test_what_only_simulated_drones_obey_goes_with_sim(
     """Real drones fly as fast as they fly, and fail when they do."""
     said = f"{flag.split()[0]} is for simulated drones: it goes with --sim\n"
     assert command("fly", missions, *flag.split()) == (2, "", said)
+    code, out, err = command("fly", missions, "--crtp-sim", "3", *flag.split())
+    assert (code, out) == (2, "")
+    assert err.startswith(f"{flag.split()[0]} does not go with --crtp-sim"), err
 
 
 @pytest.mark.parametrize(

@@ -114,11 +114,20 @@ def test_a_drone_that_lacks_what_the_plan_asks_for_is_told(
     fleet = Path(plan[-1])
     plain = FLEET.replace(f"{fake_drones.__name__}:Fake", "crazyflie")
     fleet.write_text(f'{plain}[drone.options]\ncamra = "10.0.0.1:5000"\n', encoding="utf-8")
-    code, _, err = command("fly", *plan, "--dry-run")
+    code, out, err = command("fly", *plan, "--dry-run")
     assert code == 2
     assert err.startswith(f"alfalfa fly would not begin:\n{fleet}:12: "), err
     assert '"camra"' in err
+    assert command("fly", *plan, "--dry-run", "--crtp-sim", "2") == (2, out, err)
     assert RECORD == []
+
+
+def test_whoever_lets_a_whole_category_stay_at_home_is_told(
+    plan: list[str], command: Command
+) -> None:
+    """Fewer simulated Crazyflies than the fleet has drones: the first ones are flown."""
+    _, _, err = command("fly", *plan, "--dry-run", "--crtp-sim", "1")
+    assert err.startswith("no carrier is among the first drone of the fleet file: --crtp-sim 2 ")
 
 
 def test_a_flight_that_would_fail_is_told_with_its_reason(

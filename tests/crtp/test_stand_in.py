@@ -1,0 +1,50 @@
+"""A simulated Crazyflie has what the fleet file names, or something of its own instead."""
+
+from __future__ import annotations
+
+from plutoc_runtime.crazyflie.options import options_of
+from plutoc_runtime.crtp.stand_in import fitted
+
+CAMERA = "127.0.0.1:5000"
+
+
+def test_it_has_a_camera_a_gripper_and_a_sensor_for_any_quantity() -> None:
+    """Also for one that nobody has asked for when it is made."""
+    options = options_of(fitted({}, CAMERA))
+    assert options.camera == ("127.0.0.1", 5000)
+    assert options.grip is not None
+    assert options.variable_of("temperature") == "bme.temp"
+    assert options.variable_of("drawn in flight") == "sim.measured"
+
+
+def test_what_the_file_names_and_it_has_is_used() -> None:
+    """So a fleet file can be tried before there is a drone."""
+    grip = {"parameter": "gripper.force", "pick": 0.4, "release": 0.0}
+    measured = {"temperature": "baro.temp", "height": "baro.asl"}
+    given = {"measure": measured, "grip": grip, "measure_seconds": 2, "camera_view": [90, 60]}
+    options = options_of(fitted(given, CAMERA))
+    assert options.variable_of("temperature") == "baro.temp"
+    assert options.variable_of("height") == "baro.asl"
+    assert options.grip is not None and options.grip.parameter == "gripper.force"
+    assert (options.measure_seconds, options.camera_view) == (2.0, (90.0, 60.0))
+
+
+def test_what_the_file_names_and_it_lacks_it_has_otherwise() -> None:
+    """A deck of somebody's own is no reason not to take off."""
+    options = options_of(
+        fitted(
+            {
+                "camera": "192.168.4.1:5000",
+                "decks": ["bcFlow2", "myDeck"],
+                "grip": {"parameter": "magnet.on", "pick": 1, "release": 0, "seconds": 3},
+                "measure": {"pm10": "sps.pm10", "temperature": "my.temp"},
+            },
+            CAMERA,
+        )
+    )
+    assert options.camera == ("127.0.0.1", 5000)
+    assert options.decks == ()
+    assert options.grip is not None
+    assert (options.grip.parameter, options.grip.seconds) == ("gripper.closed", 3.0)
+    assert options.variable_of("pm10") == "sim.measured"
+    assert options.variable_of("temperature") == "bme.temp"
