@@ -101,6 +101,15 @@ def test_a_drone_that_cannot_be_made_is_refused_before_anything_is_written(tmp_p
     assert "Traceback" not in done.stderr
 
 
+def test_a_module_that_ends_whoever_imports_it_does_not_end_the_app(tmp_path: Path) -> None:
+    """Not with an exit code that says that all was flown."""
+    (tmp_path / "leaving.py").write_text("import os; os._exit(0)")
+    done = fly(tmp_path, FLEET.replace("wren:Wren", "leaving:Wren"))
+    assert done.returncode == 2
+    assert '"leaving" ends the process that imports it (exit code 0)' in done.stderr
+    assert not (tmp_path / "flight.journal").exists()
+
+
 def test_drones_that_cannot_hear_where_they_are_are_refused(tmp_path: Path) -> None:
     fleet = FLEET.replace('"wren:Wren"', '"wren:Wren"\nlocalization = "lines:Lines"')
     done = fly(tmp_path, fleet)

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from plutoc_runtime.drones import trial
 from plutoc_runtime.drones.loading import (
     load_localization,
     load_navigation,
@@ -99,6 +100,8 @@ def test_the_folder_where_one_happens_to_be_is_no_place_for_code(
         ("import no_such_library", 'needs "no_such_library": install it with pip'),
         ("1 / 0", "cannot be imported: ZeroDivisionError"),
         ("import sys; sys.exit(3)", "cannot be imported: SystemExit: 3"),
+        ("raise BaseException('no')", "cannot be imported: BaseException: no"),
+        ("import asyncio; raise asyncio.CancelledError", "cannot be imported: CancelledError"),
     ],
 )
 def test_what_a_module_raises_is_told(
@@ -107,6 +110,52 @@ def test_what_a_module_raises_is_told(
     (tmp_path / "broken_drones.py").write_text(text)
     monkeypatch.syspath_prepend(tmp_path)
     assert why in refused("broken_drones:Drone")
+
+
+@pytest.mark.parametrize(
+    ("text", "how"),
+    [
+        ("import os; os._exit(0)", "exit code 0"),
+        ("import os; os.write(2, b'no\\nlicence\\x1b\\n'); os._exit(7)", "exit code 7"),
+        ("import os; os.kill(os.getpid(), 9)", "killed by SIGKILL"),
+    ],
+)
+def test_a_module_that_ends_the_process_ends_another(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, text: str, how: str
+) -> None:
+    (tmp_path / "quitting_drones.py").write_text(text)
+    monkeypatch.syspath_prepend(tmp_path)
+    said = "; the last it said: licence" if "licence" in text else ""
+    assert refused("quitting_drones:Drone").startswith(
+        'the navigation "quitting_drones:Drone" cannot be imported: "quitting_drones" ends the'
+        f" process that imports it ({how}){said}"
+    )
+
+
+def test_a_module_that_hangs_is_not_waited_for(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It is named, and there is a limit."""
+    monkeypatch.setattr(trial, "LIMIT", 0.5)
+    (tmp_path / "hanging_drones.py").write_text("while True: pass")
+    monkeypatch.syspath_prepend(tmp_path)
+    assert refused("hanging_drones:Drone") == (
+        'the navigation "hanging_drones:Drone" cannot be imported: "hanging_drones" was not done'
+        " with that in 0.5 s"
+    )
+    with pytest.raises(BadInput, match="the localization .* was not done with that"):
+        load_localization("hanging_drones:Eyes")
+
+
+@pytest.mark.parametrize("error", [SystemExit(3), BaseException("no")])
+def test_a_class_whose_making_ends_all_ends_nothing(error: BaseException) -> None:
+    def end(_: object) -> None:
+        raise error
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(classes.Good, "__init__", lambda self, setup: end(setup))
+        with pytest.raises(BadInput, match="could not be made for cf1"):
+            make_navigation(f"{HERE}:Good", setup())
 
 
 @pytest.mark.parametrize(

@@ -17,10 +17,12 @@ from importlib import import_module
 from typing import TYPE_CHECKING, TypeVar, cast
 
 from ..errors import BadInput
+from ..kernel import WHATEVER
 from . import refusals
 from .calls import shortened
 from .checking import problems
 from .kinds import CAPABILITIES, LOCALIZATION_METHODS, NAVIGATION_METHODS, Kind
+from .trial import tried
 
 if TYPE_CHECKING:
     from .localization import Localization
@@ -83,7 +85,9 @@ def make_localization(name: str, options: Mapping[str, object]) -> Localization:
 def _made(kind: Kind, name: str, of: Callable[[S], T], argument: S, whose: str) -> T:
     try:
         return of(argument)
-    except Exception as error:  # an option that it cannot use, mostly
+    except KeyboardInterrupt:
+        raise
+    except WHATEVER as error:  # an option that it cannot use, mostly
         raise refusals.not_made(kind, name, whose, _said(error)) from error
 
 
@@ -120,6 +124,8 @@ def _imported(kind: Kind, name: str, written: str) -> object:
     module, _, path = (part.strip() for part in written.partition(":"))
     if not all(part.isidentifier() for part in [*module.split("."), *path.split(".")]):
         raise refusals.no_class_written(kind, name)
+    with _only_what_is_installed():
+        tried(kind, name, module)
     try:
         with _only_what_is_installed():
             found: object = import_module(module)
@@ -128,7 +134,9 @@ def _imported(kind: Kind, name: str, written: str) -> object:
         if f"{module}.".startswith(f"{missing}."):
             raise refusals.no_such_module(kind, name, missing) from error
         raise refusals.needs(kind, name, missing) from error
-    except (Exception, SystemExit) as error:
+    except KeyboardInterrupt:
+        raise
+    except WHATEVER as error:
         raise refusals.not_imported(kind, name, _said(error)) from error
     for part in path.split("."):
         classes = [word for word, value in vars(found).items() if inspect.isclass(value)]

@@ -10,7 +10,7 @@ from difflib import get_close_matches
 from typing import TYPE_CHECKING
 
 from ..errors import BadInput
-from ..words import quoted
+from ..words import duration, quoted
 
 if TYPE_CHECKING:
     from .kinds import Kind
@@ -50,6 +50,22 @@ def needs(kind: Kind, name: str, missing: str) -> BadInput:
 
 def not_imported(kind: Kind, name: str, why: str) -> BadInput:
     return BadInput(f"the {kind.word} {quoted(name)} cannot be imported: {why}")
+
+
+def hangs(kind: Kind, name: str, module: str, seconds: float, said: str) -> BadInput:
+    last = f"; the last it said: {said}" if said else ""
+    return BadInput(
+        f"the {kind.word} {quoted(name)} cannot be imported: {quoted(module)} was not done with"
+        f" that in {duration(seconds)}{last}"
+    )
+
+
+def ends_all(kind: Kind, name: str, module: str, how: str, said: str) -> BadInput:
+    last = f"; the last it said: {said}" if said else ""
+    return BadInput(
+        f"the {kind.word} {quoted(name)} cannot be imported: {quoted(module)} ends the process"
+        f" that imports it ({how}){last}"
+    )
 
 
 def no_such_class(kind: Kind, name: str, wanted: str, there: Sequence[str]) -> BadInput:

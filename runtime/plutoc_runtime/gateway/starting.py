@@ -28,6 +28,8 @@ if TYPE_CHECKING:
 
 _WITHIN, _EACH = 10.0, 0.01
 """Seconds that a gateway may take to begin, and between two looks."""
+_LOADING = 50.0
+"""Seconds more for what its drones are flown by: an import may take 20, and is tried before."""
 _LONG = 1_000_000
 """Bytes of a log after which another one is begun."""
 
@@ -48,7 +50,7 @@ async def connect(
     `command` starts it, its folder added; default: this very program once more.
     """
     loop = asyncio.get_running_loop()
-    until = loop.time() + _WITHIN
+    until = loop.time() + _WITHIN + (0.0 if settings.real is None else _LOADING)
     process: subprocess.Popen[bytes] | None = None
     while True:
         try:
