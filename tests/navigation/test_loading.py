@@ -143,7 +143,7 @@ def test_a_module_that_hangs_is_not_waited_for(
         'the navigation "hanging_drones:Drone" cannot be imported: "hanging_drones" was not done'
         " with that in 0.5 s"
     )
-    with pytest.raises(BadInput, match="the localization .* was not done with that"):
+    with pytest.raises(BadInput, match="was not done with that"):
         load_localization("hanging_drones:Eyes")
 
 
