@@ -75,18 +75,27 @@ def test_a_navigation_that_hangs_hangs_nothing(tmp_path: Path, method: str, clin
     run(flight())
 
 
-def test_a_navigation_that_hangs_in_every_method_hangs_nothing(tmp_path: Path) -> None:
-    """Not even the end."""
+@pytest.mark.parametrize("clings", [set[str](), {"go_to", "land"}, {"connect", *METHODS}])
+@pytest.mark.parametrize("silent", [False, True])
+def test_a_navigation_that_hangs_in_every_method_hangs_nothing(
+    tmp_path: Path, clings: set[str], silent: bool
+) -> None:
+    """Not even the end, for which all have one limit; who does not hang has landed."""
 
     async def flight() -> None:
-        async with flying(tmp_path) as flown:
-            drone = await flown.up()
-            drone.hangs = {"connect", *METHODS}
-            drone.clings = {"go_to", "land"}
-            await everything(flown)
+        drones = [FakeDrone(f"cf{i}", (float(i), 1.0, 0.0)) for i in range(1, 5)]
+        async with flying(tmp_path, *drones) as flown:
+            for drone in drones:
+                await flown.up(drone.id)
+            for drone in drones[1:]:
+                drone.hangs, drone.clings = {"connect", *METHODS}, set(clings)
+            if silent:
+                drones[1].goes_silent()
+            await everything(flown, "cf2")
             before = the_loop().time()
-        assert the_loop().time() - before < 120
-        assert any("could not be landed" in line for line in flown.log)
+        assert the_loop().time() - before < 60
+        assert not drones[0].motors
+        assert any("cf2 could not be landed" in line for line in flown.log)
 
     run(flight())
 

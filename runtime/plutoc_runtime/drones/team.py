@@ -81,9 +81,7 @@ class Team:
 
     async def close(self) -> None:
         """Land what flies, wait until it has, and let go of all drones; nothing is left of it."""
-        await asyncio.gather(
-            *(close(member, self._links[id]) for id, member in self._members.items())
-        )
+        await close([(member, self._links[id]) for id, member in self._members.items()])
         tasks = [*self._tasks, *self._watch.stop()]
         for task in tasks:
             task.cancel()
