@@ -106,7 +106,7 @@ def test_whoever_leaves_out_a_whole_category_is_told_so() -> None:
     assert who_is_missing(fleet, 3) is None
     assert who_is_missing(fleet, 5) is None
     assert who_is_missing(fleet, 2) == (
-        "no carrier is among the first 2 drones of the fleet file: --crtp-sim 3 flies all of them"
+        "no carrier flies: --crtp-sim 2 takes only 2 of the fleet file's 3 drones, from its top"
     )
 
 

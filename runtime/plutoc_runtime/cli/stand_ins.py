@@ -37,10 +37,9 @@ def who_is_missing(fleet: FleetFile, number: int) -> str | None:
     missing = dict.fromkeys(one.category for one in fleet.drones if one.category not in there)
     if not missing:
         return None
-    first = "the first drone" if number == 1 else f"the first {number} drones"
     return (
-        f"no {' and no '.join(missing)} is among {first} of the fleet file:"
-        f" --crtp-sim {len(fleet.drones)} flies all of them"
+        f"no {' and no '.join(missing)} flies: --crtp-sim {number} takes only {number} of the fleet"
+        f" file's {len(fleet.drones)} drones, from its top"
     )
 
 

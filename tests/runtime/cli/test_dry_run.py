@@ -127,7 +127,9 @@ def test_whoever_lets_a_whole_category_stay_at_home_is_told(
 ) -> None:
     """Fewer simulated Crazyflies than the fleet has drones: the first ones are flown."""
     _, _, err = command("fly", *plan, "--dry-run", "--crtp-sim", "1")
-    assert err.startswith("no carrier is among the first drone of the fleet file: --crtp-sim 2 ")
+    assert err.startswith(
+        "no carrier flies: --crtp-sim 1 takes only 1 of the fleet file's 2 drones"
+    )
 
 
 def test_a_flight_that_would_fail_is_told_with_its_reason(
