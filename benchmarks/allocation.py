@@ -228,7 +228,11 @@ def flown(package: str, missions: int) -> None:
     entries = (
         files.DroneEntry(id=str(n), category="quick", home=home) for n, home in enumerate(homes)
     )
-    ground = files.FleetFile(airspace=part("_runtime.airspace").Airspace(), drones=tuple(entries))
+    ground = files.FleetFile(
+        airspace=part("_runtime.airspace").Airspace(),
+        drones=tuple(entries),
+        apart=0.0,  # it is not their traffic that is measured
+    )
     outcome = part("_runtime.session").simulate(
         part("flow").APP,
         plan,

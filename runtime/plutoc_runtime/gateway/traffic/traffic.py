@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from math import hypot
 from typing import TYPE_CHECKING
 
 from ...errors import Failure, FlightFailed
 from ...kernel import FLEET, Kernel, Kind, Timer
-from ...signals import Signal
 from .claims import Claim, box_of, meets, nearest
 from .detours import Section, sections
 from .landing import Ground
+from .obstacles import Obstacle
+from .waiting import Wait
 
 if TYPE_CHECKING:
     from ...airspace import Airspace
@@ -34,18 +34,6 @@ _EXACT = 1e-9
 
 Ways = Callable[[Section], Iterable[Section]]
 """The ways that a drone may take to where it wants to go, the best first."""
-
-
-@dataclass(slots=True, eq=False)
-class _Wait:
-    """Somebody waits for a section."""
-
-    section: Section
-    since: float
-    ways: Sequence[Section]
-    blockers: list[str]
-    """For each of the ways, somebody who was on it when it was looked at last; else empty."""
-    over: Signal[Section] = field(default_factory=Signal)
 
 
 class Traffic:
@@ -75,7 +63,7 @@ class Traffic:
         """Of those in the air, or about to be."""
         self._silent: dict[str, float] = {}
         """Who is lost, and until when it may still be in the air."""
-        self._waiting: dict[str, _Wait] = {}
+        self._waiting: dict[str, Wait] = {}
         """The oldest first."""
         self._free: dict[str, None] = {}
         """Who has given something free at this instant."""
@@ -98,16 +86,15 @@ class Traffic:
         if not self._has_room(section):
             return None
         now = self._kernel.now
-        for way in sections(section, self.step, self._airspace) if ways is None else ways(section):
-            if self._blocker(way) is None and not (self._waiting and self._is_kept(way, now)):
+        for way in self._ways(section) if ways is None else ways(section):
+            if self._blocker(way) is None and not (self._waiting and self._elder(way, now)):
                 return self._give(way)
         return None
 
     async def cleared(self, section: Section, since: float, ways: Ways | None = None) -> Section:
         """Wait for a section, and return what may be flown: it may only lead out of the way."""
-        found = sections(section, self.step, self._airspace) if ways is None else ways(section)
-        wait = _Wait(section, since, tuple(found), [])
-        wait.blockers += [""] * len(wait.ways)
+        found = tuple(self._ways(section) if ways is None else ways(section))
+        wait = Wait(section, since, found)
         self._waiting[section.drone] = wait
         if self._timer is None:
             self._timer = self._look_at(self._kernel.now + AGAIN, self._look)
@@ -192,7 +179,7 @@ class Traffic:
         free, self._free = self._free, {}
         for wait in self._in_turn():
             is_for_room = wait.section.stands and self._most < len(self._drones)
-            if is_for_room or not free.keys().isdisjoint(wait.blockers):
+            if is_for_room or wait.was_kept_by(free):
                 self._serve(wait)
 
     def _look(self) -> None:
@@ -203,10 +190,10 @@ class Traffic:
         if self._waiting:
             self._timer = self._look_at(self._kernel.now + AGAIN, self._look)
 
-    def _in_turn(self) -> list[_Wait]:
+    def _in_turn(self) -> list[Wait]:
         return sorted(self._waiting.values(), key=lambda wait: wait.since)
 
-    def _serve(self, wait: _Wait) -> None:
+    def _serve(self, wait: Wait) -> None:
         section = self._found(wait)
         if section is None and self._should_land(wait):
             ways = self.ground.ways_down(wait.section.drone)
@@ -215,29 +202,54 @@ class Traffic:
             del self._waiting[section.drone]
             wait.over.set(self._give(section))
 
-    def _found(self, wait: _Wait) -> Section | None:
+    def _found(self, wait: Wait) -> Section | None:
         """Return a way that is free now. Most are still blocked by whoever blocked them before."""
         if not self._has_room(wait.section):
             return None
         for index, way in enumerate(wait.ways):
-            claim = self._claims.get(wait.blockers[index])
-            if claim is not None and self._is_in_the_way(claim, _whole(way), way.stands):
+            obstacle, elder = wait.obstacles[index], wait.elders[index]
+            if obstacle is not None and self._stays(obstacle, way):
                 continue
+            if index and elder is not None and self._waiting.get(elder.section.drone) is elder:
+                continue  # of the first way it must be known whether somebody is on it
             claim = self._blocker(way)
-            wait.blockers[index] = "" if claim is None else claim.drone
-            if claim is None and not self._is_kept(way, wait.since):
-                return way
+            wait.obstacles[index] = None if claim is None else self._obstacle(claim, way)
+            if claim is None:
+                wait.elders[index] = elder = self._elder(way, wait.since)
+                if elder is None:
+                    return way
         return None
 
-    def _should_land(self, wait: _Wait) -> bool:
+    def _stays(self, obstacle: Obstacle, way: Section) -> bool:
+        """Say whether somebody who was on a way still is."""
+        claim, now = obstacle.claim, self._kernel.now
+        if self._claims.get(claim.drone) is not claim:
+            return False
+        if obstacle.is_sure(now):
+            return True
+        if not self._is_in_the_way(claim, _whole(way), way.stands):
+            return False
+        obstacle.seen(_whole(way), self.limit, now)
+        return True
+
+    def _obstacle(self, claim: Claim, way: Section) -> Obstacle:
+        obstacle = Obstacle(claim, self._drones[claim.drone].category, self.is_real)
+        obstacle.seen(_whole(way), self.limit, self._kernel.now)
+        return obstacle
+
+    def _should_land(self, wait: Wait) -> bool:
         """Whether a drone that waits had better do so on the ground."""
         waited = self._kernel.now - wait.since
         if wait.section.stands or waited < PATIENT:
             return False
-        blocker = self._claims.get(wait.blockers[0])
+        first = wait.obstacles[0]
+        blocker = None if first is None else self._claims.get(first.claim.drone)
         return blocker is None or not blocker.moves or waited >= AT_LAST
 
     # Who has what
+
+    def _ways(self, section: Section) -> Iterator[Section]:
+        return sections(section, self.step, self._airspace)
 
     def _give(self, section: Section) -> Section:
         claim = self._claim(section.drone)
@@ -305,13 +317,13 @@ class Traffic:
         now = nearest(way[:1], shape[:1])
         return now >= limit or meets(way, shape, now - 1e-6)
 
-    def _is_kept(self, section: Section, since: float) -> bool:
-        """Whether somebody who has waited for long wants what a section takes.
+    def _elder(self, section: Section, since: float) -> Wait | None:
+        """Return somebody who has waited for long for what a section takes.
 
         Who lands is never kept, nor who leaves that place to somebody older.
         """
         if section.lands:
-            return False
+            return None
         for wait in self._waiting.values():
             wanted = wait.section
             if (
@@ -325,8 +337,8 @@ class Traffic:
                     or meets(section.points[-1:], wanted.points, self.limit)
                 )
             ):
-                return True
-        return False
+                return wait
+        return None
 
 
 def _whole(section: Section) -> tuple[Point, ...]:
