@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass, replace
+from itertools import combinations
+from math import dist
 from pathlib import Path
 
 import pytest
@@ -97,6 +99,15 @@ def test_stand_ins_are_crazyflies_whatever_the_file_says() -> None:
     ]
     assert both.drones[1].options == both.drones[0].options  # nothing that was for a Tello
     assert [drone.id for drone in with_stand_ins(FLEET, 3).drones] == ["a", "b", "cf1"]
+
+
+def test_no_two_stand_ins_stand_at_one_place() -> None:
+    """Where the map has no more room, nobody flies."""
+    small = replace(FLEET, airspace=Airspace(size=(3.0, 3.0)))
+    homes = [one.home for one in with_stand_ins(small, 12).drones]
+    assert min(dist(*pair) for pair in combinations(homes, 2)) >= 0.7
+    with pytest.raises(BadInput, match="--crtp-sim 50: this map has room for"):
+        with_stand_ins(small, 50)
 
 
 def test_whoever_leaves_out_a_whole_category_is_told_so() -> None:

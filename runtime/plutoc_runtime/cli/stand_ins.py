@@ -6,9 +6,10 @@ from dataclasses import replace
 from itertools import count
 from typing import TYPE_CHECKING
 
+from ..errors import BadInput
 from ..files.behaviour import CRAZYFLIE, OWN
 from ..files.real import navigation_of
-from ..spots import free_spot
+from ..spots import free_spots
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -25,7 +26,13 @@ def with_stand_ins(fleet: FleetFile, number: int) -> FleetFile:
     drones = [_as_crazyflie(fleet, one) for one in fleet.drones[:number]]
     for place in range(len(drones), number):
         taken = [one.home for one in drones]
-        home = free_spot(fleet.airspace, taken[-1], taken, max(fleet.apart, _BESIDE))
+        beside = max(fleet.apart, _BESIDE)
+        home = next(free_spots(fleet.airspace, taken[-1], taken, beside), None)
+        if home is None:
+            raise BadInput(
+                f"--crtp-sim {number}: this map has room for {place} drones, which stand"
+                f" {beside:g} m apart: fly fewer, or let the fleet file say where they stand"
+            )
         like = drones[place % len(fleet.drones)]
         drones.append(replace(like, id=_free_id(drones), home=home))
     return replace(fleet, drones=tuple(drones), navigation=CRAZYFLIE, localization=OWN)
