@@ -40,8 +40,13 @@ def publish(note: Path, address: Path) -> None:
     """Write down where the socket is, once somebody listens there: whole or not at all."""
     note.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
     part = note.with_name(f".{note.name}.{os.getpid()}.part")
-    part.write_text(f"{address}\n", encoding="utf-8")
-    part.replace(note)
+    try:
+        part.write_text(f"{address}\n", encoding="utf-8")
+        part.replace(note)
+    except OSError:
+        with suppress(OSError):
+            part.unlink()
+        raise
 
 
 def address_in(note: Path) -> Path | None:

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from .asking import LONGEST
 from .errors import BadInput
+from .journal.errors import why
 from .private import new_address, publish, withdraw
 from .standing import Down
 
@@ -128,7 +129,7 @@ async def listening(note: Path, answer: Answer) -> AsyncIterator[None]:
 
     server = await asyncio.start_unix_server(serve, address, limit=LONGEST)
     try:
-        publish(note, address)
+        _publish(note, address)
         yield
     finally:
         server.close()
@@ -138,6 +139,17 @@ async def listening(note: Path, answer: Answer) -> AsyncIterator[None]:
             for task in idle:
                 task.cancel()
             await asyncio.gather(*idle, return_exceptions=True)
+
+
+def _publish(note: Path, address: Path) -> None:
+    """Say where commands are heard; nothing flies that nobody could stop."""
+    try:
+        publish(note, address)
+    except OSError as error:
+        raise BadInput(
+            f"{note}: it cannot be written that commands are heard, and so nothing flies:"
+            f" {why(error)}; mend that, then resume"
+        ) from None
 
 
 async def _serve(reader: StreamReader, writer: StreamWriter, answer: Answer) -> None:

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import os
+import shutil
 import signal
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -11,11 +14,18 @@ import pytest
 from plutoc_runtime.errors import BadInput, Failure, FlightFailed
 from plutoc_runtime.gateway import remote, starting
 from plutoc_runtime.gateway.process import LOG
-from plutoc_runtime.gateway.starting import let_end, speed_in, still_runs, stop_directly
+from plutoc_runtime.gateway.starting import (
+    connect,
+    let_end,
+    speed_in,
+    still_runs,
+    stop_directly,
+)
 from plutoc_runtime.model import Photo
+from plutoc_runtime.realtime import RealTime
 from plutoc_runtime.standing import Down, JobState
 from tests.gateway.flights import THERE, Task
-from tests.gateway.processes import SPEED, Brain, deeds, pid, played
+from tests.gateway.processes import SPEED, Brain, deeds, pid, played, settings
 
 FAR = (18.0, 18.0, 1.2)
 PICK = ("cf1", "pick_item", Task().id)
@@ -198,6 +208,46 @@ def test_a_gateway_that_cannot_begin_says_why(tmp_path: Path) -> None:
             await brain.linked()
 
     played(tmp_path, play)
+
+
+def test_a_gateway_that_says_nothing_sends_nobody_to_its_log(tmp_path: Path) -> None:
+    """It says how it ended instead."""
+
+    async def play(_: Brain) -> None:
+        kernel, silent = RealTime(), (sys.executable, "-c", "raise SystemExit(9)")
+        with pytest.raises(BadInput, match=r"was ready, with exit code 9, and said nothing$"):
+            await connect(tmp_path, settings(), kernel, 1, command=silent)
+
+    played(tmp_path, play)
+
+
+def test_a_disk_without_room_for_a_gateway_is_said_to_be_full(tmp_path: Path) -> None:
+    """Whatever there is still room for: not even its log can say so."""
+    disk = tmp_path / "disk"
+    disk.mkdir()
+    mount = ["mount", "-t", "tmpfs", "-o", "size=100k", "tmpfs", str(disk)]
+    if subprocess.run(mount, capture_output=True, check=False).returncode != 0:
+        pytest.skip("a file system can be mounted here by nobody but root")
+    said: list[str] = []
+
+    async def play(brain: Brain) -> None:
+        try:
+            await brain.linked()
+        except BadInput as error:
+            said.append(str(error))
+
+    try:
+        facts = os.statvfs(disk)
+        for left in range(1, 7):
+            folder = disk / f"{left}"
+            (disk / "filler").write_bytes(bytes((facts.f_bavail - left) * facts.f_frsize))
+            played(folder, play)
+            shutil.rmtree(folder)
+    finally:
+        subprocess.run(["umount", "--lazy", disk], check=True)  # who was killed may still end
+    assert any("the gateway cannot begin: the disk is full; make room" in one for one in said)
+    for one in said:
+        assert "disk is full" in one or "cannot be started: [Errno 28] No space left" in one
 
 
 def test_a_gateway_that_hangs_is_replaced(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import errno
 import json
 import socket
 import stat
@@ -220,6 +221,19 @@ def test_an_app_that_ends_first_leaves_one_in_doubt(note: Path) -> None:
             await doubt
 
     asyncio.run(scenario())
+
+
+def test_nothing_flies_that_nobody_could_stop(note: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where there is no room to say where commands are heard; nothing of the attempt is left."""
+
+    def full(part: Path, *_: object, **__: object) -> int:
+        part.touch()
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(Path, "write_text", full)
+    with pytest.raises(BadInput, match="and so nothing flies: the disk is full; mend that"):
+        talk(note, lambda asked: "", lambda: None)
+    assert list(note.parent.iterdir()) == []
 
 
 def test_only_the_owner_may_enter_the_folder(note: Path) -> None:

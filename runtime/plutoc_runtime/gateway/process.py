@@ -11,6 +11,7 @@ import sys
 import time
 from collections.abc import Sequence
 from contextlib import suppress
+from errno import EDQUOT, EFBIG, ENOSPC
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -38,7 +39,8 @@ if TYPE_CHECKING:
 NOTE, SETTINGS, LEDGER, LOCK, LOG = "gateway", "settings.json", "ledger", "lock", "log"
 """What lies in its folder; NOTE says where it listens."""
 
-ANOTHER_RUNS, CANNOT = 3, 4
+ANOTHER_RUNS, CANNOT, NO_ROOM = 3, 4, 5
+"""Exit codes; on a full disk there is no other word, for the log has no room either."""
 
 _FOR_APPS = "gateway: an app starts this by itself when it flies; there is nothing to do by hand"
 
@@ -49,6 +51,16 @@ def main(arguments: Sequence[str]) -> int:
     if len(arguments) != 1 or not (folder / SETTINGS).is_file():
         print(_FOR_APPS, file=sys.stderr)
         return 2
+    try:
+        return _alone(folder)
+    except OSError as error:
+        if error.errno not in (ENOSPC, EDQUOT, EFBIG):
+            raise
+        return NO_ROOM
+
+
+def _alone(folder: Path) -> int:
+    """Run the gateway of a folder, unless another one does."""
     lock = taken(folder)
     if lock is None:
         return ANOTHER_RUNS

@@ -18,7 +18,7 @@ from ..asking import ask
 from ..errors import BadInput
 from ..private import address_in
 from ..standing import Down
-from .process import ANOTHER_RUNS, LOCK, LOG, NOTE, SETTINGS
+from .process import ANOTHER_RUNS, LOCK, LOG, NO_ROOM, NOTE, SETTINGS
 from .remote import SILENCE, RemoteLink
 from .settings import Settings, data_of
 from .wire import LONGEST_HEARD
@@ -61,7 +61,7 @@ async def connect(
             pass  # there is none yet
         if process is None or process.poll() is not None:
             if process is not None and _broke(process.returncode):
-                raise BadInput(_ended(folder))
+                raise BadInput(_ended(folder, process.returncode))
             try:
                 process = start(folder, settings, command)
             except OSError as error:
@@ -171,10 +171,13 @@ def _end(folder: Path) -> None:
             os.kill(process, signal.SIGKILL)
 
 
-def _ended(folder: Path) -> str:
+def _ended(folder: Path, code: int) -> str:
     """Say that a gateway could not begin, with the last it said."""
-    said = ""
+    if code == NO_ROOM:
+        return f"{folder}: the gateway cannot begin: the disk is full; make room, then resume"
+    lines: list[str] = []
     with suppress(OSError):
         lines = (folder / LOG).read_text(encoding="utf-8", errors="replace").strip().splitlines()
-        said = f": {lines[-1]}" if lines else ""
-    return f"the gateway ended before it was ready{said} (all it said is in {folder / LOG})"
+    if not lines:
+        return f"the gateway ended before it was ready, with exit code {code}, and said nothing"
+    return f"the gateway ended before it was ready: {lines[-1]} (all it said is in {folder / LOG})"
