@@ -15,9 +15,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Protocol, TypeVar, cast
 
 from ..drones.feeding import Feeding
-from ..drones.loading import load_navigation, make_localization, make_navigation
+from ..drones.loading import load_navigation, make_localization
+from ..drones.making import make_one
 from ..drones.protocol import Identifiable, Locatable, Scannable
-from ..drones.setup import DroneSetup
+from ..drones.real_fleet import RealDrone
 from ..errors import BadInput
 from ..files.behaviour import OWN
 from ..gateway.holding import Held, holding
@@ -99,7 +100,7 @@ async def answers(
     asked: Sequence[Asked], folder: Path, localization: str = OWN, options: Options | None = None
 ) -> list[Answer]:
     """Return what each drone answers, told meanwhile where it is if the fleet has somebody for that."""
-    navigations = {one.id: make_navigation(one.navigation, setup_of(one, folder)) for one in asked}
+    navigations = {one.id: _made(one, folder) for one in asked}
     feeding: Feeding | None = None
     if localization != OWN:
         source = make_localization(localization, options or {})
@@ -115,7 +116,7 @@ async def answers(
 
 async def identified(asked: Asked, folder: Path) -> None:
     """Let a drone show which one it is; raise `BadInput` if it cannot."""
-    navigation = make_navigation(asked.navigation, setup_of(asked, folder))
+    navigation = _made(asked, folder)
     if not isinstance(navigation, Identifiable):
         raise BadInput(f"{asked.id} has nothing by which it could show itself")
     with holding({asked.id: asked.uri or asked.id}):
@@ -130,16 +131,14 @@ async def identified(asked: Asked, folder: Path) -> None:
             await _let_go(navigation)
 
 
-def setup_of(asked: Asked, folder: Path) -> DroneSetup:
-    """Return what its navigation is told of a drone."""
-    return DroneSetup(
+def _made(asked: Asked, folder: Path) -> DroneNavigation:
+    how = RealDrone(
         id=asked.id if asked.known else "it",  # so that sentences about it can be read
+        navigation=asked.navigation,
         uri=asked.uri,
-        home=asked.home,
-        speed=asked.speed,
         options=asked.options,
-        folder=folder,
     )
+    return make_one(how, asked.home, asked.speed, folder)
 
 
 def no_answer(seconds: float) -> str:

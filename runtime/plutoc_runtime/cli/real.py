@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from ..crazyflie.borrowed import require
 from ..drones import refusals
 from ..drones.loading import hears, load_localization, load_navigation
-from ..drones.making import make_one
+from ..drones.making import make_one, top_speed
 from ..drones.real_fleet import real_fleet
 from ..errors import BadInput
 from ..files.behaviour import CRAZYFLIE, OWN
@@ -60,4 +60,4 @@ def made(app: App, fleet: FleetFile, drone: DroneEntry, folder: Path) -> DroneNa
     """Return what flies one drone; nothing is reached yet. `BadInput`: its options are wrong."""
     (category,) = (one for one in app.categories if one.name == drone.category)
     (how,) = (one for one in real_fleet(fleet, ()).drones if one.id == drone.id)
-    return make_one(how, drone.home, category, folder)
+    return make_one(how, drone.home, top_speed(category), folder)

@@ -45,17 +45,20 @@ class Craft(Protocol):
         ...
 
 
-def make_one(drone: RealDrone, home: Point, category: Category, folder: Path) -> DroneNavigation:
-    """Return what flies one drone; nothing is reached yet. `BadInput`: its options are wrong."""
+def make_one(how: RealDrone, home: Point, speed: float, folder: Path) -> DroneNavigation:
+    """Return what flies one drone, at this speed at most; nothing is reached yet.
+
+    `BadInput`: its options are wrong.
+    """
     setup = DroneSetup(
-        id=drone.id,
-        uri=drone.uri,
-        home=home,
-        speed=category.top_speed or category.speed,
-        options=drone.options,
-        folder=folder,
+        id=how.id, uri=how.uri, home=home, speed=speed, options=how.options, folder=folder
     )
-    return make_navigation(drone.navigation, setup)
+    return make_navigation(how.navigation, setup)
+
+
+def top_speed(category: Category) -> float:
+    """Return how fast drones of a category may fly at most."""
+    return category.top_speed or category.speed
 
 
 def make_team(
@@ -72,7 +75,8 @@ def make_team(
     how = {drone.id: drone for drone in real.drones}
     navigations: dict[str, DroneNavigation] = {}
     for drone in drones:
-        navigations[drone.id] = make_one(how[drone.id], drone.home, drone.category, files)
+        speed = top_speed(drone.category)
+        navigations[drone.id] = make_one(how[drone.id], drone.home, speed, files)
     return Team(
         kernel,
         [
