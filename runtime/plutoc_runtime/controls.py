@@ -100,3 +100,42 @@ class Controls(Protocol):
     async def roll_call(self, drone: str) -> Standing:
         """Ask a drone where it is and what it has done; say so if it does not answer."""
         ...
+
+
+class Before:
+    """What stands before other controls, and hands on to them what is no command to fly."""
+
+    def __init__(self, controls: Controls) -> None:
+        self._controls = controls
+
+    def telemetry(self, drone: str) -> Telemetry:
+        """Return what is known of a drone; the value stays current."""
+        return self._controls.telemetry(drone)
+
+    def why_not(self, drone: str, action: str, parameters: Mapping[str, Plain]) -> str | None:
+        """Return why a drone's hardware cannot do a built-in action, or None."""
+        return self._controls.why_not(drone, action, parameters)
+
+    def begins(self, drone: str, job: Job | None, seconds: float) -> None:
+        """A flight begins, which is expected to take so long."""
+        self._controls.begins(drone, job, seconds)
+
+    def mended(self, drone: str) -> None:
+        """A person has looked after a lost drone: it may be asked anew."""
+        self._controls.mended(drone)
+
+    async def fetched(self, drone: str) -> bool:
+        """Wait until somebody has put a drone back into its dock, well; False: nobody does."""
+        return await self._controls.fetched(drone)
+
+    def unload(self, drone: str) -> None:
+        """Whoever meets it takes off what it carries."""
+        self._controls.unload(drone)
+
+    async def reach(self, drone: str) -> bool:
+        """Wait, after a failed flight, until a drone takes commands again; False: it is lost."""
+        return await self._controls.reach(drone)
+
+    async def roll_call(self, drone: str) -> Standing:
+        """Ask a drone where it is and what it has done; say so if it does not answer."""
+        return await self._controls.roll_call(drone)

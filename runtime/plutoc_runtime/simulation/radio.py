@@ -6,6 +6,7 @@ from collections.abc import Callable, Coroutine, Mapping
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from ..controls import Before
 from ..errors import Failure, FlightFailed
 from ..kernel import FLEET, Kernel, Kind
 from ..signals import Signal
@@ -13,8 +14,7 @@ from ..signals import Signal
 if TYPE_CHECKING:
     from ..actions import Plain
     from ..controls import Controls
-    from ..model import Item, Point, Telemetry
-    from ..navigation import Job
+    from ..model import Item, Point
     from ..standing import Standing
 
 T = TypeVar("T")
@@ -22,7 +22,7 @@ T = TypeVar("T")
 COMMAND, ANSWER = "command", "answer"
 
 
-class Radio:
+class Radio(Before):
     """Controls whose commands and answers are on their way for a while.
 
     `delay` says how many seconds each is: it is asked with `command` or `answer`. What is broken
@@ -30,23 +30,12 @@ class Radio:
     """
 
     def __init__(self, kernel: Kernel, controls: Controls, delay: Callable[[str], float]) -> None:
-        self._kernel, self._controls, self._delay = kernel, controls, delay
+        super().__init__(controls)
+        self._kernel, self._delay = kernel, delay
         self._orders: dict[str, Signal[None]] = {}
         """What drones were told to do for themselves: a signal each, that fails if it is broken off."""
         self.late = 0
         """How many messages were late."""
-
-    def telemetry(self, drone: str) -> Telemetry:
-        """Return what is known of a drone; the value stays current."""
-        return self._controls.telemetry(drone)
-
-    def why_not(self, drone: str, action: str, parameters: Mapping[str, Plain]) -> str | None:
-        """Return why a drone's hardware cannot do a built-in action, or None."""
-        return self._controls.why_not(drone, action, parameters)
-
-    def begins(self, drone: str, job: Job | None, seconds: float) -> None:
-        """A flight begins."""
-        self._controls.begins(drone, job, seconds)
 
     def _late(self, what: str) -> float:
         seconds = self._delay(what)
@@ -101,21 +90,9 @@ class Radio:
         """Switch its motors off."""
         await self._controls.cut(drone)
 
-    def mended(self, drone: str) -> None:
-        """A person has looked after a lost drone."""
-        self._controls.mended(drone)
-
     async def reach(self, drone: str) -> bool:
         """Wait, after a failed flight, until a drone takes commands again."""
         return await self._sent(drone, partial(self._controls.reach, drone))
-
-    async def fetched(self, drone: str) -> bool:
-        """Wait until somebody has put a drone back into its dock."""
-        return await self._controls.fetched(drone)
-
-    def unload(self, drone: str) -> None:
-        """Whoever meets it takes off what it carries."""
-        self._controls.unload(drone)
 
     async def roll_call(self, drone: str) -> Standing:
         """Ask a drone where it is and what it has done, be it busy or not."""
