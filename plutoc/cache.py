@@ -63,7 +63,8 @@ def cache_file(name: str, shelf: str = "") -> Path | None:
 def kept(file: Path, made_of: bytes) -> bytes | None:
     """Return what is kept, or None where nothing is, or not what was made of this."""
     try:
-        digest, _, data = file.read_bytes().partition(b"\n")
+        with open(file, "rb") as opened:
+            digest, data = opened.readline().rstrip(b"\n"), opened.read()
     except OSError:
         return None
     return data if digest == _digest(made_of, data) else None
@@ -77,7 +78,8 @@ def keep(file: Path, made_of: bytes, data: bytes) -> None:
         try:
             descriptor = os.open(aside, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
             with open(descriptor, "wb") as written:
-                written.write(_digest(made_of, data) + b"\n" + data)
+                written.write(_digest(made_of, data) + b"\n")
+                written.write(data)
             os.replace(aside, file)
         except BaseException:
             with suppress(OSError):
@@ -119,7 +121,9 @@ def tidy(shelf: Path, most: int = MOST) -> None:
 
 
 def _digest(made_of: bytes, data: bytes) -> bytes:
-    return sha256(sha256(made_of).digest() + data).hexdigest().encode()
+    whole = sha256(sha256(made_of).digest())
+    whole.update(data)
+    return whole.hexdigest().encode()
 
 
 def _is_others(facts: os.stat_result) -> bool:

@@ -8,11 +8,14 @@ from __future__ import annotations
 import os
 import sys
 from hashlib import sha256
+from operator import attrgetter
 
 TYPE_CHECKING = False  # `typing` itself is slow to import
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
     from importlib.machinery import ModuleSpec
+
+_name = attrgetter("name")
 
 
 def folders_of(package: str) -> list[str]:
@@ -24,8 +27,13 @@ def folders_of(package: str) -> list[str]:
 def files_of(package: str) -> Iterator[str]:
     """Yield all files of a package, without importing it."""
     for folder in folders_of(package):
-        for entry in _entries(folder):
-            yield entry.path
+        yield from files_in(folder)
+
+
+def files_in(folder: str) -> Iterator[str]:
+    """Yield all files in a folder and in those within it, but for what Python keeps there."""
+    for entry in _entries(folder):
+        yield entry.path
 
 
 def facts_of_package(package: str) -> Iterator[str]:
@@ -70,15 +78,17 @@ def digest(facts: Iterable[str]) -> bytes:
     return sha256("\n".join(facts).encode("utf-8", "surrogateescape")).digest()
 
 
-def _entries(folder: str) -> Iterator[os.DirEntry[str]]:
-    """Yield each file in a folder, and in those within it, in one order."""
+def _entries(folder: str) -> list[os.DirEntry[str]]:
+    """Return each file in a folder, and in those within it, in one order."""
     with os.scandir(folder) as entries:
-        found = sorted(entries, key=lambda entry: entry.name)
+        found = sorted(entries, key=_name)
+    files: list[os.DirEntry[str]] = []
     for entry in found:
         if not entry.is_dir():
-            yield entry
+            files.append(entry)
         elif entry.name != "__pycache__":
-            yield from _entries(entry.path)
+            files += _entries(entry.path)
+    return files
 
 
 def _line(path: str, facts: os.stat_result) -> str:

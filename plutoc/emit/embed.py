@@ -13,8 +13,9 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from plutoc.emit.memory import remembered
+from plutoc.emit.memory import all_remembered
 from plutoc.emit.modules import RUNTIME, EmbedError, Module, data_of, imports_from, is_within, load
+from plutoc.frozen import frozen
 from plutoc.installed import facts_of_package
 from plutoc.registry import STD
 
@@ -24,7 +25,7 @@ OURS = STD
 """Carried code of this package lies in the blocks' folder itself; other packages' in one more."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen
 class Carried:
     """A function of an installed package that generated code calls."""
 
@@ -61,8 +62,7 @@ def embed(functions: Iterable[Carried], runtime_modules: Iterable[str]) -> Mappi
     packages = dict.fromkeys(name.partition(".")[0] for _, name in [("", RUNTIME), *wanted])
     facts = [fact for name in packages for fact in facts_of_package(name)]
     # texts of modules have no NUL in them, or Python would not read them
-    told = remembered(("embed", repr(wanted), *facts), lambda: "\0".join(_collected(wanted)))
-    parts = told.split("\0")
+    parts = all_remembered(("embed", repr(wanted), *facts), lambda: _collected(wanted))
     return dict(zip(parts[::2], parts[1::2], strict=True))
 
 
@@ -83,9 +83,14 @@ class _Embedding:
     files: dict[str, str] = field(default_factory=dict)
     sources: dict[str, str] = field(default_factory=dict)
     """The installed module that each file comes from."""
+    added: set[tuple[str, str]] = field(default_factory=set)
+    """The modules that were added, and for which package of blocks."""
 
     def add(self, package: str, name: str) -> None:
         """Add an installed module and everything that it needs."""
+        if (package, name) in self.added:
+            return
+        self.added.add((package, name))
         path = _path(package, name)
         if path in self.sources:
             if self.sources[path] != name:
@@ -154,7 +159,7 @@ def _of_runtime(module: Module) -> Iterator[str]:
     for one in imports_from(module):
         if not is_within(one.target, RUNTIME) or not one.written.startswith("."):
             raise module.refuse(
-                one.line, f"{one.written}: the runtime imports the standard library and itself"
+                one.start, f"{one.written}: the runtime imports the standard library and itself"
             )
         yield from _targets(one.target, one.names)
 
@@ -181,31 +186,31 @@ def _targets(target: str, names: tuple[str, ...]) -> Iterator[str]:
 def _moved(module: Module, package: str) -> str:
     """Return a block's module with its imports bent to where they lead now."""
     up = ".." if package == OURS else "..."
-    data = module.text.encode()
-    for one in sorted(imports_from(module), key=lambda one: one.offset, reverse=True):
+    text = module.text
+    for one in sorted(imports_from(module), key=lambda one: one.start, reverse=True):
         if is_within(one.target, RUNTIME):
             new = up + one.target.removeprefix(RUNTIME).removeprefix(".")
         else:
-            _check_own(module, one.target, one.line)
+            _check_own(module, one.target, one.start)
             new = f".{_flat(one.target)}"
-        old = re.compile(rb"(from\s+)" + re.escape(one.written.encode()) + rb"(?=\s)")
-        match = old.match(data, one.offset)
+        old = re.compile(rf"(from\s+){re.escape(one.written)}(?=\s)", re.ASCII)
+        match = old.match(text, one.start)
         if match is None:
-            raise module.refuse(one.line, f"write `from {one.written} import …` on one line")
-        data = data[: match.end(1)] + new.encode() + data[match.end() :]
-    return data.decode()
+            raise module.refuse(one.start, f"write `from {one.written} import …` on one line")
+        text = text[: match.end(1)] + new + text[match.end() :]
+    return text
 
 
-def _check_own(module: Module, target: str, line: int) -> None:
+def _check_own(module: Module, target: str, start: int) -> None:
     own = module.name.partition(".")[0]
     if not is_within(target, own):
         raise module.refuse(
-            line, f"{target} is neither of the standard library nor of {RUNTIME} nor of {own}"
+            start, f"{target} is neither of the standard library nor of {RUNTIME} nor of {own}"
         )
     found = load(target)
     if found is None or found.is_package:
         raise module.refuse(
-            line, f"{target} is not a module with a file of its own: it cannot be carried along"
+            start, f"{target} is not a module with a file of its own: it cannot be carried along"
         )
 
 

@@ -9,10 +9,12 @@ from collections.abc import Iterator
 from functools import cache
 from importlib.util import find_spec
 from pathlib import PurePath
+from typing import NamedTuple
 
 import plutoc_runtime
 from plutoc.emit.scan import Written, written_imports
 from plutoc.frozen import frozen
+from plutoc.installed import files_in
 
 RUNTIME = plutoc_runtime.__name__
 _HOME = os.path.dirname(plutoc_runtime.__file__)
@@ -39,20 +41,19 @@ class Module:
         """The package that its relative imports start from."""
         return self.name if self.is_package else self.name.rpartition(".")[0]
 
-    def refuse(self, line: int, problem: str) -> EmbedError:
-        """Return the error for something in a line of it."""
+    def refuse(self, at: int, problem: str) -> EmbedError:
+        """Return the error for something in it, so many characters from its beginning."""
+        line = self.text.count("\n", 0, at) + 1
         return EmbedError(f"{self.file}:{line}: {problem}")
 
 
-@frozen
-class ImportFrom:
+class ImportFrom(NamedTuple):
     """`from target import names`, the target spelled out in full."""
 
     target: str
     names: tuple[str, ...]
-    line: int
-    offset: int
-    """Bytes from the start of the module's text."""
+    start: int
+    """In characters from the beginning of the module's text."""
     written: str
     """The target as the line has it, dots included."""
 
@@ -82,15 +83,22 @@ def load(name: str) -> Module | None:
 
 def _of_runtime(name: str) -> Module | None:
     """Return a module of the runtime: where that is known, Python need not search."""
-    path = os.path.join(_HOME, *name.split(".")[1:])
-    is_package = os.path.isdir(path)
-    file = os.path.join(path, _START) if is_package else f"{path}.py"
-    try:
-        with open(file, "rb") as opened:
-            text = opened.read().decode("utf-8")
-    except FileNotFoundError:
+    path = name.removeprefix(RUNTIME).replace(".", "/")
+    here = _files_of_runtime()
+    is_package = f"{path}/{_START}" in here
+    path = f"{path}/{_START}" if is_package else f"{path}.py"
+    if path not in here:
         return None
+    file = _HOME + path
+    with open(file, "rb") as opened:
+        text = opened.read().decode("utf-8")
     return Module(name=name, file=file, text=text, is_package=is_package)
+
+
+@cache
+def _files_of_runtime() -> frozenset[str]:
+    """Return the path of each file of the runtime, from its folder on."""
+    return frozenset(path.removeprefix(_HOME).replace(os.sep, "/") for path in files_in(_HOME))
 
 
 def data_of(package: Module) -> Iterator[tuple[str, str]]:
@@ -140,38 +148,40 @@ def imports_from(module: Module) -> tuple[ImportFrom, ...]:
 def _scanned(module: Module, written: list[Written]) -> Iterator[ImportFrom]:
     """Yield the same as `_imports`, for a module whose texts say it plainly."""
     for one in written:
-        line = module.text.count("\n", 0, one.start) + 1
-        level = len(one.target) - len(one.target.lstrip("."))
+        inner = one.target.lstrip(".")
+        level = len(one.target) - len(inner)
         if not one.names:
             if not is_standard(one.target):
-                raise module.refuse(line, _no_plain_import(one.target))
+                raise module.refuse(one.start, _no_plain_import(one.target))
         elif level or not is_standard(one.target):
             yield ImportFrom(
-                target=_target(module, one.target[level:], level, line),
+                target=_target(module, inner, level, one.start),
                 names=one.names,
-                line=line,
-                offset=len(module.text[: one.start].encode()),
+                start=one.start,
                 written=one.target,
             )
 
 
 def _imports(module: Module) -> Iterator[ImportFrom]:
+    data = module.text.encode()
     starts = [0]
-    for text in module.text.encode().splitlines(keepends=True):
+    for text in data.splitlines(keepends=True):
         starts.append(starts[-1] + len(text))
     for node in ast.walk(ast.parse(module.text)):
+        if not isinstance(node, ast.Import | ast.ImportFrom):
+            continue
+        start = len(data[: starts[node.lineno - 1] + node.col_offset].decode())
         if isinstance(node, ast.Import):
             for alias in node.names:
                 if not is_standard(alias.name):
-                    raise module.refuse(node.lineno, _no_plain_import(alias.name))
-        elif isinstance(node, ast.ImportFrom):
-            target = _target(module, node.module or "", node.level, node.lineno)
+                    raise module.refuse(start, _no_plain_import(alias.name))
+        else:
+            target = _target(module, node.module or "", node.level, start)
             if node.level or not is_standard(target):
                 yield ImportFrom(
                     target=target,
                     names=tuple(alias.name for alias in node.names),
-                    line=node.lineno,
-                    offset=starts[node.lineno - 1] + node.col_offset,
+                    start=start,
                     written="." * node.level + (node.module or ""),
                 )
 
@@ -182,11 +192,11 @@ def _no_plain_import(name: str) -> str:
     return f"{name} is not of the standard library: it cannot be carried along"
 
 
-def _target(module: Module, written: str, level: int, line: int) -> str:
+def _target(module: Module, written: str, level: int, start: int) -> str:
     if not level:
         return written
     parts = module.package.split(".")
     if level > len(parts):
-        raise module.refuse(line, "the import leads out of its package")
+        raise module.refuse(start, "the import leads out of its package")
     base = parts[: len(parts) - level + 1]
     return ".".join([*base, written] if written else base)

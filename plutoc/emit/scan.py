@@ -10,8 +10,7 @@ from __future__ import annotations
 import re
 import sys
 from collections.abc import Iterator
-
-from plutoc.frozen import frozen
+from typing import NamedTuple
 
 _IMPORT = re.compile(r"import\b")
 _TEXTS = r'"""(?:[^"\\]|\\.|"(?!""))*+"""|"(?:[^"\\\n]|\\.)*+"'
@@ -26,12 +25,12 @@ _COMMENT = re.compile(r"\#[^\n]*")
 _NAMES = re.compile(
     r"\s*[A-Za-z_]\w*(?:\s+as\s+\w+)?\s*(?:,\s*[A-Za-z_]\w*(?:\s+as\s+\w+)?\s*)*+,?\s*"
 )
+_PLAIN_NAMES = re.compile(r"\w+(?:, \w+)*")
 _MODULES = re.compile(r"[ \t]+[A-Za-z_][\w.]*(?:[ \t]+as[ \t]+\w+)?[ \t]*")
 _NESTED = re.compile(r"[fFtT][rR]?[\"']|[rR][fFtT][\"']")
 
 
-@frozen
-class Written:
+class Written(NamedTuple):
     """An import as it stands in a text; without names, that of a whole module."""
 
     target: str
@@ -48,8 +47,12 @@ def written_imports(text: str, *, strange: bool = False) -> list[Written] | None
     """
     if "\\\n" in text or (strange and sys.version_info >= (3, 12) and _NESTED.search(text)):
         return None
-    found = list(_imports(text))
-    return None if None in found else [one for one in found if one is not None]
+    found: list[Written] = []
+    for one in _imports(text):
+        if one is None:
+            return None
+        found.append(one)
+    return found
 
 
 def _imports(text: str) -> Iterator[Written | None]:
@@ -64,7 +67,7 @@ def _imports(text: str) -> Iterator[Written | None]:
             modules = _COMMENT.sub("", line["modules"])
             target = modules.split(" as ")[0].strip()
             plain = _MODULES.fullmatch(modules) is not None
-            yield Written(target=target, names=(), start=at) if plain else None
+            yield Written(target, (), at) if plain else None
 
 
 def _in_code(text: str) -> Iterator[int]:
@@ -81,11 +84,13 @@ def _in_code(text: str) -> Iterator[int]:
 
 
 def _of_names(line: re.Match[str]) -> Written | None:
+    start = line.end() - len(line[0].lstrip(" \t"))
+    if _PLAIN_NAMES.fullmatch(line["names"]):  # as most are
+        return Written(line["target"], tuple(line["names"].split(", ")), start)
     names = _COMMENT.sub("", line["names"]).strip()
     if names.startswith("(") and names.endswith(")"):
         names = names[1:-1]
     if _NAMES.fullmatch(names) is None:
         return None
     listed = (name.split(" as ")[0].strip() for name in names.split(","))
-    start = line.end() - len(line[0].lstrip(" \t"))
-    return Written(target=line["target"], names=tuple(name for name in listed if name), start=start)
+    return Written(line["target"], tuple(name for name in listed if name), start)
