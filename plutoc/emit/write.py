@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import errno
 import os
-import stat
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from hashlib import sha256
@@ -18,6 +17,7 @@ from types import MappingProxyType
 from plutoc.diagnostic import Diagnostic, Rejected
 from plutoc.emit import errors
 from plutoc.emit.errors import Place
+from plutoc.emit.held import InTheWay, facts_of, held
 from plutoc.emit.lock import NAME as LOCK
 from plutoc.emit.package import Package
 from plutoc.emit.recorded import DamagedLock, Lock, read_lock
@@ -28,7 +28,9 @@ _ASIDE = ".plutoc-"
 
 _NOTHING: Mapping[str, str] = MappingProxyType({})
 
-Save = Callable[[Path, bytes], object]
+_TO_WRITE = os.O_WRONLY | os.O_CREAT | os.O_TRUNC | getattr(os, "O_BINARY", 0)
+
+Save = Callable[[str, bytes], object]
 
 
 class Refused(Rejected):
@@ -138,49 +140,18 @@ def _texts(
     wanted: dict[str, str | None] = {**package.owned}
     wanted |= {path: text for path, text in package.once.items() if not (folder / path).is_file()}
     wanted |= asked
-    wanted |= {path: None for path in recorded if path not in {*package.owned, *package.once}}
+    ours = {*package.owned, *package.once}
+    wanted |= {path: None for path in recorded if path not in ours}
     texts: dict[str, tuple[bytes | None, str | None]] = {}
-    passed: set[str] = set()
+    top, passed = os.fspath(folder), set[str]()
     for path, text in wanted.items():
-        obstacle = _obstacle(folder, path, passed)
-        if obstacle is None:
-            texts[path] = (_bytes(folder / path), text)
-        else:
-            what = "a file" if obstacle == folder / path else "a folder"
-            found.append(errors.in_the_way(place, str(obstacle), _kind(obstacle), what))
+        try:
+            facts = facts_of(top, path, passed)
+            texts[path] = held(os.path.join(top, path), facts), text
+        except InTheWay as error:
+            what = "a folder" if error.is_on_the_way else "a file"
+            found.append(errors.in_the_way(place, str(error.place), _kind(error.place), what))
     return texts
-
-
-def _bytes(path: Path) -> bytes | None:
-    try:
-        with open(path, "rb") as file:
-            return file.read()
-    except FileNotFoundError:
-        return None
-
-
-def _obstacle(folder: Path, path: str, passed: set[str]) -> Path | None:
-    """Return what a file cannot be written through: a link, or what is not a folder.
-
-    The folders that were found to be none are added to `passed`, and not looked at again.
-    """
-    *parents, _ = path.split("/")
-    for number in range(len(parents)):
-        parent = "/".join(parents[: number + 1])
-        if parent not in passed:
-            if not _is_free_for(folder / parent, stat.S_ISDIR):
-                return folder / parent
-            passed.add(parent)
-    target = folder / path
-    return None if _is_free_for(target, stat.S_ISREG) else target
-
-
-def _is_free_for(path: Path, is_right: Callable[[int], bool]) -> bool:
-    """Say whether there is nothing at a place, or what is right there."""
-    try:
-        return is_right(os.lstat(path).st_mode)
-    except (FileNotFoundError, NotADirectoryError):
-        return True
 
 
 def _kind(path: Path) -> str:
@@ -189,7 +160,16 @@ def _kind(path: Path) -> str:
     return "a folder" if path.is_dir() else "a file" if path.is_file() else "no ordinary file"
 
 
-def write(changes: Changes, *, save: Save = Path.write_bytes) -> None:
+def _save(path: str, data: bytes) -> None:
+    handle = os.open(path, _TO_WRITE, 0o666)
+    try:
+        while data := data[os.write(handle, data) :]:
+            pass
+    finally:
+        os.close(handle)
+
+
+def write(changes: Changes, *, save: Save = _save) -> None:
     """Make the changes, all or none; raise `CannotWrite` where the disk refuses."""
     if not changes.files:
         return
@@ -212,7 +192,7 @@ def write(changes: Changes, *, save: Save = Path.write_bytes) -> None:
         raise CannotWrite(error, folder) from error
 
 
-def create(folder: Path, texts: Mapping[str, str], *, save: Save = Path.write_bytes) -> None:
+def create(folder: Path, texts: Mapping[str, str], *, save: Save = _save) -> None:
     """Write files into a new or empty folder, all or none."""
     files = [Change(path=path, before=None, after=text) for path, text in texts.items()]
     write(Changes(folder=folder, first=True, files=tuple(files)), save=save)
@@ -227,9 +207,12 @@ def _aside(parent: Path) -> Iterator[Path]:
     try:
         yield aside
     finally:
-        from shutil import rmtree
+        try:
+            aside.rmdir()  # all of it is in its place, as a rule
+        except OSError:
+            from shutil import rmtree
 
-        rmtree(aside, ignore_errors=True)
+            rmtree(aside, ignore_errors=True)
 
 
 @contextmanager
@@ -254,17 +237,18 @@ def _make_folders(folder: Path) -> list[Path]:
 
 def _prepare(changes: Changes, aside: Path, save: Save) -> None:
     """Write the new texts aside, and keep the old ones there. Most of what can fail fails here."""
-    from shutil import copy2
-
-    parents: set[Path] = set()
+    top, parents = os.path.join(aside, "new"), set[str]()
     for change in changes.files:
         if change.after is not None:
-            new = aside / "new" / change.path
-            if new.parent not in parents:
-                new.parent.mkdir(parents=True, exist_ok=True)
-                parents.add(new.parent)
+            new = os.path.join(top, change.path)
+            parent = os.path.dirname(new)
+            if parent not in parents:
+                os.makedirs(parent, exist_ok=True)
+                parents.add(parent)
             save(new, change.after.encode())
         if change.before is not None:
+            from shutil import copy2
+
             old = aside / "old" / change.path
             old.parent.mkdir(parents=True, exist_ok=True)
             copy2(changes.folder / change.path, old, follow_symlinks=False)
@@ -299,10 +283,13 @@ def _replace(changes: Changes, aside: Path) -> None:
 
 def _refuse_what_came_since(folder: Path, path: str) -> None:
     """What was no link when we compared may be one now, and lead anywhere."""
-    obstacle = folder if folder.is_symlink() else _obstacle(folder, path, set())
-    if obstacle is not None:
-        reason = f"{_kind(obstacle)} was put there meanwhile"
-        raise FileExistsError(errno.EEXIST, reason, str(obstacle))
+    try:
+        if folder.is_symlink():
+            raise InTheWay(os.fspath(folder), is_on_the_way=True)
+        facts_of(os.fspath(folder), path, set())
+    except InTheWay as error:
+        reason = f"{_kind(error.place)} was put there meanwhile"
+        raise FileExistsError(errno.EEXIST, reason, str(error.place)) from None
 
 
 def _remove_empty_folders(path: Path, top: Path) -> None:
