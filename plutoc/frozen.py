@@ -17,35 +17,56 @@ T = TypeVar("T")
 @dataclass_transform(frozen_default=True, kw_only_default=True)
 def frozen(cls: type[T]) -> type[T]:
     """Make a dataclass with slots, whose fields are given by name and never change."""
-    cls.__doc__ = cls.__doc__ or cls.__name__  # or the library would spell out its signature
-    made: Any = dataclass(init=False, repr=False, eq=False, slots=True, kw_only=True)(cls)
+    made = _prepared(cls)
     names = tuple(field.name for field in fields(made))
-    defaults = {f.name: f.default for f in fields(made) if f.default is not MISSING}
-    slots = tuple((name, getattr(made, name).__set__) for name in names)
     values: Any = attrgetter(*names) if names else lambda self: ()
-
-    def init(self: Any, **given: Any) -> None:
-        if len(given) != len(slots):
-            given = {**defaults, **given}
-        try:
-            for name, put in slots:
-                put(self, given[name])
-        except KeyError as missing:
-            raise TypeError(f"{cls.__name__} needs {missing}") from None
-        if len(given) != len(slots):
-            raise TypeError(f"{cls.__name__} has no {given.keys() - set(names)}")
 
     def equal(self: Any, other: Any) -> bool:
         return values(self) == values(other) if other.__class__ is made else NotImplemented
 
-    made.__init__ = init
+    made.__init__ = _init(made, tuple((name, getattr(made, name).__set__) for name in names))
     made.__eq__ = equal
     made.__hash__ = lambda self: hash(values(self))
     made.__repr__ = _repr
+    return cast("type[T]", made)
+
+
+@dataclass_transform(frozen_default=True, kw_only_default=True, eq_default=False)
+def frozen_one(cls: type[T]) -> type[T]:
+    """Make such a dataclass of which each one is equal to itself only, whatever it holds."""
+    made = _prepared(cls)
+    puts = tuple((field.name, getattr(made, field.name).__set__) for field in fields(made))
+    made.__init__ = _init(made, puts)
+    return cast("type[T]", made)
+
+
+def _prepared(cls: Any) -> Any:
+    cls.__doc__ = cls.__doc__ or cls.__name__  # or the library would spell out its signature
+    made: Any = dataclass(init=False, repr=False, eq=False, slots=True, kw_only=True)(cls)
     made.__reduce__ = _reduce
     made.__setattr__ = _refuse
     made.__delattr__ = _refuse
-    return cast("type[T]", made)
+    return made
+
+
+def _init(made: Any, puts: tuple[tuple[str, Any], ...]) -> Any:
+    found = fields(made)
+    defaults = {f.name: f.default for f in found if f.default is not MISSING}
+    makers = [(f.name, f.default_factory) for f in found if f.default_factory is not MISSING]
+    name_of_class = made.__name__
+
+    def init(self: Any, **given: Any) -> None:
+        if len(given) != len(puts):
+            given = {**defaults, **{name: make() for name, make in makers}, **given}
+        try:
+            for name, put in puts:
+                put(self, given[name])
+        except KeyError as missing:
+            raise TypeError(f"{name_of_class} needs {missing}") from None
+        if len(given) != len(puts):
+            raise TypeError(f"{name_of_class} has no {given.keys() - {name for name, _ in puts}}")
+
+    return init
 
 
 def _repr(self: Any) -> str:

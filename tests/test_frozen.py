@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import copy
-from dataclasses import FrozenInstanceError, dataclass, fields, replace
+from dataclasses import FrozenInstanceError, dataclass, field, fields, replace
 from typing import Any, cast
 
 import pytest
 
-from plutoc.frozen import frozen
+from plutoc.frozen import frozen, frozen_one
 
 
 @frozen
@@ -42,6 +42,36 @@ class Standard:
 @frozen
 class Nothing:
     """One without fields."""
+
+
+@frozen_one
+class Drone:
+    """Nobody's like."""
+
+    name: str
+    routes: dict[str, Leg] = field(default_factory=dict)
+
+
+def test_one_is_equal_to_itself_only() -> None:
+    """Whatever it holds: so it can be a key, too."""
+    one, other = Drone(name="a"), Drone(name="a")
+    assert one != other
+    assert len({one, other}) == 2
+
+
+def test_each_one_gets_a_default_of_its_own() -> None:
+    """Where a function makes it."""
+    one, other = Drone(name="a"), Drone(name="b")
+    assert one.routes == {} and one.routes is not other.routes
+    assert replace(one, name="c").routes is one.routes
+
+
+def test_nobody_changes_one() -> None:
+    one: Any = Drone(name="a")
+    with pytest.raises(FrozenInstanceError, match="its name stays as it is"):
+        one.name = "b"
+    with pytest.raises(TypeError, match="Drone needs 'name'"):
+        cast(Any, Drone)()
 
 
 def test_a_value_is_equal_to_its_like_and_to_nothing_else() -> None:

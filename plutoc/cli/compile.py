@@ -7,7 +7,6 @@ import time
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from shlex import quote
 from typing import TYPE_CHECKING
 
 from plutoc.check.model import Checked
@@ -157,6 +156,8 @@ def _refuse(checked: Checked, changes: Changes) -> None:
 def _outcome(compiled: Compiled, changes: Changes) -> Iterator[str]:
     folder = shown(changes.folder)
     if changes.first:
+        from shlex import quote
+
         yield f"{folder}: a new package of {counted(len(changes.files), 'file')}"
         graph = compiled.checked.graph
         own = f"{folder}/{hooks_path(compiled.checked)}"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from argparse import SUPPRESS, Action, ArgumentParser, ArgumentTypeError, HelpFormatter
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
@@ -76,23 +76,14 @@ def parse(arguments: Sequence[str]) -> Options:
         required=True,
     )
 
-    def command(name: str, what: str) -> ArgumentParser:
-        return _plain(
+    for name, (what, describe) in _COMMANDS.items():
+        command = _plain(
             commands.add_parser(
                 name, help=what, description=what, allow_abbrev=False, formatter_class=layout
             )
         )
-
-    _new(command("new", "Make a folder with a small app to begin with."))
-    _check(command("check", "Say what is wrong with apps; with --fix, mend what is certain."))
-    _compile(command("compile", "Write the Python package of an app."))
-    _run(command("run", "Compile an app and simulate its missions at once."))
-    _test(command("test", "Try an app under everything that can go wrong."))
-    _fmt(command("fmt", "Write sources in canonical form; comments and meaning are kept."))
-    _graph(command("graph", "Print the picture of an app, with the statuses on every edge."))
-    _diff(command("diff", "Say in words what changed in meaning from one app to another."))
-    _blocks(command("blocks", "List the blocks that are installed, or explain one."))
-    _explain(command("explain", "Say what the code of an error or a warning means."))
+        if name in arguments:  # nobody can ask for the flags of any other
+            describe(command)
     if not arguments:
         parser.print_help(sys.stderr)
         raise SystemExit(USAGE)
@@ -310,3 +301,17 @@ def _whole(text: str) -> int:
         return int(text)
     except ValueError:
         raise ArgumentTypeError(f"{text!r} is not a whole number") from None
+
+
+_COMMANDS: dict[str, tuple[str, Callable[[ArgumentParser], None]]] = {
+    "new": ("Make a folder with a small app to begin with.", _new),
+    "check": ("Say what is wrong with apps; with --fix, mend what is certain.", _check),
+    "compile": ("Write the Python package of an app.", _compile),
+    "run": ("Compile an app and simulate its missions at once.", _run),
+    "test": ("Try an app under everything that can go wrong.", _test),
+    "fmt": ("Write sources in canonical form; comments and meaning are kept.", _fmt),
+    "graph": ("Print the picture of an app, with the statuses on every edge.", _graph),
+    "diff": ("Say in words what changed in meaning from one app to another.", _diff),
+    "blocks": ("List the blocks that are installed, or explain one.", _blocks),
+    "explain": ("Say what the code of an error or a warning means.", _explain),
+}

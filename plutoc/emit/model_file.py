@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import fields as dataclass_fields
-
 from plutoc.emit.fields import fields_of, python_type
 from plutoc.emit.imports import Import, import_lines, names
 from plutoc.emit.python import annotation, builtins_alias, call, docstring, items, literal, shadows
 from plutoc.emit.render import render
 from plutoc.frozen import frozen
 from plutoc.graph import model as graph_model
+from plutoc.graph.categories import PARAMS
 from plutoc.graph.model import Graph
 from plutoc_runtime.fields import Entity, Field
-from plutoc_runtime.model import Category
-
-_DEFAULTS = {field.name: field.default for field in dataclass_fields(Category)}
 
 
 @frozen
@@ -110,12 +106,12 @@ def _field(field: Field) -> str:
 
 
 def _category(category: graph_model.Category) -> str:
-    """Return what differs from the runtime's own defaults."""
+    """Return what differs from the defaults, which are the runtime's as well."""
     arguments = [f"name={literal(category.name)}"]
-    for name in ("payload", "speed", "flight_time", "charge_time", "reserve"):
-        value = getattr(category, name)
-        if value != _DEFAULTS[name]:
-            arguments.append(f"{name}={literal(value)}")
+    for param in PARAMS:
+        value = getattr(category, param.name)
+        if value != param.default:
+            arguments.append(f"{param.name}={literal(value)}")
     if category.actions is not None:
         actions = items(map(literal, category.actions), "{}") if category.actions else ""
         arguments.append(f"actions=frozenset({actions})")

@@ -27,10 +27,11 @@ to be written for each of them.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import takewhile
 
 from plutoc.check.model import Checked
+from plutoc.frozen import frozen_one
 from plutoc.plan.bodies import falls, without_last_continue
 from plutoc.plan.model import (
     Arm,
@@ -94,7 +95,7 @@ def _change(step: Step, jump: type[Step], onward: Body) -> Body:
     return (step,)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@frozen_one
 class _Way:
     """A way of a switch, all of it."""
 
@@ -117,10 +118,10 @@ def _settled(body: Body, checked: Checked) -> Body:
     for before, step in zip((None, *body)[-2::-1], reversed(body), strict=True):
         match step:
             case Switch(arms=(*early, last)) if _parts(step, behind):
-                bodies = [_settled(arm.body, checked) for arm in early]
-                ways = [_Way(*way, _size(way[1])) for way in zip(early, bodies, strict=True)]
+                bodies = [(arm, _settled(arm.body, checked)) for arm in early]
+                ways = [_Way(arm=arm, body=body, size=_size(body)) for arm, body in bodies]
                 whole = _settled(last.body, checked)
-                ways.append(_Way(last, behind or whole, size or _size(whole)))
+                ways.append(_Way(arm=last, body=behind or whole, size=size or _size(whole)))
                 main = max(reversed(ways), key=lambda way: way.weight)
                 ways.sort(key=lambda way: _place(before, way.arm, checked))
                 arms = [replace(way.arm, body=way.body) for way in ways if way is not main]
