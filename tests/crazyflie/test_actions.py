@@ -11,7 +11,7 @@ import pytest
 from plutoc_runtime.crtp.camera import camera, picture, port_of
 from plutoc_runtime.drones import ActionNotDone, Rejected
 from plutoc_runtime.model import Item, Photo
-from tests.crazyflie.hangar import FAST, Flight, Outcomes, hangar
+from tests.crazyflie.hangar import FAST, Flight, as_tests, hangar
 
 pytest.importorskip("cflib")
 
@@ -145,10 +145,4 @@ FLIGHTS: list[Flight] = [
     it_says_what_it_is,
 ]
 
-
-@pytest.mark.parametrize("flown", FLIGHTS, ids=lambda flown: flown.__name__)
-def test_action(flown: Flight, outcomes: Outcomes) -> None:
-    """Each is done as its name says."""
-    outcome = outcomes[flown]
-    if outcome is not None:
-        raise outcome
+test_action, test_no_thread_is_left = as_tests(FLIGHTS)

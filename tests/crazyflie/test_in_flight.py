@@ -22,7 +22,7 @@ from plutoc_runtime.drones import (
     OutsideArea,
     Rejected,
 )
-from tests.crazyflie.hangar import FAST, Flight, Outcomes, hangar, threads_left
+from tests.crazyflie.hangar import FAST, Flight, as_tests, hangar
 
 pytest.importorskip("cflib")
 
@@ -218,16 +218,4 @@ FLIGHTS: list[Flight] = [
     a_drone_that_cannot_find_itself_flies_by_what_others_see,
 ]
 
-
-@pytest.mark.parametrize("flown", FLIGHTS, ids=lambda flown: flown.__name__)
-def test_in_flight(flown: Flight, outcomes: Outcomes) -> None:
-    """Each flight goes as its name says."""
-    outcome = outcomes[flown]
-    if outcome is not None:
-        raise outcome
-
-
-def test_no_thread_is_left(outcomes: Outcomes) -> None:
-    """cflib has many threads, and so have we: when drones are closed, all of them end."""
-    assert len(outcomes) == len(FLIGHTS)
-    assert threads_left() == []
+test_in_flight, test_no_thread_is_left = as_tests(FLIGHTS)

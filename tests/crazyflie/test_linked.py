@@ -20,7 +20,7 @@ from plutoc_runtime.drones import (
     LinkLost,
     NotReady,
 )
-from tests.crazyflie.hangar import FAST, Flight, Outcomes, hangar, threads_left
+from tests.crazyflie.hangar import FAST, Flight, as_tests, hangar
 
 pytest.importorskip("cflib")
 
@@ -177,16 +177,4 @@ FLIGHTS: list[Flight] = [
     without_a_uri_it_says_what_is_missing,
 ]
 
-
-@pytest.mark.parametrize("flown", FLIGHTS, ids=lambda flown: flown.__name__)
-def test_linked(flown: Flight, outcomes: Outcomes) -> None:
-    """Each flight goes as its name says."""
-    outcome = outcomes[flown]
-    if outcome is not None:
-        raise outcome
-
-
-def test_no_thread_is_left(outcomes: Outcomes) -> None:
-    """cflib has many threads, and so have we: when drones are closed, all of them end."""
-    assert len(outcomes) == len(FLIGHTS)
-    assert threads_left() == []
+test_linked, test_no_thread_is_left = as_tests(FLIGHTS)
