@@ -56,7 +56,7 @@ def test_a_file_that_is_no_plan_is_refused_with_its_lines_and_nothing_changes(
     wrong = tmp_path / "wrong.toml"
     wrong.write_text('[[mission]]\nname = "A"\nspeed = 3\n')
     choose(page, "Import file", wrong)
-    expect(page.get_by_role("alert").filter(has_text="speed")).to_contain_text("3")
+    expect(page.get_by_role("alert").filter(has_text="speed")).to_contain_text("wrong.toml:3: ")
     open_page(page, "Missions")
     expect(missions_listed(page)).to_have_text(list(PLAN))
     assert station.get("/api/plan") == before

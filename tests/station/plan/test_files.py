@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 from pathlib import Path
 from typing import Any
 
@@ -157,6 +158,12 @@ def test_a_bad_file_is_refused_as_check_refuses_it(text: str, sentence: str) -> 
         plan.import_toml(text, plan.revision)
     assert str(caught.value).startswith(sentence)
     assert plan.data() == before
+
+
+def test_a_bad_file_is_told_by_the_name_that_it_has() -> None:
+    plan = drawn(mission())
+    with pytest.raises(BadInput, match=r"^north\.toml:1: is not valid TOML"):
+        asyncio.run(plan.import_file("[[mission]", plan.revision, "north.toml"))
 
 
 def test_what_nobody_can_fly_is_taken_and_told() -> None:

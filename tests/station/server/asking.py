@@ -45,9 +45,9 @@ class APlan:
             raise BadInput("missions is no list")
         self.missions, self.revision = missions, revision + 1
 
-    async def import_file(self, text: str, revision: int) -> None:
+    async def import_file(self, text: str, revision: int, file: str) -> None:
         if "=" not in text:
-            raise BadInput("line 1: expected =")
+            raise BadInput(f"{file}:1: expected =")
         self.replace(revision, [text])
 
     def example(self, revision: int) -> None:

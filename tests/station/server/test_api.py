@@ -191,6 +191,27 @@ def test_a_missions_file_is_taken_in() -> None:
     assert ask.station.plan.revision == 2
 
 
+@pytest.mark.parametrize(
+    ("file", "told"),
+    [
+        (None, "missions.toml"),
+        (" ", "missions.toml"),
+        ("North field.toml", "North field.toml"),
+        ("ü 田.toml", "ü 田.toml"),
+        ("a\x1b[31m\n\u202eb\ud800.toml", "a\\x1b[31m\\n\\u202eb\\ud800.toml"),
+        ("<b>" + 9999 * "x", f"<b>{76 * 'x'}…"),
+    ],
+)
+def test_a_file_that_is_refused_has_its_own_name(file: str | None, told: str) -> None:
+    """Somebody else may have chosen it: it is a text, and no long one."""
+    ask = asked()
+    toml = without(content_type="application/toml")
+    query = {} if file is None else {"file": file}
+    reply = ask("POST", "/api/plan/import", "nonsense", toml, revision="1", **query)
+    assert reply.status == 400
+    assert json.loads(reply.body) == {"said": f"{told}:1: expected ="}
+
+
 def test_what_there_is_can_be_read() -> None:
     ask = asked()
     assert json.loads(ask("GET", "/api/app").body) == {"name": "alfalfa"}

@@ -171,7 +171,8 @@ function importFile(context) {
       const [file] = input.files;
       const text = await file.text();
       another(context, (revision) =>
-        send("POST", `/api/plan/import?revision=${revision}`, text, "application/toml"),
+        send("POST", `/api/plan/import?revision=${revision}&file=${encodeURIComponent(file.name)}`,
+          text, "application/toml"),
       `${file.name} is in the plan now.`);
     },
   });

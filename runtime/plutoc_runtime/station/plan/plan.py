@@ -87,10 +87,10 @@ class Plan:
         self._check_current(revision)
         self._take(shapes_of(text, self._app, self._fleet.airspace, file), revision)
 
-    async def import_file(self, text: str, revision: object) -> None:
+    async def import_file(self, text: str, revision: object, file: str = NAME) -> None:
         """Do the same while others go on: reading a large file takes seconds."""
         self._check_current(revision)
-        given = await to_thread(shapes_of, text, self._app, self._fleet.airspace)
+        given = await to_thread(shapes_of, text, self._app, self._fleet.airspace, file)
         self._take(given, revision)
 
     def _take(self, read: Sequence[Shape], revision: object) -> None:

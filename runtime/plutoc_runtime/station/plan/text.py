@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from ...app import App
 
 NAME = "missions.toml"
-"""What a file is called in messages, whatever it is called on the disk of whoever sends it."""
+"""What a file is called in messages, if whoever sends it does not say."""
 
 _BASIC = ("name", "action", "item", "parameters", "source", "target")
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Coroutine, Mapping
 
 from ...errors import BadInput
+from ...words import cut_off, printable
 from ..commands import NEEDS, Malformed
 from ..plan.errors import Stale
 from . import refusals
@@ -28,6 +29,8 @@ ADDRESSES: Mapping[str, tuple[str, ...]] = {
 }
 _LONGEST_ID = 64
 _DIGITS = 15
+_LONGEST_NAME = 80
+_NAME = "missions.toml"
 _JSON, _TOML = "application/json", "application/toml"
 
 
@@ -41,7 +44,7 @@ async def read(station: Station, path: str) -> Reply:
             return json_reply(200, station.plan.data())
         case "/api/plan.toml":
             try:
-                return text_reply(station.plan.export_toml(), "missions.toml", _TOML)
+                return text_reply(station.plan.export_toml(), _NAME, _TOML)
             except BadInput as error:
                 return in_words(409, str(error))
         case "/api/console.txt":
@@ -68,7 +71,8 @@ async def change(station: Station, audit: Audit, request: Request) -> Reply:
             return await _edited(plan, audit, request, edit)
         case "/api/plan/import":
             revision, text = asked_number(request.query, "revision"), _text(body)
-            return await _edited(plan, audit, request, plan.import_file(text, revision))
+            edit = plan.import_file(text, revision, _file(request.query))
+            return await _edited(plan, audit, request, edit)
         case "/api/plan/example":
             given = parsed_object(body)
             revision = _whole(given, "revision")
@@ -132,6 +136,11 @@ def _whole(given: dict[str, object], name: str) -> int:
     if not isinstance(value, int) or isinstance(value, bool):
         raise Malformed(f"{name} must be a whole number")
     return value
+
+
+def _file(query: Mapping[str, str]) -> str:
+    """Return the name of a file as it can be told: a stranger may have chosen it."""
+    return cut_off(printable(query.get("file", "").strip()), _LONGEST_NAME) or _NAME
 
 
 def _text(body: bytes) -> str:

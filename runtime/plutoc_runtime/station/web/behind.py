@@ -19,8 +19,8 @@ class Plan(Protocol):
     def replace(self, revision: int, missions: object) -> None:
         """Put missions in its place."""
 
-    async def import_file(self, text: str, revision: int) -> None:
-        """Put those of a missions file in its place."""
+    async def import_file(self, text: str, revision: int, file: str) -> None:
+        """Put those of a missions file in its place; what is wrong with it says its name."""
 
     def example(self, revision: int) -> None:
         """Put an example in its place."""
