@@ -80,11 +80,16 @@ def forks(size: int) -> Iterator[str]:
 SHAPES: dict[str, Callable[[int], Iterator[str]]] = {"chain": chain, "wide": wide, "forks": forks}
 
 
+def app(shape: str, size: int) -> str:
+    """Return an app of that many blocks."""
+    lines = "\n".join(SHAPES[shape](size))
+    return f"pluto 1\n\napp {shape}_{size} {{\n{lines}\n}}\n"
+
+
 def write_app(folder: Path, shape: str, size: int) -> Path:
     """Write an app of that many blocks."""
     path = folder / f"{shape}_{size}.pluto"
-    lines = "\n".join(SHAPES[shape](size))
-    path.write_text(f"pluto 1\n\napp {shape}_{size} {{\n{lines}\n}}\n")
+    path.write_text(app(shape, size))
     return path
 
 

@@ -146,7 +146,8 @@ def _told(lines: tuple[str, ...], shapes: list[str]) -> tuple[str, ...] | None:
         return None
     if len(lines) == 1 or all(shape.startswith(_CONTINUED) for shape in shapes[1:]):
         whole = shapes[0].strip() + "".join(shapes[1:]).replace(_CONTINUED, "")
-        return (_general(whole),) if len(lines) > 1 or _fits(lines[0]) else None
+        left_alone = len(lines) > 1 or whole == "#" or _fits(lines[0])  # a comment is never broken
+        return (_general(whole),) if left_alone else None
     if any(shape.startswith(_CONTINUED) for shape in shapes):
         return None
     if not all(_fits(line) for line in lines):

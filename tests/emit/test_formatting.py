@@ -160,6 +160,8 @@ def test_a_large_module_is_given_to_black_in_pieces(monkeypatch: pytest.MonkeyPa
         "x = 'a' 'b'\n",
         "f(a)(b)\n",
         f"x = {'y' * 97}\n",
+        f"# {'y ' * 60}y\n",
+        f"x = f(\n    # {'y ' * 60}y\n    y,\n)\n",
         f"x = f({'é' * 60})\n",
     ],
 )

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from large_apps import app
 from plutoc.compile import analyse, package_of
 from plutoc.emit import canonical, python
 from plutoc.emit.canonical import shapes_of
@@ -15,6 +16,8 @@ from plutoc.source import Source
 from tests.emit.apps import ODD_NAMES, PARCELS, PLAIN
 
 ROOT = Path(__file__).parents[2]
+LARGE = {"chain": 60, "wide": 40, "forks": 160}
+"""Blocks: so many that a flow becomes one `match`, or that a comment takes more than a line."""
 APPS = [
     *(path.read_text(encoding="utf-8") for path in sorted(ROOT.glob("examples/*/app.pluto"))),
     *(
@@ -22,6 +25,7 @@ APPS = [
         for path in sorted(ROOT.glob("tests/cases/alfalfa/*.pluto"))
     ),
     *(path.read_text(encoding="utf-8") for path in sorted(ROOT.glob("benchmarks/*/*.pluto"))),
+    *(app(shape, size) for shape, size in LARGE.items()),
     PLAIN,
     ODD_NAMES,
     PARCELS,
@@ -40,8 +44,8 @@ def texts() -> tuple[str, ...]:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("plutoc.emit.python.formatted", asked)
         patch.setattr("plutoc.emit.hooks_file.formatted", asked)
-        for app in APPS:
-            checked, _ = analyse(Source("app.pluto", app))
+        for text in APPS:
+            checked, _ = analyse(Source("app.pluto", text))
             for optimise in (True, False):
                 package_of(checked, source_name="app.pluto", optimise=optimise)
     return tuple(found)
