@@ -226,6 +226,19 @@ def test_a_gateway_that_is_killed_right_after_a_cut_comes_back_knowing_it(tmp_pa
     played(tmp_path, play)
 
 
+def test_a_simulated_drone_that_has_lost_its_link_cannot_be_told() -> None:
+    """It lands by itself, as it was about to."""
+    field = Field()
+    link = field.gateway.link(1)
+    fly(field.virtual, link.takeoff("cf1", 1.2))
+    field.navigation.strike("cf1", Failure.LINK)
+    assert cut(field) == "cf1 lost its link at (1, 1)"
+    field.advance(60)
+    assert fly(field.virtual, link.recover("cf1")) is True
+    assert cut(field) == ""
+    assert cut(field) == ""
+
+
 def test_motors_are_cut_while_the_brain_hangs(tmp_path: Path) -> None:
     """Whoever may open the socket may do that; a brain that comes back hears of it."""
 

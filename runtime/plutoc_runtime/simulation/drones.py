@@ -180,9 +180,11 @@ class SimulatedNavigation:
         self._in_the_air(drone).settings[name] = value
 
     async def cut(self, drone: str) -> None:
-        """Switch its motors off: it falls, if it flies, and turns them on for nobody."""
+        """Switch its motors off: it falls, if it flies and can be told, and turns them on for nobody."""
         cut = motors_cut(drone)
-        self.strike(drone, cut.failure, str(cut))
+        body = self.bodies[drone]
+        if not self.strike(drone, cut.failure, str(cut)) and not body.landed:
+            body.check(self._kernel.now)
 
     def mended(self, drone: str) -> None:
         """Somebody has repaired it, put it into its dock and switched it on."""
