@@ -88,9 +88,19 @@ def stub(checked: Checked, name: str) -> str:
 
 def _offers(what: str, basics: str, graph: Graph, entity: Entity) -> list[str]:
     own = [f", `{field.name}`" for field in fields_of(graph) if field.on is entity]
-    from textwrap import wrap
+    return _filled(f"A {what} offers {basics}{''.join(own)}.")
 
-    return wrap(f"A {what} offers {basics}{''.join(own)}.", LINE_LENGTH)
+
+def _filled(text: str) -> list[str]:
+    """Return a text in lines that fit; `textwrap` takes longer to import than all of the stubs."""
+    first, *words = text.split()
+    lines = [first]
+    for word in words:
+        if len(lines[-1]) + 1 + len(word) <= LINE_LENGTH:
+            lines[-1] += f" {word}"
+        else:
+            lines.append(word)
+    return lines
 
 
 def _imports(graph: Graph, found: Iterable[Stub]) -> list[Import]:
