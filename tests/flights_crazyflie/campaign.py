@@ -19,7 +19,7 @@ from tempfile import mkdtemp
 from plutoc_runtime.crtp import process
 from tests.crtp.starting import COMMAND
 from tests.flights_crazyflie.flight import Flight
-from tests.flights_crazyflie.judge import astray, dropped, left_in_the_air, nearest
+from tests.flights_crazyflie.judge import unmeant
 from tests.flights_crazyflie.plans import (
     RETRY,
     SIZE,
@@ -34,7 +34,6 @@ from tests.flights_crazyflie.scenarios import ALL, SCENARIOS, Scenario
 from tests.kill.lives import eventually
 from tests.kill.trial import gateway_of
 
-APART = 0.5
 _LEAVES = 180.0
 """Seconds within which the gateway ends, once the app has."""
 
@@ -52,15 +51,21 @@ def fly(scenario: Scenario, source: Path, folder: Path) -> tuple[Flight, list[st
         if scenario.during is not None:
             scenario.during(flight)
         code = flight.wait()
-        left = time.monotonic()
-        ends = eventually(lambda: gateway_of(flight.journal) is None, _LEAVES)
-        flight.notes.append(f"gateway left after {time.monotonic() - left:.0f} s")
-        wrong = list(_wrong(scenario, flight, code))
-        return flight, wrong if ends else [*wrong, "the gateway does not end"]
+        left = list(gateway_left(flight))
+        return flight, [*_wrong(scenario, flight, code), *left]
     except AssertionError as error:
         return flight, [str(error)]
     finally:
         flight.end()
+
+
+def gateway_left(flight: Flight) -> Iterator[str]:
+    """Wait until the gateway ends, after the app; yield what is wrong with that."""
+    began = time.monotonic()
+    ends = eventually(lambda: gateway_of(flight.journal) is None, _LEAVES)
+    flight.notes.append(f"gateway left after {time.monotonic() - began:.0f} s")
+    if not ends:
+        yield "the gateway does not end"
 
 
 def _wrong(scenario: Scenario, flight: Flight, code: int) -> Iterator[str]:
@@ -76,13 +81,7 @@ def _wrong(scenario: Scenario, flight: Flight, code: int) -> Iterator[str]:
         yield f"no trip has failed with {scenario.fails!r}"
     if not scenario.fails and reasons:
         yield "a trip has failed"
-    deeds = flight.deeds
-    unmeant = [*dropped(deeds), *left_in_the_air(deeds)]
-    yield from (one for one in unmeant if not one.startswith(scenario.falls or ("-",)))
-    yield from astray(deeds, SIZE)
-    least, who = nearest(flight.trace)
-    if least < APART:
-        yield f"{least:.2f} m apart: {who}"
+    yield from unmeant(flight.deeds, flight.trace, SIZE, scenario.falls)
     if "Traceback" in flight.told:
         yield "a traceback was printed"
 

@@ -14,6 +14,8 @@ from tests.flights_crazyflie.flight import Event
 
 NEAR = 0.1
 """Metres that a drone may be beside its target while it does what it came for."""
+APART = 0.5
+"""Metres that drones are kept apart in the air, where a fleet file says nothing else."""
 _STILL = (0.35, 0.1)
 """Seconds before an action's end was written down, between which its drone was still there."""
 _SLOT = 0.02
@@ -78,6 +80,21 @@ def astray(deeds: Sequence[Deed], size: tuple[float, float]) -> Iterator[str]:
             x, y, z = (deed.values[axis] for axis in "xyz")
             if not (-1.0 < x < size[0] + 1.0 and -1.0 < y < size[1] + 1.0 and 0.0 < z < _HIGH):
                 yield f"{deed.drone} was told to fly to ({x:.1f}, {y:.1f}, {z:.1f})"
+
+
+def unmeant(
+    deeds: Sequence[Deed],
+    trace: Sequence[Place],
+    size: tuple[float, float],
+    falls: tuple[str, ...] = (),
+) -> Iterator[str]:
+    """Yield what no flight may do; `falls`: the drones that may come down otherwise than by landing."""
+    down = (*dropped(deeds), *left_in_the_air(deeds))
+    yield from (one for one in down if not one.startswith(falls))
+    yield from astray(deeds, size)
+    least, who = nearest(trace)
+    if least < APART:
+        yield f"{least:.2f} m apart: {who}"
 
 
 def nearest(trace: Sequence[Place]) -> tuple[float, str]:

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
+from functools import partial
 from pathlib import Path
+from shutil import copytree
 
 from tests.flying import EXAMPLES, compiled_file
 from tests.kill.plans import trip
@@ -18,14 +21,22 @@ DISTRIBUTION, RETRY = "drugs_distribution", "drugs_distribution_retry"
 """Examples: one that gives up a trip that fails, and one that lets another drone fly it."""
 
 
-def quick_package(into: Path, speed: float = 2.0, app: str = RETRY) -> Path:
+def quick_package(into: Path, speed: float | None = 2.0, app: str = RETRY) -> Path:
     """Compile an example with drones of another speed; return the folder of its sources."""
-    text = (EXAMPLES / app / "app.pluto").read_text()
-    quick = text.replace("category nurse(", f"category nurse(speed: {speed:g} m/s, ")
-    assert quick != text
-    into.mkdir(parents=True, exist_ok=True)
-    (into / "app.pluto").write_text(quick)
+    copytree(EXAMPLES / app, into, dirs_exist_ok=True)
+    if speed is not None:
+        text = (into / "app.pluto").read_text()
+        (into / "app.pluto").write_text(_CATEGORY.sub(partial(_as_fast, f"{speed:g} m/s"), text))
     return compiled_file(into / "app.pluto", into / app) / "src"
+
+
+_CATEGORY = re.compile(r"(?m)^  category (\w+)(?:\((.*)\))? can")
+
+
+def _as_fast(speed: str, category: re.Match[str]) -> str:
+    given = (category[2] or "").split(", ")
+    others = [one for one in given if one and not one.startswith("speed:")]
+    return f"  category {category[1]}({', '.join([f'speed: {speed}', *others])}) can"
 
 
 def homes(drones: int) -> dict[str, Target]:

@@ -1,0 +1,178 @@
+"""Flies every example's own missions with simulated Crazyflies, by the unmodified cflib.
+
+    python -m tests.flights_crazyflie.examples
+    python -m tests.flights_crazyflie.examples --as-written alfalfa
+
+prints a line each. By default drones are fast, and rounds follow each other soon: some ten
+minutes in all, three flights at a time. Each has a folder of its own, which is named.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+import tomllib
+from argparse import ArgumentParser
+from collections import Counter
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from tempfile import mkdtemp
+from typing import Any
+
+from plutoc_runtime.crtp.record import Point
+from plutoc_runtime.journal.values import point_of
+from tests.flights_crazyflie.campaign import gateway_left
+from tests.flights_crazyflie.flight import Event, Flight
+from tests.flights_crazyflie.judge import beside_its_target, nearest, unmeant
+from tests.flights_crazyflie.plans import quick_package, write
+from tests.flying import EXAMPLES, NAMES
+
+SPEED = 2.0
+"""Metres per second that fast drones fly at most."""
+_SLOW, _SOON = 'every = "15 min"', 'every = "2 min"'
+_PATIENCE = 3600.0
+AT_ONCE = 3
+
+BY_HAND = {
+    "alfalfa": """
+[[mission]]
+name = "By hand"
+[[mission.trip]]
+action = "pollinate"
+parameters = { dose = "20 mg" }
+target = [5.2, 7.8]
+""",
+    "object_finder": """
+[[mission]]
+name = "slippers: by hand"
+[[mission.trip]]
+action = "bring_back"
+parameters = { thing = "slippers" }
+target = [7.0, 5.0]
+""",
+}
+"""What else is flown: no simulated camera sees anything, so nothing else asks for these actions."""
+
+
+def prepared(app: str, folder: Path, *, as_written: bool) -> Flight:
+    """Compile an example, and put its two files beside it."""
+    source = quick_package(folder / "package", None if as_written else SPEED, app)
+    missions, fleet = ((EXAMPLES / app / f"{name}.toml").read_text() for name in _FILES)
+    if not as_written:
+        missions = missions.replace(_SLOW, _SOON)
+    write(folder, missions + BY_HAND.get(app, ""), fleet)
+    drones = len(tomllib.loads(fleet)["drone"])
+    return Flight(app=app, source=source, folder=folder, drones=drones)
+
+
+def wrong_with(flight: Flight) -> list[str]:
+    """Fly to the end; return what was wrong with it."""
+    began = time.monotonic()
+    try:
+        flight.start()
+        code = flight.wait(_PATIENCE)
+        flight.notes.append(f"{time.monotonic() - began:.0f} s")
+        left = list(gateway_left(flight))
+        return [*_wrong(flight, code), *left]
+    except AssertionError as error:
+        return [str(error)]
+    finally:
+        flight.end()
+
+
+_FILES = ("missions", "fleet")
+
+
+def _wrong(flight: Flight, code: int) -> Iterator[str]:
+    """Yield what is wrong with a flight that has ended."""
+    events, trace = flight.events, flight.trace
+    if code != 0:
+        yield f"exit code {code}"
+    for mission, status in flight.ends().items():
+        if status != "COMPLETED":
+            yield f"{mission} ended as {status}"
+    done = [event for event in events if event["event"] == "trip.completed"]
+    flight.notes.append(f"{len(done)} trips, {len(list(_failures(events)))} failed")
+    flight.notes.append(f"nearest {nearest(trace)[0]:.2f} m")
+    flown = Counter((event["mission"], event["trip"]) for event in done)
+    for (mission, trip), times in _planned(flight).items():
+        if flown[mission, trip] < times:
+            yield f"{mission}/{trip} was completed {flown[mission, trip]} times, and not {times}"
+    size = tomllib.loads((flight.folder / "fleet.toml").read_text())["map"]["size"]
+    yield from unmeant(flight.deeds, trace, (size[0], size[1]))
+    yield from beside_its_target(events, trace, _targets(events))
+    yield from _not_really_done(flight, done)
+    if "Traceback" in flight.told:
+        yield "a traceback was printed"
+
+
+def _failures(events: list[Event]) -> Iterator[str]:
+    yield from (event["reason"] for event in events if event["event"] == "trip.failed")
+
+
+def _planned(flight: Flight) -> Counter[tuple[str, str]]:
+    """Return how often each trip of the missions file must be flown."""
+    planned: Counter[tuple[str, str]] = Counter()
+    for mission in tomllib.loads((flight.folder / "missions.toml").read_text())["mission"]:
+        for number, trip in enumerate(mission["trip"], start=1):
+            planned[mission["name"], trip.get("name", str(number))] = 1 + mission.get("repeat", 0)
+    return planned
+
+
+def _trips(events: list[Event]) -> Iterator[tuple[str, dict[str, Any]]]:
+    """Yield all trips that there ever were, those that hooks have added included."""
+    for event in events:
+        if event["event"] in ("mission.created", "mission.extended"):
+            trips = event["plan"]["trips"] if "plan" in event else event["trips"]
+            yield from ((event["mission"], trip) for trip in trips)
+
+
+def _targets(events: list[Event]) -> dict[tuple[str, str], Point]:
+    return {(mission, trip["name"]): point_of(trip["target"]) for mission, trip in _trips(events)}
+
+
+def _not_really_done(flight: Flight, done: list[Event]) -> Iterator[str]:
+    """Yield which photos are not there, and whether something was picked that no drone picked."""
+    actions = {(mission, trip["name"]): trip["action"] for mission, trip in _trips(flight.events)}
+    asked = Counter(actions[event["mission"], event["trip"]] for event in done)
+    held = Counter(d.values["value"] for d in flight.deeds if d.what == "set gripper.closed")
+    if (held[1], held[0]) != (asked["pick_item"], asked["release_item"]):
+        yield f"grippers were closed {held[1]} times, and opened {held[0]} times"
+    for event in done:
+        if actions[event["mission"], event["trip"]] == "take_photo":
+            file = Path(event["result"]["$photo"]["file"])
+            if not file.is_file() or not file.stat().st_size:
+                yield f"there is no photo {file}"
+
+
+def main() -> int:
+    """Fly the examples that are named, or all; 1 if anything was wrong."""
+    parser = ArgumentParser(prog="python -m tests.flights_crazyflie.examples", description=__doc__)
+    parser.add_argument("names", nargs="*", metavar="EXAMPLE", help="default: all")
+    parser.add_argument(
+        "--as-written", action="store_true", help="at their own speed: alfalfa takes half an hour"
+    )
+    options = parser.parse_args()
+    names = options.names or NAMES
+    if any(name not in NAMES for name in names):
+        parser.error(f"there are {', '.join(NAMES)}")
+    folder = Path(mkdtemp(prefix="examples-"))
+    print(f"flights in {folder}", flush=True)
+    flights = [prepared(name, folder / name, as_written=options.as_written) for name in names]
+    bad = 0
+    with ThreadPoolExecutor(AT_ONCE) as pool:
+        for flight, wrong in zip(flights, pool.map(wrong_with, flights), strict=True):
+            bad += bool(wrong)
+            said = "; ".join(flight.notes)
+            print(f"{flight.app:26} {'WRONG' if wrong else 'as meant':9} {said}")
+            reasons = _failures(flight.events) if flight.journal.exists() else ()
+            for one in [*wrong, *dict.fromkeys(f"- {why}" for why in reasons)]:
+                print(f"    {one}")
+            sys.stdout.flush()
+    print(f"{bad} of {len(names)} are wrong")
+    return 1 if bad else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
