@@ -8,7 +8,7 @@ from typing import Any, cast
 
 import pytest
 
-from plutoc.frozen import frozen, frozen_one
+from plutoc.frozen import filled, frozen, frozen_one
 
 
 @frozen
@@ -72,6 +72,33 @@ def test_nobody_changes_one() -> None:
         one.name = "b"
     with pytest.raises(TypeError, match="Drone needs 'name'"):
         cast(Any, Drone)()
+
+
+@filled
+class Log:
+    """Grows."""
+
+    drone: str
+    lines: list[str] = field(default_factory=list)
+    closed: bool = False
+
+
+def test_a_record_is_filled() -> None:
+    """Each has lists of its own, and is equal to itself only."""
+    one, other = Log(drone="a"), Log(drone="a", closed=True)
+    one.lines.append("took off")
+    one.closed = True
+    assert (one.drone, one.lines, one.closed) == ("a", ["took off"], True)
+    assert other.lines == []
+    assert one != Log(drone="a", lines=["took off"], closed=True)
+
+
+def test_a_record_has_no_other_fields() -> None:
+    log: Any = Log(drone="a")
+    with pytest.raises(AttributeError):
+        log.drones = ["a"]
+    with pytest.raises(TypeError, match="Log has no "):
+        cast(Any, Log)(drone="a", pilot="b")
 
 
 def test_a_value_is_equal_to_its_like_and_to_nothing_else() -> None:

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from plutoc.check.flow import Flow, Fork, Frame, Place, is_final
 from plutoc.check.rounds import rounds
+from plutoc.frozen import filled
 from plutoc.graph.model import END, Edge
 from plutoc_runtime.status import IN_GRAPH, Status
 
@@ -14,7 +15,7 @@ Astray = tuple[Place, Status | None]
 """A place, and the status that it is left with where no edge takes that."""
 
 
-@dataclass(kw_only=True, repr=False, eq=False)
+@filled
 class Branch:
     """One branch of a fork, over all the missions that come through it."""
 

@@ -11,12 +11,13 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from plutoc.block import Gate
 from plutoc.check import company
 from plutoc.check.facts import leaving, puts_trips, remembers_attempts
 from plutoc.check.flow import Facts, Flow, Frame, Place, Split, Step
+from plutoc.frozen import filled
 from plutoc.graph.model import END, START, Edge, Graph
 from plutoc_runtime.status import Status
 
@@ -37,7 +38,7 @@ def creation(creator: str) -> Place:
     return Place(frame=None, node=creator, status=Status.UNEXECUTED, facts=Facts())
 
 
-@dataclass(kw_only=True, repr=False, eq=False)
+@filled
 class _Walk:
     """The walk while it goes on. Dicts stand in for sets: their order is certain."""
 

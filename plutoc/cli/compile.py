@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -20,6 +20,7 @@ from plutoc.compile import Compiled, analyse, compile_source, planned
 from plutoc.diagnostic import Diagnostic, Rejected
 from plutoc.emit.errors import never_written, outdated, place_of
 from plutoc.emit.write import CannotWrite, Changes, Refused, compare, write
+from plutoc.frozen import filled
 from plutoc.source import Source
 from plutoc_runtime.words import counted, printable
 
@@ -27,7 +28,7 @@ if TYPE_CHECKING:
     from plutoc.plan.model import Plan
 
 
-@dataclass(slots=True)
+@filled
 class _Said:
     """What there is to say, gathered: some formats are one document."""
 

@@ -10,12 +10,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any
 
 from plutoc.emit.memory import all_remembered
 from plutoc.emit.modules import RUNTIME, EmbedError, Module, data_of, imports_from, is_within, load
-from plutoc.frozen import frozen
+from plutoc.frozen import filled, frozen
 from plutoc.installed import facts_of_package
 from plutoc.registry import STD
 
@@ -76,7 +76,7 @@ def _collected(wanted: Iterable[tuple[str, str]]) -> Iterator[str]:
         yield text
 
 
-@dataclass(frozen=True, slots=True)
+@filled
 class _Embedding:
     """What has been collected so far."""
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import field
 
+from plutoc.frozen import filled
 from plutoc.hooks.python import at, column_of, parsed
 from plutoc.source import Source, Span
 
@@ -13,7 +14,7 @@ Function = ast.FunctionDef | ast.AsyncFunctionDef
 Definition = Function | ast.ClassDef | None
 
 
-@dataclass(slots=True)
+@filled
 class Module:
     """The names of a module's top level."""
 
@@ -33,7 +34,7 @@ def read(source: Source) -> Module:
 
     The text's lines end with `\\n`, as Python reads them.
     """
-    module = Module(source)
+    module = Module(source=source)
     for statement in _all(parsed(source)):
         _note(module, statement)
     return module
