@@ -21,16 +21,18 @@ LIMIT = 20.0
 _SEEN = 93
 """How the process ends that has seen the import to its end; if that has raised, so it will here."""
 
-_PROGRAM = f"""\
-import os, sys
-from importlib import import_module
-name, *sys.path = sys.argv[1:]
-try:
-    import_module(name)
-except BaseException:
-    pass
-os._exit({_SEEN})
-"""
+_PROGRAM = "\n".join(
+    (
+        "import os, sys",
+        "from importlib import import_module",
+        "name, *sys.path = sys.argv[1:]",
+        "try:",
+        "    import_module(name)",
+        "except BaseException:",
+        "    pass",
+        f"os._exit({_SEEN})",
+    )
+)
 
 
 def tried(kind: Kind, name: str, module: str) -> None:
