@@ -210,13 +210,31 @@ def test_a_gateway_that_cannot_begin_says_why(tmp_path: Path) -> None:
     played(tmp_path, play)
 
 
-def test_a_gateway_that_says_nothing_sends_nobody_to_its_log(tmp_path: Path) -> None:
-    """It says how it ended instead."""
+@pytest.mark.parametrize("code", [0, 9])
+def test_a_gateway_that_says_nothing_sends_nobody_to_its_log(tmp_path: Path, code: int) -> None:
+    """It says how it ended instead; and it is not started again and again."""
 
     async def play(_: Brain) -> None:
-        kernel, silent = RealTime(), (sys.executable, "-c", "raise SystemExit(9)")
-        with pytest.raises(BadInput, match=r"was ready, with exit code 9, and said nothing$"):
+        kernel, silent = RealTime(), (sys.executable, "-c", f"raise SystemExit({code})")
+        with pytest.raises(BadInput, match=rf"was ready, with exit code {code}, and said nothing$"):
             await connect(tmp_path, settings(), kernel, 1, command=silent)
+
+    played(tmp_path, play)
+
+
+def test_a_gateway_that_hangs_before_it_is_ready_keeps_out_no_other(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It is ended when nobody waits for it any more."""
+    hangs = (sys.executable, "-c", "import time; time.sleep(1000)")
+
+    async def play(brain: Brain) -> None:
+        with monkeypatch.context() as patch:
+            patch.setattr(starting, "_WITHIN", 0.1)
+            with pytest.raises(BadInput, match="the gateway does not answer"):
+                await connect(tmp_path, settings(), RealTime(), 1, command=hangs)
+        assert starting._STARTED[-1].wait(10) == -signal.SIGKILL
+        await brain.linked()
 
     played(tmp_path, play)
 

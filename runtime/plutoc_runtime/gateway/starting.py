@@ -67,13 +67,14 @@ async def connect(
             except OSError as error:
                 raise BadInput(f"{folder}: the gateway cannot be started: {error}") from error
         if loop.time() > until:
+            process.kill()  # or it would keep the next one out, and fly nothing
             raise BadInput(f"the gateway does not answer; what it said is in {folder / LOG}")
         await asyncio.sleep(_EACH)
 
 
 def _broke(code: int) -> bool:
     """Whether a gateway could not begin; one that was killed, or that others are before, could."""
-    return code > 0 and code != ANOTHER_RUNS
+    return code >= 0 and code != ANOTHER_RUNS
 
 
 async def _linked(
