@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from importlib.machinery import ModuleSpec
 
 _name = attrgetter("name")
+_last: dict[str, list[str]] = {}
 
 
 def folders_of(package: str) -> list[str]:
@@ -36,15 +37,21 @@ def files_in(folder: str) -> Iterator[str]:
         yield entry.path
 
 
-def facts_of_package(package: str) -> Iterator[str]:
-    """Yield a line for each file of a package; a module that is in none has only one."""
+def facts_of_package(package: str) -> list[str]:
+    """Return a line for each file of a package; a module that is in none has only one."""
     spec = _spec(package)
     if spec and spec.submodule_search_locations:
-        for folder in spec.submodule_search_locations:
-            for entry in _entries(folder):
-                yield _line(entry.path, entry.stat())
-    elif spec and spec.origin:
-        yield fact(spec.origin)
+        entries = [one for folder in spec.submodule_search_locations for one in _entries(folder)]
+        found = [_line(entry.path, entry.stat()) for entry in entries]
+    else:
+        found = [fact(spec.origin)] if spec and spec.origin else []
+    _last[package] = found
+    return found
+
+
+def last_facts_of_package(package: str) -> list[str]:
+    """Return what was true of a package when it was looked at last."""
+    return _last.get(package) or facts_of_package(package)
 
 
 def facts_of_release(package: str) -> Iterator[str]:

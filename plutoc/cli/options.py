@@ -76,14 +76,16 @@ def parse(arguments: Sequence[str]) -> Options:
         required=True,
     )
 
-    for name, (what, describe) in _COMMANDS.items():
+    # who has named a command can ask for nothing of another one
+    asked = [name for name in arguments[:1] if name in _COMMANDS]
+    for name in asked or _COMMANDS:
+        what, describe = _COMMANDS[name]
         command = _plain(
             commands.add_parser(
                 name, help=what, description=what, allow_abbrev=False, formatter_class=layout
             )
         )
-        if name in arguments:  # nobody can ask for the flags of any other
-            describe(command)
+        describe(command)
     if not arguments:
         parser.print_help(sys.stderr)
         raise SystemExit(USAGE)

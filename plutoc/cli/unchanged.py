@@ -19,7 +19,7 @@ from hashlib import sha256
 from plutoc import cache
 from plutoc.cli.colour import in_colour
 from plutoc.cli.compiler import identity
-from plutoc.installed import digest, fact
+from plutoc.installed import digest, fact, last_facts_of_package
 from plutoc_runtime.cli import output
 
 TYPE_CHECKING = False  # `typing` itself is slow to import
@@ -87,7 +87,7 @@ def remember(
             return
         on = list(others)
         record = [
-            identity(),
+            identity(last_facts_of_package),  # what was compiled with, whatever came meanwhile
             _digest(text.encode() for text in (app[1], hooks[1])),
             _digest(text.encode() for text in written.values()),
             digest(map(fact, on)),

@@ -90,8 +90,8 @@ def _of_runtime(name: str) -> Module | None:
     if path not in here:
         return None
     file = _HOME + path
-    with open(file, "rb") as opened:
-        text = opened.read().decode("utf-8")
+    with open(file, "rb", buffering=0) as opened:
+        text = opened.readall().decode("utf-8")
     return Module(name=name, file=file, text=text, is_package=is_package)
 
 
