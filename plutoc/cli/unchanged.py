@@ -139,7 +139,9 @@ def _typed(app: str, hooks: str) -> Iterator[bytes]:
 def _held(folder: str, written: Iterable[str]) -> Iterator[bytes]:
     """Yield what the package's files hold, as the compiler compares it."""
     for path in written:
-        yield _read(os.path.join(folder, *path.split("/"))).replace(b"\r\n", b"\n")
+        data = _read(os.path.join(folder, *path.split("/")))
+        # one byte is found ten times as fast as two
+        yield data.replace(b"\r\n", b"\n") if b"\r" in data else data
 
 
 def _read(path: str) -> bytes:

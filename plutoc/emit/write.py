@@ -84,8 +84,11 @@ def compare(
         found: list[Diagnostic] = []
         files: list[Change] = []
         for path, (before, after) in _texts(package, folder, asked, recorded, place, found).items():
+            new = None if after is None else after.encode()
+            if before == new:
+                continue
             old = None if before is None else before.replace(b"\r\n", b"\n")  # as Git may have it
-            if old == (None if after is None else after.encode()):
+            if old == new:
                 continue
             written = old is None or recorded.get(path) == sha256(old).hexdigest()
             if written or path == LOCK or path in asked or force:
