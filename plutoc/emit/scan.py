@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 _IMPORT = re.compile(r"import\b")
-_TEXTS = r'"""(?:[^"\\]|\\.|"(?!""))*+"""|"(?:[^"\\\n]|\\.)*+"'
+_TEXTS = r'"""(?:[^"\\]++|\\.|"(?!""))*+"""|"(?:[^"\\\n]++|\\.)*+"'
 _SKIPPED = re.compile(rf"{_TEXTS}|{_TEXTS.replace(chr(34), chr(39))}|\#[^\n]*", re.DOTALL)
 """Every alternative begins with a sign of its own: so all else is passed over quickly."""
 _LINE = re.compile(
@@ -76,10 +76,12 @@ def _in_code(text: str) -> Iterator[int]:
     skipped = ((one.start(), one.end()) for one in _SKIPPED.finditer(text))
     start, end = 0, 0
     while (at := text.find("import", at + 1)) >= 0:
+        before = text[at - 1 : at]
+        if before.isalnum() or before == "_" or not _IMPORT.match(text, at):
+            continue
         while end <= at:
             start, end = next(skipped, (len(text), len(text) + 1))
-        before = text[at - 1 : at]
-        if at < start and not (before.isalnum() or before == "_") and _IMPORT.match(text, at):
+        if at < start:
             yield at
 
 
