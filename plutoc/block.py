@@ -107,7 +107,8 @@ class Block:
     `step` is the function of the runtime itself, not its name: a type checker follows it, an editor
     jumps to it, and the compiler finds from it the module to carry along. It is called as
     `step(run, status, **parameters, **fields)` and gives the status that the mission leaves with; a
-    gate's as `step(run, status, *branches)`. It may be a coroutine function.
+    gate's as `step(run, status, *branches)`. It may be a coroutine function,
+    or a generator that `types.coroutine` makes one.
     """
 
     name: str

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
-from inspect import iscoroutinefunction
+from inspect import CO_ITERABLE_COROUTINE, iscoroutinefunction
+from typing import Any
 
 from plutoc.block import Choice, HookParam, Param
 from plutoc.emit.callables import WATCH, Names, chosen
@@ -113,7 +114,13 @@ def _call(node: Node, branches: tuple[str, ...], scope: Scope) -> str:
     step = Carried(package=node.package, function=node.block.step)
     arguments = ("run", "status", *branches, *_keywords(node, scope))
     called = call(scope.names[step], arguments)
-    return f"await {called}" if iscoroutinefunction(node.block.step) else called
+    return f"await {called}" if _waits(node.block.step) else called
+
+
+def _waits(step: Callable[..., Any]) -> bool:
+    """Say whether a step is awaited: an `async def`, or what `types.coroutine` has made one."""
+    flags: int = getattr(getattr(step, "__code__", None), "co_flags", 0)
+    return iscoroutinefunction(step) or bool(flags & CO_ITERABLE_COROUTINE)
 
 
 def _wait(watch: Watch, scope: Scope) -> Iterator[str]:

@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from heapq import heapify, heappop, heappush
-from itertools import islice
+from itertools import compress, islice
 from math import inf
 from typing import TYPE_CHECKING
 
@@ -27,6 +27,7 @@ from .thresholds import Thresholds
 if TYPE_CHECKING:
     from .eligibility import Reach
     from .model import Category, Drone, Trip
+    from .trace import Trace
 
 _FREE, _BUSY = DroneStatus.FREE, DroneStatus.BUSY
 _LOST = DroneStatus.LOST
@@ -43,9 +44,14 @@ class Queue:
     """The missions that wait, and the drones that they wait for."""
 
     def __init__(
-        self, kernel: Kernel, reach: Reach, drones: Sequence[Drone], max_airborne: int | None
+        self,
+        kernel: Kernel,
+        trace: Trace,
+        reach: Reach,
+        drones: Sequence[Drone],
+        max_airborne: int | None,
     ) -> None:
-        self._kernel, self._reach = kernel, reach
+        self._kernel, self._trace, self._reach = kernel, trace, reach
         self._drones, self._max_airborne = drones, max_airborne
         self._entries: list[Entry] = []
         self._fresh: list[Request] = []
@@ -58,8 +64,10 @@ class Queue:
         self._sure: Mapping[Category, float] | None = None
         """Levels with which some drone that is left can surely fly."""
         self._serving = self._serve
-        self._high = {drone: None for drone in drones if drone.status is _FREE}
-        """The free drones that are in the pools."""
+        self._high = bytearray(drone.status is _FREE for drone in drones)
+        """Which drones are free and in the pools, by their places in the fleet."""
+        self._ready = sum(self._high)
+        """How many these are."""
         self._low: dict[Drone, float] = {}
         """Free drones that are too low for all that has waited so far, and until when they are."""
         self._gone = self._asked_of = sum(drone.status is _LOST for drone in drones)
@@ -112,7 +120,8 @@ class Queue:
     def freed(self, drone: Drone) -> None:
         """A drone that was BUSY is FREE."""
         self._airborne -= 1
-        self._high[drone] = None
+        self._high[drone.index] = True
+        self._ready += 1
         for pool in self._all_pools:
             pool.add(drone)
         if self._waiting:
@@ -165,14 +174,18 @@ class Queue:
         self._all_pools.append(pool)
         if isinstance(pool, BatchPool):
             self._batches.append(pool)
-        for drone in self._high:
+        for drone in self._ready_drones():
             pool.add(drone)
         return pool
 
+    def _ready_drones(self) -> Iterator[Drone]:
+        return compress(self._drones, self._high)
+
     def _raise(self, drone: Drone) -> None:
         """A drone may be handed out."""
-        if drone not in self._high:
-            self._high[drone] = None
+        if not self._high[drone.index]:
+            self._high[drone.index] = True
+            self._ready += 1
             for pool in self._all_pools:
                 pool.add(drone)
         if self._low:
@@ -180,8 +193,9 @@ class Queue:
 
     def _take(self, drone: Drone) -> None:
         """A drone may not be handed out."""
-        if drone in self._high:
-            del self._high[drone]
+        if self._high[drone.index]:
+            self._high[drone.index] = False
+            self._ready -= 1
             for pool in self._all_pools:
                 pool.remove(drone)
         self._low.pop(drone, None)
@@ -191,12 +205,12 @@ class Queue:
     def _serve(self) -> None:
         if self._low:
             self._raise_who_is_high_enough()
-        if self._high and self._waiting:
+        if self._ready and self._waiting:
             self._share_out()
         if self._waiting:
             if self._fresh or self._asked_of != self._gone:
                 self._refuse_what_cannot_be()
-            if self._high and self.room:
+            if self._ready and self.room:
                 self._lower_who_is_of_no_use()
             if self._low:
                 self._look_again_when_charged()
@@ -206,10 +220,10 @@ class Queue:
         self._fresh.clear()
 
     def _share_out(self) -> None:
-        entries, high, most = self._entries, self._high, self._max_airborne
+        entries, most = self._entries, self._max_airborne
         batches = self._batches
         passed: list[Entry] = []
-        while entries and high and (most is None or self._airborne < most):
+        while entries and self._ready and (most is None or self._airborne < most):
             entry = heappop(entries)
             request = entry[2]
             if request.is_set:
@@ -239,13 +253,13 @@ class Queue:
         """Go on, among those not asked yet, with those alone for whom a drone is high enough."""
         able = {
             entry[1]: entry
-            for drone in self._high
+            for drone in self._ready_drones()
             for entry in self._thresholds.met(drone, self._entries)
         }
         for entry in asked:
             able.pop(entry[1], None)
         for entry in sorted(able.values()):
-            if not self._high or not self.room:
+            if not self._ready or not self.room:
                 break
             self._chosen(entry[2])
         if len(self._entries) > 2 * self._waiting + _IN_VAIN:
@@ -291,10 +305,13 @@ class Queue:
         return passed
 
     def _give(self, request: Request, choice: Choice) -> None:
-        drone, request.why = choice
+        drone, why = choice
+        if self._trace.live:
+            request.why = why()
         self._waiting -= 1
         self._airborne += 1
-        del self._high[drone]
+        self._high[drone.index] = False
+        self._ready -= 1
         for pool in self._all_pools:
             pool.remove(drone)
         drone.status = _BUSY  # at once: nobody else may have it
@@ -346,7 +363,7 @@ class Queue:
         One that is high enough and was not given (no more may fly, a policy wants it not) stays so.
         """
         now = self._kernel.now
-        for drone in list(self._high):
+        for drone in list(self._ready_drones()):
             if not any(request.able(drone) for request in islice(self._waiters(), _IN_VAIN)):
                 until = now + _charging(drone, self._thresholds.least(drone, self._entries))
                 if until > now:

@@ -24,10 +24,12 @@ class Engine:
 
     def __init__(self, core: Core) -> None:
         self._core = core
-        self._living: dict[Task[Status], State] = {}
+        self._living = 0
+        """How many missions are in their graphs."""
         self._aside: dict[str, State] = {}
         """The missions that wait for a person: paused, uncertain or held."""
-        self._halted = False
+        self._halted: tuple[State, ...] | None = None
+        """Who was in a graph when all were taken out."""
         self.patient = False
         """Whether missions that wait for a person's decision keep it from being over."""
         self.done: Signal[None] = Signal()
@@ -36,8 +38,14 @@ class Engine:
     @property
     def states(self) -> Iterator[State]:
         """Every mission that has not ended."""
-        yield from self._living.values()
+        yield from self._in_their_graphs()
         yield from self._aside.values()
+
+    def _in_their_graphs(self) -> tuple[State, ...]:
+        if self._halted is not None:
+            return self._halted
+        tasks = self._core.kernel.under_way()
+        return tuple(task.over for task in tasks if isinstance(task.over, State))
 
     def start(self, missions: Sequence[Mission[Any]]) -> None:
         """Set the missions on their way, all at once."""
@@ -54,7 +62,7 @@ class Engine:
         """Return the state of a mission, of which nothing is remembered as yet."""
         if self._core.recorder is not None:
             self._core.recorder.missions[mission.name] = mission
-        return State(self._core, mission, self._doomed, self._waits)
+        return State(self._core, mission, self)
 
     def resume(self, state: State, status: Status) -> None:
         """Let a mission that was interrupted go on at the block where it can, with this status."""
@@ -69,8 +77,8 @@ class Engine:
         run = Run(mission, state, key)
         run.at, run.status = state.at, status
         run.task = state.task = task = core.kernel.spawn(core.app.flow(run), key, mission.name)
-        task.over = self._ended
-        self._living[task] = state
+        task.over = state
+        self._living += 1
 
     def set_aside(self, state: State) -> None:
         """Take a mission out of its graph, if it is in it, until a person says how it goes on."""
@@ -81,7 +89,8 @@ class Engine:
         """Say whether a mission waits for a person."""
         return self._aside.get(state.mission.name) is state
 
-    def _waits(self, state: State) -> None:
+    def waits(self, state: State) -> None:
+        """Take a mission out of its graph: nothing but a person's decision lets it go on."""
         self.set_aside(state)
         self._core.kernel.spawn(
             self._look(), mission_key(state.mission.index), f"{state.mission.name} waits"
@@ -93,7 +102,7 @@ class Engine:
     def _take_out(self, state: State) -> None:
         task, state.task = state.task, None
         if task is not None:
-            del self._living[task]
+            self._living -= 1
             task.over = None
             task.cancel()
         if state.allocated is not None:
@@ -115,15 +124,16 @@ class Engine:
 
     def halt(self) -> None:
         """Take every mission out of its graph where it is; nothing is launched any more."""
-        self._halted = True
-        for task, state in list(self._living.items()):
+        self._halted = self._in_their_graphs()
+        for state in self._halted:
             flight = state.in_flight
             if flight is not None:
                 flight.break_off()
             state.flight = None  # whatever is still reported of it is read from the ledger
-            task.cancel()
+            if state.task is not None:
+                state.task.cancel()
 
-    def _doomed(self, state: State) -> None:
+    def doomed(self, state: State) -> None:
         """End a doomed mission, once whoever found out has finished its turn."""
         mission = state.mission
         self._core.kernel.spawn(
@@ -137,12 +147,12 @@ class Engine:
         elif state.mission.name in self._aside:
             self.end(state, FAILED, state.doom or "it was called off")
 
-    def _ended(self, task: Task[Status]) -> None:
+    def ended(self, state: State, task: Task[Status]) -> None:
         """A mission's coroutine is over: see how it ended."""
-        if self._halted:
+        if self._halted is not None:
             return
-        state, error = self._living.pop(task), task.error
-        reason = ""
+        self._living -= 1
+        error, reason = task.error, ""
         if error is None:
             status = task.result()
             if status is FAILED:

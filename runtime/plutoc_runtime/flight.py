@@ -11,13 +11,12 @@ from .context import Context
 from .errors import ActionFailed, Failure, FlightFailed, HookFault
 from .handle import LiveDrone, can_wait
 from .hooks import Hook, call_action
-from .kernel import mission_key
+from .kernel import Task, mission_key
 from .signals import Signal
 from .status import FAILED, Status, TripStatus
 
 if TYPE_CHECKING:
     from .actions import Plain
-    from .kernel import Task
     from .model import Drone, Item, Point, Trip
     from .state import State
 
@@ -28,7 +27,7 @@ class Flight(Signal[Status]):
     It is set when the trip is over, to how the mission stands then.
     """
 
-    __slots__ = ("_hook", "_work", "called_off", "flier", "launched_at", "retry", "state", "trip")
+    __slots__ = ("_own", "called_off", "flier", "launched_at", "retry", "state", "trip")
 
     def __init__(self, state: State, trip: Trip, flier: Drone, retry: bool) -> None:
         self.is_set = False
@@ -37,9 +36,8 @@ class Flight(Signal[Status]):
         self.launched_at = state.core.kernel.now
         self.retry = retry
         """The mission's flight before this one was of the same trip, and failed."""
-        self._hook = state.core.app.actions[trip.action].hook
-        """The app's own action, if it is one."""
-        self._work: Task[None] | None = None
+        self._own: Hook | Task[None] | None = state.core.app.actions[trip.action].hook
+        """The app's own action, if it is one; once it has begun, what does it."""
         self.called_off = False
         """It was broken off, and its drone is asked what it has done."""
 
@@ -65,7 +63,7 @@ class Flight(Signal[Status]):
     @property
     def action(self) -> str | None:
         """What to do at the last stop; None: hover, for an action of the app's own."""
-        return self.trip.action if self._hook is None else None
+        return self.trip.action if self._own is None else None
 
     @property
     def seconds(self) -> float:
@@ -99,11 +97,11 @@ class Flight(Signal[Status]):
             return  # it was called off meanwhile
         if isinstance(result, FlightFailed):
             fail(state, self, str(result))
-        elif self._hook is None:
+        elif self._own is None:
             complete(state, self, result)
-        else:
-            self._work = state.core.kernel.spawn(
-                self._act(self._hook),
+        elif not isinstance(self._own, Task):
+            self._own = state.core.kernel.spawn(
+                self._act(self._own),
                 mission_key(state.mission.index),
                 f"{state.mission.name}: {self.trip.action}",
             )
@@ -154,8 +152,8 @@ class Flight(Signal[Status]):
 
     def break_off(self) -> None:
         """Stop where it is; nothing of it is reported any more."""
-        if self._work is not None:
-            self._work.cancel()
+        if isinstance(self._own, Task):
+            self._own.cancel()
         self.state.core.navigation.break_off(self.flier.id)
 
 

@@ -10,12 +10,13 @@ to the instant that is being taken: they need not pass through the heap of all t
 
 from __future__ import annotations
 
-from collections.abc import Callable, Coroutine
+from collections.abc import Callable, Coroutine, Sequence
 from enum import IntEnum
 from gc import unfreeze
 from heapq import heappop, heappush
 from typing import Any, TypeVar
 
+from .chain import Chain
 from .signals import Signal
 
 T = TypeVar("T")
@@ -26,7 +27,7 @@ Key = int
 A number and not a tuple: events are compared all the time.
 """
 
-_BRANCH, _DEPTH = 12, 4
+_BRANCH, _DEPTH = 10, 4
 """Bits for a branch's number, and how deep forks may nest before branches share their places."""
 
 FLEET: Key = 1 << 96
@@ -94,7 +95,17 @@ class Timer:
 class Task(Signal[T]):
     """A coroutine on its way; it is set when the coroutine ends."""
 
-    __slots__ = ("_coroutine", "_kernel", "_waits_for", "key", "name", "over", "turn")
+    __slots__ = (
+        "_coroutine",
+        "_kernel",
+        "_waits_for",
+        "after",
+        "before",
+        "key",
+        "name",
+        "over",
+        "turn",
+    )
 
     def __init__(
         self, kernel: Kernel, coroutine: Coroutine[Any, Any, T], key: Key, name: str
@@ -104,11 +115,13 @@ class Task(Signal[T]):
         self._kernel, self._coroutine = kernel, coroutine
         self._waits_for: Signal[Any] | None = None
         self.turn = 0
-        """The number of its next turn; another one is not its any longer."""
+        """The number of its next turn; another one is not its any longer. 0: it waits for none."""
         self.key, self.name = key, name
         self.over: Callable[[Task[T]], None] | None = None
         """Told when it has ended, however it has; without anybody an error stops the run."""
-        kernel.tasks[self] = None
+        self.before: Task[Any] | None
+        self.after: Task[Any] | None
+        kernel.tasks.add(self)
 
     @property
     def coroutine(self) -> Coroutine[Any, Any, T]:
@@ -180,7 +193,7 @@ class Task(Signal[T]):
 
     def _leave(self) -> None:
         self.turn, self._waits_for = 0, None
-        self._kernel.tasks.pop(self, None)
+        self._kernel.tasks.remove(self)
 
     def cancel(self) -> None:
         """Stop it where it waits, now."""
@@ -207,7 +220,7 @@ class Task(Signal[T]):
     def drop(self) -> None:
         """Forget it where it waits: the run is over, for it at least."""
         self._wait_no_longer()
-        self._kernel.tasks.pop(self, None)
+        self._kernel.tasks.remove(self)
         self._coroutine.close()
 
 
@@ -217,7 +230,7 @@ class Kernel:
     def __init__(self) -> None:
         self.now = 0.0
         """Seconds since the start, of the instant whose events are being taken."""
-        self.tasks: dict[Task[Any], None] = {}
+        self.tasks: Chain[Task[Any]] = Chain()
         self.crashed: BaseException | None = None
         self.over = False
         """What is run for is done, or something crashed: no further event is taken."""
@@ -258,6 +271,10 @@ class Kernel:
         task = Task(self, coroutine, key, name)
         task.wake()
         return task
+
+    def under_way(self) -> Sequence[Task[Any]]:
+        """Return the coroutines that have not ended, in the order in which they set out."""
+        return tuple(self.tasks)
 
     async def sleep(self, seconds: float, kind: Kind = Kind.CLOCK, key: Key = FLEET) -> None:
         """Wait for so many seconds."""
@@ -306,7 +323,7 @@ class Kernel:
 
     def close(self) -> None:
         """Drop what still waits; nothing of it runs on."""
-        for task in list(self.tasks):
+        for task in self.tasks:
             task.drop()
         unfreeze()
 
@@ -326,6 +343,7 @@ class Kernel:
             if ready:
                 _, turn, task = heappop(ready)
                 if turn == task.turn:
+                    task.turn = 0
                     task.step()
             elif heap and heap[0][0] <= now and (heap[0][1] < _LAST or self.last is None):
                 heappop(heap)[4]()

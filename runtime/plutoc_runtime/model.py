@@ -202,6 +202,9 @@ class Trip:
 
 AnyTrip = TypeVar("AnyTrip", bound=Trip)
 
+NO_RESULT = -1
+"""The number of a result that there is not."""
+
 
 @dataclass(slots=True, kw_only=True, eq=False)
 class Mission(Generic[AnyTrip]):
@@ -220,8 +223,8 @@ class Mission(Generic[AnyTrip]):
     """How many flights it has had, good and bad; one that was interrupted does not count."""
     index: int = 0
     """Its place in the missions file."""
-    last_result: int | None = field(default=None, init=False, repr=False)
-    """Where the store of results has its newest one that its evaluator has not seen."""
+    last_result: int = field(default=NO_RESULT, init=False, repr=False)
+    """The number of its newest result that its evaluator has not seen."""
 
     @property
     def current(self) -> AnyTrip:

@@ -16,7 +16,7 @@ Able = Callable[["Drone"], bool]
 """Says whether a drone may fly the trip now."""
 
 Why = Callable[[], str]
-"""Says why a drone was chosen; most often nobody asks."""
+"""Says why a drone was chosen, if it is asked at once: before the drone leaves the pool."""
 
 Choice = tuple["Drone", Why]
 """The drone that gets a trip, and why it was chosen."""

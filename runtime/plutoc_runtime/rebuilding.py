@@ -84,14 +84,12 @@ def last_flight(state: State, one: Rebuilt, drones: Mapping[str, Drone]) -> Flig
 
 def restore_results(core: Core, records: Records, missions: Mapping[str, Rebuilt]) -> None:
     """Put back what every action has given, and what each evaluator has not seen of it."""
-    values = core.results.values
     for number, (name, trip, round_, attempt, value) in enumerate(records.results):
-        one, start = missions[name], len(values)
-        mission = one.mission
-        gave = value_of(value)
-        values += (mission, one.trips.get(trip), round_, attempt, gave, mission.last_result)
+        one = missions[name]
+        mission, gave = one.mission, value_of(value)
+        kept = core.results.add(mission, one.trips.get(trip), round_, attempt, gave)
         if number >= one.record["judged"]:
-            mission.last_result = start
+            mission.last_result = kept
 
 
 def _unfit(app: App, record: Record, error: Exception) -> str:

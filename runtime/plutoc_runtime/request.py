@@ -11,7 +11,7 @@ from .signals import Signal
 
 if TYPE_CHECKING:
     from .model import Drone, Trip
-    from .policy import Pool, Why
+    from .policy import Pool
 
 
 class Request(Signal["Drone"]):
@@ -25,8 +25,8 @@ class Request(Signal["Drone"]):
         self.pool, self.trip = pool, trips[0]
         self.levels = reach.levels(self.trip)
         """What is surely enough for each category."""
-        self.why: Why = str
-        """Says why it got its drone."""
+        self.why = ""
+        """Why it got its drone, if anybody wants to know."""
         self._reach, self._trips = reach, trips
         self._demand: Demand | None = None
 

@@ -94,7 +94,7 @@ class Session:
             for index, entry in enumerate(fleet.drones)
         )
         trace, results = Trace(kernel, listeners), ResultStore()
-        queue = Queue(kernel, Reach(app, fleet.airspace), self.drones, fleet.max_airborne)
+        queue = Queue(kernel, trace, Reach(app, fleet.airspace), self.drones, fleet.max_airborne)
         self.core = Core(
             app=app,
             kernel=kernel,
@@ -125,8 +125,10 @@ class Session:
 
     def set_out(self, missions: Sequence[Mission[Any]]) -> None:
         """Start the missions."""
+        # All this lives until the end: the garbage collector need not look at it again and again,
+        # neither at what has been given while all set out, nor at that afterwards.
+        freeze()
         self.engine.start(missions)
-        # They live until the end: the garbage collector need not look at them again and again.
         freeze()
 
     async def see_through(self) -> float:

@@ -10,7 +10,6 @@ from .words import shown
 if TYPE_CHECKING:
     from .kernel import Kernel
     from .model import Drone, Mission, Trip
-    from .policy import Why
     from .results import ResultStore
     from .trace import Trace
 
@@ -37,7 +36,7 @@ class Transitions:
             self._trace.note("mission.created", mission=mission.name, trips=names)
 
     def allocate(
-        self, mission: Mission[Any], trip: Trip, drone: Drone, at: str | None, why: Why
+        self, mission: Mission[Any], trip: Trip, drone: Drone, at: str | None, why: str
     ) -> None:
         """A trip has its drone; `at` is the block where it goes on if it is interrupted."""
         trip.drone = drone
@@ -47,7 +46,7 @@ class Transitions:
                 mission=mission.name,
                 trip=trip.name,
                 drone=drone.id,
-                why=why(),
+                why=why,
                 resumes_at=at,
             )
 
@@ -71,13 +70,11 @@ class Transitions:
     def complete(self, mission: Mission[Any], trip: Trip, value: object) -> None:
         """A trip has ended well."""
         trip.status, trip.end_time = _COMPLETED, self._kernel.now
-        trips, results = mission.trips, self._results.values
+        trips = mission.trips
         trips.remove(trip)
         mission.completed_trips.append(trip)
         mission.status = STANDBY if trips else COMPLETED
-        start = len(results)
-        results += (mission, trip, mission.round, trip.attempt, value, mission.last_result)
-        mission.last_result = start
+        mission.last_result = self._results.add(mission, trip, mission.round, trip.attempt, value)
         if self._trace.live:
             self._ended(mission, trip, "trip.completed", {"value": shown(value)})
 

@@ -8,20 +8,19 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from .calling_off import abort
-from .kernel import Kernel, Key, Kind
+from .kernel import Kernel, Kind
 
 if TYPE_CHECKING:
     from .flight import Flight
-    from .kernel import Task
     from .model import Trip
     from .run import Run
 
 
-Limit = tuple[float, float, Callable[["Trip", float], str]]
-"""From when on, how long a trip may take, and what is said, of trip and time, if it takes longer."""
+Overdue = Callable[["Trip", float], str]
+"""What is said, of trip and time, when a limit is over."""
 
-Guard = tuple["Flight", "Task[Any] | None", Key, float, float, Callable[["Trip", float], str]]
-"""What is watched, for whom, its place among simultaneous events, and the limit."""
+Limit = tuple[float, float, Overdue]
+"""From when on, how long a trip may take, and what is said if it takes longer."""
 
 
 def watch(run: Run[Any], *limits: Limit | None) -> Flight:
@@ -33,63 +32,96 @@ def watch(run: Run[Any], *limits: Limit | None) -> Flight:
     flight = run.state.flight
     if flight is None:
         raise RuntimeError(f"mission {run.mission.name} has no flight to watch")
-    # behind a hook of the mission's at that instant, as if it stood in a branch of its own
-    key = run.key
-    for limit in limits:
-        key += 1
+    for number, limit in enumerate(limits, 1):
         if limit is not None:
-            run.core.deadlines.watch((flight, run.task, key, *limit))
+            since, span, overdue = limit
+            run.core.deadlines.watch(run, flight, number, since, span, overdue)
     return flight
+
+
+class Alike:
+    """Limits of one length that say the same, for flights that were launched one after the other."""
+
+    __slots__ = ("flights", "number", "overdue", "runs", "span")
+
+    def __init__(self, number: int, span: float, overdue: Overdue) -> None:
+        self.number, self.span, self.overdue = number, span, overdue
+        """The place among the limits of a branch, how long, and what is said."""
+        self.flights: deque[Flight] = deque()
+        self.runs: deque[Run[Any]] = deque()
+        """For whom each flight is watched."""
 
 
 class Deadlines:
     """Every limit that is watched.
 
-    Most flights end long before their limits, and nearly all limits of an app are equally long:
-    those expire in the order in which they began. So there is a queue for each length, and one
-    timer a queue instead of one a flight.
+    Most flights end long before their limits, and nearly all limits of an app are alike: those
+    expire in the order in which they began. So there is a queue for each length, and one timer a
+    queue instead of one a flight.
     """
 
     def __init__(self, kernel: Kernel) -> None:
         self._kernel = kernel
-        self._queues: dict[float, deque[Guard]] = {}
+        self._queues: dict[float, Alike] = {}
         """By length; each has a timer that comes no later than its first limit."""
 
-    def watch(self, guard: Guard) -> None:
+    def watch(
+        self,
+        run: Run[Any],
+        flight: Flight,
+        number: int,
+        since: float,
+        span: float,
+        overdue: Overdue,
+    ) -> None:
         """Fail the flight at its limit, unless it is over by then, or whoever asked for it."""
-        span = guard[4]
-        if guard[3] != self._kernel.now:  # it began before: it may expire before those that wait
-            self._schedule(guard)
-            return
-        queue = self._queues.get(span)
-        if queue is None:
-            self._queues[span] = deque((guard,))
-            self._arm(span)
-            return
-        while queue and queue[0][0].is_set:
-            queue.popleft()
-        queue.append(guard)
+        queue, now = self._queues.get(span), self._kernel.now
+        if since != now or flight.launched_at != now:
+            self._schedule(run, flight, number, since, span, overdue)  # it may expire before others
+        elif queue is None:
+            queue = self._queues[span] = Alike(number, span, overdue)
+            queue.flights.append(flight)
+            queue.runs.append(run)
+            self._arm(queue)
+        elif queue.overdue is not overdue or queue.number != number:
+            self._schedule(run, flight, number, since, span, overdue)
+        else:
+            flights = queue.flights
+            while flights and flights[0].is_set:
+                flights.popleft()
+                queue.runs.popleft()
+            flights.append(flight)
+            queue.runs.append(run)
 
-    def _schedule(self, guard: Guard) -> None:
-        until = guard[3] + guard[4]
-        self._kernel.schedule(until, Kind.TIMER, guard[2], partial(_expire, guard))
+    def _schedule(
+        self,
+        run: Run[Any],
+        flight: Flight,
+        number: int,
+        since: float,
+        span: float,
+        overdue: Overdue,
+    ) -> None:
+        # behind a hook of the mission's at that instant, as if it stood in a branch of its own
+        key, call = run.key + number, partial(_expire, run, flight, span, overdue)
+        self._kernel.schedule(since + span, Kind.TIMER, key, call)
 
-    def _arm(self, span: float) -> None:
-        until = self._queues[span][0][3] + span
-        self._kernel.schedule(until, Kind.TIMER, -1, partial(self._due, span))
+    def _arm(self, queue: Alike) -> None:
+        until = queue.flights[0].launched_at + queue.span
+        self._kernel.schedule(until, Kind.TIMER, -1, partial(self._due, queue))
 
-    def _due(self, span: float) -> None:
+    def _due(self, queue: Alike) -> None:
         """Let expire what is due, each in its own place among the events of this instant."""
-        now, queue = self._kernel.now, self._queues[span]
-        while queue and (queue[0][0].is_set or queue[0][3] + span <= now):
-            self._schedule(queue.popleft())
-        if queue:
-            self._arm(span)
+        now, span, flights = self._kernel.now, queue.span, queue.flights
+        while flights and (flights[0].is_set or flights[0].launched_at + span <= now):
+            flight, run = flights.popleft(), queue.runs.popleft()
+            self._schedule(run, flight, queue.number, flight.launched_at, span, queue.overdue)
+        if flights:
+            self._arm(queue)
         else:
             del self._queues[span]
 
 
-def _expire(guard: Guard) -> None:
-    flight, task, _, _, span, overdue = guard
-    if not (flight.is_set or (task is not None and task.is_set)):
+def _expire(run: Run[Any], flight: Flight, span: float, overdue: Overdue) -> None:
+    if not (flight.is_set or (run.task is not None and run.task.is_set)):
         abort(flight.state, overdue(flight.trip, span))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Coroutine
+from collections.abc import Callable, Coroutine, Sequence
 from typing import Any, TypeVar
 
 from plutoc_runtime.kernel import Call, Kernel, Key, Kind, Task, Timer
@@ -76,6 +76,10 @@ class Mortal(Kernel):
         if len(self._mine) > 2 * len(self._host.tasks) + 100:
             self._mine = {task: None for task in self._mine if not task.is_set}
         return task
+
+    def under_way(self) -> Sequence[Task[Any]]:
+        """Return its own coroutines that have not ended."""
+        return [task for task in self._mine if not task.is_set]
 
     async def call_hook(
         self, hook: Callable[..., object], /, *args: object, **named: object

@@ -73,7 +73,7 @@ def cancel_forgets_the_task(patch: pytest.MonkeyPatch) -> None:
     def set_aside(self: Engine, state: Any) -> None:
         self._aside[state.mission.name] = state
         if state.task is not None:
-            self._living.pop(state.task, None)
+            self._living -= 1
             state.task.over = lambda _: None
 
     patch.setattr(Engine, "set_aside", set_aside)

@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
-from operator import attrgetter
 from typing import TYPE_CHECKING
 
-from .ordered import Ordered, Rank
+from .ordered import PLACE, Ordered, Rank
 
 if TYPE_CHECKING:
+    from ..model import Drone
     from ..policy import Pool
 
 
 def least_used() -> Pool:
     """Give each trip, in turn, the free drone with the fewest trips behind it."""
-    return Ordered(attrgetter("trips", "index"), _why)
+    return Ordered(_rank, _why)
+
+
+def _rank(drone: Drone) -> Rank:
+    return drone.trips * (PLACE + 1) + drone.index
 
 
 def _why(free: int, rank: Rank) -> str:
-    return f"least used of {free} free: {rank[0]} trips so far"
+    return f"least used of {free} free: {rank // (PLACE + 1)} trips so far"

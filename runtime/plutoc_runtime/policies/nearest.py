@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import partial
 from typing import TYPE_CHECKING
 
 from .grid import Places
@@ -22,6 +21,9 @@ class Nearest:
 
     def __init__(self) -> None:
         self._places: Places[Drone] = Places()
+        self._away = 0.0
+        """Of the drone chosen last."""
+        self._say_why = self._why
 
     def add(self, drone: Drone) -> None:
         """A drone is free; it stays where it is while it is."""
@@ -36,8 +38,8 @@ class Nearest:
         away, drone = self._places.closest(trip.source or trip.target, able)
         if drone is None:
             return None
-        return drone, partial(_why, len(self._places), away)
+        self._away = away
+        return drone, self._say_why
 
-
-def _why(free: int, away: float) -> str:
-    return f"nearest of {free} free: {away:.1f} m away"
+    def _why(self) -> str:
+        return f"nearest of {len(self._places)} free: {self._away:.1f} m away"

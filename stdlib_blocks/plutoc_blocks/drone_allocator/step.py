@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Generator
+from types import coroutine
 from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.errors import MissionFailed
@@ -15,7 +17,8 @@ if TYPE_CHECKING:
     from plutoc_runtime.run import Run
 
 
-async def allocate_drone(
+@coroutine
+def allocate_drone(
     run: Run[Any],
     status: Status,
     *,
@@ -23,8 +26,11 @@ async def allocate_drone(
     policy: Policy,
     allocate_within: float | None = None,
     priority: int = 0,
-) -> Status:
-    """Wait for a drone for the next trip; the mission keeps one that carries its item."""
+) -> Generator[Any, Any, Status]:
+    """Wait for a drone for the next trip; the mission keeps one that carries its item.
+
+    Many wait here at once. So it awaits by itself, and does not need another object for that.
+    """
     core, mission, state = run.core, run.mission, run.state
     run.meets(block)
     if state.goes_on:
@@ -36,16 +42,18 @@ async def allocate_drone(
         status = STANDBY
     trip = mission.trips[0]
     if state.allocated is not None:
-        core.transitions.allocate(mission, trip, state.allocated, state.at, _before)
+        core.transitions.allocate(mission, trip, state.allocated, state.at, _BEFORE)
     elif state.carrier is not None:
         state.allocated = state.carrier
-        core.transitions.allocate(mission, trip, state.carrier, state.at, _carries)
+        core.transitions.allocate(mission, trip, state.carrier, state.at, _CARRIES)
     else:
         request = core.queue.enter(mission.trips, policy, priority)
         try:
             if allocate_within is not None:
-                await _no_longer_than(run, request, allocate_within)
-            state.allocated = await request
+                yield from _no_longer_than(run, request, allocate_within)
+            if not request.is_set:
+                yield request
+            state.allocated = request.result()
         finally:
             if not request.is_set:
                 core.queue.leave(request)
@@ -63,9 +71,5 @@ async def _no_longer_than(run: Run[Any], request: Request, seconds: float) -> No
         )
 
 
-def _before() -> str:
-    return "allocated before"
-
-
-def _carries() -> str:
-    return "carries the mission's item"
+_BEFORE = "allocated before"
+_CARRIES = "carries the mission's item"

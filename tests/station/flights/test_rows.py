@@ -10,6 +10,7 @@ import pytest
 
 from plutoc_runtime.app import App
 from plutoc_runtime.core import Core
+from plutoc_runtime.engine import Engine
 from plutoc_runtime.model import Mission, Trip
 from plutoc_runtime.state import State
 from plutoc_runtime.station.rows import mission_row, recorded_row
@@ -51,7 +52,7 @@ def row(mission: Mission[Any], state: State | None) -> dict[str, object]:
 def test_a_mission_whose_last_trip_is_judged_has_not_ended() -> None:
     mission = Mission[Any](name="a", trips=[])
     mission.status = COMPLETED
-    state = State(cast("Core", None), mission, print, print)
+    state = State(cast("Core", None), mission, cast("Engine", None))
     state.at = "judge"
     seen = row(mission, state)
     assert (seen["status"], seen["at"]) == ("STANDBY", ["judge"])
@@ -68,7 +69,7 @@ def test_a_mission_waits_for_a_drone_that_can_do_its_next_trip() -> None:
     trip = Trip(name="1", action="measure", target=(1.0, 1.0, 1.0))
     mission = Mission[Any](name="a", trips=[trip])
     mission.status = STANDBY
-    state = State(cast("Core", None), mission, print, print)
+    state = State(cast("Core", None), mission, cast("Engine", None))
     coroutine = flow(mission)
     coroutine.send(None)
     state.task = cast("Any", Waiting(coroutine))

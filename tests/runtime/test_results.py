@@ -1,0 +1,42 @@
+"""Results are kept as they are given, and those that an evaluator has not seen are told from the others."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from plutoc_runtime.model import Mission, Trip
+from plutoc_runtime.results import Result, ResultStore
+
+
+def test_every_result_is_found_again_however_many_there_are() -> None:
+    store = ResultStore()
+    missions = [Mission[Any](name=name, trips=[]) for name in "ab"]
+    trip = Trip(name="A", action="measure", target=(0.0, 0.0, 1.0))
+    given = [Result(missions[n % 2], trip, n // 7, n % 3 + 1, n) for n in range(5000)]
+    for result in given:
+        result.mission.last_result = store.add(*result)
+    everything = store.so_far()
+    assert list(everything) == given
+    assert (len(everything), everything[-1], everything[1:4]) == (
+        5000,
+        given[-1],
+        tuple(given[1:4]),
+    )
+    assert store.newest == 4999
+
+
+def test_an_evaluator_gets_what_is_new_since_it_was_asked() -> None:
+    store, ours, other = (
+        ResultStore(),
+        Mission[Any](name="a", trips=[]),
+        Mission[Any](name="b", trips=[]),
+    )
+    for value in range(4000):
+        mission = ours if value % 2 else other
+        mission.last_result = store.add(mission, None, 0, 1, value)
+    assert [result.value for result in store.for_evaluator(ours).new] == list(range(1, 4000, 2))
+    assert not store.for_evaluator(ours).new
+    ours.last_result = store.add(ours, None, 1, 1, "more")
+    asked = store.for_evaluator(ours)
+    assert [result.value for result in asked.new] == ["more"]
+    assert len(asked.all) == 4001
