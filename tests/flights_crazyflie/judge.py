@@ -18,6 +18,8 @@ APART = 0.5
 """Metres that drones are kept apart in the air, where a fleet file says nothing else."""
 _STILL = (0.35, 0.1)
 """Seconds before an action's end was written down, between which its drone was still there."""
+_STALL = 1.0
+"""Seconds for which a busy machine may keep the drones from writing down where they are."""
 _SLOT = 0.02
 """Seconds: drones are held against each other where they were within one slot."""
 _HIGH = 4.0
@@ -47,7 +49,9 @@ def beside_its_target(
         places = by_drone[event["drone"]]
         first = bisect_left(places, ended - _STILL[0], key=lambda one: one.time)
         last = bisect_right(places, ended - _STILL[1], key=lambda one: one.time)
-        if first == last:
+        if first == last:  # nothing was written down then: where was it just before?
+            first = max(0, first - 1)
+        if first == last or places[first].time < ended - _STALL:
             yield f"{whose}: {event['drone']} was not in the air"
         off = max((dist(place.at, target) for place in places[first:last]), default=0.0)
         if off > NEAR:
