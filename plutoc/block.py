@@ -7,12 +7,12 @@ generated code, pages and screens all come from these properties.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from enum import Enum
 from types import MappingProxyType
 from typing import Any
 
-from plutoc.frozen import frozen
+from plutoc.frozen import frozen, frozen_one
 from plutoc_runtime.fields import Field
 from plutoc_runtime.quantities import Type
 from plutoc_runtime.status import IN_GRAPH, Status
@@ -75,7 +75,7 @@ class HookParam:
     """The hook's own parameters are written beside it, and its step gets them by name."""
 
 
-@dataclass(frozen=True, kw_only=True, repr=False, eq=False)
+@frozen_one
 class Choice:
     """One of several functions of the runtime, by name, or one of the app's hooks."""
 
@@ -100,7 +100,7 @@ class Narrowed:
     emits: frozenset[Status]
 
 
-@dataclass(frozen=True, kw_only=True, repr=False, eq=False)
+@frozen_one
 class Block:
     """One kind of block.
 
