@@ -14,8 +14,9 @@ from ..energy import docked
 from ..errors import FlightFailed
 from ..kernel import FLEET, Kernel, Task
 from ..standing import Down
+from .traffic.choosing import Goer
 from .traffic.courses import Course, course
-from .traffic.timetable import Goer, Timetable, timetable
+from .traffic.timetable import Timetable, timetable
 from .traffic.ways_home import ways_home
 
 if TYPE_CHECKING:
@@ -83,7 +84,8 @@ class Descent:
             if self._traffic is None:
                 self._at_once(goers)
             else:
-                self._in_turn(timetable(goers, self._traffic.limit, self._traffic.is_real))
+                now, later = self._split(goers, self._traffic)
+                self._in_turn(timetable(now, self._traffic.limit, self._traffic.is_real), later)
             for task in self._tasks:
                 await task
         finally:
@@ -108,6 +110,14 @@ class Descent:
                 found.append(Goer(drone.id, courses))
         sign = 1 if how is Down.LAND else -1
         return sorted(found, key=lambda goer: sign * goer.courses[0].seconds)
+
+    def _split(self, goers: Sequence[Goer], traffic: Traffic) -> tuple[list[Goer], list[Goer]]:
+        """Return who goes by the plan, and who when there is room.
+
+        Where only so many may be in the air, nobody there must wait for somebody who stands.
+        """
+        stand = [goer for goer in goers if traffic.is_limited and goer.courses[0].section.stands]
+        return [goer for goer in goers if goer not in stand], stand
 
     def _ways_down(self, drone: Craft) -> list[Section]:
         if self._traffic is None:
@@ -137,13 +147,13 @@ class Descent:
         for goer in goers:
             self._send(goer.drone, partial(self._flies, goer.drone, goer.courses[0].section))
 
-    def _in_turn(self, plan: Timetable) -> None:
-        """Let all go as it was planned, and then those for whom nothing could be."""
+    def _in_turn(self, plan: Timetable, later: Sequence[Goer]) -> None:
+        """Let all go as it was planned, and then those for whom nothing could be, or was."""
         self._plan = plan
         self._at = dict.fromkeys(plan.courses, (0, 0))
         for drone in plan.courses:
             self._send(drone, partial(self._follows, drone))
-        for goer in plan.without:
+        for goer in (*plan.without, *later):
             ways = [one.section for one in goer.courses]
             self._send(goer.drone, partial(self._flies, goer.drone, *ways))
 
@@ -184,17 +194,20 @@ class Descent:
         return one.stretch(here, telemetry.landed, first, last)
 
     def _free(self, drone: str, at: int) -> int:
-        """Return the last piece up to which nobody has to pass first."""
+        """Return where it rests next; where it is, if somebody has to pass first."""
         last = len(self._plan.courses[drone].pieces) - 1
         waits = [
             piece for piece, other, its in self._plan.after[drone] if not self._left(other, its)
         ]
-        return min((piece - 1 for piece in waits if piece > at), default=last)
+        free = min((piece - 1 for piece in waits if piece > at), default=last)
+        return self._plan.rest_after(drone, at, free)
 
     def _left(self, drone: str, piece: int) -> bool:
         """Say whether a drone has left a piece of its way."""
         if drone not in self._at:
             return True  # it is down, or fails
+        if self._traffic is not None and self._traffic.touches_down(drone):
+            return True
         first, last = self._at[drone]
         if last <= piece < first or first > piece:
             return first > piece

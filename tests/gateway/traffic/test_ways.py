@@ -11,8 +11,9 @@ from hypothesis import strategies as st
 
 from plutoc_runtime.airspace import Airspace
 from plutoc_runtime.gateway.traffic.claims import box_of, meets, nearest
-from plutoc_runtime.gateway.traffic.courses import course, near
+from plutoc_runtime.gateway.traffic.courses import course
 from plutoc_runtime.gateway.traffic.detours import Section, sections
+from plutoc_runtime.gateway.traffic.nearness import near
 from plutoc_runtime.geometry import between
 
 metres = st.one_of(st.floats(-3, 3), st.integers(-2, 2).map(float))
@@ -62,16 +63,34 @@ def test_ways_meet_where_they_are_nearer_than_that(
 def test_pieces_that_are_near_are_found(
     one: tuple[tuple[float, float, float], ...], other: tuple[tuple[float, float, float], ...]
 ) -> None:
-    """However the ways are cut; and their times follow one another."""
+    """However the ways are cut; and each piece begins where the one before ends."""
     first, second = (
         course(Section("cf1", (*way, way[-1]), False, False), 0.5, False) for way in (one, other)
     )
-    found = set(near(first, second, 0.5))
+    found = {(i, j) for i, least, most in near(first, second, 0.5) for j in range(least, most + 1)}
     for i, a in enumerate(first.pieces):
         for j, b in enumerate(second.pieces):
             assert ((i, j) in found) == (between(a.start, a.end, b.start, b.end) < 0.5)
     for before, after in pairwise(first.pieces):
-        assert (before.end, before.leaves) == (after.start, after.enters)
+        assert before.end == after.start
+
+
+@settings(max_examples=60)
+@given(ways, st.booleans(), st.floats(0.1, 2))
+def test_a_drone_leaves_the_pieces_of_a_course_one_after_the_other(
+    way: tuple[tuple[float, float, float], ...], from_rest: bool, speed: float
+) -> None:
+    """In one go or with rests on the way, which never takes less than the least."""
+    points = (*way, (way[-1][0], way[-1][1], way[-1][2] - 1.0))
+    one = course(Section("cf1", points, False, True), speed, from_rest)
+    end = len(one.pieces) - 1
+    assert one.rests[0] == 0 and one.rests[-1] == end
+    for first, last in [(0, end), *pairwise(one.rests)]:
+        times = one.times(first, last)
+        assert len(times) == last - first + 1
+        assert times[0] >= 0.0 and list(times) == sorted(times)
+    rested = sum(one.times(first, last)[-1] for first, last in pairwise(one.rests))
+    assert one.least[0] <= rested + 1e-9
 
 
 def test_other_heights_are_below_the_ceiling_and_not_below_where_drones_fly_anyway() -> None:

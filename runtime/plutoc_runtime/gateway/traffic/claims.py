@@ -16,6 +16,9 @@ DRIFT = 0.3
 SINKS = 0.1
 """Metres below where it should hover, from which on a drone is taken to be on its way down."""
 
+NEARLY = 0.1
+"""Metres of height below which a drone that lands is as good as on the ground: it strays no more."""
+
 Box = tuple[float, float, float, float, float, float]
 
 
@@ -55,6 +58,16 @@ class Claim:
         self.points, self.at, self.tail = (self.telemetry.location,), 0, ()
         self.moves, self.fails = False, True
         self._widen()
+
+    @property
+    def touches_down(self) -> bool:
+        """Whether it lands, and is about to stand."""
+        return (
+            self.moves
+            and self.points[-1][2] <= 0.0
+            and self.at >= len(self.points) - 2
+            and self.telemetry.location[2] < NEARLY
+        )
 
     def _widen(self) -> None:
         """Let the box hold all to where it may drift, or sink, before anybody looks."""

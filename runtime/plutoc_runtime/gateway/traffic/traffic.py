@@ -59,6 +59,8 @@ class Traffic:
         """What is simulated stops at once, and goes on as fast."""
         self._overshoot = OVERSHOOT if self.is_real else 0.0
         self._most = len(drones) if max_airborne is None else max_airborne
+        self.is_limited = self._most < len(drones)
+        """Whether only some may be in the air at once."""
         self._claims: dict[str, Claim] = {}
         """Of those in the air, or about to be."""
         self._silent: dict[str, float] = {}
@@ -178,7 +180,7 @@ class Traffic:
         """Give those what they can get who waited for somebody that has gone."""
         free, self._free = self._free, {}
         for wait in self._in_turn():
-            is_for_room = wait.section.stands and self._most < len(self._drones)
+            is_for_room = wait.section.stands and self.is_limited
             if is_for_room or wait.was_kept_by(free):
                 self._serve(wait)
 
@@ -303,8 +305,15 @@ class Traffic:
                 return claim
         return None
 
+    def touches_down(self, drone: str) -> bool:
+        """Say whether a real drone is about to stand: it says for seconds more that it flies."""
+        claim = self._claims.get(drone)
+        return self.is_real and claim is not None and claim.touches_down
+
     def _is_in_the_way(self, claim: Claim, way: tuple[Point, ...], stands: bool) -> bool:
         shape, limit = claim.shape(self._kernel.now), self.limit
+        if self.is_real and claim.touches_down:
+            limit = self.apart - _EXACT
         if not meets(way, shape, limit):
             return False
         if claim.moves:

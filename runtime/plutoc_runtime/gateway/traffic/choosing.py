@@ -1,0 +1,164 @@
+"""Which way one takes among the others that have chosen theirs, to be down soon."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from math import hypot, inf
+
+from .courses import Course
+from .nearness import Near, near, near_place
+from .slots import Found, Stretch, Times, at_once, soonest
+
+MARGIN = 0.3
+"""Seconds between one's leaving and another's departure: so much later it may be without a wait."""
+_MOMENT = 1.5
+"""Seconds that it takes at least to be gone from where one is."""
+
+
+@dataclass(slots=True, eq=False)
+class Goer:
+    """Somebody who is to come down."""
+
+    drone: str
+    courses: Sequence[Course]
+    """Which ways there are, the best first; at least one."""
+
+
+@dataclass(slots=True, eq=False)
+class Choice:
+    """How somebody comes down."""
+
+    course: Course
+    way: tuple[Stretch, ...]
+    down: float
+    times: list[Times]
+    """For each piece, from when it has it for itself, and when it has left it."""
+
+
+class Chooser:
+    """Lets one after the other choose; remembers which pieces of which courses are near to each other."""
+
+    def __init__(self, limit: float, is_real: bool) -> None:
+        self._limit = limit
+        self.rests = False
+        """Whether drones may rest on their way."""
+        self.hurry = 1.0
+        """In which part of the time that they need others are expected to make room."""
+        self.effort = 0
+        """How much was looked at, roughly: a piece is one."""
+        self._pairs: dict[tuple[Course, Course], list[Near]] = {}
+        self._starts: dict[tuple[Course, Goer], list[int]] = {}
+        self._gone: dict[tuple[Goer, bool], float] = {}
+        self._ways: dict[tuple[Goer, bool], list[tuple[float, Course]]] = {}
+
+    def choice(
+        self, goer: Goer, plan: Mapping[Goer, Choice], others: Sequence[Goer], enough: float
+    ) -> Choice | None:
+        """Return with which way somebody is down first; being down by then is good enough.
+
+        Of the others nobody knows yet where they will go: they are left a moment to go there.
+        """
+        best: tuple[Course, Found] | None = None
+        cost = inf
+        for least, course in self._sorted(goer):
+            if least >= cost:
+                break
+            extra = course.cost - course.seconds
+            found = self._found(course, plan, others, cost - extra)
+            if found is not None and found[0] + extra < cost:
+                best, cost = (course, found), found[0] + extra
+                if found[0] <= enough:
+                    break
+        if best is None:
+            return None
+        course, (down, way) = best
+        return Choice(course, way, down, _times(course, way))
+
+    def _sorted(self, goer: Goer) -> list[tuple[float, Course]]:
+        """Return somebody's ways, with what they cost if nobody is in the way: the best first."""
+        key = goer, self.rests
+        if key not in self._ways:
+            costs = [
+                one.cost - one.seconds + one.least[0] if self.rests else one.cost
+                for one in goer.courses
+            ]
+            order = sorted(range(len(costs)), key=costs.__getitem__)
+            self._ways[key] = [(costs[number], goer.courses[number]) for number in order]
+        return self._ways[key]
+
+    def _found(
+        self, course: Course, plan: Mapping[Goer, Choice], others: Sequence[Goer], before: float
+    ) -> Found | None:
+        """Return when a course can be flown, and how; None: not before that."""
+        self.effort += len(course.pieces)
+        taken: dict[int, list[Times]] = {}
+        until = inf
+        for goer in others:
+            for mine in self._near_start(course, goer):
+                taken.setdefault(mine, []).append((0.0, self.hurry * self._leaves(goer)))
+        for one in plan.values():
+            if self._land_together(course, one.course):
+                return None
+            for mine, first, last in self.pairs(course, one.course):
+                comes, goes = one.times[first][0], one.times[last][1]
+                if mine:
+                    taken.setdefault(mine, []).append((comes - MARGIN, goes + MARGIN))
+                else:  # who has not left yet is there from the beginning
+                    until = min(until, comes - MARGIN)
+        if self.rests:
+            return soonest(course, taken, until, before)
+        return at_once(course, taken, until)
+
+    def _land_together(self, one: Course, other: Course) -> bool:
+        """Whether two would land too near to each other; in their docks they may."""
+        (ax, ay, _), (bx, by, _) = one.section.points[-1], other.section.points[-1]
+        is_elsewhere = one.section.aside or other.section.aside
+        return is_elsewhere and hypot(ax - bx, ay - by) < self._limit
+
+    def _leaves(self, goer: Goer) -> float:
+        """Return when somebody is gone from where it is, if nobody is in the way."""
+        found = self._gone.get((goer, self.rests))
+        if found is None:
+            course, now = goer.courses[0], 0.0
+            end = len(course.pieces) - 1
+            gone = max(near_place(course, course.pieces[0].start, self._limit))
+            for first, last in pairwise(course.rests if self.rests else (0, end)):
+                times = course.times(first, last)
+                if gone < last:
+                    now += times[gone - first]
+                    break
+                now += times[-1]
+            found = self._gone[goer, self.rests] = max(_MOMENT, now)
+        return found
+
+    def pairs(self, one: Course, other: Course) -> list[Near]:
+        """Return which pieces are too near to each other; where both begin, nobody can help it."""
+        pairs = self._pairs.get((one, other))
+        if pairs is None:
+            self.effort += len(one.pieces) // 2
+            pairs = [pair for pair in near(one, other, self._limit) if pair != (0, 0, 0)]
+            self._pairs[one, other] = pairs
+        return pairs
+
+    def _near_start(self, course: Course, goer: Goer) -> list[int]:
+        """Return which pieces are too near to where somebody is now; the start cannot be helped."""
+        key = course, goer
+        pieces = self._starts.get(key)
+        if pieces is None:
+            place = goer.courses[0].section.points[0]
+            pieces = [piece for piece in near_place(course, place, self._limit) if piece]
+            self._starts[key] = pieces
+        return pieces
+
+
+def _times(course: Course, way: Sequence[Stretch]) -> list[Times]:
+    """Return from when until when each piece is taken: from the departure on."""
+    times = [(0.0, 0.0)] * len(course.pieces)
+    for first, last, begins in way:
+        left = course.times(first, last)
+        for piece in range(first, last + 1):
+            comes = begins if piece > first else times[piece][0]
+            times[piece] = comes, begins + left[piece - first]
+    return times

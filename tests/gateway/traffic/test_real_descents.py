@@ -1,0 +1,123 @@
+"""Drones that fly as real ones do come down together, soon and apart, however fast they are."""
+
+from __future__ import annotations
+
+from math import dist
+from random import Random
+
+import pytest
+
+from plutoc_runtime.airspace import Airspace
+from plutoc_runtime.gateway.traffic.choosing import Goer
+from plutoc_runtime.gateway.traffic.courses import course
+from plutoc_runtime.gateway.traffic.timetable import Timetable, timetable
+from plutoc_runtime.gateway.traffic.ways_home import ways_home
+from plutoc_runtime.model import Point
+from plutoc_runtime.simulation.drones import SimulatedDrone
+from plutoc_runtime.standing import Down
+from tests.gateway.traffic.real_skies import FLIES_ON, late
+from tests.gateway.traffic.skies import ENDURING, Sky, is_home
+
+APART = 0.5
+LATER = 2.0
+ROWS = [(0.5 + column, 0.5 + 2.5 * row, 0.0) for row in range(2) for column in range(5)]
+"""Ten docks, a metre apart in each row."""
+NEXT = [(0.5 + (column + 1) % 5, 1.7 + 2.5 * row, 0.5) for row in range(2) for column in range(5)]
+"""Before the dock of each one's neighbour: all ways home cross."""
+
+
+def scattered(chance: Random, side: float, z: float | None, count: int = 10) -> list[Point]:
+    """Return places far enough from each other."""
+    found: list[Point] = []
+    while len(found) < count:
+        height = chance.uniform(0.6, 2.0) if z is None else z
+        place = chance.uniform(0, side), chance.uniform(0, side), height
+        if all(dist(place, other) >= 0.7 for other in found):
+            found.append(place)
+    return found
+
+
+@pytest.mark.parametrize("speed", [0.3, 0.5, 1.0, 2.0, 3.0])
+def test_ten_whose_ways_cross_are_home_when_the_slowest_is(speed: float) -> None:
+    """Slow ones rest often on the way, fast ones seldom."""
+    airspace = Airspace(size=(6.0, 6.0), ceiling=2.5, cruise_height=0.5)
+    seconds, sky = late(ROWS, NEXT, airspace, speed, Down.HOME)
+    assert seconds <= LATER
+    assert sky.nearest >= APART
+    assert all(is_home(sky, drone) for drone in sky.drones)
+
+
+@pytest.mark.parametrize("how", Down)
+@pytest.mark.parametrize("seed", range(4))
+def test_ten_anywhere_are_down_when_the_slowest_is(seed: int, how: Down) -> None:
+    """At one height or at many, with docks anywhere."""
+    chance = Random(seed)
+    homes = scattered(chance, 12.0, 0.0)
+    places = scattered(chance, 12.0, 1.2 if seed % 2 else None)
+    airspace = Airspace(size=(12.0, 12.0), ceiling=3.0)
+    seconds, sky = late(homes, places, airspace, chance.choice([0.5, 1.0, 2.0]), how)
+    assert seconds <= LATER
+    assert sky.nearest >= APART
+
+
+def test_nobody_waits_until_its_neighbour_says_that_it_stands() -> None:
+    """A real drone says so seconds after it has landed: who lands beside it would be later still."""
+    airspace = Airspace(size=(6.0, 6.0), cruise_height=0.5)
+    homes, places = [(1.0, 1.0, 0.0), (1.6, 1.0, 0.0)], [(1.0, 4.0, 0.5), (4.6, 1.0, 0.5)]
+    seconds, sky = late(homes, places, airspace, 1.0, Down.HOME)
+    assert seconds < FLIES_ON + 1.0
+    assert sky.nearest >= APART
+
+
+def test_where_only_one_may_be_in_the_air_who_stands_goes_when_it_is_down() -> None:
+    """Nobody in the air waits for somebody who must not take off."""
+    sky = Sky([(1.0, 1.0), (4.0, 1.0)], airspace=Airspace(size=(5.0, 5.0)), max_airborne=1)
+    one, other = (sky.navigation.bodies[drone.id] for drone in sky.drones)
+    for body, place in ((one, (4.0, 3.0, 0.0)), (other, (1.0, 1.2, 1.2))):
+        body.lift_off(0.0)
+        body.move(place, 0.0, 0.0)
+    one.touch_down(0.0)
+    assert sky.until(sky.another().bring_down(Down.HOME), 300)
+    assert sky.airborne <= 1
+    assert all(is_home(sky, drone) for drone in sky.drones)
+
+
+def plan_of(seed: int, is_real: bool) -> Timetable:
+    """Plan for some drones in a small place, with docks side by side."""
+    chance = Random(seed)
+    side = chance.choice([3.0, 5.0])
+    airspace = Airspace(size=(side, side), ceiling=chance.choice([1.4, 2.0, 5.0]))
+    places = scattered(chance, side, 1.2, 6)
+    spots = [(0.3 + 0.6 * (i % 3), 0.3 + 0.6 * (i // 3), 0.0) for i in range(6)]
+    goers = []
+    for index, (home, place) in enumerate(zip(spots, places, strict=True)):
+        drone = SimulatedDrone(id=f"cf{index}", category=ENDURING, home=home, index=index)
+        ways = ways_home(airspace, drone, place, False, 0.65)
+        speed = chance.choice([0.2, 1.0])
+        courses = sorted((course(way, speed, is_real) for way in ways), key=lambda one: one.cost)
+        goers.append(Goer(drone.id, courses))
+    return timetable(goers, 0.65, is_real)
+
+
+@pytest.mark.parametrize("is_real", [True, False])
+@pytest.mark.parametrize("seed", range(4))
+def test_nobody_waits_for_who_waits_for_it(seed: int, is_real: bool) -> None:
+    """Whatever the times: whoever may go goes to its next rest, and so all come to their ends."""
+    plan, chance = plan_of(seed, is_real), Random(seed)
+    at = dict.fromkeys(plan.courses, 0)
+    ends = {drone: len(one.pieces) - 1 for drone, one in plan.courses.items()}
+    assert ends
+    while at:
+        goes = []
+        for drone, here in at.items():
+            waits = [
+                mine - 1 for mine, other, its in plan.after[drone] if at.get(other, its + 1) <= its
+            ]
+            free = min((piece for piece in waits if piece >= here), default=ends[drone])
+            to = plan.rest_after(drone, here, free)
+            if to > here:
+                goes.append((drone, to))
+        assert goes
+        drone, at[drone] = chance.choice(goes)
+        if at[drone] == ends[drone]:
+            del at[drone]
