@@ -16,12 +16,12 @@ if TYPE_CHECKING:
 
 def line(event: Event) -> str:
     """Return an event as a line of JSON, without the end of the line; numbers have three decimals."""
-    return _template(event) % tuple([_WRITE[type(fact)](fact) for fact in event.values()])
+    return _TEMPLATES[tuple(event)] % tuple([_WRITE[type(fact)](fact) for fact in event.values()])
 
 
 def exact(event: Event) -> str:
     """Return an event as a line of JSON with every number as it is: what the journal keeps."""
-    return _template(event) % tuple([_EXACT[type(fact)](fact) for fact in event.values()])
+    return _TEMPLATES[tuple(event)] % tuple([_EXACT[type(fact)](fact) for fact in event.values()])
 
 
 def dumped(value: object) -> str:
@@ -44,14 +44,13 @@ def rounded(value: object) -> object:
             return str(value)
 
 
-def _template(event: Event) -> str:
-    """Return the line of all events with these facts: there is one for each transition."""
-    facts = tuple(event)
-    template = _TEMPLATES.get(facts)
-    if template is None:
+class _Templates(dict[tuple[str, ...], str]):
+    """The lines of all events with these facts: there is one for each transition."""
+
+    def __missing__(self, facts: tuple[str, ...]) -> str:
         named = [json.dumps(fact).replace("%", "%%") + ": %s" for fact in facts]
-        template = _TEMPLATES[facts] = "{" + ", ".join(named) + "}"
-    return template
+        template = self[facts] = "{" + ", ".join(named) + "}"
+        return template
 
 
 class _Writers(dict[type, Callable[[Any], str]]):
@@ -76,8 +75,16 @@ def _as_can_be(value: object) -> str:
         return json.dumps(shown(value))
 
 
-def _number(value: float) -> str:
-    return repr(round(value, 3) + 0.0) if isfinite(value) else "null"  # + 0.0: never -0.0
+class _Numbers(dict[float, str]):
+    """Numbers as they are written: a time, a place and a full battery come up again and again."""
+
+    def __missing__(self, value: float) -> str:
+        if not isfinite(value):
+            return "null"
+        if len(self) >= _MOST_NUMBERS:
+            self.clear()
+        written = self[value] = repr(round(value, 3) + 0.0)  # + 0.0: never -0.0
+        return written
 
 
 def _exact(value: float) -> str:
@@ -92,13 +99,17 @@ def _exact_list(values: list[Any]) -> str:
     return "[" + ", ".join([_EXACT[type(value)](value) for value in values]) + "]"
 
 
-_TEMPLATES: dict[tuple[str, ...], str] = {}
+_TEMPLATES = _Templates()
+
+_MOST_NUMBERS = 4096
+_NUMBERS = _Numbers()
+"""No more than so many; 0 and -0 are one number, and written alike."""
 
 _WRITE = _Writers(
     {
         str: encode_basestring_ascii,
         int: repr,
-        float: _number,
+        float: _NUMBERS.__getitem__,
         list: _list,
         type(None): lambda _: "null",
     }

@@ -19,9 +19,14 @@ class Trace:
         self.live = bool(listeners)
         """Whether anybody listens: ask before you put an event together."""
         self._kernel, self._listeners = kernel, tuple(listeners)
+        self._now = self._t = 0.0
+        """The instant of the last event, and how it is written: several happen at one."""
 
     def note(self, event: str, **facts: object) -> None:
         """Something happened now."""
-        noted = {"t": round(self._kernel.now, 6), "event": event, **facts}
+        now = self._kernel.now
+        if now is not self._now:
+            self._now, self._t = now, round(now, 6)
+        noted = {"t": self._t, "event": event, **facts}
         for listener in self._listeners:
             listener(noted)
