@@ -5,7 +5,8 @@
 Pairs of trips that cross fly in virtual time, two drones at once or ten, with random homes and targets,
 and every tenth of a second it is seen where all are. The same trips fly once more with `apart = 0`:
 throughput is trips an hour of simulated time. `--descents N` lets ten drones come down N times, all at
-once, and says how much later than the slowest alone the last of them is down. Ends with 1 if any two were
+once, and says how much later than the slowest alone the last of them is down; with `--real SPEED`, as real drones
+fly, from rest to rest and with that peak speed. Ends with 1 if any two were
 nearer than `apart`, or the last was more than two seconds late.
 """
 
@@ -26,6 +27,8 @@ from plutoc_runtime.airspace import Airspace
 from plutoc_runtime.kernel import FLEET
 from plutoc_runtime.model import Point
 from plutoc_runtime.standing import Down
+from tests.gateway.traffic.real_skies import SLACK
+from tests.gateway.traffic.real_skies import late as late_for_real
 from tests.gateway.traffic.skies import Sky
 
 APART, HEIGHT = 0.5, 1.2
@@ -53,12 +56,12 @@ class Figures:
         return f"{near}, {an_hour:.0f} trips an hour, {1e6 * self.cpu / self.trips:.0f} µs of CPU a trip"
 
 
-def places(chance: Random, count: int, side: float, z: float) -> list[Point]:
-    """Return places that are nowhere nearer than `APART`."""
+def places(chance: Random, count: int, side: float, z: float, apart: float = APART) -> list[Point]:
+    """Return places that are nowhere nearer than that."""
     found: list[Point] = []
     while len(found) < count:
         place = chance.uniform(0, side), chance.uniform(0, side), z
-        if all(dist(place, other) >= APART for other in found):
+        if all(dist(place, other) >= apart for other in found):
             found.append(place)
     return found
 
@@ -137,10 +140,20 @@ def measured(runs: int, drones: int, side: float) -> Figures:
     return seen[APART]
 
 
-def lateness(seed: int, side: float, how: Down, drones: int = 10) -> tuple[float, float]:
-    """Return how much later than the slowest alone all are down, and how near any two came."""
+def lateness(
+    seed: int, side: float, how: Down, drones: int = 10, speed: float | None = None
+) -> tuple[float, float]:
+    """Return how much later than the slowest alone all are down, and how near any two came.
+
+    With a speed they fly as real drones do.
+    """
     chance = Random(seed)
-    homes, hovering = places(chance, drones, side, 0.0), places(chance, drones, side, HEIGHT)
+    apart = APART if speed is None else APART + SLACK
+    homes = places(chance, drones, side, 0.0, apart)
+    hovering = places(chance, drones, side, HEIGHT, apart)
+    if speed is not None:
+        late, real = late_for_real(homes, hovering, Airspace(size=(side, side)), speed, how)
+        return late, real.nearest
 
     def down(homes: Sequence[Point], hovering: Sequence[Point]) -> Sky:
         sky = Sky([home[:2] for home in homes], airspace=Airspace(size=(side, side)))
@@ -164,6 +177,9 @@ def main() -> int:
     parser.add_argument("--tens", type=int, default=1000, help="how many times ten drones")
     parser.add_argument("--side", type=float, default=10.0, help="of the map, in metres")
     parser.add_argument("--descents", type=int, default=0, help="how many times ten come down")
+    parser.add_argument(
+        "--real", type=float, metavar="SPEED", help="real drones, this fast at most"
+    )
     options = parser.parse_args()
     good = True
     for runs, drones in ((options.pairs, 2), (options.tens, 10)):
@@ -171,7 +187,10 @@ def main() -> int:
             good &= measured(runs, drones, options.side).nearest >= APART - 1e-6
     for how in (Down.HOME, Down.LAND):
         if options.descents:
-            found = [lateness(seed, options.side, how) for seed in range(options.descents)]
+            found = [
+                lateness(seed, options.side, how, speed=options.real)
+                for seed in range(options.descents)
+            ]
             late, near = max(one for one, _ in found), min(one for _, one in found)
             print(f"{options.descents} times ten drones come down ({how.value}): ", end="")
             print(f"at most {late:.2f} s later than the slowest alone, nearest {near:.3f} m")
