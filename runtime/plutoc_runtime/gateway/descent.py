@@ -85,7 +85,7 @@ class Descent:
                 self._at_once(goers)
             else:
                 now, later = self._split(goers, self._traffic)
-                self._in_turn(timetable(now, self._traffic.limit, self._traffic.is_real), later)
+                self._in_turn(timetable(now, self._traffic.limit), later)
             for task in self._tasks:
                 await task
         finally:

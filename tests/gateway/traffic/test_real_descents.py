@@ -96,7 +96,7 @@ def plan_of(seed: int, is_real: bool) -> Timetable:
         speed = chance.choice([0.2, 1.0])
         courses = sorted((course(way, speed, is_real) for way in ways), key=lambda one: one.cost)
         goers.append(Goer(drone.id, courses))
-    return timetable(goers, 0.65, is_real)
+    return timetable(goers, 0.65)
 
 
 @pytest.mark.parametrize("is_real", [True, False])

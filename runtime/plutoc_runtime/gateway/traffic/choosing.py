@@ -40,7 +40,7 @@ class Choice:
 class Chooser:
     """Lets one after the other choose; remembers which pieces of which courses are near to each other."""
 
-    def __init__(self, limit: float, is_real: bool) -> None:
+    def __init__(self, limit: float) -> None:
         self._limit = limit
         self.rests = False
         """Whether drones may rest on their way."""

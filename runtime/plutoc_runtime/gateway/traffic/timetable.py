@@ -53,10 +53,10 @@ class Timetable:
         return to
 
 
-def timetable(goers: Sequence[Goer], limit: float, is_real: bool) -> Timetable:
+def timetable(goers: Sequence[Goer], limit: float) -> Timetable:
     """Plan for all, so that no two come nearer than that; the first chooses first, if that does."""
     good = max((goer.courses[0].seconds for goer in goers), default=0.0) + GOOD
-    chooser = Chooser(limit, is_real)
+    chooser = Chooser(limit)
     return _written_down(goers, planned(goers, chooser, good), chooser)
 
 
