@@ -6,13 +6,13 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 
 from plutoc.block import Gate
-from plutoc.check.flow import Place
+from plutoc.check.flow import Facts, Place
 from plutoc_runtime.status import WORST_FIRST, Status
 
 Came = Mapping[int, Iterable[Place]]
 """The arrivals at one gate, by branch."""
-Passing = tuple[Status, int]
-"""A status that passes a gate, and how often at least the next trip has been flown then."""
+Passing = tuple[Status, Facts]
+"""A status that passes a gate, and what the mission has behind it then."""
 
 
 def passing(gate: Gate, came: Came) -> dict[Passing, Place]:
@@ -20,7 +20,7 @@ def passing(gate: Gate, came: Came) -> dict[Passing, Place]:
     brought: dict[Passing, Place] = {}
     for arrivals in came.values():
         for arrival in arrivals:
-            brought.setdefault((arrival.status, arrival.facts.attempts), arrival)
+            brought.setdefault((arrival.status, arrival.facts), arrival)
     if gate is Gate.FIRST:
         return brought
     # at best, every branch brings the best that it can: nothing better than that passes

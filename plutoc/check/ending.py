@@ -2,50 +2,94 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection, Mapping
+
 from plutoc.check import errors
-from plutoc.check.components import loops, round_of
-from plutoc.check.flow import Flow, Place, blocks_of
-from plutoc.check.rounds import rounds
+from plutoc.check.components import round_of
+from plutoc.check.facts import is_over, puts_trips
+from plutoc.check.flow import Flow, Place, Split, blocks_of
+from plutoc.check.rounds import Round, rounds
+from plutoc.check.statuses import explore
+from plutoc.check.unflown import unflown
 from plutoc.diagnostic import Diagnostic
+from plutoc.graph.model import Node
 from plutoc_runtime.status import Status
 
 
-def endless(flow: Flow) -> list[Diagnostic]:
-    """Find loops outside forks that a mission can enter and never leave."""
-    return [
-        errors.endless(
-            flow.graph,
-            flow.graph.node[part[0].node],
-            flow.way(part[0]),
-            blocks_of(round_of(flow.after, part, part[0])),
-        )
-        for part in rounds(flow)
-        # where no place is outside of a fork, it is the fork that does not close
-        if any(place.frame is None for place in part)
-    ]
+def endless(flow: Flow, astray: Collection[str]) -> list[Diagnostic]:
+    """Find loops that a mission can enter and never leave, or only if a hook fails it.
 
-
-def spinning(flow: Flow) -> list[Diagnostic]:
-    """Find loops of blocks that only repeat: once a mission's rounds are flown, no time passes there.
-
-    Whoever has no round left has none the next time either, unless a hook or a flight comes between.
+    Those within a fork that nothing leaves are left out: there it is the fork that does not close. So
+    are those of finished missions through gates to which they go `astray`: that has been said.
     """
-    repeating = {
-        place: tuple(target for target in flow.after[place] if _is_over(flow, target))
+    never = [part for part in rounds(flow) if not (_is_idle(part) and _meets(part, astray))]
+    blocks = {*astray, *(place.node for part in never for place in part)}
+    found = [_endless(flow, part) for part in never if any(place.frame is None for place in part)]
+    idle = _idle(flow)
+    if idle is not None:
+        found += [_spins(flow, idle, part) for part in rounds(idle) if not _meets(part, blocks)]
+    return found
+
+
+def _idle(flow: Flow) -> Flow | None:
+    """Follow missions that have nothing left to fly, as long as no hook fails them.
+
+    Only on ways round where nothing is flown, and only where a hook could fail them.
+    """
+    turns = unflown(flow.graph, flow.edges)
+    failing = {turns[name] for name in turns if _may_fail(flow.graph.node[name])}
+    blocks = {name for name, number in turns.items() if number in failing}
+    if not blocks:
+        return None
+    return explore(flow.graph, flow.edges, _beginnings(flow, blocks, turns), idle=blocks)
+
+
+def _beginnings(flow: Flow, blocks: Collection[str], turns: Mapping[str, int]) -> dict[Place, None]:
+    """Return where missions are on a way round; a fork that is open all the way does not matter."""
+    not_open: dict[Split, set[int]] = {}
+    for place in flow.places:
+        if place.frame is not None:
+            split = place.frame.split
+            ends = not_open.setdefault(split, {turns.get(split.node, 0)})
+            if place.node in blocks and _arrives(flow, place):
+                ends.add(turns[place.node])
+    return {
+        place._replace(frame=None): None
         for place in flow.places
-        if _is_over(flow, place)
+        if place.node in blocks
+        and is_over(place)
+        and (place.frame is None or turns[place.node] not in not_open[place.frame.split])
     }
-    return [
-        errors.spins(
-            flow.graph,
-            flow.graph.node[part[0].node],
-            flow.way(part[0]),
-            blocks_of(round_of(flow.after, part, part[0])),
-        )
-        for part in loops(repeating)
-    ]
 
 
-def _is_over(flow: Flow, place: Place) -> bool:
-    node = flow.graph.node.get(place.node)
-    return node is not None and node.block.repeats and place.status is Status.COMPLETED
+def _arrives(flow: Flow, place: Place) -> bool:
+    """Is it a clone that comes to the gate of its fork?"""
+    return flow.graph.node[place.node].block.gate is not None and not place.out
+
+
+def _may_fail(node: Node) -> bool:
+    return node.block.evaluates or (puts_trips(node) and len(node.emitted(Status.COMPLETED)) > 1)
+
+
+def _is_idle(part: Round) -> bool:
+    """Is it a loop that only missions with nothing left to fly cannot leave, for all is said already?"""
+    return all(map(is_over, part)) and any(place.facts.said for place in part)
+
+
+def _meets(part: Round, blocks: Collection[str]) -> bool:
+    return any(place.node in blocks for place in part)
+
+
+def _endless(flow: Flow, part: Round) -> Diagnostic:
+    way, names = flow.way(part[0]), blocks_of(round_of(flow.after, part, part[0]))
+    head = flow.graph.node[part[0].node]
+    error = errors.spins if _is_idle(part) else errors.endless
+    return error(flow.graph, head, way, names)
+
+
+def _spins(flow: Flow, idle: Flow, part: Round) -> Diagnostic:
+    first = part[0]
+    where = (place for place in flow.places if place._replace(frame=first.frame) == first)
+    way = flow.way(next(where, flow.nearest[first.node]))
+    names = blocks_of(round_of(idle.after, part, first))
+    return errors.spins(flow.graph, flow.graph.node[first.node], way, names)

@@ -126,6 +126,18 @@ def untaken(graph: Graph, edge: Edge, leaving: Sequence[Status], way: Way) -> Di
     )
 
 
+def nothing_to_fly(graph: Graph, node: Node, edges: Sequence[Edge], way: Way) -> Diagnostic:
+    return error(
+        "P2008",
+        (graph, edges[0].span),
+        f"no mission ever takes the arrow `{node.name} -> {edges[0].target}`",
+        label=f"whatever comes to `{node.name}` has no trip left, and ends there FAILED",
+        related=tuple(related_to(graph, edge.span, "nor this one") for edge in edges[1:]),
+        help=f"lead FAILED elsewhere: a mission can fly on only where a trip of it failed, or where an "
+        f"evaluator asked for more trips, STANDBY{there(way)}",
+    )
+
+
 def spare_guard(
     graph: Graph, edge: Edge, spare: Sequence[Status], leaving: Sequence[Status]
 ) -> Diagnostic:
@@ -234,19 +246,47 @@ def endless(graph: Graph, head: Node, way: Way, round_: Sequence[str]) -> Diagno
         (graph, head.name_span),
         f"a mission that comes to `{head.name}` can never end",
         label="no way leads from here to an end",
-        help=f"it goes round {arrows((*round_, round_[0]))}: lead an arrow out of this loop"
-        f"{there(way)}",
+        help=f"it goes round {_round(round_)}: lead an arrow out of this loop" f"{there(way)}",
     )
 
 
 def spins(graph: Graph, head: Node, way: Way, round_: Sequence[str]) -> Diagnostic:
+    blocks = [graph.node[name] for name in round_]
+    same = [
+        (
+            "a repeater with no round left has none the next time"
+            if node.block.repeats
+            else "an evaluator says the same until something is flown"
+        )
+        for node in blocks
+        if node.block.repeats or node.block.evaluates
+    ]
     return error(
         "P2025",
         (graph, head.name_span),
-        f"a mission whose rounds are all flown goes round at `{head.name}` for ever",
-        label="it comes back COMPLETED, and no time passes",
-        help=f"it goes round {arrows((*round_, round_[0]))} when COMPLETED, and nothing there waits, "
-        f"flies or calls a hook: lead COMPLETED elsewhere{there(way)}",
+        f"a mission with nothing left to fly can go round at `{head.name}` for ever",
+        label="it leaves only if a hook fails it, or never",
+        help=f"it goes round {_round(round_)}{_because(same)}: lead COMPLETED out of "
+        f"this loop{there(way)}",
+    )
+
+
+def _round(blocks: Sequence[str]) -> str:
+    """`look → again → look`; a gate is come to and left at one block."""
+    once = blocks[:-1] if len(blocks) > 1 and blocks[-1] == blocks[0] else blocks
+    return arrows((*once, blocks[0]))
+
+
+def _because(reasons: Sequence[str]) -> str:
+    return f", for {' and '.join(dict.fromkeys(reasons))}" if reasons else ""
+
+
+def too_tangled(graph: Graph, most: int) -> Diagnostic:
+    return error(
+        "P2026",
+        (graph, graph.name_span),
+        f"the graph of `{graph.name}` cannot be checked: missions can be in more than {most:,} states",
+        help="draw it with fewer loops within loops, forks within forks, or bounds on attempts",
     )
 
 
@@ -305,7 +345,7 @@ def fails_forever(graph: Graph, node: Node, round_: Sequence[str]) -> Diagnostic
         "P2056",
         (graph, node.name_span),
         f"a trip that always fails is put back by `{node.name}` for ever",
-        help=f"bound the number of attempts in the loop {arrows((*round_, round_[0]))}",
+        help=f"bound the number of attempts in the loop {_round(round_)}",
     )
 
 

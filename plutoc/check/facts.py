@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from plutoc.check.flow import Facts, Place, ordered
 from plutoc.graph.model import Graph, Node
@@ -10,6 +10,8 @@ from plutoc_runtime.status import Status
 
 OUTCOMES = (Status.STANDBY, Status.COMPLETED, Status.FAILED)
 """How a trip can end: well with more to fly, well as the last one, or not well."""
+Way = tuple[Status, Facts]
+"""A status with which a mission leaves a block, and what it has behind it then."""
 _MOST_REMEMBERED = 200_000
 """Blocks times different bounds; in a graph with more, no bound is remembered, only its block's
 own word is taken: then a loop that only trips with attempts left can leave is not found."""
@@ -31,23 +33,50 @@ def puts_trips(node: Node) -> bool:
     return bool(node.hook and node.hook.emits)
 
 
-def leaving(node: Node, place: Place, remember: bool) -> Iterator[tuple[Status, Facts]]:
-    """Give each status with which a mission can leave a block, and what it has behind it then."""
+def is_over(place: Place) -> bool:
+    """Has a mission nothing left to fly here?"""
+    return place.status is Status.COMPLETED or place.facts.spent
+
+
+def leaving(node: Node, place: Place, remember: bool, lasting: bool) -> Iterator[Way]:
+    """Give each status with which a mission can leave a block, and what it has behind it then.
+
+    Where an answer is `lasting`, the block may be asked again before anything is flown.
+    """
     facts, bound = place.facts, bound_of(node) if remember else 0
+    if facts.spent and (node.block.allocates or node.block.retries):
+        return  # with no trip left the mission ends here
     emitted = ordered(node.emitted(place.status))
     if node.block.watches and facts.outcome in emitted:
         emitted = (facts.outcome,)
     if bound and facts.attempts >= bound and Status.FAILED in emitted:
         emitted = (Status.FAILED,)
+    for name, said in facts.said:
+        if name == node.name and said in emitted:
+            emitted = (said,)
     for status in emitted:
-        if bound and status is Status.FAILED:
-            yield status, facts._replace(attempts=max(facts.attempts, bound))
-        else:
-            for behind in _behind(node, facts):
-                yield status, behind
+        for behind in _behind(node, facts, status, bound):
+            yield status, _remembered(node, behind, status) if lasting else behind
 
 
-def _behind(node: Node, facts: Facts) -> tuple[Facts, ...]:
+def unless_failed(place: Place, ways: Sequence[Way]) -> Sequence[Way]:
+    """Return how a mission that has nothing left to fly leaves a block, if no hook fails it.
+
+    Without a trip in flight RUNNING is a fault, and so is UNEXECUTED once one has been flown. A hook
+    that can say nothing else fails it all the same.
+    """
+    kept = [way for way in ways if way[0] in (Status.STANDBY, Status.COMPLETED)]
+    return kept if kept and place.status is Status.COMPLETED else ways
+
+
+def elsewhere(facts: Facts) -> Facts:
+    """Forget what was said on a way round, where no way leads back before the next launch."""
+    return facts._replace(said=()) if facts.said else facts
+
+
+def _behind(node: Node, facts: Facts, status: Status, bound: int) -> tuple[Facts, ...]:
+    if bound and status is Status.FAILED:
+        return (facts._replace(attempts=max(facts.attempts, bound)),)
     if node.block.launches:
         return tuple(
             Facts(
@@ -60,6 +89,16 @@ def _behind(node: Node, facts: Facts) -> tuple[Facts, ...]:
         )
     if node.block.allocates:
         return (facts._replace(allocated=True, outcome=None),)
-    if puts_trips(node):
-        return (facts._replace(attempts=0),)
+    if node.block.evaluates and facts.spent != (status is Status.FAILED):
+        return (facts._replace(spent=status is Status.FAILED),)
+    if puts_trips(node) and (facts.attempts or facts.spent):
+        return (facts._replace(attempts=0, spent=False),)
     return (facts,)
+
+
+def _remembered(node: Node, facts: Facts, status: Status) -> Facts:
+    """Add what a block has said, if it says the same until something is flown."""
+    # as long as a round is left, who repeats may find one round less the next time
+    if node.block.evaluates or (node.block.repeats and status is Status.COMPLETED):
+        return facts._replace(said=tuple(sorted({**dict(facts.said), node.name: status}.items())))
+    return facts

@@ -12,6 +12,9 @@ from plutoc.diagnostic import Diagnostic
 from plutoc.graph.model import Node
 from plutoc_runtime.status import Status
 
+_MOST_LOOPS = 10
+"""So many are shown, each with its way round; nobody reads those of thousands."""
+
 
 def unmended(flow: Flow) -> list[Diagnostic]:
     """Warn where a failed trip ends its mission, for want of a block that puts it back."""
@@ -41,6 +44,8 @@ def unbounded(flow: Flow) -> list[Diagnostic]:
         for place in part:
             node = flow.graph.node[place.node]
             mended = _is_mended(place, [t for t in after[place] if t in inside])
+            if len(found) == _MOST_LOOPS:
+                return list(found.values())
             if mended and node.name not in found:
                 names = blocks_of(round_of(after, part, place))
                 found[node.name] = errors.fails_forever(flow.graph, node, names)

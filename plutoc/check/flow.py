@@ -32,6 +32,10 @@ class Facts(NamedTuple):
     at the launch, once for all of them; None before the first launch and once the trip is over."""
     attempts: int = 0
     """At least so often the next trip has been flown: a bound that gave up once gives up again."""
+    spent: bool = False
+    """It has FAILED though no trip was left to fly, so nothing can be put back."""
+    said: tuple[tuple[str, Status], ...] = ()
+    """What blocks have said that say the same until something is flown, by their names."""
 
 
 class Split(NamedTuple):

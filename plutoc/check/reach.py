@@ -87,6 +87,20 @@ def untaken(flow: Flow, stopped: Flow) -> list[Diagnostic]:
     ]
 
 
+def spent(flow: Flow) -> list[Diagnostic]:
+    """Find blocks to which missions come only when no trip is left: they end there, and go nowhere."""
+    found = []
+    ended = {p.node for p in flow.places if p.facts.spent and not flow.after[p]}
+    edges: dict[str, list[Edge]] = {}
+    for edge in flow.edges:
+        if edge.source in ended and not edge.otherwise and not flow.leaves[edge.source]:
+            edges.setdefault(edge.source, []).append(edge)
+    for name, left in edges.items():
+        way = flow.way_to(name)
+        found.append(errors.nothing_to_fly(flow.graph, flow.graph.node[name], left, way))
+    return found
+
+
 def spare(flow: Flow, stopped: Flow) -> list[Diagnostic]:
     """Warn of guards that say more than can happen, and of an `otherwise` with nothing left."""
     found = []

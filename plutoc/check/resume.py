@@ -94,6 +94,8 @@ def _is_point(flow: Flow, place: Place) -> bool:
     node = flow.graph.node.get(place.node)
     if node is None or place.frame is not None or not node.block.accepts >= _FIRST:
         return False
+    if place.facts.spent:
+        return False  # it ends here at once
     return node.block.allocates or (node.block.holds and not place.facts.allocated)
 
 

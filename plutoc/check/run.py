@@ -50,6 +50,7 @@ def check(graph: Graph) -> tuple[Checked, tuple[Diagnostic, ...]]:
     found += unclosed
     found += lacking
     found += reach.untaken(flow, stopped)
+    found += reach.spent(flow)
     found += parallel.written_twice(flow, parallels)
     found += unwatched
     if found:  # the same things go wrong once more after a Stop
@@ -102,7 +103,7 @@ def _in_flight(flow: Flow, parallels: Branches, *, lacking: bool) -> list[Diagno
     idle = gates.idle(flow, parallels, lacking=lacking)
     return [
         *stuck.stuck(flow, parallels, tuple(idle)),
-        *(ending.endless(flow) or ending.spinning(flow)),
+        *ending.endless(flow, tuple(idle)),
         *idle.values(),
         *flights.undrawn(flow),
         *flights.unlaunched(flow),

@@ -10,25 +10,52 @@ exploration is exact however many branches there are.
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import field
 
 from plutoc.block import Gate
-from plutoc.check import company
-from plutoc.check.facts import leaving, puts_trips, remembers_attempts
+from plutoc.check import company, errors
+from plutoc.check.facts import (
+    elsewhere,
+    is_over,
+    leaving,
+    puts_trips,
+    remembers_attempts,
+    unless_failed,
+)
 from plutoc.check.flow import Facts, Flow, Frame, Place, Split, Step
+from plutoc.check.unflown import unflown
+from plutoc.diagnostic import Rejected
 from plutoc.frozen import filled
 from plutoc.graph.model import END, START, Edge, Graph
 from plutoc_runtime.status import Status
 
 Places = dict[Place, None]
 """An ordered set."""
+MOST_PLACES = 200_000
+"""So many places of missions are looked at; an app has about as many as it has blocks."""
 
 
-def explore(graph: Graph, edges: tuple[Edge, ...], beginnings: Iterable[Place]) -> Flow:
-    """Return where missions can be, from these places on, along these edges."""
-    forgets = any(puts_trips(node) for node in graph.nodes)
-    walk = _Walk(graph=graph, edges=edges, remember=remembers_attempts(graph), forgets=forgets)
+def explore(
+    graph: Graph,
+    edges: tuple[Edge, ...],
+    beginnings: Iterable[Place],
+    *,
+    idle: Collection[str] = (),
+) -> Flow:
+    """Return where missions can be, from these places on, along these edges.
+
+    With `idle` blocks, only as long as they stay there with nothing left to fly, and as no hook fails
+    them that could do otherwise. Raises `Rejected` where there is no end of places.
+    """
+    walk = _Walk(
+        graph=graph,
+        edges=edges,
+        remember=remembers_attempts(graph),
+        forgets=any(puts_trips(node) for node in graph.nodes),
+        rounds=unflown(graph, edges),
+        idle=idle,
+    )
     walk.run(beginnings)
     return walk.flow()
 
@@ -47,6 +74,10 @@ class _Walk:
     remember: bool
     forgets: bool
     """A hook may put another trip first, in one branch while another one is in a gate."""
+    rounds: Mapping[str, int]
+    """Blocks that can be come to twice before anything is flown, and the way round of each."""
+    idle: Collection[str]
+    """If there are any, a mission that leaves them, or has something to fly, is not followed."""
     hasty: dict[Split, None] = field(default_factory=dict)
     """Forks whose gate has stopped waiting for a branch that never arrives."""
     outgoing: dict[str, list[Edge]] = field(default_factory=dict)
@@ -77,12 +108,16 @@ class _Walk:
         while self.queue:
             while self.queue:
                 self.visit(self.queue.popleft())
+                if len(self.places) > MOST_PLACES:
+                    raise Rejected([errors.too_tangled(self.graph, MOST_PLACES)])
             self.stop_waiting()
         self.accompany()
 
     def visit(self, place: Place) -> None:
         self.arrives.setdefault(place.node, set()).add(place.status)
         if place.node == END:
+            return
+        if self.idle and not (place.node in self.idle and is_over(place)):
             return
         node = self.graph.node[place.node]
         if place.frame is not None and not place.out:
@@ -92,10 +127,13 @@ class _Walk:
             if node.block.allocates or node.block.launches:
                 self.stray(place, place.frame.split)
                 return
-        for status, facts in leaving(node, place, self.remember):
+        ways = tuple(leaving(node, place, self.remember, place.node in self.rounds))
+        for status, facts in unless_failed(place, ways) if self.idle else ways:
             self.leave(place, status, facts)
 
     def reach(self, place: Place, step: Step) -> None:
+        if self.idle and self.rounds.get(place.node) != self.rounds.get(step.before.node):
+            place = place._replace(node=END)  # what follows on another way round is looked at there
         self.after.setdefault(step.before, {})[place] = None
         if place not in self.places:
             self.places[place] = step
@@ -110,9 +148,14 @@ class _Walk:
         if not taken:
             self.loose[place, status] = None
         elif len(taken) == 1:
+            if self.rounds.get(place.node) != self.rounds.get(taken[0].target):
+                facts = elsewhere(facts)
             target = Place(frame=place.frame, node=taken[0].target, status=status, facts=facts)
             self.reach(target, Step(before=place, leaving=status))
         else:
+            turns = self.rounds.get(place.node)
+            if all(self.rounds.get(edge.target) != turns for edge in taken):
+                facts = elsewhere(facts)
             split = Split(node=place.node, status=status, facts=facts)
             self.entries.setdefault(split, {})[place] = None
             for branch, edge in enumerate(taken):
@@ -124,14 +167,14 @@ class _Walk:
                 for passed, arrival in tuple(gate.items()):
                     self.go_on(arrival, passed, place)
             for lost in tuple(self.strays.get(split, ())):
-                self.go_on(lost, (lost.status, lost.facts.attempts), place)
+                self.go_on(lost, (lost.status, lost.facts), place)
 
     def close(self, place: Place, frame: Frame, gate: Gate) -> None:
         """A clone arrives at the gate of its fork."""
         branches = self.closes.setdefault(frame.split, {}).setdefault(place.node, {})
         branches.setdefault(frame.branch, {})[place] = None
         passed = self.through.get(frame.split, {}).get(place.node, {})
-        known = (place.status, place.facts.attempts) in passed
+        known = (place.status, place.facts) in passed
         if gate is Gate.ALL or not known:  # the second to bring the same changes nothing
             self.let_through(frame.split, place.node, gate)
 
@@ -156,8 +199,8 @@ class _Walk:
             return {}
         passing = company.passing(gate, branches)
         if self.forgets:
-            for (status, _), arrival in tuple(passing.items()):
-                passing.setdefault((status, 0), arrival)
+            for (status, facts), arrival in tuple(passing.items()):
+                passing.setdefault((status, facts._replace(attempts=0)), arrival)
         return passing
 
     def go_on(self, arrival: Place, what: company.Passing, entry: Place) -> None:
@@ -167,8 +210,7 @@ class _Walk:
 
     def beyond(self, arrival: Place, what: company.Passing, entry: Place) -> Place:
         """Return the place of the mission behind the gate."""
-        status, attempts = what
-        facts = arrival.facts._replace(attempts=attempts)
+        status, facts = what
         return Place(frame=entry.frame, node=arrival.node, status=status, facts=facts, out=True)
 
     def accompany(self) -> None:
@@ -191,7 +233,7 @@ class _Walk:
         """A clone is flown before its gate: an error, walked on as if its branch ended here."""
         self.strays.setdefault(split, {})[place] = None
         for entry in tuple(self.entries[split]):
-            self.go_on(place, (place.status, place.facts.attempts), entry)
+            self.go_on(place, (place.status, place.facts), entry)
 
     def width(self, split: Split) -> int:
         if split not in self.widths:

@@ -11,6 +11,31 @@ LOOP = "    watch -> allocate when STANDBY\n    watch -> end\n"
 STRAIGHT = f"    start -> create -> allocate -> launch -> watch\n{LOOP}"
 OUT = "    first -> allocate when STANDBY\n    first -> end\n"
 OPEN = GATED.replace("[watch, timer] -> first", "[watch, timer]")
+FLOWN = f"""{BASIC}
+    start -> create -> allocate -> launch -> watch -> allocate when STANDBY
+    watch -> end when FAILED
+"""
+REPEATED = f"""{FLOWN}
+    again = MissionRepeater
+    watch -> again when COMPLETED
+    again -> allocate when STANDBY
+"""
+JUDGED = f"""{FLOWN}
+    judge = MissionEvaluator
+    watch -> judge when COMPLETED
+    judge -> allocate when STANDBY
+    judge -> end when FAILED
+"""
+BRANCHED = f"""{FLOWN}
+    again = MissionRepeater
+    note = MissionModifier
+    all = GateFunnel
+    watch -> [again, note] when COMPLETED
+    again -> all when STANDBY
+    note -> all
+    all -> allocate when STANDBY
+    all -> end
+"""
 
 MISTAKES = {
     "no block makes missions": (
@@ -87,6 +112,86 @@ MISTAKES = {
             "    start -> create -> allocate -> launch -> watch -> allocate when STANDBY\n"
             "    watch -> end when FAILED\n    watch -> again when COMPLETED\n"
             "    again -> again when COMPLETED\n    again -> allocate when STANDBY"
+        ),
+    ),
+    "a repeater that a modifier leads back to": (
+        "P2025",
+        "look",
+        f"{REPEATED}    look = MissionModifier\n    again -> look when COMPLETED\n    look -> again",
+    ),
+    "a repeater in a loop of forks": (
+        "P2025",
+        "look",
+        (
+            f"{REPEATED}    look = MissionModifier\n    note = MissionModifier\n    all = GateFunnel\n"
+            "    again -> [look, note] when COMPLETED\n    [look, note] -> all -> again"
+        ),
+    ),
+    "an evaluator that leads back to itself": (
+        "P2025",
+        "judge",
+        f"{JUDGED}    judge -> judge when COMPLETED",
+    ),
+    "an evaluator and a repeater that lead to each other": (
+        "P2025",
+        "judge",
+        (
+            f"{JUDGED}    again = MissionRepeater\n    judge -> again when COMPLETED\n"
+            "    again -> judge when COMPLETED\n    again -> allocate when STANDBY"
+        ),
+    ),
+    "an evaluator beside a modifier, again and again": (
+        "P2025",
+        "all",
+        (
+            f"{FLOWN}    judge = MissionEvaluator\n    mark = MissionModifier\n"
+            "    note = MissionModifier\n    all = GateFIFO\n"
+            "    watch -> mark when COMPLETED\n    mark -> [judge, note] -> all\n"
+            "    all -> mark when COMPLETED\n    all -> allocate when STANDBY\n"
+            "    all -> end when FAILED"
+        ),
+    ),
+    "a loop that only a hook which fails the mission would leave": (
+        "P2025",
+        "mend",
+        (
+            f"{REPEATED}    mend = MissionModifier emits COMPLETED, FAILED\n"
+            "    again -> mend when COMPLETED\n    mend -> again when COMPLETED\n"
+            "    mend -> end when FAILED"
+        ),
+    ),
+    "such a loop in a branch whose gate waits": (
+        "P2025",
+        "mend",
+        (
+            f"{BRANCHED}    mend = MissionModifier emits COMPLETED, FAILED\n"
+            "    again -> mend when COMPLETED\n    mend -> again when COMPLETED\n"
+            "    mend -> all when FAILED"
+        ),
+    ),
+    "a branch that goes round a repeater and a modifier": (
+        "P2014",
+        "watch -> [again",
+        (
+            f"{BRANCHED}    look = MissionModifier\n    again -> look when COMPLETED\n"
+            "    look -> again"
+        ),
+    ),
+    "an allocator behind an evaluator's FAILED": (
+        "P2008",
+        "other -> second",
+        (
+            f"{JUDGED.replace('judge -> end', 'judge -> other')}    judge -> end when COMPLETED\n"
+            "    other = DroneAllocator\n    second = TripLauncher\n    see = TripMonitor\n"
+            "    other -> second -> see\n    see -> allocate when STANDBY\n    see -> end"
+        ),
+    ),
+    "a retry behind an evaluator's FAILED": (
+        "P2008",
+        "mend -> allocate",
+        (
+            f"{JUDGED.replace('judge -> end', 'judge -> mend')}    judge -> end when COMPLETED\n"
+            "    mend = PriorityManager\n    mend -> allocate when STANDBY\n    mend -> end"
         ),
     ),
     "a graph without an end": (

@@ -2,20 +2,28 @@
 
     python -m tests.soundness
     python -m tests.soundness --random 2000 --seed 7
+    python -m tests.soundness --loops 5000 --fly 50
 
 Prints a table and every disagreement, with the app and a run that shows it; exits with 1 if there
-is one.
+is one. With `--fly` what is accepted is flown, too, by hooks that never change their mind, in virtual
+time and the first of them in real time; it exits with 1 as well where a mission then never ends.
 """
 
 from __future__ import annotations
 
 import sys
 from argparse import ArgumentParser
+from collections import Counter
 from collections.abc import Iterator
+from itertools import chain
 from random import Random
 
+from plutoc.compile import analyse
+from plutoc.source import Source
 from tests.soundness.app import App
 from tests.soundness.compare import Compared, compare
+from tests.soundness.endings import End, endings
+from tests.soundness.loops import looping_app
 from tests.soundness.mutants import mutants
 from tests.soundness.randoms import random_app
 from tests.soundness.table import Tally, lines
@@ -26,17 +34,33 @@ def main() -> int:
     """Compare, and print."""
     parser = ArgumentParser(prog="python -m tests.soundness")
     parser.add_argument("--random", type=int, default=0, metavar="N", help="random apps instead")
+    parser.add_argument(
+        "--loops", type=int, default=0, metavar="N", help="apps full of loops instead"
+    )
+    parser.add_argument("--fly", type=int, metavar="N", help="fly what is accepted, N in real time")
     parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args()
-    apps = randoms(options.random, options.seed) if options.random else edited()
+    apps = edited()
+    if options.random or options.loops:
+        apps = chain(randoms(options.random, options.seed), looping(options.loops, options.seed))
     tallies: dict[str, Tally] = {}
-    for name, what, app in apps:
+    ends: Counter[End] = Counter()
+    left = options.fly or 0
+    for number, (name, what, app) in enumerate(apps):
         compared = compare(app)
         tallies.setdefault(name, Tally()).add(compared)
+        if options.fly is not None and not compared.codes:
+            found = [*flown(app, number), *(flown(app, number, real=True) if left else ())]
+            left = max(0, left - 1)
+            ends.update(found)
+            if End.HANGS in found:
+                print("\n".join([f"HANGS: {name}: {what}", app.text]), flush=True)
         if not compared.agrees or (compared.judgement and compared.judgement.doubtful):
             print("\n".join(said(f"{name}: {what}", app, compared)), flush=True)
     print("\n".join(lines(tallies)))
-    return 1 if any(tally.disagreements for tally in tallies.values()) else 0
+    for end in End if options.fly is not None else ():
+        print(f"{ends[end]:8} missions: {end}")
+    return 1 if ends[End.HANGS] or any(tally.disagreements for tally in tallies.values()) else 0
 
 
 def edited() -> Iterator[tuple[str, str, App]]:
@@ -51,6 +75,18 @@ def randoms(number: int, seed: int) -> Iterator[tuple[str, str, App]]:
     """Yield random apps, each with a seed of its own."""
     for one in range(seed, seed + number):
         yield "random", f"seed {one}", random_app(Random(one))
+
+
+def flown(app: App, seed: int, *, real: bool = False) -> tuple[End, ...]:
+    """Fly an app that the compiler accepts."""
+    checked, _ = analyse(Source(path="app.pluto", text=app.text))
+    return endings(checked, seed, real=real)
+
+
+def looping(number: int, seed: int) -> Iterator[tuple[str, str, App]]:
+    """Yield random apps full of loops on which nothing is flown."""
+    for one in range(seed, seed + number):
+        yield "loops", f"seed {one}", looping_app(Random(f"loops/{one}"))
 
 
 def said(title: str, app: App, compared: Compared) -> Iterator[str]:

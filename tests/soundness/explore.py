@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from tests.soundness.app import END, START, App, Arrow, takes
 from tests.soundness.kinds import BADNESS, END_ACCEPTS, FUNNEL, GATES, LIMITS, WATCHES, R, Status, U
 from tests.soundness.state import Branch, Stack, State, Token, Verdict, Wrong
-from tests.soundness.steps import MOST_TRIPS, landed, outcomes
+from tests.soundness.steps import MOST_TRIPS, hooks_fail, landed, outcomes
 from tests.soundness.walk import Run, Walk
 
 ENOUGH = 2_000
@@ -46,7 +46,6 @@ class Explorer:
         self.strict = strict
         self.patient = patient
         """No gate calls a branch off: shows branches that would never have closed."""
-        self.unlike = unlike_bounds(app)
         self.most_flights = max((block.limit for block in app.blocks), default=0)
         self.seen = Seen()
 
@@ -61,12 +60,16 @@ class Explorer:
             state = walk.queue.popleft()
             self.note_limits(state)
             moved = False
-            for step, then in self.steps(state):
+            for step, then, fails in self.steps(state):
                 moved = True
                 if isinstance(then, Wrong):
                     walk.settled.append(state)
                     wrong.setdefault(then.verdict, (*walk.run(state), f"{step}: {then}"))
                 else:
+                    if not fails:
+                        walk.failing.discard((state, then))
+                    elif then not in walk.after.get(state, ()):
+                        walk.failing.add((state, then))
                     walk.come(state, then, step)
             if not state.tokens or not moved:
                 walk.settled.append(state)
@@ -75,7 +78,7 @@ class Explorer:
         self.seen.states = len(walk.came)
         self.seen.cut = bool(walk.queue)
         if not self.seen.cut:
-            for state in walk.hopeless():
+            for state in walk.hopeless() or walk.left_to_hooks():
                 kept = Verdict.DEADLOCKED if walk.keeps_waiting(state) else Verdict.ENDLESS
                 wrong.setdefault(kept, walk.run(state))
         return self.seen
@@ -89,8 +92,8 @@ class Explorer:
                 if WATCHES in kinds:
                     self.seen.beside.add((token.block, token.stack))
 
-    def steps(self, state: State) -> Iterator[tuple[str, State | Wrong]]:
-        """Yield everything that can happen next."""
+    def steps(self, state: State) -> Iterator[tuple[str, State | Wrong, bool]]:
+        """Yield everything that can happen next, and whether a hook fails the mission for no need."""
         if not state.tokens:
             return
         for place, token in enumerate(state.tokens):
@@ -98,18 +101,18 @@ class Explorer:
             if token.phase == "at" and not self.calls_off(token):
                 rest = state.tokens[:place] + state.tokens[place + 1 :]
                 for then in self.gated(state, rest, token):
-                    yield f"{token.block} gets {token.status}", then
+                    yield f"{token.block} gets {token.status}", then, False
                 return
         if state.flight == R:
             for then in landed(state):
-                yield f"the trip ends {then.flight}", then
+                yield f"the trip ends {then.flight}", then, False
         for place, token in enumerate(state.tokens):
             if token.phase == "waits":
                 continue
             rest = state.tokens[:place] + state.tokens[place + 1 :]
             if token.phase == "at":
                 for then in self.gated(state, rest, token):
-                    yield f"{token.block} gets {token.status}", then
+                    yield f"{token.block} gets {token.status}", then, False
                 continue
             block = self.blocks[token.block]
             try:
@@ -119,15 +122,19 @@ class Explorer:
                     block,
                     strict=self.strict,
                     most_flights=self.most_flights,
-                    unlike=self.unlike,
                 )
                 ways = list(found)
                 if not ways and block.emits and state.flight != R:
-                    yield f"{token.block} is at fault", with_tokens(state, ())
+                    yield f"{token.block} is at fault", with_tokens(state, ()), False
+                failing = hooks_fail(state, token, block, ways)
                 for status, then in ways:
-                    yield f"{token.block} {status}", self.left(then, rest, token, status)
+                    if status is None:
+                        yield f"{token.block} ends it", with_tokens(then, ()), False
+                        continue
+                    left = self.left(then, rest, token, status)
+                    yield f"{token.block} {status}", left, status in failing
             except Wrong as wrong:
-                yield token.block, wrong
+                yield token.block, wrong, False
 
     def left(
         self, state: State, rest: tuple[Token, ...], token: Token, status: Status

@@ -47,8 +47,17 @@ class State(NamedTuple):
     """Allocated since the previous launch."""
     flight: Status | None
     """RUNNING, or how the last flight ended; None before the first launch."""
-    over: bool = False
-    """A repeater has found no round left, and no hook has been asked since."""
+    said: tuple[tuple[str, Status], ...] = ()
+    """What repeaters and evaluators have said since the last launch: asked again, they say the same."""
+    given_up: tuple[str, ...] = ()
+    """Retries that gave the first trip up, since the last launch: asked again, they do so again."""
+    spent: bool = False
+    """An evaluator has failed it, so that no trip is left; a modifier's hook may have put one back."""
+
+    @property
+    def idle(self) -> bool:
+        """Say whether nothing is left to fly, and nothing flies."""
+        return not self.trips and self.flight not in (None, Status.RUNNING)
 
 
 class Verdict(StrEnum):

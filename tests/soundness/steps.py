@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from tests.soundness.app import Block
 from tests.soundness.kinds import FIVE, MONITORS, C, F, R, S, Status, U
@@ -18,12 +18,16 @@ def outcomes(
     *,
     strict: bool,
     most_flights: int,
-    unlike: bool = False,
-) -> Iterator[tuple[Status, State]]:
-    """Yield every status with which the mission can leave a block now, and what has become of it."""
+) -> Iterator[tuple[Status | None, State]]:
+    """Yield every status with which the mission can leave a block now, and what has become of it.
+
+    With None it ends right there, and no arrow is asked.
+    """
     match block.kind:
         case "MissionCreator":
             yield U, state
+        case "DroneAllocator" | "PriorityManager" if state.spent:
+            yield None, state
         case "DroneAllocator":
             yield (S if token.status == F else token.status), state._replace(drone=True)
         case "TripLauncher":
@@ -34,27 +38,42 @@ def outcomes(
             if state.flight != R:
                 yield state.flight, state
         case "MissionRepeater":
-            if not state.over:
+            if (block.name, C) not in state.said:
                 yield from ((S, with_trips(state, trips)) for trips in (1, MOST_TRIPS))
-            yield C, state._replace(over=True)
+            yield C, having_said(state, block, C)
         case "MissionEvaluator":
-            state = state._replace(over=False)
-            yield from ((S, with_trips(state, trips)) for trips in (1, MOST_TRIPS))
-            yield from ((C, state), (F, state))
+            before = dict(state.said).get(block.name)
+            for status in (S, C, F) if before is None else (before,):
+                after = having_said(state, block, status)._replace(spent=status == F)
+                for trips in (1, MOST_TRIPS) if status == S else (0,):
+                    yield status, with_trips(after, trips) if trips else after
         case "PriorityManager":
-            yield from (
-                (status, state) for status in retried(state, block, by_count=strict or not unlike)
-            )
+            for status in retried(state, block, by_count=strict):
+                names = {*state.given_up, block.name} if status == F else state.given_up
+                yield status, state._replace(given_up=tuple(sorted(names)))
         case "MissionModifier" if block.emits:
-            state = state._replace(over=False)
             for status, after in modified(state, token, block, strict):
-                early = status == F != token.status and state.flight == F
-                # a trip that fails again before it is launched again was tried once more
-                yield status, after._replace(flown=tried(after, most_flights)) if early else after
-        case "MissionModifier":
-            yield token.status, state._replace(over=False)
+                # of a mission that another branch has failed it knows nothing
+                spent = after.spent and F not in (status, token.status)
+                yield status, after._replace(spent=spent)
         case _:
             yield token.status, state
+
+
+def hooks_fail(
+    state: State, token: Token, block: Block, ways: Sequence[tuple[Status | None, State]]
+) -> tuple[Status, ...]:
+    """Return the statuses by which a hook would fail a mission that has nothing left to fly, for no
+    need: it could leave it as it is. To say that it flies, or has never flown, is a fault."""
+    if not state.idle or token.status != C or not (block.emits or block.kind == "MissionEvaluator"):
+        return ()
+    could = {status for status, _ in ways if status in (S, C)}
+    return (F, R, U) if could else ()
+
+
+def having_said(state: State, block: Block, status: Status) -> State:
+    said = {**dict(state.said), block.name: status}
+    return state._replace(said=tuple(sorted(said.items())))
 
 
 def launched(state: State, block: Block, most_flights: int) -> State:
@@ -64,6 +83,9 @@ def launched(state: State, block: Block, most_flights: int) -> State:
         drone=False,
         flight=R,
         trips=max(state.trips, 1),
+        said=(),
+        given_up=(),
+        spent=False,
         flown=tried(state, most_flights),
     )
 
@@ -81,19 +103,19 @@ def landed(state: State) -> Iterator[State]:
 
 
 def with_trips(state: State, trips: int) -> State:
-    return state._replace(trips=trips, flown=0)
+    return state._replace(trips=trips, flown=0, given_up=())
 
 
 def retried(state: State, block: Block, *, by_count: bool) -> tuple[Status, ...]:
-    """Return what a retry may say; where several have unlike bounds, one of them can keep another
-    from ever giving up: that is beyond what has to be seen."""
+    """Return what a retry may say; where it does not count, it may give up sooner. How often a trip has
+    been flown on a way is beyond what has to be seen: one retry can keep another from ever giving up.
+    """
     if not block.limit:
         return (S,)
-    if state.flight != F or (
-        state.flown < block.limit and not by_count
-    ):  # somebody else judged it a failure
-        return (S, F)
-    return (F,) if state.flown >= block.limit else (S,)
+    if block.name in state.given_up or (state.flight == F and state.flown >= block.limit):
+        return (F,)
+    judged = state.flight != F  # it did not fail in flight: a hook said so
+    return (S, F) if judged or not by_count else (S,)
 
 
 def modified(
@@ -111,6 +133,18 @@ def modified(
             yield F, state._replace(flight=F)
         elif may_be(status, state, token, strict):
             yield status, state
+            if not strict:
+                yield from ((status, then) for then in changed(status, state))
+
+
+def changed(status: Status, state: State) -> Iterator[State]:
+    """Yield what a mission may have become whose trips a hook has changed, if it says this then."""
+    if state.flight == R:
+        return
+    if status == C and state.trips:
+        yield with_trips(state, 0)
+    elif status in (S, F, U):
+        yield with_trips(state, max(state.trips, 1))  # another trip first, or one that was put back
 
 
 def may_be(status: Status, state: State, token: Token, strict: bool) -> bool:
@@ -119,6 +153,8 @@ def may_be(status: Status, state: State, token: Token, strict: bool) -> bool:
         return True
     if state.flight == R:
         return False
-    if not strict or status in (state.flight, token.status):
+    if not strict:
         return True
-    return status == S and token.status == U
+    if (status == S) != bool(state.trips):
+        return False
+    return status in (state.flight, token.status) or (status == S and token.status == U)

@@ -107,10 +107,46 @@ def test_rounds_that_are_flown_stay_flown() -> None:
     assert "P2025" in refused(SPINNING)
 
 
-def test_a_hook_between_may_ask_for_another_round() -> None:
-    """It gets the mission, and may change how often it repeats."""
+def test_a_hook_between_changes_nothing() -> None:
+    """Without `emits` it may look at the mission; the repeater has no round left the next time."""
     noted = SPINNING.replace("more = MissionRepeater", "more = MissionModifier(hook: note)")
     noted = noted.replace("app spinning {", "app spinning {\n  modifier note")
     noted = noted.replace("[watch, again, more]", "[watch, again]")
-    assert not judge(read(noted)).runs
-    assert not refused(noted)
+    assert judge(read(noted)).runs.keys() == {Verdict.ENDLESS}
+    assert "P2025" in refused(noted)
+
+
+ALONE = """pluto 1
+app alone {
+  modifier more emits STANDBY, COMPLETED, FAILED
+  evaluator judges
+  create = MissionCreator
+  allocate = DroneAllocator
+  launch = TripLauncher
+  watch = TripMonitor
+  again = MissionRepeater
+  once = MissionRepeater
+  mend = MissionModifier(hook: more)
+  all = GateFunnel
+  judge = MissionEvaluator(hook: judges)
+  first = GateFIFO
+  start -> create -> allocate -> launch -> watch
+  watch -> allocate when STANDBY
+  watch -> end when FAILED
+  watch -> [once, again] when COMPLETED
+  once -> all when STANDBY
+  again -> mend when COMPLETED
+  mend -> mend when STANDBY
+  mend -> all when COMPLETED
+  all -> judge when COMPLETED
+  judge -> first when STANDBY, FAILED
+  judge -> judge when COMPLETED
+  first -> all when STANDBY, FAILED
+}
+"""
+
+
+def test_each_way_round_is_looked_at_alone() -> None:
+    """A clone that leaves one for a gate on another one does not pass it without the others."""
+    assert not judge(read(ALONE)).sound
+    assert "P2009" in refused(ALONE)

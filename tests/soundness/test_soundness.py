@@ -7,9 +7,11 @@ from random import Random
 import pytest
 
 from tests.soundness.compare import compare, refused
+from tests.soundness.loops import looping_app
 from tests.soundness.mutants import EDITS, Mutant, mutants
 from tests.soundness.oracle import judge
 from tests.soundness.randoms import random_app
+from tests.soundness.state import Verdict
 from tests.soundness.table import Tally
 from tests.soundness.thesis import thesis_graphs
 
@@ -51,3 +53,15 @@ def test_compiler_and_oracle_agree_on_random_apps() -> None:
         assert compared.agrees, (seed, app.text, compared)
     assert tally.sound > 5
     assert tally.unsound > 20
+
+
+def test_compiler_and_oracle_agree_on_loops_on_which_nothing_is_flown() -> None:
+    tally = Tally()
+    for seed in range(80):
+        app = looping_app(Random(f"loops/{seed}"))
+        compared = compare(app)
+        tally.add(compared)
+        assert compared.agrees, (seed, app.text, compared)
+    assert tally.sound > 20
+    assert tally.verdicts[Verdict.ENDLESS] > 10
+    assert tally.codes["P2025"] > 3

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Collection
 
 from tests.soundness.state import State
 
@@ -23,6 +24,8 @@ class Walk:
         self.before: dict[State, list[State]] = {}
         self.settled: list[State] = []
         """Ended, or stopped by a mistake."""
+        self.failing: set[tuple[State, State]] = set()
+        """Steps that come only of a hook which fails a mission with nothing left to fly, for no need."""
 
     def come(self, state: State | None, then: State, step: str) -> None:
         """Remember a step."""
@@ -44,14 +47,28 @@ class Walk:
 
     def hopeless(self) -> list[State]:
         """Return states from which nothing settled can be reached, the nearest first."""
-        hopeful = set(self.settled)
-        look = list(self.settled)
+        hopeful = self._leading_to(self.settled)
+        return [state for state in self.came if state not in hopeful][:ENOUGH_LOST]
+
+    def left_to_hooks(self) -> list[State]:
+        """Return states with nothing left to fly that only a hook which fails the mission would end."""
+        if not self.failing:
+            return []
+        flying = [state for state in self.came if not state.idle]
+        hopeful = self._leading_to([*self.settled, *flying], self.failing)
+        return [state for state in self.came if state not in hopeful][:ENOUGH_LOST]
+
+    def _leading_to(
+        self, ends: list[State], never: Collection[tuple[State, State]] = ()
+    ) -> set[State]:
+        hopeful, look = set(ends), list(ends)
         while look:
-            for state in self.before.get(look.pop(), ()):
-                if state not in hopeful:
+            then = look.pop()
+            for state in self.before.get(then, ()):
+                if state not in hopeful and (state, then) not in never:
                     hopeful.add(state)
                     look.append(state)
-        return [state for state in self.came if state not in hopeful][:ENOUGH_LOST]
+        return hopeful
 
     def keeps_waiting(self, state: State) -> bool:
         """Say whether a clone waits at a gate from here on, whatever happens."""

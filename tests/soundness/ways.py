@@ -109,7 +109,7 @@ def _left(
     try:
         found = outcomes(at.state, token, block, strict=False, most_flights=explorer.most_flights)
         for status, then in list(found):
-            if mine and here and here[0][1] not in (None, status):
+            if status is None or (mine and here and here[0][1] not in (None, status)):
                 continue
             come, wrongs = _routed(explorer, token, status)
             if mine:

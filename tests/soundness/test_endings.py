@@ -1,0 +1,58 @@
+"""Accepted apps end when they are flown; `python -m tests.soundness --loops 5000 --fly` flies many."""
+
+from __future__ import annotations
+
+from random import Random
+
+import pytest
+
+from plutoc.check import ending
+from plutoc.check.model import Checked
+from plutoc.compile import analyse
+from plutoc.diagnostic import Rejected
+from plutoc.source import Source
+from tests.soundness.app import App
+from tests.soundness.endings import End, endings
+from tests.soundness.loops import looping_app
+from tests.soundness.test_endless import SPINNING
+
+
+def accepted(app: App) -> Checked | None:
+    try:
+        return analyse(Source(path="app.pluto", text=app.text))[0]
+    except Rejected:
+        return None
+
+
+def flown(seeds: range, *, real: bool) -> list[End]:
+    """Fly those of some random apps that are accepted."""
+    ends: list[End] = []
+    for seed in seeds:
+        app = looping_app(Random(f"loops/{seed}"))
+        checked = accepted(app)
+        if checked is not None:
+            ends += endings(checked, seed, real=real)
+            assert End.HANGS not in ends, (seed, app.text)
+    return ends
+
+
+def test_what_is_accepted_ends_with_hooks_that_never_change_their_mind() -> None:
+    ends = flown(range(100), real=False)
+    assert ends.count(End.COMPLETED) > 50
+    assert ends.count(End.FAILED) > 10
+
+
+def test_it_ends_in_real_time_as_well() -> None:
+    assert len(flown(range(6), real=True)) >= 4
+
+
+def test_a_loop_that_should_have_been_refused_would_be_seen(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Through a modifier, by the number of its calls; and of repeaters alone, that no hook is in."""
+    monkeypatch.setattr(ending, "rounds", lambda flow: ())
+    noted = SPINNING.replace("more = MissionRepeater", "more = MissionModifier(hook: note)")
+    noted = noted.replace("app spinning {", "app spinning {\n  modifier note")
+    for text in (SPINNING, noted.replace("[watch, again, more]", "[watch, again]")):
+        checked, _ = analyse(Source(path="app.pluto", text=text))
+        assert End.HANGS in endings(checked, 0)
