@@ -6,7 +6,7 @@ All of them fly at once, when the first is asked how its own went: each has a dr
 from __future__ import annotations
 
 import asyncio
-from math import dist, inf, nan
+from math import dist, hypot, inf, nan
 from pathlib import Path
 
 import pytest
@@ -64,7 +64,7 @@ async def a_course_that_is_broken_off_ends_in_a_hover_nearby(folder: Path) -> No
         await asyncio.wait({flying})
         await cf.hold()
         assert 2.0 < one.position[0] < 2.8
-        assert one.drone.body.velocity == pytest.approx((0.0, 0.0, 0.0), abs=0.01)
+        assert hypot(*one.drone.body.velocity) < 0.25
 
 
 async def hold_and_land_do_nothing_on_the_ground(folder: Path) -> None:
@@ -162,9 +162,9 @@ async def preflight_says_all_that_is_wrong(folder: Path) -> None:
         cf = one.navigation
         await one.let("unsure")
         await cf.connect()
-        empty, unsure, deck = await cf.preflight()
+        empty, deck, unsure = await cf.preflight()
         assert empty.startswith("its battery has 3.") and empty.endswith("charge it")
-        assert unsure.startswith("it is not sure where it is: a variance of 0.5000 m²")
+        assert unsure.startswith("it is not sure where it is: to 0.71 m (a variance of 0.5000 m²)")
         assert deck.startswith('it has no deck "bcLoco": it has bc')
         with pytest.raises(NotReady, match="cf1 is not ready: its battery"):
             await cf.takeoff(0.5, FAST)

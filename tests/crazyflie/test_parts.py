@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import subprocess
 import sys
-from math import isclose, nan
+from math import inf, isclose, nan
 from pathlib import Path
 from threading import Event
 
@@ -17,7 +17,8 @@ from plutoc_runtime.crazyflie import borrowed, courses, words
 from plutoc_runtime.crazyflie.alarms import Alarms
 from plutoc_runtime.crazyflie.battery import Battery, level_at_rest
 from plutoc_runtime.crazyflie.certainty import Certainty
-from plutoc_runtime.crazyflie.options import options_of
+from plutoc_runtime.crazyflie.options import LOST_BEYOND, SURE_WITHIN, options_of
+from plutoc_runtime.crazyflie.pace import Pace
 from plutoc_runtime.crazyflie.state import State, state_of
 from plutoc_runtime.crazyflie.tables import kept_in
 from plutoc_runtime.crazyflie.worker import Worker
@@ -139,6 +140,24 @@ def test_the_clock_of_the_log_begins_anew_in_flight() -> None:
     assert courses.stop(before, now)[0][0] == pytest.approx(0.3, abs=0.001)
 
 
+def test_a_drone_hovers_once_it_has_not_moved_for_a_moment() -> None:
+    """The end of its course says nothing: its commander waits there for the drone."""
+    comes = [state(tick / 10, x=0.04 * tick) for tick in range(6)]
+    sways = [state(tick / 10, x=0.02 * (tick % 2)) for tick in range(6)]
+    assert not courses.at_rest(comes) and courses.at_rest(sways)
+    assert not courses.at_rest(sways[:3])  # nobody knows yet
+    assert not courses.at_rest([*comes, *(state(0.5 + tick / 10, x=0.2) for tick in (1, 2))])
+    assert courses.at_rest([*comes, *(state(0.5 + tick / 10, x=0.2) for tick in (1, 2, 3))])
+
+
+def test_a_course_is_followed_on_each_axis() -> None:
+    pace = Pace((1.0, 0.8, 0.5))
+    assert pace.seconds((0, 0, 1), (8, 0, 1), 3.0) == pytest.approx(courses.PEAK * 10)
+    assert pace.seconds((0, 0, 0), (0, 0, 2), 3.0) == pytest.approx(courses.PEAK * 4)
+    assert pace.seconds((0, 0, 1), (8, 0, 1), 0.5) == pytest.approx(courses.PEAK * 16)
+    assert list(Pace((inf, inf, inf)).too_slow_for(5.0)) == []
+
+
 # The battery
 
 
@@ -213,31 +232,49 @@ def test_a_state_is_in_radians_and_knows_its_bits() -> None:
     assert not (read.steered or read.crashed or read.locked)
 
 
-def test_it_is_sure_once_its_variance_has_been_small_for_a_second() -> None:
+def told(*variances: float, every: float = 0.25) -> Certainty:
     certainty = Certainty()
-    assert not certainty.sure(0.0)
-    for tick in range(8):
-        certainty.hear((1e-5, 1e-5, 5e-4), tick / 4)
-        assert certainty.sure(tick / 4) == (tick >= 4)
-    certainty.hear((1e-5, 0.5, 1e-5), 2.0)
-    assert not certainty.sure(2.0) and certainty.variance == 0.5
-    certainty.hear((1e-5, nan, 1e-5), 2.2)
-    assert not certainty.sure(2.2)
+    for tick, variance in enumerate(variances):
+        certainty.hear((1e-5, 1e-5, variance), tick * every)
+    return certainty
 
 
-def test_one_that_only_sees_the_ground_pass_by_is_sure_once_its_variance_stays() -> None:
+@pytest.mark.parametrize("variance", [0.0004, 0.001, 0.003])
+def test_whoever_is_seen_by_lighthouse_camera_or_radio_beacons_is_sure_enough(
+    variance: float,
+) -> None:
+    """What was measured of drones at rest: radio beacons are the worst of them."""
+    assert not told(*[variance] * 4).sure(0.75, SURE_WITHIN)
+    assert told(*[variance] * 5).sure(1.0, SURE_WITHIN)
+
+
+def test_whoever_was_not_sure_within_the_last_second_is_not_sure() -> None:
+    assert not told(*[1e-5] * 8, 0.5).sure(2.0, SURE_WITHIN)
+    assert not told(*[1e-5] * 8, nan).sure(2.0, SURE_WITHIN)
+    assert told(*[1e-5] * 8, 0.5).variance == 0.5
+    assert not told(*[1e-5] * 5, 0.02).sure(1.25, SURE_WITHIN)
+    assert told(*[0.02] * 5).sure(1.0, 0.15)
+
+
+def test_one_that_only_sees_the_ground_pass_by_is_steady_once_its_variance_stays() -> None:
     certainty = Certainty()
     for tick in range(8):
         certainty.hear((1e4 - (100 if tick < 3 else 0), 1e4, 1e-5), tick / 4)
-        assert certainty.sure(tick / 4, by_beacons=False) == (tick >= 7)
-        assert not certainty.sure(tick / 4)
+        assert certainty.steady(tick / 4) == (tick >= 7)
+        assert not certainty.sure(tick / 4, SURE_WITHIN)
 
 
 def test_what_it_said_long_ago_makes_nobody_sure() -> None:
-    certainty = Certainty()
-    for tick in range(8):
-        certainty.hear((0.0, 0.0, 0.0), tick / 4)
-    assert certainty.sure(2.0) and not certainty.sure(9.0)
+    certainty = told(*[0.0] * 8)
+    assert certainty.sure(2.0, SURE_WITHIN) and not certainty.sure(9.0, SURE_WITHIN)
+
+
+def test_a_place_is_lost_once_it_has_been_unknown_for_a_second() -> None:
+    growing = [0.003, 0.02, 0.06, 0.1, 0.2, 0.4]
+    assert not told(*growing).lost(LOST_BEYOND) and told(*growing).doubts(LOST_BEYOND)
+    assert told(*growing, 0.6).lost(LOST_BEYOND)
+    assert not told(*growing, 0.6, 0.04).lost(LOST_BEYOND)
+    assert not told(*growing, 0.6).lost(1.0) and not Certainty().lost(LOST_BEYOND)
 
 
 # Options
@@ -257,6 +294,9 @@ def test_what_it_said_long_ago_makes_nobody_sure() -> None:
         ({"grip": {"parameter": "a.b", "pick": 1, "release": 0, "x": 1}}, "grip must be a table"),
         ({"decks": [1]}, "decks must be a list of texts"),
         ({"least_voltage": nan}, "least_voltage must be a number"),
+        ({"sure_within": 0.0}, "sure_within must be a number of metres above 0"),
+        ({"sure_within": "7 cm"}, "sure_within must be a number of metres above 0"),
+        ({"lost_beyond": 0.05}, r"lost_beyond must be at least sure_within, which is 0\.07"),
         ({"starts_at_home": 1}, "starts_at_home must be true or false"),
     ],
 )
@@ -268,6 +308,8 @@ def test_an_option_that_cannot_be_used_is_named(given: dict[str, object], said: 
 def test_options_have_their_defaults() -> None:
     options = options_of({"camera": "[::1]:5000", "decks": "bcFlow2"})
     assert options.camera == ("::1", 5000) and options.decks == ("bcFlow2",)
+    assert options.sure_within == 0.07 and options.lost_beyond == pytest.approx(0.05**0.5)
+    assert options_of({"sure_within": 0.5}).lost_beyond == 0.5
     assert options.least_voltage == 3.7 and options.grip is None and dict(options.measure) == {}
 
 

@@ -28,7 +28,7 @@ THREADS = ("cflib for", "letting go", "Radio", "ping", "Incoming", "Param", "Tim
 def navigation(ether: Ether, drone: str, folder: Path) -> Crazyflie:
     home = ether.drones[drone].build.home
     uri = ether.uris[drone]
-    return Crazyflie(DroneSetup(id=drone, uri=uri, home=home, speed=2.0, options={}, folder=folder))
+    return Crazyflie(DroneSetup(id=drone, uri=uri, home=home, speed=1.0, options={}, folder=folder))
 
 
 def ether() -> Ether:

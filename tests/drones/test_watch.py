@@ -7,9 +7,10 @@ from pathlib import Path
 import pytest
 
 from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.drones import BATTERY_LOW, CRASHED, LINK_LOST, LOCKED
+from plutoc_runtime.drones import BATTERY_LOW, CRASHED, LINK_LOST, LOCKED, POSITION_LOST
 from plutoc_runtime.drones.stray import strayed
 from plutoc_runtime.errors import Failure
+from tests.drones.fakes import FakeDrone
 from tests.drones.jumping import run, the_loop
 from tests.drones.teams import FIELD, Flown, flying
 
@@ -62,6 +63,25 @@ def test_a_drone_over_a_no_fly_area_leaves_it_before_it_lands(tmp_path: Path) ->
             assert drone.told[-3] == "hold"
             assert FIELD.problem(drone.place) is None
             assert drone.place == pytest.approx((6.0, 7.0, 0.0), abs=0.3)
+
+    run(flight())
+
+
+def test_a_drone_that_does_not_know_where_it_is_stops_and_lands_there(tmp_path: Path) -> None:
+    """Not even out of a no-fly area does it fly: it may lie elsewhere. Once it knows, it is well."""
+
+    async def flight() -> None:
+        async with flying(tmp_path) as flown:
+            drone, team = await flown.up(), flown.team
+            drone.put((6.2, 7.0, 1.0))  # a little inside of it
+            the_loop().call_later(1, drone.happens, POSITION_LOST, "it sees no beacon")
+            failure, why = await fails(flown)
+            assert failure is Failure.LINK
+            assert why == "cf1 does not know where it is, and lands: it sees no beacon"
+            await flown.until(lambda: not drone.motors)
+            assert drone.told[1:] == ["hold", "land"]
+            assert await flown.do(team.reach("cf1"))
+            await flown.do(team.takeoff("cf1", 1.0))
 
     run(flight())
 
@@ -158,6 +178,53 @@ def test_a_drone_that_falls_has_crashed(tmp_path: Path, tells: bool) -> None:
     run(flight())
 
 
+class Mended(FakeDrone):
+    """One that remembers its crash until it is told that a person has looked after it."""
+
+    async def looked_after(self) -> None:
+        """Forget it."""
+        self.told.append("looked after")
+        self.reasons = ()
+
+
+def test_only_a_person_lets_a_drone_forget_its_crash(tmp_path: Path) -> None:
+    """However often it is asked how it is, and wherever it stands: it may have lost a propeller."""
+
+    async def flight() -> None:
+        drone = Mended()
+        async with flying(tmp_path, drone) as flown:
+            await flown.up()
+            team = flown.team
+            the_loop().call_later(1, drone.falls)
+            await fails(flown)
+            for _ in range(2):
+                assert not await flown.do(team.reach("cf1"))
+            assert "looked after" not in drone.told
+            team.mended("cf1")
+            assert await flown.do(team.reach("cf1"))
+            assert drone.told.count("looked after") == 1
+            await flown.do(team.takeoff("cf1", 1.0))
+
+    run(flight())
+
+
+def test_a_drone_that_is_waited_for_hears_that_it_was_looked_after(tmp_path: Path) -> None:
+    """It may have crashed before anything of this began."""
+
+    async def flight() -> None:
+        drone = Mended()
+        drone.reasons = ("it has crashed",)
+        async with flying(tmp_path, drone) as flown:
+            await flown.do(flown.team.roll_call("cf1"))
+            assert await flown.do(flown.team.reach("cf1"))
+            fetched = flown.begin(flown.team.fetched("cf1"))
+            the_loop().call_later(50, flown.team.mended, "cf1")
+            assert await flown.until(lambda: fetched.is_set) == pytest.approx(50, abs=5)
+            assert fetched.result()
+
+    run(flight())
+
+
 def test_a_drone_that_says_its_link_is_gone_is_believed(tmp_path: Path) -> None:
     """Without waiting for silence."""
 
@@ -180,9 +247,9 @@ def test_what_happens_on_the_ground_fails_no_flight(tmp_path: Path) -> None:
         async with flying(tmp_path) as flown:
             drone, team = flown.drones["cf1"], flown.team
             await flown.do(team.roll_call("cf1"))
-            for kind in (CRASHED, LOCKED, BATTERY_LOW, "sneezed"):
+            for kind in (CRASHED, LOCKED, BATTERY_LOW, POSITION_LOST, "sneezed"):
                 drone.happens(kind)
-            await flown.until(lambda: len(flown.log) >= 4)
+            await flown.until(lambda: len(flown.log) >= 5)
             assert flown.log[-1] == "cf1: sneezed: so it is"
             team.begins("cf1", None, 0.0)
             await flown.do(team.takeoff("cf1", 1.0))

@@ -2,6 +2,7 @@
 
     python -m tests.flights_crazyflie.campaign
     python -m tests.flights_crazyflie.campaign "tumbles" "link lost for 5 s"
+    python -m tests.flights_crazyflie.campaign --at-once 3
 
 Each flight has a folder of its own, which is named where something was wrong.
 """
@@ -13,10 +14,13 @@ import sys
 import time
 from argparse import ArgumentParser
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from itertools import repeat
 from pathlib import Path
 from tempfile import mkdtemp
 
 from plutoc_runtime.crtp import process
+from tests.apart import apart
 from tests.crtp.starting import COMMAND
 from tests.flights_crazyflie.flight import Flight
 from tests.flights_crazyflie.judge import unmeant
@@ -43,6 +47,8 @@ def fly(scenario: Scenario, source: Path, folder: Path) -> tuple[Flight, list[st
     world = folder / "drones"
     uris = process.start(world, homes(len(ALL)), COMMAND)
     write(folder, missions(tours(3)), fleet(len(ALL), uris))
+    if scenario.speed is not None:
+        source = quick_package(folder / "package", scenario.speed)
     flight = Flight(app=RETRY, source=source, folder=folder, world=world)
     try:
         if scenario.before is not None:
@@ -51,6 +57,8 @@ def fly(scenario: Scenario, source: Path, folder: Path) -> tuple[Flight, list[st
         if scenario.during is not None:
             scenario.during(flight)
         code = flight.wait()
+        if scenario.refused:
+            return flight, list(_unrefused(scenario, flight, code))
         left = list(gateway_left(flight))
         return flight, [*_wrong(scenario, flight, code), *left]
     except AssertionError as error:
@@ -66,6 +74,16 @@ def gateway_left(flight: Flight) -> Iterator[str]:
     flight.notes.append(f"gateway left after {time.monotonic() - began:.0f} s")
     if not ends:
         yield "the gateway does not end"
+
+
+def _unrefused(scenario: Scenario, flight: Flight, code: int) -> Iterator[str]:
+    """Yield what is wrong with a flight that must not have begun."""
+    if code != scenario.code:
+        yield f"exit code {code}"
+    if not re.search(scenario.refused, flight.told):
+        yield f"nothing is said of {scenario.refused!r}"
+    if any(deed.what in ("arm", "takeoff") for deed in flight.deeds):
+        yield "a drone was armed"
 
 
 def _wrong(scenario: Scenario, flight: Flight, code: int) -> Iterator[str]:
@@ -86,33 +104,41 @@ def _wrong(scenario: Scenario, flight: Flight, code: int) -> Iterator[str]:
         yield "a traceback was printed"
 
 
+def _flown(scenario: Scenario, source: Path, folder: Path) -> list[str]:
+    """Fly a scenario; return a line on it, and one for each thing that was wrong."""
+    began = time.monotonic()
+    flight, wrong = fly(scenario, source, folder)
+    took, said = time.monotonic() - began, "; ".join(flight.notes)
+    how = "WRONG" if wrong else "as meant"
+    return [f"{scenario.name:29} {how:9} {took:4.0f} s  {said}", *wrong]
+
+
 def main() -> int:
     """Fly the scenarios that are named, or all; 1 if anything was wrong."""
     parser = ArgumentParser(prog="python -m tests.flights_crazyflie.campaign", description=__doc__)
     parser.add_argument("names", nargs="*", metavar="SCENARIO", help="default: all")
-    names = parser.parse_args().names
+    parser.add_argument(
+        "--at-once", type=int, default=1, metavar="N", help="fly N side by side (default: 1)"
+    )
+    options = parser.parse_args()
+    names = options.names
     known = [scenario.name for scenario in SCENARIOS]
     if any(name not in known for name in names):
         parser.error(f"there are {', '.join(known)}")
     folder = Path(mkdtemp(prefix="crazyflies-"))
     source = quick_package(folder / "package")
     print(f"flights in {folder}", flush=True)
+    chosen = [one for one in SCENARIOS if not names or one.name in names]
+    folders = [folder / str(number) for number, _ in enumerate(chosen)]
     bad = 0
-    for number, scenario in enumerate(SCENARIOS):
-        if names and scenario.name not in names:
-            continue
-        began = time.monotonic()
-        flight, wrong = fly(scenario, source, folder / str(number))
-        bad += bool(wrong)
-        took = time.monotonic() - began
-        said = "; ".join(flight.notes)
-        print(f"{scenario.name:28} {'WRONG' if wrong else 'as meant':9} {took:4.0f} s  {said}")
-        for one in wrong:
-            print(f"    {one}")
-        sys.stdout.flush()
-    print(f"{bad} of {len(names or SCENARIOS)} are wrong")
+    with ThreadPoolExecutor(options.at_once) as pool:
+        for lines in pool.map(_flown, chosen, repeat(source), folders):
+            bad += len(lines) > 1
+            print(*lines, sep="\n    ", flush=True)
+    print(f"{bad} of {len(chosen)} are wrong")
     return 1 if bad else 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    with apart():
+        sys.exit(main())

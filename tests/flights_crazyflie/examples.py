@@ -2,6 +2,7 @@
 
     python -m tests.flights_crazyflie.examples
     python -m tests.flights_crazyflie.examples --as-written alfalfa
+    python -m tests.flights_crazyflie.examples drugs_distribution --times 20 --at-once 4
 
 prints a line each. By default drones are fast, and rounds follow each other soon: some ten
 minutes in all, three flights at a time. Each has a folder of its own, which is named.
@@ -22,14 +23,15 @@ from typing import Any
 
 from plutoc_runtime.crtp.record import Point
 from plutoc_runtime.journal.values import point_of
+from tests.apart import apart
 from tests.flights_crazyflie.campaign import gateway_left
 from tests.flights_crazyflie.flight import Event, Flight
 from tests.flights_crazyflie.judge import beside_its_target, nearest, unmeant
 from tests.flights_crazyflie.plans import quick_package, write
 from tests.flying import EXAMPLES, NAMES
 
-SPEED = 2.0
-"""Metres per second that fast drones fly at most."""
+SPEED = 1.0
+"""Metres per second that fast drones fly at most: their position controllers allow no more."""
 _SLOW, _SOON = 'every = "15 min"', 'every = "2 min"'
 _PATIENCE = 3600.0
 AT_ONCE = 3
@@ -55,9 +57,8 @@ target = [7.0, 5.0]
 """What else is flown: no simulated camera sees anything, so nothing else asks for these actions."""
 
 
-def prepared(app: str, folder: Path, *, as_written: bool) -> Flight:
-    """Compile an example, and put its two files beside it."""
-    source = quick_package(folder / "package", None if as_written else SPEED, app)
+def prepared(app: str, source: Path, folder: Path, *, as_written: bool) -> Flight:
+    """Put an example's two files beside its compiled package."""
     missions, fleet = ((EXAMPLES / app / f"{name}.toml").read_text() for name in _FILES)
     if not as_written:
         missions = missions.replace(_SLOW, _SOON)
@@ -151,17 +152,36 @@ def main() -> int:
     parser = ArgumentParser(prog="python -m tests.flights_crazyflie.examples", description=__doc__)
     parser.add_argument("names", nargs="*", metavar="EXAMPLE", help="default: all")
     parser.add_argument(
+        "--times", type=int, default=1, metavar="N", help="how often each is flown (default: 1)"
+    )
+    parser.add_argument(
+        "--at-once",
+        type=int,
+        default=AT_ONCE,
+        metavar="N",
+        help=f"how many are flown side by side (default: {AT_ONCE})",
+    )
+    parser.add_argument(
         "--as-written", action="store_true", help="at their own speed: alfalfa takes half an hour"
     )
     options = parser.parse_args()
     names = options.names or NAMES
     if any(name not in NAMES for name in names):
         parser.error(f"there are {', '.join(NAMES)}")
+    if options.times < 1 or options.at_once < 1:
+        parser.error("--times and --at-once are 1 at least")
     folder = Path(mkdtemp(prefix="examples-"))
     print(f"flights in {folder}", flush=True)
-    flights = [prepared(name, folder / name, as_written=options.as_written) for name in names]
+    flights: list[Flight] = []
+    for name in names:
+        speed = None if options.as_written else SPEED
+        source = quick_package(folder / name / "package", speed, name)
+        for number in range(1, options.times + 1):
+            flights.append(
+                prepared(name, source, folder / name / str(number), as_written=options.as_written)
+            )
     bad = 0
-    with ThreadPoolExecutor(AT_ONCE) as pool:
+    with ThreadPoolExecutor(options.at_once) as pool:
         for flight, wrong in zip(flights, pool.map(wrong_with, flights), strict=True):
             bad += bool(wrong)
             said = "; ".join(flight.notes)
@@ -170,9 +190,10 @@ def main() -> int:
             for one in [*wrong, *dict.fromkeys(f"- {why}" for why in reasons)]:
                 print(f"    {one}")
             sys.stdout.flush()
-    print(f"{bad} of {len(names)} are wrong")
+    print(f"{bad} of {len(flights)} are wrong")
     return 1 if bad else 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    with apart():
+        sys.exit(main())

@@ -21,7 +21,7 @@ DISTRIBUTION, RETRY = "drugs_distribution", "drugs_distribution_retry"
 """Examples: one that gives up a trip that fails, and one that lets another drone fly it."""
 
 
-def quick_package(into: Path, speed: float | None = 2.0, app: str = RETRY) -> Path:
+def quick_package(into: Path, speed: float | None = 1.0, app: str = RETRY) -> Path:
     """Compile an example with drones of another speed; return the folder of its sources."""
     copytree(EXAMPLES / app, into, dirs_exist_ok=True)
     if speed is not None:

@@ -17,6 +17,10 @@ ALL = ("cf1", "cf2", "cf3", "cf4")
 """The drones of each of these flights; three missions are flown, so one of them has time."""
 
 
+_CRASHED = 1 << 7
+"""What a drone says of itself that has crashed, until it was asked to forget it."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Scenario:
     """A fault, and what must come of it."""
@@ -31,6 +35,10 @@ class Scenario:
     falls: tuple[str, ...] = ()
     """The drones that may come down otherwise than by landing."""
     code: int = 0
+    speed: float | None = None
+    """Metres per second that its drones may fly; None: as fast as a Crazyflie follows."""
+    refused: str = ""
+    """A pattern of why nothing is flown; empty: missions are flown."""
 
 
 def nothing(_: Flight) -> None:
@@ -116,10 +124,27 @@ def fetched(doing: Doing) -> Doing:
     return let
 
 
+def lost_and_found_again(flight: Flight) -> None:
+    """Let a drone lose its place in its flight, and see its beacons again once it has landed."""
+    in_flight("fixes", False)(flight)
+    flight.until(lambda: "cf1" not in flight.airborne(), 30.0)
+    flight.let("cf1", "fixes", True)
+
+
+def stood_up(flight: Flight) -> None:
+    """Let a drone tumble, and a person stand it up where it lies, and press Bring back."""
+    in_flight("tumble")(flight)
+    flight.until(lambda: any(one["event"] == "drone.lost" for one in flight.events))
+    flight.let("cf1", "upright", True)
+    flight.notes.append(flight.tell("bring-back", "cf1").strip())
+    flight.until(lambda: not int(flight.state["cf1"]["info"]) & _CRASHED)
+
+
 LOST_LINK = r"link|answer|silent|heard"
 CRASH = r"tumbl|crash|turned over"
 BATTERY = r"battery"
 REFUSED = r"busy|refus|supervisor"
+LOST_PLACE = r"does not know where it is"
 
 SCENARIOS = (
     Scenario(name="nothing", during=nothing),
@@ -160,6 +185,22 @@ SCENARIOS = (
     Scenario(name="locked before take-off", before=at_once("lock")),
     Scenario(name="unsure where it is", before=at_once("unsure")),
     Scenario(name="empty before take-off", before=at_once("level", 0.02)),
+    Scenario(name="position lost", during=in_flight("fixes", False), fails=LOST_PLACE),
+    Scenario(name="position lost, and found again", during=lost_and_found_again, fails=LOST_PLACE),
+    Scenario(name="pre-empted by a set-point", before=at_once("setpoint", True, *ALL)),
+    Scenario(
+        name="pre-empted in flight",
+        during=in_flight("setpoint"),
+        fails=rf"{CRASH}|lock|on the ground",
+        falls=("cf1",),
+    ),
+    Scenario(name="a deck's fault", before=at_once("deck")),
+    Scenario(
+        name="a deck's fault in flight", during=in_flight("deck"), fails=r"deck", falls=("cf1",)
+    ),
+    Scenario(name="too fast", speed=2.0, refused=r"follows no course faster than 1 m/s", code=2),
+    Scenario(name="tumbles, and is stood up", during=stood_up, fails=CRASH, falls=("cf1",)),
+    Scenario(name="as unsure as by radio beacons", before=at_once("noise", 0.15, *ALL)),
     Scenario(name="kill -9 of the brain", during=kill_brain),
     Scenario(name="kill -9 of the gateway", during=kill_gateway),
 )

@@ -11,6 +11,7 @@ from __future__ import annotations
 import sys
 import time
 from argparse import ArgumentParser
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import dist
@@ -19,9 +20,11 @@ from tempfile import mkdtemp
 
 from plutoc_runtime.asking import ask, note_of
 from plutoc_runtime.crazyflie.courses import SHORTEST, seconds_for
+from plutoc_runtime.crazyflie.pace import AS_IT_COMES
 from plutoc_runtime.crtp.record import Deed, Point
 from plutoc_runtime.drones.member import CLIMB_LIMIT
 from plutoc_runtime.journal.values import point_of
+from tests.apart import apart
 from tests.flights_crazyflie.flight import Flight
 from tests.flights_crazyflie.judge import astray, dropped, left_in_the_air, nearest
 from tests.flights_crazyflie.plans import (
@@ -41,6 +44,8 @@ APART = 0.5
 LATER = 2.0
 """Seconds that the last may be down after the slowest would be alone."""
 STOPPED = 130
+_SETTLES = 0.8
+"""Seconds that a drone is behind each of its courses, and must then have been at rest."""
 _HOVERS = "[navigation.crazyflie]\nmeasure_seconds = 100\n"
 
 
@@ -99,7 +104,8 @@ def stopped(how: str, source: Path, folder: Path, speed: float) -> Figures:
         if least < APART:
             problems.append(f"{least:.2f} m apart: {who}")
         goals = homes(TEN) if how == "rtl" else {}
-        alone = (_alone(at, goals.get(id), speed) for id, at in places.items())
+        flown = Counter(deed.drone for deed in deeds if deed.what == "go_to" and deed.time > began)
+        alone = (_alone(at, goals.get(id), speed, flown[id]) for id, at in places.items())
         return Figures(how, _last(deeds) - began, max(alone), least, tuple(problems))
     finally:
         flight.end()
@@ -113,11 +119,11 @@ def _all_there(flight: Flight) -> bool:
     return all(any(dist(place, there) < 0.15 for place in places) for there in AIMS)
 
 
-def _alone(where: Point, home: Point | None, speed: float) -> float:
+def _alone(where: Point, home: Point | None, speed: float, courses: int) -> float:
     """Return the seconds that a drone takes to come down with nobody else in the air."""
     x, y, z = where
     way = 0.0 if home is None else seconds_for(dist((x, y), home[:2]), speed)
-    return SHORTEST + way + seconds_for(z, CLIMB_LIMIT)
+    return SHORTEST + way + AS_IT_COMES.seconds_down(z, CLIMB_LIMIT) + _SETTLES * courses
 
 
 def _last(deeds: Sequence[Deed]) -> float:
@@ -142,4 +148,5 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    with apart():
+        sys.exit(main())

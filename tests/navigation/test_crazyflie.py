@@ -80,7 +80,7 @@ class TestCrazyflie(NavigationContract):
 
     def truth(self, navigation: DroneNavigation) -> Truth | None:
         body = self.hangar.flown[navigation].body
-        return Truth(position=body.position, yaw=body.yaw, motors=body.plan is not None)
+        return Truth(position=body.position, yaw=body.yaw, motors=body.motors)
 
 
 @pytest.fixture(scope="module", autouse=True)

@@ -103,7 +103,9 @@ def test_a_drone_that_cannot_be_made_is_refused_before_anything_is_written(tmp_p
 
 def test_a_module_that_ends_whoever_imports_it_does_not_end_the_app(tmp_path: Path) -> None:
     """Not with an exit code that says that all was flown."""
-    (tmp_path / "leaving.py").write_text("import os; os._exit(0)")
+    (tmp_path / "leaving.py").write_text(
+        "import os; os._exit(0)\nclass Wren:\n    async def connect(self): ..."
+    )
     done = fly(tmp_path, FLEET.replace("wren:Wren", "leaving:Wren"))
     assert done.returncode == 2
     assert '"leaving" ends the process that imports it (exit code 0)' in done.stderr

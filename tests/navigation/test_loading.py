@@ -20,6 +20,12 @@ from tests.navigation import classes
 from tests.navigation.simulated import setup
 
 HERE = classes.__name__
+CLASSES = """
+class Drone:
+    async def connect(self): ...
+class Eyes:
+    async def positions(self): ...
+"""
 
 
 def refused(name: str) -> str:
@@ -107,7 +113,7 @@ def test_the_folder_where_one_happens_to_be_is_no_place_for_code(
 def test_what_a_module_raises_is_told(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, text: str, why: str
 ) -> None:
-    (tmp_path / "broken_drones.py").write_text(text)
+    (tmp_path / "broken_drones.py").write_text(f"{text}\n{CLASSES}")
     monkeypatch.syspath_prepend(tmp_path)
     assert why in refused("broken_drones:Drone")
 
@@ -123,7 +129,7 @@ def test_what_a_module_raises_is_told(
 def test_a_module_that_ends_the_process_ends_another(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, text: str, how: str
 ) -> None:
-    (tmp_path / "quitting_drones.py").write_text(text)
+    (tmp_path / "quitting_drones.py").write_text(f"{text}\n{CLASSES}")
     monkeypatch.syspath_prepend(tmp_path)
     said = "; the last it said: licence" if "licence" in text else ""
     assert refused("quitting_drones:Drone").startswith(
@@ -137,7 +143,7 @@ def test_a_module_that_hangs_is_not_waited_for(
 ) -> None:
     """It is named, and there is a limit."""
     monkeypatch.setattr(trial, "LIMIT", 0.5)
-    (tmp_path / "hanging_drones.py").write_text("while True: pass")
+    (tmp_path / "hanging_drones.py").write_text(f"while True: pass\n{CLASSES}")
     monkeypatch.syspath_prepend(tmp_path)
     assert refused("hanging_drones:Drone") == (
         'the navigation "hanging_drones:Drone" cannot be imported: "hanging_drones" was not done'
@@ -222,7 +228,7 @@ def test_what_a_module_raises_commands_no_terminal(
 ) -> None:
     """Nor does it fill one: somebody else wrote it."""
     (tmp_path / "loud_drones.py").write_text(
-        "raise RuntimeError('\\x1b[31mred\\n' + 9999 * 'very ')"
+        f"raise RuntimeError('\\x1b[31mred\\n' + 9999 * 'very ')\n{CLASSES}"
     )
     monkeypatch.syspath_prepend(tmp_path)
     said = refused("loud_drones:Drone")

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..actions import PICK, RELEASE
-from ..drones.errors import ActionNotDone, Rejected
+from ..drones.errors import ActionNotDone, PositionLost, Rejected
 from ..model import Photo
 from . import logs, parameters, words
 from .camera import NoPicture, Picture, picture
@@ -70,11 +70,14 @@ async def act(hands: Hands, action: str, parameters_: Mapping[str, Plain]) -> ob
     reason = why_not(session.drone, options, session, action, parameters_)
     if reason is not None:
         raise ActionNotDone(reason)
+    _check_place(session)
     try:
         if action == MEASURE:
             name = options.variable_of(_quantity(parameters_))
             assert name is not None  # or there is a reason why not
-            return await hands.readings.mean(name, options.measure_seconds)
+            value = await hands.readings.mean(name, options.measure_seconds)
+            _check_place(session)
+            return value
         if action == PHOTO and options.camera is not None:
             return await _photo(hands, options.camera)
         if options.grip is not None:
@@ -84,6 +87,13 @@ async def act(hands: Hands, action: str, parameters_: Mapping[str, Plain]) -> ob
     except Rejected as error:  # the drone is well, and has not done it
         raise ActionNotDone(str(error)) from error
     return None
+
+
+def _check_place(session: Session) -> None:
+    """Raise `PositionLost` for what would be done, or was measured, nobody knows where."""
+    variance = session.certainty.variance
+    if session.doubts and variance is not None:
+        raise PositionLost(words.lost_its_place(session.drone, variance))
 
 
 def _quantity(parameters_: Mapping[str, Plain]) -> str:
@@ -100,6 +110,7 @@ async def _photo(hands: Hands, camera: tuple[str, int]) -> Photo:
         why = str(error) or "nothing came in time"
         where = f"{camera[0]}:{camera[1]}"
         raise ActionNotDone(words.no_photo(session.drone, where, why)) from error
+    _check_place(session)
     after = session.now().position
     x, y, z = (round((a + b) / 2, 3) for a, b in zip(before, after, strict=True))
     across, along = (2.0 * z * tan(radians(angle) / 2.0) for angle in hands.options.camera_view)

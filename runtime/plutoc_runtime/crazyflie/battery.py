@@ -26,7 +26,9 @@ _SETTLED, _MEASURED = 1.0, 3.0
 _SMOOTH = 1.0
 """Seconds over which volts in the air are averaged."""
 LOW = 3.2
-"""Volts in the air at which it must come down. At 3.0 it switches itself off."""
+"""Volts of a cell in the air at which it must come down. At 3.0 some builds switch off."""
+FULLEST = 4.5
+"""Volts of a cell that none has: there must be more cells than one believes."""
 _LAST = 0.02
 """What is left then."""
 
@@ -45,40 +47,47 @@ def level_at_rest(volts: float) -> float:
 class Battery:
     """What is left in one drone's battery."""
 
-    def __init__(self) -> None:
+    def __init__(self, cells: int = 1) -> None:
+        self.cells = cells
+        """How many are in series: what is measured is all of them."""
         self.level = 0.0
         """From 0 to 1."""
         self.rest: float | None = None
-        """Its volts without load, as they were last; None: not measured yet."""
+        """The volts of a cell without load, as they were last; None: not measured yet."""
         self._sag, self._sags = _USUAL, list[float]()
         self._smooth: float | None = None
         self._time = self._since = 0.0
         self._flew = False
 
+    def cell(self, state: State) -> float:
+        """Return the volts of one cell now."""
+        return state.volts / self.cells
+
     def hear(self, state: State) -> None:
         """It told how it is."""
-        if not state.volts > 0.0:
+        volts = self.cell(state)
+        if not volts > 0.0:
             return
         passed, self._time = state.time - self._time, state.time
         if not state.flies:
-            self.rest, self._flew, self._smooth = state.volts, False, None
-            self.level = level_at_rest(state.volts)
+            self.rest, self._flew, self._smooth = volts, False, None
+            self.level = level_at_rest(volts)
             return
         if not self._flew:
             self._flew, self._since, self._sags = True, state.time, []
         if self._smooth is None:
-            self._smooth = state.volts
+            self._smooth = volts
         share = min(1.0, passed / _SMOOTH)
-        self._smooth += (state.volts - self._smooth) * share
-        self._measure(state)
+        self._smooth += (volts - self._smooth) * share
+        self._measure(state, volts)
         if self.rest is None or state.time - self._since > _MEASURED:
             self.level = level_at_rest(self._smooth + self._sag)
         if state.power == LOW_POWER or self._smooth < LOW:
             self.level = min(self.level, _LAST)  # however it came to that
 
-    def _measure(self, state: State) -> None:
+    def _measure(self, state: State, volts: float) -> None:
         """Learn what flying costs, in the first seconds of a flight."""
         if self.rest is None or not _SETTLED <= state.time - self._since <= _MEASURED:
             return
-        self._sags.append(self.rest - state.volts)
+        self._sags.append(self.rest - volts)
         self._sag = min(_MOST, max(_LEAST, fmean(self._sags)))

@@ -105,11 +105,21 @@ class HighLevel(Protocol):
 
     def go_to(self, x: float, y: float, z: float, yaw: float, duration_s: float) -> None: ...
 
+    def stop(self) -> None: ...
+
+
+class LowLevel(Protocol):
+    """The commander that takes set-points one by one: it is only ever told that there are none."""
+
+    def send_notify_setpoint_stop(self) -> None: ...
+
 
 class Supervisor(Protocol):
     """The part of the firmware that permits and forbids."""
 
     def send_arming_request(self, do_arm: bool) -> None: ...
+
+    def send_crash_recovery_request(self) -> None: ...
 
     def send_emergency_stop(self) -> None: ...
 
@@ -166,6 +176,7 @@ class Cf(Protocol):
     log: Log
     param: Parameters
     high_level_commander: HighLevel
+    commander: LowLevel
     supervisor: Supervisor
     platform: Platform
     extpos: ExternalPosition

@@ -9,9 +9,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from ..drones.errors import LinkLost, NotReady, Rejected
+from ..drones.errors import LinkLost, Rejected
 from . import words
-from .borrowed import HIGH_LEVEL, SUPERVISOR
+from .borrowed import HIGH_LEVEL
 
 if TYPE_CHECKING:
     from .borrowed import Cf
@@ -21,39 +21,43 @@ if TYPE_CHECKING:
 _ACKNOWLEDGED = 0.25
 """Seconds until an answer is given up; over the radio it comes within ten milliseconds."""
 _TIMES = 8
-_ARM, _TAKEOFF, _LAND, _GO_TO = 1, 7, 8, 12
+_STOP, _TAKEOFF, _LAND, _GO_TO = 3, 7, 8, 12
 _DONE, _WRONG_STATE, _BLOCKED = 0, 1, 16
-_SEEN, _ARMED = 0.6, 3.0
-"""Seconds until a course that was begun shows in what it tells, and until it is armed."""
+_SEEN = 0.6
+"""Seconds until a course that was begun shows in what it tells."""
 
 
-async def arm(session: Session, on: bool) -> None:
-    """Arm the motors, and see that it is so; raise `NotReady` if it will not."""
-    key = (SUPERVISOR, _ARM)
+async def let_commander_rule(session: Session) -> None:
+    """Let set-points count no longer that were sent to it since it was switched on; on the ground only.
+
+    They are above its high-level commander, whose commands are then acknowledged and not obeyed.
+    Nothing answers to this: so it is said twice.
+    """
+    for _ in range(2):
+        await session.call(lambda cf: cf.commander.send_notify_setpoint_stop())
+
+
+async def forget_course(session: Session) -> None:
+    """Let it forget a course that its supervisor has cancelled, and by which no motor turns."""
 
     def send(cf: Cf) -> None:
-        cf.supervisor.send_arming_request(on)
+        cf.high_level_commander.stop()
 
-    def done(state: State) -> bool:
-        return state.can_fly if on else not state.armed
-
-    answer = await _answered(session, key, send, "arm")
-    if answer[1:2] == b"\0" or await session.until(done, _ARMED) is None:
-        raise NotReady(words.not_armed(session.drone, session.now().said))
+    await answered(session, (HIGH_LEVEL, _STOP), send, "stop", well=False)
 
 
 async def takeoff(session: Session, height: float, seconds: float) -> None:
-    """Begin to rise, the nose where it points."""
+    """Begin to rise, the nose where it points; whoever is disarmed meanwhile does not."""
 
     def begin(cf: Cf) -> None:
         cf.high_level_commander.takeoff(height, seconds, yaw=None)
 
     def begun(state: State) -> bool:
-        return state.steered
+        return state.steered or not state.armed
 
     key = (HIGH_LEVEL, _TAKEOFF)
     for _ in range(3):
-        code = (await _answered(session, key, begin, "takeoff"))[3]
+        code = (await answered(session, key, begin, "takeoff"))[3]
         if code == _WRONG_STATE and await session.until(begun, _SEEN) is not None:
             return  # it was the answer to the same command, sent twice
         _check(session, "takeoff", code)
@@ -68,7 +72,7 @@ async def land(session: Session, seconds: float) -> None:
     def begin(cf: Cf) -> None:
         cf.high_level_commander.land(0.0, seconds, yaw=None)
 
-    code = (await _answered(session, (HIGH_LEVEL, _LAND), begin, "land"))[3]
+    code = (await answered(session, (HIGH_LEVEL, _LAND), begin, "land"))[3]
     if code != _WRONG_STATE:  # it is that where it is landing already
         _check(session, "land", code)
 
@@ -91,19 +95,28 @@ async def go_to(
         return not state.finished or state.distance(target) < near
 
     for _ in range(3):
-        code = (await _answered(session, (HIGH_LEVEL, _GO_TO), begin, "go_to"))[3]
+        code = (await answered(session, (HIGH_LEVEL, _GO_TO), begin, "go_to"))[3]
         _check(session, "go_to", code)
         if await session.until(begun, _SEEN) is not None:
             return
     raise Rejected(words.not_begun(session.drone, "go_to"))
 
 
-async def _answered(
-    session: Session, key: tuple[int, int], send: Callable[[Cf], None], name: str
+async def answered(
+    session: Session,
+    key: tuple[int, int],
+    send: Callable[[Cf], None],
+    name: str,
+    *,
+    well: bool = True,
 ) -> bytes:
-    """Send a command until it is answered; return the answer, four bytes at least."""
+    """Send a command until it is answered; return the answer, four bytes at least.
+
+    Raises what `well` raises, but for what is only for one that is not well.
+    """
+    look = session.well if well else session.now
     for _ in range(_TIMES):
-        session.well()
+        look()
         hearing = session.acknowledged.expect(key)
         try:
             await session.call(send)

@@ -6,6 +6,7 @@ its peak speed is 35/16 of its mean one, and over a short way it is the accelera
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import isfinite, sqrt
 from typing import TYPE_CHECKING
 
@@ -21,14 +22,18 @@ SHORTEST = 1.0
 """Seconds: three metres in half of one have thrown a drone over."""
 NEAR = 0.1
 """Metres from its target at which it has arrived."""
-SLACK = 4.0
-"""Seconds that a course may take longer."""
+SLACK = 5.0
+"""Seconds that a course may take longer: the drone is a little behind it, and settles at its end."""
+REST = 0.15
+"""Metres per second below which it hovers: wind and beacons let it sway."""
 
 _AHEAD, _BRAKE = 0.2, 3.6
 """The share of the way that it would make while it stops, which it is let go on: it cannot stop at once,
 and is flown back less. What it then brakes with, at one metre per second and in one second."""
 _SOON, _RECENT = 0.05, 0.5
 """Seconds between two states, by the drone's clock, from which a speed can be told."""
+_LOOK = 0.3
+"""Seconds over which its rest is told: an estimate sways from one word to the next."""
 _FASTEST = 5.0
 """Metres per second; what seems faster is a position that has jumped, or a clock."""
 _FARTHEST = 1.0
@@ -50,6 +55,19 @@ def is_speed(speed: float) -> bool:
 def is_target(target: Point) -> bool:
     """Say whether one can fly to this place."""
     return all(isfinite(value) for value in target) and target[2] > 0.0
+
+
+def at_rest(states: Sequence[State]) -> bool:
+    """Say whether a drone hovers that has told these, the last one just now.
+
+    At the end of a course its commander waits for it: that says nothing of how fast it still comes.
+    """
+    now = states[-1]
+    for then in reversed(states):
+        passed = now.since(then)
+        if passed >= _LOOK:
+            return now.distance(then.position) <= REST * passed
+    return False
 
 
 def stop(before: State | None, state: State) -> tuple[Point, float]:

@@ -6,9 +6,16 @@ from collections.abc import Callable
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
-from ..drones.errors import NavigationError, OutsideArea, Rejected, TargetTimeout
-from . import commander, words
-from .courses import NEAR, SLACK, is_speed, is_target, seconds_for, stop
+from ..drones.errors import (
+    NavigationError,
+    OutsideArea,
+    PositionLost,
+    Rejected,
+    TargetTimeout,
+)
+from . import arming, commander, words
+from .courses import NEAR, SLACK, at_rest, is_speed, is_target, stop
+from .pace import pace_of
 
 if TYPE_CHECKING:
     from ..model import Point
@@ -34,38 +41,63 @@ def check_speed(drone: str, speed: float) -> None:
         raise Rejected(words.no_speed(drone, speed))
 
 
+def knows_its_place(session: Session) -> None:
+    """Raise `PositionLost` for one that does not know any more where it is."""
+    variance = session.certainty.variance
+    if session.adrift and variance is not None:
+        raise PositionLost(words.lost_its_place(session.drone, variance))
+
+
 async def takeoff(session: Session, height: float, speed: float) -> None:
     """Arm, rise straight up, and return when it hovers at this height."""
-    # a drone that has just landed is disarmed some time soon: not now
-    await session.until(lambda state: not state.flies, _SETTLES)
-    await commander.arm(session, True)
-    height_now = session.well().position[2]
-    session.took_off_at, session.commanded = session.loop.time(), True
-    seconds = seconds_for(abs(height - height_now), speed)
+    x, y, z = session.well().position
+    session.commanded = True
+    seconds = pace_of(session).seconds((x, y, z), (x, y, height), speed)
     try:
-        await _begin(session, height, seconds)
+        if not await _begun(session, height, seconds) and not await _begun(
+            session, height, seconds
+        ):
+            raise Rejected(words.disarmed(session.drone))
     except Rejected:
         with suppress(NavigationError):
-            await commander.arm(session, False)
+            await _disarm(session)
         raise
 
     def risen(state: State) -> bool:
-        return state.finished and abs(state.position[2] - height) < NEAR
+        knows_its_place(session)
+        off = abs(state.position[2] - height)
+        return _hovers(session, state) and off < NEAR
 
     if await session.until(risen, seconds + SLACK) is None:
         off = abs(session.now().position[2] - height)
         raise TargetTimeout(words.not_arrived(session.drone, "risen", off))
 
 
-async def _begin(session: Session, height: float, seconds: float) -> None:
-    """Begin to rise; once more, if it was disarmed at the very moment, as it is some time after use."""
+async def _begun(session: Session, height: float, seconds: float) -> bool:
+    """Begin to rise; False: it was disarmed just then, by whatever has done that."""
+    await session.fresh()
+    if await session.until(lambda state: not state.flies, _SETTLES) is None:
+        raise Rejected(words.still_flies(session.drone))
+    await arming.arm_anew(session)
+    session.took_off_at = session.loop.time()
     try:
         await commander.takeoff(session, height, seconds)
     except Rejected:
-        if await session.until(lambda state: not state.armed, _SEEN) is None:
-            raise
-        await commander.arm(session, True)
-        await commander.takeoff(session, height, seconds)
+        if await _is_disarmed(session):
+            return False
+        raise
+    return not await _is_disarmed(session)
+
+
+async def _is_disarmed(session: Session) -> bool:
+    """Say whether it is disarmed within a moment: what it then does not do it was not told."""
+    return await session.until(lambda state: not state.armed, _SEEN) is not None
+
+
+async def _disarm(session: Session) -> None:
+    """Leave nobody armed on the ground that does not take off."""
+    if not (await session.fresh()).flies:
+        await arming.disarm(session)
 
 
 async def go_to(session: Session, target: Point, speed: float) -> None:
@@ -74,7 +106,8 @@ async def go_to(session: Session, target: Point, speed: float) -> None:
         raise Rejected(words.not_flying(session.drone))
     if not session.now().finished:  # two courses in one make a third that nobody has asked for
         await hold(session)
-    await _course(session, target, seconds_for(session.now().distance(target), speed), "arrived")
+    seconds = pace_of(session).seconds(session.now().position, target, speed)
+    await _course(session, target, seconds, "arrived")
 
 
 async def hold(session: Session) -> None:
@@ -84,14 +117,21 @@ async def hold(session: Session) -> None:
         await session.until(lambda state: state.steered, _SEEN - since)
     if session.well().steered:
         target, seconds = stop(session.before, session.now())
-        await _course(session, target, seconds, "stopped")
+        if not session.doubts:
+            await _course(session, target, seconds, "stopped")
+        else:  # where that is nobody knows, and it is the best that can be done
+            await commander.go_to(session, target, seconds, NEAR)
+            await session.until(lambda state: state.finished, seconds + SLACK)
 
 
 async def land(session: Session, speed: float) -> None:
-    """Come down straight, and return when the motors are off; nothing, if it does not fly."""
-    state = session.well()
+    """Come down straight, and return when the motors are off; nothing, if it does not fly.
+
+    One that has just come down would start its motors again for that: what it tells now counts.
+    """
+    state = await session.fresh()
     if state.steered:
-        seconds = seconds_for(max(0.0, state.position[2]), speed)
+        seconds = pace_of(session).seconds_down(max(0.0, state.position[2]), speed)
         session.commanded = True
         await commander.land(session, seconds)
         await _down(session, lambda state: not state.steered, seconds + SLACK)
@@ -106,11 +146,17 @@ async def _course(session: Session, target: Point, seconds: float, what: str) ->
     await commander.go_to(session, target, seconds, NEAR)
 
     def there(state: State) -> bool:
-        return state.finished and state.distance(target) < NEAR
+        knows_its_place(session)
+        return _hovers(session, state) and state.distance(target) < NEAR
 
     if await session.until(there, seconds + SLACK) is None:
         off = session.now().distance(target)
         raise TargetTimeout(words.not_arrived(session.drone, what, off))
+
+
+def _hovers(session: Session, state: State) -> bool:
+    """Whether it is at the end of its course and at rest, and knows where that is."""
+    return state.finished and at_rest(session.recent) and not session.doubts
 
 
 async def _down(session: Session, ready: Callable[[State], bool], limit: float) -> None:

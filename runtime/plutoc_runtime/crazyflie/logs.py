@@ -31,7 +31,7 @@ def begin(session: Session) -> None:
 
     def certainty(_: int, values: Mapping[str, float], __: object) -> None:
         told = tuple(values[name] for name in CERTAINTY if name in values)
-        session.tell(session.certainty.hear, told, time.monotonic())
+        session.tell(session.hear_certainty, told, time.monotonic())
 
     wanted = (
         ("state", STATE, _STATE_MS, state),

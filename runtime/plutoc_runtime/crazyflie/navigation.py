@@ -10,7 +10,17 @@ from typing import TYPE_CHECKING
 
 from ..drones.errors import LinkLost, NavigationError, NotReady, Rejected
 from ..drones.telemetry import LINK_LOST, DroneEvent, DroneTelemetry
-from . import actions, flying, lights, logs, parameters, preflight, starting, words
+from . import (
+    actions,
+    flying,
+    lights,
+    logs,
+    parameters,
+    preflight,
+    recovery,
+    starting,
+    words,
+)
 from .alarms import Alarms
 from .battery import Battery
 from .emergency import cut
@@ -40,7 +50,8 @@ class Crazyflie:
         self._options = options_of(setup.options)
         self._session: Session | None = None
         self._readings: logs.Readings | None = None
-        self._battery, self._alarms = Battery(), Alarms()
+        cells = self._options.cells
+        self._battery, self._alarms = Battery(cells), Alarms(cells)
         self._state: State | None = None
         self._events: asyncio.Queue[DroneEvent | None] = asyncio.Queue()
         self._commanded = False
@@ -75,6 +86,8 @@ class Crazyflie:
         await self._left()  # two links to one drone would take each other's packets
         session = await open_session(self._id, uri, self._setup.folder, self)
         session.commanded = self._commanded
+        if not self._options.starts_at_home:  # else it never knows its place, only its way
+            session.lost_beyond = self._options.lost_beyond
         self._session, self._readings = session, logs.Readings(session)
         if self._options.starts_at_home:
             await starting.begin_at(session, self._setup.home)
@@ -105,6 +118,12 @@ class Crazyflie:
         self._state = state
         self._battery.hear(state)
         for event in self._alarms.hear(state):
+            self._events.put_nowait(event)
+
+    def doubted(self, variance: float) -> None:
+        """It told how sure it is of its place."""
+        adrift = self._session is not None and self._session.adrift
+        for event in self._alarms.hear_of_its_place(adrift, variance):
             self._events.put_nowait(event)
 
     def gone(self, why: str) -> None:
@@ -150,9 +169,12 @@ class Crazyflie:
     async def preflight(self) -> Sequence[str]:
         """Return why it must not take off."""
         try:
-            return await preflight.problems(self._linked(), self._battery, self._options)
+            return await self._problems(self._linked())
         except LinkLost as error:
             return [str(error)]
+
+    async def _problems(self, session: Session) -> list[str]:
+        return await preflight.problems(session, self._battery, self._options, self._setup.speed)
 
     async def takeoff(self, height: float, speed: float) -> None:
         """Rise straight up to this height; one that flies already goes there from where it is."""
@@ -163,7 +185,7 @@ class Crazyflie:
         if state.steered:
             await flying.go_to(session, target, speed)
             return
-        reasons = await preflight.problems(session, self._battery, self._options)
+        reasons = await self._problems(session)
         if reasons:
             raise NotReady(f"{self._id} is not ready: {'; '.join(reasons)}")
         await flying.takeoff(session, height, speed)
@@ -226,6 +248,10 @@ class Crazyflie:
         """Tell it where somebody else sees it; nothing, while it is not connected."""
         if self._session is not None and self._session.alive:
             await starting.be_located(self._session, position)
+
+    async def looked_after(self) -> None:
+        """Forget a crash: a person has looked after it."""
+        await recovery.recover(self._linked())
 
     async def identify(self) -> None:
         """Blink."""

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
-from math import isfinite
+from math import isfinite, sqrt
 
 from ..errors import BadInput
+from ..words import number
 from . import words
 
 
@@ -36,8 +37,14 @@ class Options:
     grip: Grip | None
     decks: tuple[str, ...]
     """The decks that it must have, as the firmware names them."""
+    cells: int
+    """How many its battery has in series: two, on a Bolt or a Flapper."""
     least_voltage: float
-    """Volts at rest below which it does not take off."""
+    """Volts of a cell at rest below which it does not take off."""
+    sure_within: float
+    """Metres to which it must know where it is, as a standard deviation, before it takes off."""
+    lost_beyond: float
+    """Metres to which it must know that in the air: beyond, it does not fly on."""
     starts_at_home: bool
     """It knows only how far it has flown: it is told that it stands at home."""
     addresses: tuple[str, ...]
@@ -56,6 +63,12 @@ ANY_OTHER = "*"
 _KNOWN = tuple(field.name for field in fields(Options))
 _VIEW = (65.0, 50.0)
 _LEAST_VOLTAGE = 3.7
+SURE_WITHIN = 0.07
+"""Metres: radio beacons (Loco) let it know its place to five centimetres, others to two."""
+LOST_BEYOND = sqrt(0.05)
+"""Metres, about 0.22: no more than a third of it while it sees its beacons, however it flies."""
+_LONGEST = 10.0
+_CELLS = 6
 _ADDRESS = "E7E7E7E7E7"
 
 
@@ -65,6 +78,10 @@ def options_of(given: Mapping[str, object]) -> Options:
         if key not in _KNOWN:
             raise BadInput(words.unknown_option(key, _KNOWN))
     reading = _Reading(given)
+    sure_within = reading.length("sure_within", SURE_WITHIN)
+    lost_beyond = reading.length("lost_beyond", max(LOST_BEYOND, sure_within))
+    if lost_beyond < sure_within:
+        raise reading.bad("lost_beyond", f"at least sure_within, which is {number(sure_within)}")
     return Options(
         measure=reading.names("measure"),
         measure_seconds=reading.number("measure_seconds", 1.0, least=0.0),
@@ -72,7 +89,10 @@ def options_of(given: Mapping[str, object]) -> Options:
         camera_view=reading.view("camera_view"),
         grip=reading.grip("grip"),
         decks=reading.texts("decks", ()),
+        cells=reading.count("cells", 1, most=_CELLS),
         least_voltage=reading.number("least_voltage", _LEAST_VOLTAGE, least=0.0),
+        sure_within=sure_within,
+        lost_beyond=lost_beyond,
         starts_at_home=reading.flag("starts_at_home"),
         addresses=reading.texts("addresses", (_ADDRESS,)),
         udp=reading.texts("udp", ()),
@@ -92,6 +112,18 @@ class _Reading:
         value = _number(self.given.get(key, default))
         if value is None or value < least:
             raise self.bad(key, f"a number from {least:g} on")
+        return value
+
+    def count(self, key: str, default: int, *, most: int) -> int:
+        value = self.given.get(key, default)
+        if not isinstance(value, int) or isinstance(value, bool) or not 1 <= value <= most:
+            raise self.bad(key, f"a whole number from 1 to {most}")
+        return value
+
+    def length(self, key: str, default: float) -> float:
+        value = _number(self.given.get(key, default))
+        if value is None or not 0.0 < value <= _LONGEST:
+            raise self.bad(key, f"a number of metres above 0, at most {_LONGEST:g}")
         return value
 
     def flag(self, key: str) -> bool:

@@ -28,10 +28,10 @@ def element_of(cf: Cf, name: str) -> Element | None:
     return cf.param.toc.toc.get(group, {}).get(variable)
 
 
-async def complete(session: Session) -> bool:
+async def complete(session: Session, limit: float = _ALL) -> bool:
     """Wait until all parameters have been read once; say whether that came to be."""
     with suppress(TimeoutError):
-        async with asyncio.timeout(_ALL):
+        async with asyncio.timeout(limit):
             await session.complete.wait()
     return session.complete.is_set()
 

@@ -7,7 +7,9 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from . import parameters, words
-from .certainty import LONG, MOST
+from .battery import FULLEST
+from .certainty import LONG
+from .pace import USUAL, pace_of
 
 if TYPE_CHECKING:
     from .battery import Battery
@@ -18,59 +20,83 @@ if TYPE_CHECKING:
 _DECK = "deck."
 _SETTLING = 1.5
 """Seconds that an estimate may take to settle, after it began anew."""
+_PATIENCE = 5.0
+"""Seconds for which one is waited for that is only not sure where it is: somebody may just pass."""
+_BETWEEN = 2.0
+"""Seconds in which one that has landed has disarmed itself, and can be armed again."""
+_READ = 8.0
+"""Seconds until its parameters must have been read."""
 
 
-async def problems(session: Session, battery: Battery, options: Options) -> list[str]:
+async def problems(session: Session, battery: Battery, options: Options, speed: float) -> list[str]:
     """Return all reasons."""
     version = session.cf.platform.get_protocol_version()
     if version < words.PROTOCOL:
         return [words.old_firmware(version)]  # what else it says need not be so
     if session.lacks:
         return [words.lacks_variables(session.lacks)]
-    state = session.now()
+    state = await session.until(_is_settled, _BETWEEN, well=False) or session.now()
     found = [*_of_state(state), *_of_battery(state, battery, options)]
-    by_beacons = not options.starts_at_home
-    if not await _sure(session, by_beacons):
+    found += await _of_parameters(session, options, speed)
+    if not await _sure(session, options, LONG + _SETTLING if found else _PATIENCE):
         variance = session.certainty.variance
-        found.append(words.uncertain(variance, MOST) if by_beacons else words.UNSETTLED)
-    return [*found, *await _of_decks(session, options)]
+        by_beacons = not options.starts_at_home
+        unsure = words.uncertain(variance, options.sure_within) if by_beacons else words.UNSETTLED
+        found.append(unsure)
+    return found
+
+
+def _is_settled(state: State) -> bool:
+    """Whether it is not just between its landing and the next arming, when it can do nothing."""
+    return state.can_arm or state.can_fly or state.locked or state.crashed or state.deck_failed
 
 
 def _of_state(state: State) -> Iterator[str]:
+    if state.deck_failed:
+        yield words.DECK_FAILED
     if state.locked:
         yield words.IS_LOCKED
     elif state.crashed:
-        yield words.LIES
+        yield words.LIES if state.lies else words.HAS_CRASHED
+    elif state.deck_failed:
+        return  # that is why
     elif not (state.can_arm or state.can_fly):
         yield words.cannot_fly(state.said)
 
 
 def _of_battery(state: State, battery: Battery, options: Options) -> Iterator[str]:
-    rest = state.volts if battery.rest is None else battery.rest
-    if not state.flies and rest < options.least_voltage:
-        yield words.little(rest, options.least_voltage)
+    rest = battery.cell(state) if battery.rest is None else battery.rest
+    if rest > FULLEST:
+        yield words.more_cells(rest * options.cells, options.cells)
+    elif not state.flies and rest < options.least_voltage:
+        yield words.little(rest, options.least_voltage, options.cells)
 
 
-async def _sure(session: Session, by_beacons: bool) -> bool:
+async def _sure(session: Session, options: Options, patience: float) -> bool:
     """Say whether it knows where it is; just after connecting, that takes a second to find out."""
-    end = session.loop.time() + LONG + _SETTLING
-    while not session.certainty.sure(time.monotonic(), by_beacons=by_beacons):
-        variance = session.certainty.variance
-        hopeless = by_beacons and variance is not None and variance > MOST
-        if hopeless or session.loop.time() > end:
+    end = session.loop.time() + patience
+    while not _knows_where(session, options):
+        if session.loop.time() > end:
             return False
         await session.heard(0.1)
         session.now()
     return True
 
 
-async def _of_decks(session: Session, options: Options) -> list[str]:
-    if not options.decks:
-        return []
-    if not await parameters.complete(session):
+def _knows_where(session: Session, options: Options) -> bool:
+    now, certainty = time.monotonic(), session.certainty
+    if options.starts_at_home:
+        return certainty.steady(now)
+    return certainty.sure(now, options.sure_within)
+
+
+async def _of_parameters(session: Session, options: Options, speed: float) -> list[str]:
+    asks = bool(options.decks) or speed > USUAL  # else what is not known yet is as it always is
+    if asks and not await parameters.complete(session, _READ):
         return [words.UNREAD]
     there = decks(session)
-    return [words.no_deck(deck, there) for deck in options.decks if deck not in there]
+    lacks = [words.no_deck(deck, there) for deck in options.decks if deck not in there]
+    return [*lacks, *pace_of(session).too_slow_for(speed)]
 
 
 def decks(session: Session) -> list[str]:

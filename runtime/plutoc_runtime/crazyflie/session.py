@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import asyncio
 import time
+from collections import deque
 from collections.abc import Callable
 from contextlib import suppress
 from math import inf
@@ -27,12 +28,19 @@ if TYPE_CHECKING:
 SILENCE = 1.0
 """Seconds without a word, after which a link counts as lost; a word is expected ten times a second."""
 
+FRESH = 0.5
+"""Seconds for which a new word is waited for before something is decided by it."""
+
 
 class Observer(Protocol):
     """Who is told what happens to a connection."""
 
     def told(self, state: State) -> None:
         """The drone told how it is."""
+        ...
+
+    def doubted(self, variance: float) -> None:
+        """The drone told how sure it is of its place: the variance, in square metres."""
         ...
 
     def gone(self, why: str) -> None:
@@ -61,9 +69,11 @@ class Session:
         """Held by whoever asks for a parameter."""
         self.acknowledged = Acknowledgements()
         self.certainty = Certainty()
+        self.lost_beyond = inf
+        """Metres to which it must know where it is in the air."""
         self.state: State | None = None
-        self.before: State | None = None
-        """What it told before that."""
+        self.recent: deque[State] = deque(maxlen=10)
+        """What it told lately, the last at the end: about a second."""
         self.took_off_at = -inf
         """When it was told to take off."""
         self.commanded = False
@@ -125,8 +135,16 @@ class Session:
     def hear(self, state: State) -> None:
         """It told how it is."""
         if not self.lost:
-            self.before, self.state, self._silent = self.state, state, False
+            self.state, self._silent = state, False
+            self.recent.append(state)
             self._observer.told(state)
+            self._wake()
+
+    def hear_certainty(self, variances: tuple[float, ...], at: float) -> None:
+        """It told how sure it is of its place."""
+        if not self.lost and variances:
+            self.certainty.hear(variances, at)
+            self._observer.doubted(max(variances))
             self._wake()
 
     def _look(self) -> None:
@@ -169,6 +187,22 @@ class Session:
             and self.silent_for <= SILENCE
         )
 
+    @property
+    def before(self) -> State | None:
+        """What it told before the last that it told."""
+        return self.recent[-2] if len(self.recent) > 1 else None
+
+    @property
+    def adrift(self) -> bool:
+        """Whether it flies, and has not known for long enough where it is."""
+        flies = self.state is not None and self.state.flies
+        return flies and self.certainty.lost(self.lost_beyond)
+
+    @property
+    def doubts(self) -> bool:
+        """Whether it does not know where it is at this moment: what it says of that counts nothing."""
+        return self.certainty.doubts(self.lost_beyond)
+
     def now(self) -> State:
         """Return how it is; raise why nothing can be commanded."""
         if self.lost:
@@ -181,10 +215,21 @@ class Session:
         """Return how it is; raise why it cannot fly on."""
         state = self.now()
         if state.locked:
-            raise Locked(words.locked(self.drone))
+            raise Locked(words.locked(self.drone, state.deck_failed))
         if state.crashed:
             raise Crashed(words.crashed(self.drone))
         return state
+
+    async def fresh(self) -> State:
+        """Return how it is by what it tells from now on; raise why it cannot fly on.
+
+        Who has become silent is taken at its last word, for as long as that counts.
+        """
+        last, end = self.state, self.loop.time() + FRESH
+        while self.state is last and (left := end - self.loop.time()) > 0.0:
+            self.well()
+            await self.heard(left)
+        return self.well()
 
     async def call(self, call: Callable[[Cf], object], limit: float = 2.5) -> None:
         """Call something of cflib in the drone's own thread."""

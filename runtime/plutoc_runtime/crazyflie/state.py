@@ -21,9 +21,10 @@ ROUND = (1 << 24) / 1000.0
 LOW_POWER = 3
 """What `pm.state` says of a battery that is low; above it, it switches off."""
 
-_CAN_ARM, _ARMED, _, _CAN_FLY, _FLIES, _TUMBLED, _LOCKED, _CRASHED, _STEERED, _FINISHED = (
+_CAN_ARM, _ARMED, _AUTO, _CAN_FLY, _FLIES, _TUMBLED, _LOCKED, _CRASHED, _STEERED, _FINISHED = (
     1 << place for place in range(10)
 )
+_DECK = 1 << 11
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -53,6 +54,11 @@ class State:
         return bool(self.bits & (_CAN_ARM | _ARMED))
 
     @property
+    def arms_itself(self) -> bool:
+        """Whether its build arms it whenever it can be."""
+        return bool(self.bits & _AUTO)
+
+    @property
     def can_fly(self) -> bool:
         """Whether it would take off."""
         return bool(self.bits & _CAN_FLY)
@@ -63,6 +69,16 @@ class State:
         return bool(self.bits & (_TUMBLED | _CRASHED))
 
     @property
+    def lies(self) -> bool:
+        """Whether it does not stand upright."""
+        return bool(self.bits & _TUMBLED)
+
+    @property
+    def deck_failed(self) -> bool:
+        """Whether one of its decks reports a fault: it does not arm then, and locks in the air."""
+        return bool(self.bits & _DECK)
+
+    @property
     def locked(self) -> bool:
         """Whether it must be switched off and on."""
         return bool(self.bits & _LOCKED)
@@ -70,6 +86,11 @@ class State:
     @property
     def steered(self) -> bool:
         """Whether its high-level commander moves it: its motors turn."""
+        return self.has_course and self.armed
+
+    @property
+    def has_course(self) -> bool:
+        """Whether its high-level commander follows one, be its motors permitted to turn or not."""
         return bool(self.bits & _STEERED)
 
     @property
@@ -80,7 +101,7 @@ class State:
     @property
     def flies(self) -> bool:
         """Whether it is in the air, or was two seconds ago."""
-        return bool(self.bits & (_FLIES | _STEERED))
+        return bool(self.bits & _FLIES) or self.steered
 
     def since(self, before: State) -> float:
         """Return the seconds that have passed for the drone; its clock begins anew every few hours."""
@@ -96,6 +117,7 @@ class State:
         facts = (
             (self.locked, "locked"),
             (self.crashed, "tumbled or crashed"),
+            (self.deck_failed, "a deck reports a fault"),
             (not self.armed, "not armed"),
             (not self.can_fly, "cannot fly"),
             (self.flies, "flying"),

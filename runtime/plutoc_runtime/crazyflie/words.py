@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import isfinite, sqrt
 from typing import TYPE_CHECKING
 
 from ..words import in_shell, number, quoted
@@ -134,6 +135,18 @@ def not_armed(drone: str, state: str) -> str:
     return f"{drone} will not arm ({state})"
 
 
+def still_flies(drone: str) -> str:
+    return f"{drone} cannot take off: it says that it still flies"
+
+
+def disarmed(drone: str) -> str:
+    return f"{drone} accepted the take-off, and was disarmed at once, twice"
+
+
+def not_recovered(drone: str) -> str:
+    return f"{drone} does not forget that it has crashed: set it upright, or switch it off and on"
+
+
 def not_arrived(drone: str, what: str, off: float) -> str:
     return f"{drone} has not {what} in time: {number(off)} m are missing"
 
@@ -150,15 +163,19 @@ def crashed(drone: str) -> str:
     return f"{drone} has tumbled or crashed"
 
 
-def locked(drone: str) -> str:
-    return f"{drone} has locked its motors: switch it off and on"
+def locked(drone: str, deck_failed: bool) -> str:
+    why = ", as one of its decks reports a fault" if deck_failed else ""
+    return f"{drone} has locked its motors{why}: switch it off and on"
 
 
 # How it is: no names
 
 
 LIES = "it lies on its back or has crashed"
+HAS_CRASHED = "it has crashed: once it stands upright and is whole, bring it back"
+DECK_FAILED = "one of its decks reports a fault: see that all sit well, and switch it off and on"
 IS_LOCKED = "it has locked its motors: switch it off and on"
+LOCKED_BY_DECK = f"one of its decks reports a fault, and {IS_LOCKED}"
 
 
 def low(volts: float) -> str:
@@ -177,20 +194,52 @@ def lacks_variables(names: Sequence[str]) -> str:
     return f"its firmware has no log variable {', '.join(names)}: flash the newest release"
 
 
-def little(volts: float, least: float) -> str:
-    return f"its battery has {volts:.2f} V at rest, {least:.2f} V are needed: charge it"
+def little(volts: float, least: float, cells: int) -> str:
+    each = "" if cells == 1 else " in each cell"
+    return f"its battery has {volts:.2f} V{each} at rest, {least:.2f} V are needed: charge it"
 
 
-def uncertain(variance: float | None, most: float) -> str:
-    if variance is None:
-        return "it does not say how sure it is of its position"
+def more_cells(volts: float, cells: int) -> str:
+    have = "one cell has" if cells == 1 else f"{cells} cells have"
     return (
-        f"it is not sure where it is: a variance of {variance:.4f} m², at most {number(most)} m²"
-        " for a second is needed"
+        f"its battery has {volts:.2f} V, more than {have}: say in the fleet file how many"
+        " it has, such as cells = 2"
     )
 
 
+def uncertain(variance: float | None, within: float) -> str:
+    if variance is None:
+        return "it does not say how sure it is of its position"
+    return (
+        f"it is not sure where it is: to {deviation(variance)} (a variance of {variance:.4f} m²),"
+        f" and {number(within)} m for a second are needed, its option sure_within"
+    )
+
+
+def deviation(variance: float) -> str:
+    """Say a variance as people think of it: how far off it may well be."""
+    return f"{sqrt(variance):.2f} m" if isfinite(variance) else "any distance"
+
+
+def adrift(variance: float) -> str:
+    return (
+        f"it may be {deviation(variance)} from where it believes to be: it does not see its beacons"
+        " any more, or is not told where it is"
+    )
+
+
+def lost_its_place(drone: str, variance: float) -> str:
+    return f"{drone} does not know where it is: {adrift(variance)}"
+
+
 UNSETTLED = "its estimate of where it is has not settled: let it stand still on the ground"
+
+
+def too_fast(speed: float, parameter: str, limit: float) -> str:
+    return (
+        f"it is to fly at up to {number(speed)} m/s, and its firmware follows no course faster than"
+        f" {number(limit)} m/s ({parameter}): give its category a lower speed, or set that parameter"
+    )
 
 
 def cannot_fly(state: str) -> str:

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 LOW, EMPTY = 3.2, 3.0
-"""Volts under load: below the first it is said to be low, below the second it switches off."""
+"""Volts of a cell under load: below the first it is said to be low; below the second it switches
+itself off, if its build does that at all."""
 _LONG = 5.0
 """Seconds that it must be so."""
 _SAG = 0.3
@@ -40,6 +41,9 @@ class Battery:
     level: float = 1.0
     flight: float = FLIGHT
     """Seconds from full to empty in the air."""
+    cells: int = 1
+    shuts_down: bool = False
+    """Whether its build switches it off before it is empty."""
     loaded: bool = False
     charging: bool = False
     low: bool = False
@@ -49,6 +53,11 @@ class Battery:
     @property
     def volts(self) -> float:
         """What is measured now."""
+        return self.cells * self._cell
+
+    @property
+    def _cell(self) -> float:
+        """Volts of each cell."""
         return _rest(self.level) - (_SAG if self.loaded else 0.0)
 
     @property
@@ -62,20 +71,21 @@ class Battery:
 
     def set_volts(self, volts: float) -> None:
         """Let it be as empty as it is when this is measured now."""
-        self.level = _level(volts + (_SAG if self.loaded else 0.0))
+        self.level = _level(volts / self.cells + (_SAG if self.loaded else 0.0))
 
     def step(self, seconds: float, *, loaded: bool, charging: bool) -> bool:
-        """Let time pass; return whether it has been empty for so long that it switches off."""
+        """Let time pass; return whether it is off: by its build, or as nothing is left."""
         self.loaded, self.charging = loaded, charging
         if loaded:
             self.level = max(0.0, self.level - seconds / self.flight)
         elif charging:
             self.level = min(1.0, self.level + seconds / CHARGE)
-        volts = self.volts
+        volts = self._cell
         self._below_low = self._below_low + seconds if volts < LOW else 0.0
         self._below_empty = self._below_empty + seconds if volts < EMPTY else 0.0
         self.low = self._below_low > _LONG
-        return self._below_empty > _LONG
+        used_up = loaded and self.level <= 0.0
+        return used_up or (self.shuts_down and self._below_empty > _LONG)
 
 
 def _rest(level: float) -> float:

@@ -1,17 +1,18 @@
-"""How a simulated Crazyflie moves: along what its planner says, or down."""
+"""How a simulated Crazyflie moves: after its planner, after low-level setpoints, or down."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from math import hypot
+from math import ceil, hypot
 from random import Random
 
 from .profile import Profile, State, profile
-
-Point = tuple[float, float, float]
+from .record import Point
+from .tracking import Limits, Tracking
 
 _WANDER, _MOST, _SLOWLY = 0.008, 0.02, 0.5
-"""Metres that it is off its way, usually and at most; seconds in which that changes."""
+"""Metres that it is off its way, usually and at most, where it knows it to a centimetre; seconds in
+which that changes."""
 _HARD = 20.0
 """Metres per second squared: what no such drone can follow, and tumbles."""
 _FALL, _FASTEST = 9.81, 6.0
@@ -19,6 +20,8 @@ _BROKEN = 2.5
 """Metres per second at which it does not stay upright on the ground."""
 _LOW = 0.3
 """Metres of height below which it is less and less off its way."""
+_STEP = 0.02
+"""Seconds in which its motion is worked out at most, however late that is."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,23 +49,51 @@ class Body:
     velocity: Point = (0.0, 0.0, 0.0)
     yaw: float = 0.0
     plan: Plan | None = None
-    """None: the motors are off."""
+    """What the planner has planned; it is flown unless low-level setpoints come before it."""
+    setpoint: Point | None = None
+    """Where the last low-level setpoint wants it; None: on the ground, its motors off."""
+    preempted: bool = False
+    """Whether low-level setpoints come before the planner: since the first one, until released."""
+    planner_off: bool = False
+    """Whether a low-level setpoint has switched the planner off, and nothing was planned since."""
+    error: Point = (0.0, 0.0, 0.0)
+    """How far its estimate of its position is off."""
+    sway: float = 1.0
+    """How many times as far it is off its way, as the positions that it is told are noisier."""
+    limits: Limits = (1.0, 1.0, 1.0)
+    """How fast its position controller lets it fly."""
     tumbled: bool = False
     _off: list[float] = field(default_factory=lambda: [0.0, 0.0, 0.0])
+    _tracking: Tracking | None = None
 
     def __post_init__(self) -> None:
         self.position = self.home
 
     @property
+    def motors(self) -> bool:
+        """Whether its motors turn."""
+        return self._flown is not None or self.setpoint is not None
+
+    @property
     def airborne(self) -> bool:
-        """Whether it is above the ground."""
-        return self.plan is not None or self.position[2] > 0.0
+        """Whether it is above the ground, or about to leave it."""
+        return self.motors or self.position[2] > 0.0
+
+    @property
+    def estimate(self) -> Point:
+        """Where it believes to be."""
+        x, y, z = (here + off for here, off in zip(self.position, self.error, strict=True))
+        return x, y, z
+
+    @property
+    def _flown(self) -> Plan | None:
+        """The plan, if it is flown."""
+        return None if self.preempted else self.plan
 
     def fly(self, target: Point, yaw: float, duration: float, now: float, landing: bool) -> None:
-        """Leave for a point, from however it is moving now."""
+        """Plan a way to a point, from where and how fast the plan before has it now."""
         if self.plan is None:
-            self._off = [0.0, 0.0, 0.0]
-            axes = tuple(map(State, self.position))
+            axes = tuple(map(State, self.estimate))
             heading = State(self.yaw)
         else:
             axes = tuple(one.at(now - self.plan.began) for one in self.plan.axes)
@@ -70,49 +101,72 @@ class Body:
         x, y, z = (profile(*one, duration) for one in zip(axes, target, strict=True))
         turned = profile(heading, yaw, duration)
         self.plan = Plan((x, y, z), turned, now, duration, landing)
+        self.planner_off = False
+        if not self.preempted:
+            self.setpoint = None
 
-    def setpoint(self, now: float) -> Point:
-        """Return where it should be now."""
-        if self.plan is None:
-            return self.position
-        x, y, z = (one.at(now - self.plan.began).position for one in self.plan.axes)
-        return x, y, z
+    def obey(self, setpoint: Point | None) -> None:
+        """Take a low-level setpoint: it comes before all that is planned, and ends it."""
+        self.cut()
+        self.preempted = self.planner_off = True
+        self.setpoint = setpoint
+
+    def release(self) -> None:
+        """Let the planner have its way again."""
+        self.preempted = False
+
+    def planned(self, now: float) -> Point:
+        """Return where the planner has it now."""
+        return self.estimate if self.plan is None else _at(self.plan, now)
 
     def cut(self) -> None:
         """Switch the motors off."""
-        self.plan = None
+        self.plan = self.setpoint = self._tracking = None
 
     def step(self, now: float, seconds: float) -> None:
-        """Let time pass."""
-        if self.plan is None:
+        """Let so much time pass, until now."""
+        steps = max(1, ceil(seconds / _STEP))
+        for left in range(steps - 1, -1, -1):
+            self._step(now - left * seconds / steps, seconds / steps)
+
+    def _step(self, now: float, seconds: float) -> None:
+        if not self.motors:
             self._fall(seconds)
             return
-        x, y, z = (one.at(now - self.plan.began) for one in self.plan.axes)
-        if hypot(x.acceleration, y.acceleration, z.acceleration) > _HARD:
+        plan = self._flown
+        if plan is not None and _push(plan, now) > _HARD:
             self.tumbled = True
             self.cut()
             return
+        if self._tracking is None:
+            self._off = [0.0, 0.0, 0.0]
+            self._tracking = Tracking([*self.position], [*self.velocity])
+        target = self.setpoint if plan is None else _at(plan, now)
+        assert target is not None
+        self._tracking.step(target, self.error, self.yaw, self.limits, seconds)
         self._wander(seconds)
-        near = min(1.0, max(0.0, z.position / _LOW))
-        place = (x.position + self._off[0], y.position + self._off[1])
-        self.position = (*place, max(0.0, z.position + self._off[2] * near))
-        self.velocity = (x.velocity, y.velocity, z.velocity)
-        self.yaw = self.plan.yaw.at(now - self.plan.began).position
-        if self.plan.landing and self.plan.over(now):
-            self.cut()
-            self.position = (*place, 0.0 if z.position < 0.1 else self.position[2])
-            self.velocity = (0.0, 0.0, 0.0)
+        x, y, z = self._tracking.position
+        near = min(1.0, z / _LOW)
+        vx, vy, vz = self._tracking.velocity
+        self.velocity = (vx, vy, vz)
+        self.position = (x + self._off[0], y + self._off[1], max(0.0, z + self._off[2] * near))
+        if plan is not None:
+            self.yaw = plan.yaw.at(now - plan.began).position
+            if plan.landing and plan.over(now):
+                self.cut()
 
     def _wander(self, seconds: float) -> None:
         share = min(1.0, seconds / _SLOWLY)
         for axis in range(3):
-            push = self.random.gauss(0.0, _WANDER) * (2.0 * share) ** 0.5
+            push = self.random.gauss(0.0, self.sway * _WANDER) * (2.0 * share) ** 0.5
             off = self._off[axis] * (1.0 - share) + push
-            self._off[axis] = min(_MOST, max(-_MOST, off))
+            most = self.sway * _MOST
+            self._off[axis] = min(most, max(-most, off))
 
     def _fall(self, seconds: float) -> None:
         x, y, z = self.position
         if z <= 0.0:
+            self.velocity = (0.0, 0.0, 0.0)
             return
         vx, vy, vz = self.velocity
         vz = max(-_FASTEST, vz - _FALL * seconds)
@@ -126,3 +180,14 @@ class Body:
         """Put it somewhere, upright, as a person does."""
         self.cut()
         self.position, self.velocity, self.tumbled = position, (0.0, 0.0, 0.0), False
+
+
+def _at(plan: Plan, now: float) -> Point:
+    x, y, z = (one.at(now - plan.began).position for one in plan.axes)
+    return x, y, z
+
+
+def _push(plan: Plan, now: float) -> float:
+    """Return how hard a plan accelerates now."""
+    x, y, z = (one.at(now - plan.began).acceleration for one in plan.axes)
+    return hypot(x, y, z)

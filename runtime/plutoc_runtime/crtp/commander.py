@@ -13,7 +13,7 @@ from .ports import Errno
 from .supervisor import Supervisor
 
 WRONG_STATE = 1
-"""The answer to what makes no sense now: to land where it stands, to take off where it flies."""
+"""The answer to what makes no sense now: to land where it lands, to take off where it flies."""
 
 
 class Command(IntEnum):
@@ -37,7 +37,10 @@ class Told:
 
 
 def command(data: bytes, body: Body, supervisor: Supervisor, now: float, busy: bool) -> Told:
-    """Do what a packet says, and return what it was with the answer to it."""
+    """Do what a packet says, and return what it was with the answer to it.
+
+    While low-level setpoints come first, that is the same answer, and nothing moves.
+    """
     what, values = _read(data)
     answer: int = Errno.ENOEXEC
     if what == "group":
@@ -48,7 +51,7 @@ def command(data: bytes, body: Body, supervisor: Supervisor, now: float, busy: b
     elif what is not None:
         blocked = busy or not supervisor.can_fly
         answer = Errno.EBUSY if blocked else _fly(what, values, body, now)
-        if answer == Errno.OK:
+        if answer == Errno.OK and not body.preempted:
             supervisor.setpoint_at = None
     return Told(what or f"unknown {data[0]}", values, answer)
 
@@ -59,15 +62,15 @@ def _fly(what: str, values: Mapping[str, float], body: Body, now: float) -> int:
     duration = values["duration"]
     if not all(map(math.isfinite, values.values())) or duration <= 0.0:
         return Errno.ENOEXEC
-    x, y, z = body.setpoint(now)
+    x, y, z = body.planned(now)
     if what == "go_to":
         target = (values["x"], values["y"], values["z"])
         if values["relative"]:
             target, yaw = (x + target[0], y + target[1], z + target[2]), yaw + body.yaw
         body.fly(target, yaw, duration, now, landing=False)
         return Errno.OK
-    if flies is (what == "takeoff") or lands:
-        return WRONG_STATE
+    if lands or (flies and what == "takeoff"):
+        return WRONG_STATE  # to land on the ground is not refused: its motors start
     body.fly((x, y, values["z"]), yaw, duration, now, landing=what == "land")
     return Errno.OK
 

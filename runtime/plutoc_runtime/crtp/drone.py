@@ -9,26 +9,32 @@ from random import Random
 
 from . import variables
 from .battery import FLIGHT, Battery
-from .body import Body, Point
+from .body import Body
 from .commander import command
+from .estimator import NOISE, RATE, Estimator
 from .logs import Logs
 from .params import Parameters
 from .ports import NULL, PROTOCOL, Port, packed, unpacked
-from .record import Deed, Place, Record
+from .record import Deed, Place, Point, Record
+from .setpoints import META, RELEASE, wanted
 from .supervisor import Supervisor
 
-_SURE, _UNSURE = 1e-5, 0.5
-"""Square metres: how well it knows where it is."""
+_UNSURE = 0.5
+"""Square metres: how little it knows where it is while it is unsure."""
 _SETTLES = 0.7
 """Seconds until it knows again, after its estimator was reset."""
 _BOOTS = 1.0
 """Seconds in which it says nothing after a restart."""
-_FRESH = 0.5
-"""Seconds that a position from outside is worth something."""
 _DOCK = 0.3
 """Metres around its home within which its pad charges it."""
 _TRACED = 0.02
 """Seconds between two rows of the trace."""
+
+_LATEST = 5.0
+"""Seconds of motion that are made up for at most, where a machine was busy."""
+
+RELEASES = {8: "2024.10", 9: "2025.02", 10: "2025.12", 12: "2026.08"}
+"""Of the protocols, the newest release of the firmware that speaks each."""
 
 _WHO = b"Bitcraze Crazyflie".ljust(30, b"\0")
 
@@ -41,12 +47,21 @@ class Build:
     home: Point
     protocol: int = PROTOCOL
     auto_arm: bool = False
+    """Whether it arms by itself, as those with brushed motors do; else on request."""
     level: float = 1.0
     """How full its battery is at the start."""
     flight: float = FLIGHT
     """Seconds that a full battery lasts in the air."""
+    cells: int = 1
+    """How many its battery has: a Bolt or a Flapper has two."""
+    shuts_down: bool = False
+    """Whether its battery switches it off at 3.0 V a cell; few builds do that."""
     knows_where: bool = True
     """Whether it finds its position by itself; else only while somebody tells it."""
+    noise: float = NOISE
+    """Metres that a position is off, usually: 0.01 for Lighthouse, 0.05 to 0.15 for UWB."""
+    rate: float = RATE
+    """How many positions a second it finds by itself."""
     seed: int = 0
 
 
@@ -57,12 +72,23 @@ class SimulatedCrazyflie:
         self.build, self._record, self._send = build, record, send
         random = Random(f"{build.seed}/{build.id}")
         self.body = Body(build.home, random)
-        self.battery = Battery(level=build.level, flight=build.flight)
+        self.estimator = Estimator(
+            Random(f"estimate/{build.seed}/{build.id}"),
+            own=build.knows_where,
+            noise=build.noise,
+            rate=build.rate,
+        )
+        self.battery = Battery(
+            level=build.level,
+            flight=build.flight,
+            cells=build.cells,
+            shuts_down=build.shuts_down,
+        )
         self.supervisor = Supervisor(auto_arm=build.auto_arm)
-        self.parameters = Parameters(variables.parameters(), self._changed)
+        self.parameters = Parameters(variables.parameters(build.cells), self._changed)
         self._logs = Logs(variables.variables(self))
         self.on, self.busy, self.unsure = True, False, False
-        self._boots_until = self._settles_at = self._told_at = -1e9
+        self._boots_until = self._settles_at = -1e9
         self._now = self._traced = 0.0
 
     @property
@@ -73,22 +99,29 @@ class SimulatedCrazyflie:
     @property
     def variance(self) -> float:
         """How unsure it is of where it is, in square metres."""
-        lost = not self.build.knows_where and self._now - self._told_at > _FRESH
-        return _UNSURE if self.unsure or lost or self._now < self._settles_at else _SURE
+        if self.unsure or self._now < self._settles_at:
+            return _UNSURE
+        return self.estimator.variance(self._now)
 
     def info(self) -> int:
         """Return the bits of `supervisor.info`."""
         plan = self.body.plan
         return self.supervisor.info(
-            high_level=plan is not None, finished=plan is None or plan.over(self._now)
+            high_level=plan is not None,
+            finished=plan is None or plan.over(self._now),
+            planner_off=self.body.planner_off,
         )
 
     def step(self, now: float) -> None:
         """Let time pass until now, and send what is due."""
-        seconds, self._now = min(0.1, now - self._now) if self._now else 0.0, now
+        passed, self._now = now - self._now if self._now else 0.0, now
+        seconds = min(0.1, passed)
         was_flying = self.body.airborne
-        self.body.step(now, seconds)
-        thrust = self.body.plan is not None
+        self.estimator.step(now)
+        self.body.error = self.estimator.error(now)
+        self.body.sway, self.body.limits = self.estimator.sway, self._limits
+        self.body.step(now, min(_LATEST, passed))
+        thrust = self.body.motors
         self.supervisor.step(now, thrust=thrust, tumbled=self.body.tumbled)
         if not self.supervisor.can_fly:
             self.body.cut()
@@ -104,6 +137,10 @@ class SimulatedCrazyflie:
         if self.answers:
             for raw in self._logs.due(now):
                 self._send(raw)
+
+    def hear(self, raw: bytes) -> None:
+        """Take a packet from somebody else, now."""
+        self.receive(raw, self._now)
 
     def receive(self, raw: bytes, now: float) -> None:
         """Take a packet, and answer it."""
@@ -136,7 +173,7 @@ class SimulatedCrazyflie:
             case Port.PLATFORM if channel == 1 and data:
                 self._send(packed(port, channel, self._version(data)))
             case Port.SETPOINT | Port.GENERIC_SETPOINT:
-                self._low_level(port, channel, now)
+                self._low_level(port, channel, data, now)
 
     def note(self, what: str, **values: float) -> None:
         """Put something on record."""
@@ -156,7 +193,7 @@ class SimulatedCrazyflie:
             case 0:
                 return struct.pack("<Bi", 0, self.build.protocol)
             case 1:
-                return data[:1] + b"2025.12 simulated"
+                return data[:1] + _release(self.build.protocol)
             case _:
                 return data[:1] + b"CF21"
 
@@ -178,11 +215,11 @@ class SimulatedCrazyflie:
                 answer = bytes([0x82, done, not supervisor.crashed])
             case 3:
                 self._emergency_stop()
-                answer = b"\x83\1"
+                return
             case 4:
                 supervisor.fed_at = now
                 self.note("watchdog")
-                answer = b"\x84\1"
+                return
             case _:
                 return
         self._send(packed(Port.SUPERVISOR, 1, answer))
@@ -194,26 +231,36 @@ class SimulatedCrazyflie:
 
     def _locate(self, channel: int, data: bytes, now: float) -> None:
         if channel == 0 or (channel == 1 and data[:1] in (b"\x08", b"\x09")):
-            self._told_at = now
+            self.estimator.told(now)
         elif channel == 1 and data[:1] == b"\3":
             self._emergency_stop()
         elif channel == 1 and data[:1] == b"\4":
             self.supervisor.fed_at = now
 
-    def _low_level(self, port: int, channel: int, now: float) -> None:
-        """Obey a setpoint for the motors: it comes before all that the commander has planned."""
-        if port == Port.GENERIC_SETPOINT and channel == 1:
-            self.note("setpoints end")
-            self.supervisor.setpoint_at = None
+    def _low_level(self, port: int, channel: int, data: bytes, now: float) -> None:
+        """Obey a setpoint: it comes before all that the commander plans, until it is released."""
+        if port == Port.GENERIC_SETPOINT and channel == META:
+            if data[:1] == bytes([RELEASE]):
+                self.note("setpoints end")
+                self.body.release()
             return
         self.note("setpoint", port=port)
         self.supervisor.setpoint_at = now
-        self.body.cut()
+        place = wanted(port, data, self.body.estimate)
+        self.body.obey(place if self.supervisor.can_fly else None)
 
     def _changed(self, name: str, value: float) -> None:
         self.note(f"set {name}", value=value)
         if name == "kalman.resetEstimation" and value:
             self._settles_at = self._now + _SETTLES
+        elif name == "supervisor.landedTimeout":
+            self.supervisor.landed = value / 1000.0
+
+    @property
+    def _limits(self) -> tuple[float, float, float]:
+        """How fast its position controller lets it fly."""
+        x, y, z = (self.parameters[f"posCtlPid.{axis}VelMax"] for axis in "xyz")
+        return x, y, z
 
     def restart(self) -> None:
         """Let it begin anew where it is; in the air it falls."""
@@ -225,9 +272,16 @@ class SimulatedCrazyflie:
         """Switch it on or off; in the air it falls."""
         self.on = on
         self.body.cut()
+        self.body.preempted = self.body.planner_off = False
         self._logs.reset()
         self.parameters.reset()
         self.supervisor.restart()
+
+
+def _release(protocol: int) -> bytes:
+    """Return the newest release of the firmware that speaks so old a protocol."""
+    known = [name for spoken, name in RELEASES.items() if spoken <= protocol]
+    return (known[-1] if known else "2023.11").encode() + b" simulated"
 
 
 def _near(position: Point, home: Point) -> bool:

@@ -6,6 +6,8 @@ from collections.abc import Callable, Mapping
 
 from .air import Air
 from .drone import SimulatedCrazyflie
+from .ports import Port, packed
+from .setpoints import STOP, hover
 
 Value = float | bool | list[float]
 
@@ -36,6 +38,33 @@ def _unsure(drone: SimulatedCrazyflie, on: float) -> None:
     drone.unsure = bool(on)
 
 
+def _upright(drone: SimulatedCrazyflie, _: float) -> None:
+    drone.body.place(drone.body.position)
+
+
+def _fixes(drone: SimulatedCrazyflie, on: float) -> None:
+    drone.estimator.lose(not on)
+
+
+def _noise(drone: SimulatedCrazyflie, metres: float) -> None:
+    drone.estimator.noise = metres
+
+
+def _rate(drone: SimulatedCrazyflie, hertz: float) -> None:
+    drone.estimator.rate = hertz
+
+
+def _deck(drone: SimulatedCrazyflie, on: float) -> None:
+    drone.supervisor.faulty = bool(on)
+
+
+def _setpoint(drone: SimulatedCrazyflie, height: float) -> None:
+    if height is True:
+        drone.hear(packed(Port.SETPOINT, 0, STOP))
+    else:
+        drone.hear(packed(Port.GENERIC_SETPOINT, 0, hover(height)))
+
+
 def _lock(drone: SimulatedCrazyflie, _: float) -> None:
     drone.supervisor.lock()
 
@@ -58,6 +87,12 @@ _OF_DRONES: Mapping[str, Callable[[SimulatedCrazyflie, float], None]] = {
     "level": _level,
     "busy": _busy,
     "unsure": _unsure,
+    "upright": _upright,
+    "fixes": _fixes,
+    "noise": _noise,
+    "rate": _rate,
+    "deck": _deck,
+    "setpoint": _setpoint,
     "lock": _lock,
     "restart": _restart,
     "on": _on,
@@ -65,7 +100,11 @@ _OF_DRONES: Mapping[str, Callable[[SimulatedCrazyflie, float], None]] = {
 _OF_AIR = ("silent", "loss", "latency")
 
 FAULTS = (*_OF_AIR, "place", *_OF_DRONES)
-"""All names. `fetch` is what a person does for a drone: stands it on its pad, and restarts it."""
+"""All names. `fetch` is what a person does for a drone: stands it on its pad, and restarts it;
+`upright`: stands it up where it lies. `fixes`: whether positions reach it; `noise` and `rate`: metres
+by which they are off, and how many its own system gives a second. `setpoint`: of a stranger, that
+lets it hover so high, or stops its motors. `deck`: whether one has a fault.
+"""
 
 
 def let(drone: SimulatedCrazyflie, air: Air, name: str, value: Value) -> None:

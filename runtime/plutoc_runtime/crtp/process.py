@@ -21,11 +21,11 @@ from typing import Any
 from .. import again
 from ..asking import Nobody, ask
 from ..errors import BadInput
+from ..forked import deaf, in_children, not_for_children
 from ..remote_control import listening
-from .body import Point
 from .camera import camera, port_of
 from .drone import Build, SimulatedCrazyflie
-from .record import InFiles
+from .record import InFiles, Point
 from .server import HOST, Server
 
 NOTE, DRONES, LOCK, LOG = "crtp", "crtp.json", "crtp.lock", "crtp.log"
@@ -113,6 +113,7 @@ def main(arguments: Sequence[str]) -> int:
         print(_FOR_APPS, file=sys.stderr)
         return 2
     with (folder / LOCK).open("a") as lock:
+        not_for_children(lock.fileno())
         fcntl.flock(lock, fcntl.LOCK_EX)  # another one is ending
         asyncio.run(_run(folder))
     return 0
@@ -128,6 +129,7 @@ async def _run(folder: Path) -> None:
     over = asyncio.Event()
     for number in (signal.SIGTERM, signal.SIGINT):
         asyncio.get_running_loop().add_signal_handler(number, over.set)
+    no_more = in_children(deaf)
     signal.signal(signal.SIGHUP, signal.SIG_IGN)
     await server.start({id: int(one.get("port", 0)) for id, one in kept.items()})
     desk = _Desk(server, over)
@@ -142,6 +144,7 @@ async def _run(folder: Path) -> None:
                     async with asyncio.timeout(_LOOK):
                         await over.wait()
     finally:
+        no_more()
         await desk.close()
         await server.close()
         record.close()

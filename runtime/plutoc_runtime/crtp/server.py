@@ -161,7 +161,7 @@ class Server:
 
 def collide(drones: Iterable[SimulatedCrazyflie]) -> None:
     """Let those tumble whose propellers touch in the air."""
-    flying = [drone for drone in drones if drone.body.plan is not None]
+    flying = [drone for drone in drones if drone.body.motors]
     for one, other in combinations(flying, 2):
         if dist(one.body.position, other.body.position) < _TOUCH:
             for drone in (one, other):

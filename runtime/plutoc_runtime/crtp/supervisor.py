@@ -6,8 +6,12 @@ from dataclasses import dataclass
 
 _HYSTERESIS = 2.0
 """Seconds after the motors' last turn in which it still counts as flying."""
-_LANDED, _UNUSED = 3.0, 30.0
+LANDED, _UNUSED = 3.0, 30.0
 """Seconds after which an armed drone is disarmed: on the ground again, or never taken off."""
+_RESETS = 0.12
+"""Seconds after that in which it can neither be armed nor fly: three rounds of its supervisor."""
+_NOTICES = 0.05
+"""Seconds until it notices that motors turn: a take-off just before the disarming is cancelled."""
 _LEVEL, _LOCK = 0.5, 2.0
 """Seconds without another low-level setpoint, after which it levels out, and then locks."""
 _FED = 1.0
@@ -22,6 +26,8 @@ class Supervisor:
     auto_arm: bool = False
     armed: bool = False
     locked: bool = False
+    faulty: bool = False
+    """Whether one of its decks has a fault."""
     crashed: bool = False
     tumbled: bool = False
     flying: bool = False
@@ -29,6 +35,11 @@ class Supervisor:
     """When the last low-level setpoint came that still rules; None: none does."""
     fed_at: float | None = None
     """When the emergency watchdog was fed."""
+    landed: float = LANDED
+    """Seconds on the ground, after which it is disarmed."""
+    _turns_since: float | None = None
+    _resets_until: float = _NEVER
+    _resets: bool = False
     _thrust_at: float = _NEVER
     _armed_at: float = _NEVER
     _warned: bool = False
@@ -41,7 +52,8 @@ class Supervisor:
     @property
     def can_arm(self) -> bool:
         """Whether it would arm."""
-        return not (self.armed or self.locked or self.crashed or self.tumbled)
+        blocked = self.locked or self.crashed or self.tumbled or self.faulty
+        return not (self.armed or self._resets or blocked)
 
     def arm(self, on: bool, now: float) -> bool:
         """Arm or disarm; return whether that was done."""
@@ -52,8 +64,12 @@ class Supervisor:
         elif not on and self.armed:
             if self.flying:
                 return False
-            self.armed = False
+            self._reset(now)
         return True
+
+    def _reset(self, now: float) -> None:
+        """Disarm; for a moment it can do nothing at all."""
+        self.armed, self._resets, self._resets_until = False, True, now + _RESETS
 
     def recover(self) -> bool:
         """Leave the crashed state, if it stands upright; return whether that was done."""
@@ -67,28 +83,35 @@ class Supervisor:
 
     def restart(self) -> None:
         """Forget all, as after a restart."""
-        self.armed = self.locked = self.crashed = self.flying = self._warned = False
+        self.armed = self.locked = self.crashed = self.flying = False
+        self.faulty = self._warned = self._resets = False
+        self._turns_since = None
         self.setpoint_at = self.fed_at = None
         self._thrust_at = self._armed_at = _NEVER
 
     def step(self, now: float, *, thrust: bool, tumbled: bool) -> None:
         """Let time pass."""
-        if thrust:
+        self._turns_since = (self._turns_since or now) if thrust else None
+        if self._turns_since is not None and now - self._turns_since >= _NOTICES:
             self._thrust_at = now
         self.tumbled = tumbled
         self.flying = now - self._thrust_at < _HYSTERESIS and not (self.locked or self.crashed)
         if tumbled and (self.flying or self.armed):
             self.crashed, self.armed, self.flying = True, False, False
         self._watch(now)
-        if self.auto_arm:
-            self.armed = self.armed or self.can_arm
-        elif self.armed and not self.flying:
+        self._resets = self._resets and now < self._resets_until
+        if self.armed and not self.flying:
             since = max(self._armed_at, self._thrust_at)
-            limit = _UNUSED if self._thrust_at == _NEVER else _HYSTERESIS + _LANDED
-            self.armed = now - since < limit
+            limit = _UNUSED if self._thrust_at == _NEVER else _HYSTERESIS + self.landed
+            if self.faulty or now - since >= limit:
+                self._reset(now)
+        if self.auto_arm and self.can_arm:
+            self.arm(True, now)
 
     def _watch(self, now: float) -> None:
-        """Lock when setpoints, or the feeding of the watchdog, have stopped in the air."""
+        """Lock when setpoints, the feeding of the watchdog, or a deck have failed in the air."""
+        if self.faulty and self.flying:
+            self.lock()
         age = 0.0 if self.setpoint_at is None else now - self.setpoint_at
         self._warned = age > _LEVEL and (self._warned or self.flying or self.crashed)
         if self._warned and age > _LOCK:
@@ -98,7 +121,7 @@ class Supervisor:
         if self.fed_at is not None and now - self.fed_at > _FED:
             self.lock()
 
-    def info(self, *, high_level: bool, finished: bool) -> int:
+    def info(self, *, high_level: bool, finished: bool, planner_off: bool = False) -> int:
         """Return the bits that `supervisor.info` says."""
         bits = (
             self.can_arm,
@@ -111,5 +134,7 @@ class Supervisor:
             self.crashed,
             high_level,
             finished,
+            planner_off,
+            self.faulty,
         )
         return sum(1 << place for place, bit in enumerate(bits) if bit)

@@ -6,7 +6,9 @@ import math
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING
 
+from .battery import EMPTY, LOW
 from .params import Parameter
+from .supervisor import LANDED
 
 if TYPE_CHECKING:
     from .drone import SimulatedCrazyflie
@@ -15,7 +17,7 @@ _FAR = 4.0
 """Metres that a range sensor says where there is nothing."""
 
 
-def parameters() -> list[Parameter]:
+def parameters(cells: int = 1) -> list[Parameter]:
     """Return the parameters, as they are after a start."""
     numbers = [
         ("stabilizer.estimator", "B", 2),
@@ -29,10 +31,11 @@ def parameters() -> list[Parameter]:
         ("commander.enHighLevel", "B", 1),
         ("hlCommander.vtoff", "f", 0.5),
         ("hlCommander.vland", "f", 0.5),
-        ("pm.lowVoltage", "f", 3.2),
-        ("pm.criticalLowVoltage", "f", 3.0),
-        ("supervisor.landedTimeout", "H", 3000),
+        ("pm.lowVoltage", "f", LOW * cells),
+        ("pm.criticalLowVoltage", "f", EMPTY * cells),
+        ("supervisor.landedTimeout", "H", LANDED * 1000.0),
         ("posCtlPid.xVelMax", "f", 1.0),
+        ("posCtlPid.yVelMax", "f", 1.0),
         ("posCtlPid.zVelMax", "f", 1.0),
         ("sound.effect", "B", 0),
         ("sound.freq", "H", 4000),
@@ -72,18 +75,18 @@ def variables(drone: SimulatedCrazyflie) -> Mapping[str, tuple[str, Callable[[],
     """Return what can be logged: the type of each, and how it is read."""
     body, battery, supervisor = drone.body, drone.battery, drone.supervisor
     return {
-        "stateEstimate.x": ("f", lambda: body.position[0]),
-        "stateEstimate.y": ("f", lambda: body.position[1]),
-        "stateEstimate.z": ("f", lambda: body.position[2]),
+        "stateEstimate.x": ("f", lambda: body.estimate[0]),
+        "stateEstimate.y": ("f", lambda: body.estimate[1]),
+        "stateEstimate.z": ("f", lambda: body.estimate[2]),
         "stateEstimate.vx": ("f", lambda: body.velocity[0]),
         "stateEstimate.vy": ("f", lambda: body.velocity[1]),
         "stateEstimate.vz": ("f", lambda: body.velocity[2]),
         "stateEstimate.roll": ("f", lambda: 175.0 if body.tumbled else 0.0),
         "stateEstimate.pitch": ("f", lambda: 0.0),
         "stateEstimate.yaw": ("f", lambda: math.degrees(body.yaw)),
-        "kalman.stateX": ("f", lambda: body.position[0]),
-        "kalman.stateY": ("f", lambda: body.position[1]),
-        "kalman.stateZ": ("f", lambda: body.position[2]),
+        "kalman.stateX": ("f", lambda: body.estimate[0]),
+        "kalman.stateY": ("f", lambda: body.estimate[1]),
+        "kalman.stateZ": ("f", lambda: body.estimate[2]),
         "kalman.varPX": ("f", lambda: drone.variance),
         "kalman.varPY": ("f", lambda: drone.variance),
         "kalman.varPZ": ("f", lambda: drone.variance),

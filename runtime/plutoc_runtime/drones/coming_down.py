@@ -25,7 +25,10 @@ _BESIDE = 0.5
 
 
 async def come_down(member: Member, airspace: Airspace, others: Sequence[Point]) -> None:
-    """Land here; who is over a no-fly area flies out of it first, the shortest way."""
+    """Land here; who is over a no-fly area flies out of it first, the shortest way.
+
+    One that does not know where it is goes nowhere: it stops, and lands.
+    """
     try:
         await member.lane.run(LAND, partial(_down, member, airspace, others))
     except FlightFailed as error:
@@ -35,7 +38,9 @@ async def come_down(member: Member, airspace: Airspace, others: Sequence[Point])
 
 async def _down(member: Member, airspace: Airspace, others: Sequence[Point]) -> None:
     here = member.seen.location
-    if is_over_no_fly(airspace, here):
+    if member.adrift:
+        await member.hover()
+    elif is_over_no_fly(airspace, here):
         x, y, _ = free_spot(airspace, here, others, _BESIDE)
         try:
             await flying.fly(member, (x, y, min(max(here[2], _BESIDE), airspace.ceiling)))

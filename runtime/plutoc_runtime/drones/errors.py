@@ -42,6 +42,15 @@ class Locked(NavigationError):
     failure = "CRASH"
 
 
+class PositionLost(NavigationError):
+    """It does not know any more where it is: it lands, and nothing is done there.
+
+    Said by an event, too: a drone that is doing nothing must come down as well.
+    """
+
+    failure = "LINK"
+
+
 class BatteryLow(NavigationError):
     """What is left in its battery does not do for this."""
 

@@ -64,6 +64,7 @@ CAPABILITIES = (
     ),
     (Method("read", takes=("name",)), Method("write", takes=("name", "value"))),
     (Method("locate", takes=("position",)),),
+    (Method("looked_after"),),
     (Method("identify"),),
     (Method("scan", takes=("options",), of_class=True),),
 )

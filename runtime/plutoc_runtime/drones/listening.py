@@ -10,7 +10,7 @@ from ..errors import Failure, FlightFailed
 from ..kernel import WHATEVER
 from ..words import place
 from .calls import shortened
-from .telemetry import BATTERY_LOW, CRASHED, LINK_LOST, LOCKED
+from .telemetry import BATTERY_LOW, CRASHED, LINK_LOST, LOCKED, POSITION_LOST
 from .timed import Timed
 
 if TYPE_CHECKING:
@@ -49,6 +49,8 @@ def hear(member: Member, event: DroneEvent) -> None:
     elif kind == BATTERY_LOW and not member.seen.landed and not member.must_land:
         why = f"the battery of {who} is low at {where}, where it lands: {reason}"
         member.must_come_down(FlightFailed(Failure.BATTERY, why))
+    elif kind == POSITION_LOST and not member.seen.landed:
+        member.loses_its_place(reason)
     else:
         member.calls.note(f"{who}: {shortened(kind)}: {reason}")
 

@@ -1,5 +1,7 @@
 """Finds the class that a fleet file names to fly its drones, or to see them; nothing of it is called.
 
+Its module is imported once it is known that it has such a class (`looking_up.py`).
+
 A name is one of ours (`crazyflie`), one that an installed package offers by an entry point, or
 `module:Class`. Only what is installed is found: a fleet file is data, and the folder that it lies in
 is no place for code.
@@ -22,6 +24,7 @@ from . import refusals
 from .calls import shortened
 from .checking import problems
 from .kinds import CAPABILITIES, LOCALIZATION_METHODS, NAVIGATION_METHODS, Kind
+from .looking_up import look_up
 from .trial import tried
 
 if TYPE_CHECKING:
@@ -97,7 +100,11 @@ def _loaded(kind: Kind, name: str) -> object:
     if name in ours:
         return ours[name]()
     written = name if ":" in name else _offered(kind, name)
-    found = _imported(kind, name, written)
+    module, path = _apart(kind, name, written)
+    if written is name:
+        with _only_what_is_installed():
+            look_up(kind, name, module, path)
+    found = _imported(kind, name, module, path)
     if not inspect.isclass(found):
         raise refusals.not_a_class(kind, name)
     wrong = problems(kind, found)
@@ -120,10 +127,14 @@ def _offered(kind: Kind, name: str) -> str:
     return values[0]
 
 
-def _imported(kind: Kind, name: str, written: str) -> object:
+def _apart(kind: Kind, name: str, written: str) -> tuple[str, str]:
     module, _, path = (part.strip() for part in written.partition(":"))
     if not all(part.isidentifier() for part in [*module.split("."), *path.split(".")]):
         raise refusals.no_class_written(kind, name)
+    return module, path
+
+
+def _imported(kind: Kind, name: str, module: str, path: str) -> object:
     with _only_what_is_installed():
         tried(kind, name, module)
     try:

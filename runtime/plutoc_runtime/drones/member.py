@@ -11,6 +11,7 @@ from ..errors import Failure, FlightFailed
 from ..words import place
 from .calls import Calls, shortened
 from .lane import Lane
+from .protocol import CaredFor
 from .seen import EMPTY, Seen
 
 if TYPE_CHECKING:
@@ -22,7 +23,7 @@ T = TypeVar("T")
 
 LAND, RISE = "land", "take off"
 """What it does while it lands, or rises."""
-PREFLIGHT, HOLD = 5.0, 5.0
+PREFLIGHT, HOLD, RECOVER = 12.0, 8.0, 8.0
 """Seconds that these may take."""
 LOOK = 0.05
 """Seconds between two looks at what it tells."""
@@ -70,7 +71,7 @@ class Member:
             lambda: self.navigation.telemetry,
             self.calls,
         )
-        self.lane = Lane(self._hover)
+        self.lane = Lane(self.hover)
         self.linked = False
         self.on_lost: Callable[[], object] = _nobody
         """Told when its link is lost."""
@@ -82,10 +83,14 @@ class Member:
         """Why it takes no commands though it is linked, if it takes none."""
         self.needs_a_hand = False
         """Only somebody who has put it home ends that."""
+        self.looked_after = False
+        """A person has looked after it, which it has not been told yet."""
         self.is_cut = False
         """Its motors are being cut, or were: nothing may turn them on again."""
         self.must_land = False
         """It comes down by itself, as soon as it can."""
+        self.adrift = False
+        """It comes down because it does not know where it is: it is not to go anywhere else."""
         self.speed = drone.category.top_speed or drone.category.speed
         self.climb = min(CLIMB_LIMIT, self.speed)
 
@@ -131,6 +136,14 @@ class Member:
         self.must_land = True
         self.refuse(why, needs_a_hand=needs_a_hand)
 
+    def loses_its_place(self, why: str) -> None:
+        """It does not know any more where it is: what it would do there it must not do."""
+        self.adrift = True
+        if self.must_land:
+            return
+        reason = f"{self.id} does not know where it is, and lands: {why}"
+        self.must_come_down(FlightFailed(Failure.LINK, reason), needs_a_hand=False)
+
     def refuse(self, why: FlightFailed, *, needs_a_hand: bool = False) -> None:
         """It takes no commands from now on; what it does ends here."""
         self.calls.say(str(why))
@@ -141,7 +154,17 @@ class Member:
     def is_well(self) -> None:
         """It takes commands again."""
         self.down, self.needs_a_hand = None, False
-        self.must_land = self.is_cut = False
+        self.must_land = self.is_cut = self.adrift = False
+
+    async def hears_of_care(self) -> None:
+        """Tell it that a person has looked after it, if one has, and it wants to know."""
+        if self.looked_after and self.linked and self.seen.landed:
+            self.looked_after = False
+            if isinstance(self.navigation, CaredFor):
+                try:
+                    await self.calls.call("recover", RECOVER, self.navigation.looked_after)
+                except FlightFailed as error:
+                    self.calls.say(str(error))
 
     async def preflight(self) -> tuple[str, ...]:
         """Return why it may not take off now."""
@@ -187,8 +210,8 @@ class Member:
         elif error.failure is Failure.BATTERY and not self.seen.landed:
             self.must_come_down(error)
 
-    async def _hover(self) -> None:
-        """Hover after whatever was broken off; where it cannot, the log says why."""
+    async def hover(self) -> None:
+        """Hover, after whatever was broken off; where it cannot, the log says why."""
         await self.calls.parted()
         if self.linked and not self.seen.landed and not self.is_cut:
             try:

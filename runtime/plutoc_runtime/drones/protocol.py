@@ -158,6 +158,18 @@ class Locatable(Protocol):
 
 
 @runtime_checkable
+class CaredFor(Protocol):
+    """A drone that must be told that somebody has looked after it, before it flies again."""
+
+    async def looked_after(self) -> None:
+        """Forget what has happened to it, a crash, say; starts no motor.
+
+        Called only because a person has said just that, of a drone that stands on the ground.
+        """
+        ...
+
+
+@runtime_checkable
 class Identifiable(Protocol):
     """A drone that can show which one it is."""
 

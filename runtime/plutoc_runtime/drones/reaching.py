@@ -34,6 +34,7 @@ async def reach(member: Member, linking: Linking) -> bool:
         return False
     if not member.seen.landed:
         return member.down is None
+    await member.hears_of_care()
     return member.needs_a_hand or await _is_ready(member)
 
 
@@ -50,12 +51,9 @@ async def _comes_down(member: Member, linking: Linking) -> bool:
 
 async def _is_ready(member: Member) -> bool:
     """Say whether one on the ground can fly on, or may be waited for."""
-    reasons = await _reasons(member)
-    for _ in range(round(SETTLING / OFTEN)):
-        if not reasons:
-            break
+    until = member.calls.clock() + SETTLING
+    while (reasons := await _reasons(member)) and member.calls.clock() < until:
         await asyncio.sleep(OFTEN)
-        reasons = await _reasons(member)
     if not reasons:
         member.is_well()
     elif member.down is not None and member.down.failure is Failure.CRASH:
@@ -72,6 +70,7 @@ async def fetched(member: Member) -> bool:
     try:
         async with asyncio.timeout(FETCH):
             while missing := await _missing(member):
+                await member.hears_of_care()
                 _lands(member)
                 if missing != said:
                     member.calls.say(f"{member.id} is waited for: {'; '.join(missing)}")

@@ -44,6 +44,19 @@ def no_such_module(kind: Kind, name: str, module: str) -> BadInput:
     )
 
 
+def of_python(kind: Kind, name: str, module: str) -> BadInput:
+    return BadInput(
+        f"the {kind.word} {quoted(name)} is none: {quoted(module)} is a module of Python's own"
+    )
+
+
+def no_text(kind: Kind, name: str, module: str) -> BadInput:
+    return BadInput(
+        f"the {kind.word} {quoted(name)} cannot be looked up: {quoted(module)} has no text in"
+        f" Python; its package can offer the class by an entry point, {kind.group}"
+    )
+
+
 def needs(kind: Kind, name: str, missing: str) -> BadInput:
     return BadInput(f"the {kind.word} {quoted(name)} needs {quoted(missing)}: install it with pip")
 

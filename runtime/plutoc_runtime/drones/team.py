@@ -151,8 +151,10 @@ class Team:
 
     def mended(self, drone: str) -> None:
         """A person has looked after a lost drone: it may be asked anew."""
-        if not self._members[drone].must_land:
-            self._members[drone].is_well()
+        member = self._members[drone]
+        if not member.must_land:
+            member.is_well()
+            member.looked_after = True
 
     async def reach(self, drone: str) -> bool:
         """Wait, after a failed flight, until a drone takes commands again; False: it is lost."""

@@ -16,6 +16,8 @@ LOCKED = "locked"
 """It will not fly until somebody switches it off and on."""
 BATTERY_LOW = "battery low"
 """It must come down now, where it is."""
+POSITION_LOST = "position lost"
+"""It does not know any more where it is: it must come down now, wherever that is."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -44,6 +46,6 @@ class DroneEvent:
     """Something that happened to a drone, which nobody has asked for."""
 
     kind: str
-    """`LINK_LOST`, `CRASHED`, `LOCKED` or `BATTERY_LOW`; others are only put into the log."""
+    """`LINK_LOST`, `CRASHED`, `LOCKED`, `BATTERY_LOW` or `POSITION_LOST`; others are only put into the log."""
     reason: str
     """A sentence for a person, without the drone's name: "it lies on its back"."""

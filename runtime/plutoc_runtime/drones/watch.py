@@ -98,8 +98,7 @@ class Watch:
             why = f"{member.id} left the permitted area at {where}: it lands"
             member.must_come_down(FlightFailed(Failure.REFUSED, why))
         elif (blind := member.blind()) is not None:
-            why = f"{member.id} does not know where it is, and lands: {blind}"
-            member.must_come_down(FlightFailed(Failure.LINK, why), needs_a_hand=False)
+            member.loses_its_place(blind)
         elif seen.battery_level > EMPTY:
             self._low_since[member.id] = inf
         elif self._lasts(self._low_since, member, LOW_FOR):

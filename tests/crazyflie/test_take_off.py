@@ -1,0 +1,116 @@
+"""Take-offs of simulated Crazyflies that have landed, that were disarmed, and that others have steered.
+
+All of them fly at once, when the first is asked how its own went: each has a drone of its own.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from pathlib import Path
+
+import pytest
+
+from plutoc_runtime.crtp.drone import Build
+from plutoc_runtime.drones import Rejected
+from tests.crazyflie.hangar import FAST, Flight, Hangar, as_tests, hangar
+
+pytest.importorskip("cflib")
+
+
+async def one_that_has_landed_is_disarmed_and_armed_anew(folder: Path) -> None:
+    """It would disarm itself some seconds after the landing, in the midst of a take-off."""
+    async with hangar(folder) as one:
+        cf = one.navigation
+        await cf.connect()
+        for _ in range(2):
+            await cf.takeoff(0.5, FAST)
+            await cf.land(FAST)
+        told = [deed.what for deed in one.deeds if deed.what != "setpoints end"]
+        assert told[:4] == ["arm", "takeoff", "land", "down"]
+        assert told[4:] == ["disarm", "arm", "takeoff", "land", "down"]
+
+
+async def one_that_arms_itself_is_waited_for_until_it_has(folder: Path) -> None:
+    async with hangar(folder, build=Build(id="cf1", home=(1.0, 2.0, 0.0), auto_arm=True)) as one:
+        cf = one.navigation
+        await cf.connect()
+        await cf.takeoff(0.5, FAST)
+        assert one.flies and not one.did("arm")
+        await cf.land(FAST)
+
+
+async def a_take_off_that_a_disarming_cancels_is_commanded_once_more(folder: Path) -> None:
+    async with hangar(folder) as one:
+        await one.navigation.connect()
+        await asyncio.gather(one.navigation.takeoff(0.5, FAST), _disarmed_once(one, 1))
+        assert one.flies and len(one.did("takeoff")) == 2
+        await one.navigation.land(FAST)
+
+
+async def twice_cancelled_it_is_a_refusal(folder: Path) -> None:
+    async with hangar(folder) as one:
+        await one.navigation.connect()
+        disarming = asyncio.create_task(_disarmed_once(one, 2))
+        with pytest.raises(Rejected, match="accepted the take-off, and was disarmed at once"):
+            await one.navigation.takeoff(0.5, FAST)
+        await disarming
+        assert not one.flies and len(one.did("takeoff")) == 2
+
+
+async def nothing_is_above_its_commander_when_it_takes_off(folder: Path) -> None:
+    """A set-point of a gamepad's, or of a script's that has ended, would stay above it for ever."""
+    async with hangar(folder) as one:
+        cf = one.navigation
+        await cf.connect()
+        await cf.takeoff(0.5, FAST)
+        await cf.go_to((1.3, 2.0, 0.5), FAST)
+        await cf.land(FAST)
+        told = [deed.what for deed in one.deeds]
+        before, after = told[: told.index("takeoff")], told[told.index("takeoff") :]
+        assert "setpoints end" in before and "setpoints end" not in after
+
+
+async def one_that_somebody_else_has_steered_takes_off(folder: Path) -> None:
+    async with hangar(folder) as one:
+        cf = one.navigation
+        await cf.connect()
+        await one.let("setpoint")
+        await cf.takeoff(0.5, FAST)
+        assert one.position[2] > 0.4
+        await cf.land(FAST)
+
+
+async def one_that_disarms_itself_just_now_is_waited_for(folder: Path) -> None:
+    """Some three seconds after a landing it is neither armed nor can be, for a tenth of a second."""
+    async with hangar(folder) as one:
+        cf = one.navigation
+        await cf.connect()
+        await cf.takeoff(0.4, FAST)
+        await cf.land(FAST)
+        while one.drone.supervisor.armed:
+            await asyncio.sleep(0.005)
+        assert await cf.preflight() == []
+        await cf.takeoff(0.4, FAST)
+        assert one.flies
+        await cf.land(FAST)
+
+
+async def _disarmed_once(one: Hangar, times: int) -> None:
+    """Disarm it just when it has accepted a take-off, so many times."""
+    for number in range(1, times + 1):
+        while len(one.did("takeoff")) < number:
+            await asyncio.sleep(0.01)
+        one.drone.supervisor.armed = False
+
+
+FLIGHTS: list[Flight] = [
+    one_that_has_landed_is_disarmed_and_armed_anew,
+    one_that_arms_itself_is_waited_for_until_it_has,
+    a_take_off_that_a_disarming_cancels_is_commanded_once_more,
+    twice_cancelled_it_is_a_refusal,
+    nothing_is_above_its_commander_when_it_takes_off,
+    one_that_somebody_else_has_steered_takes_off,
+    one_that_disarms_itself_just_now_is_waited_for,
+]
+
+test_take_off, test_no_thread_is_left = as_tests(FLIGHTS)

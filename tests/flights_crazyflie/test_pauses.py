@@ -1,0 +1,31 @@
+"""A drone that has landed takes off again at any moment, also when its firmware disarms it just then."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Sequence
+from pathlib import Path
+
+import pytest
+
+from tests.flights_crazyflie.pauses import Outcome, pauses, sweep
+from tests.flights_crazyflie.team import no_thread_is_left
+
+pytest.importorskip("cflib")
+
+AROUND = pauses(2.9, 3.2, 0.05)
+"""Seconds: a few pauses around the disarming."""
+
+
+def test_whatever_the_pause_is_after_a_landing_the_next_take_off_is_flown(tmp_path: Path) -> None:
+    """By drones that arm on request, and by those that arm by themselves, all at once."""
+
+    async def both() -> Sequence[Sequence[Outcome]]:
+        return await asyncio.gather(
+            *(sweep(AROUND, len(AROUND), tmp_path, auto_arm=alone) for alone in (False, True))
+        )
+
+    for outcomes in asyncio.run(both()):
+        assert len(outcomes) == len(AROUND)
+        assert [(one.pause, one.wrong) for one in outcomes if one.wrong] == []
+    assert no_thread_is_left()
