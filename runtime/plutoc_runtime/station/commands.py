@@ -11,7 +11,7 @@ _MISSION, _TRIP = {"mission": (str,)}, {"trip": (str,)}
 _ALL = {"mission": (str, type(None))}
 
 NEEDS: Mapping[str, Mapping[str, tuple[type, ...]]] = {
-    "start": {"revision": (int, type(None))},
+    "start": {"revision": (int, type(None)), "missions": (list, type(None))},
     "stop": {"how": (str,)},
     "resume": {},
     "discard": {},
@@ -51,6 +51,9 @@ def checked(name: str, given: Mapping[str, object]) -> dict[str, object]:
         if type(value) not in types:
             raise Malformed(f"{name} needs {key}: {_said(types)}")
         arguments[key] = value
+    chosen = arguments.get("missions")
+    if isinstance(chosen, list) and not all(isinstance(key, str) for key in chosen):
+        raise Malformed(f"{name} needs missions: the keys of missions of the plan, or null")
     if name == "stop" and arguments["how"] not in HOWS:
         raise Malformed('stop needs how: "rtl", all fly home first, or "land", where they are')
     priority = arguments.get("priority")
@@ -60,5 +63,5 @@ def checked(name: str, given: Mapping[str, object]) -> dict[str, object]:
 
 
 def _said(types: tuple[type, ...]) -> str:
-    names = {str: "a text", int: "a whole number", type(None): "null"}
+    names = {str: "a text", int: "a whole number", list: "a list", type(None): "null"}
     return " or ".join(names[one] for one in types)

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import json
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
+from ..actions import MEASURE
 from ..cli.events import line_of, sentence_of
 
 if TYPE_CHECKING:
+    from ..app import App
     from ..trace import Event
 
 KEPT = 20_000
@@ -43,7 +45,9 @@ class Tail:
 class Feed:
     """What is told of one flight."""
 
-    def __init__(self) -> None:
+    def __init__(self, app: App, units: Mapping[str, str]) -> None:
+        """Begin; `units` are those of the quantities that `measure` measures, where they are known."""
+        self._app, self._units = app, units
         self.log, self.results = Tail(), Tail()
         self._lines: deque[str] = deque(maxlen=KEPT)
 
@@ -55,7 +59,7 @@ class Feed:
             self.log.add(event["t"], event.get("mission"), said, _kind(event))
         verdict = _VERDICTS.get(str(event["event"]))
         if event["event"] == "trip.completed":
-            self._result(event, *_value(event.get("result")))
+            self._completed(event)
         elif verdict is not None:
             self._result(event, "verdict", f"{verdict}: {event.get('reason') or said}")
 
@@ -68,9 +72,33 @@ class Feed:
         """Return all lines that are kept, as a text."""
         return "".join(f"{line}\n" for line in self._lines)
 
-    def _result(self, event: Event, kind: str, value: object) -> None:
+    def brought(self) -> list[object]:
+        """Return the results that are kept, each with names for its facts."""
+        return [dict(zip(FACTS, json.loads(text), strict=False)) for text in self.results]
+
+    def _completed(self, event: Event) -> None:
+        """A trip's action was done: tell what it gave, of what, and where."""
+        trip: Any = event["did"]
+        action = self._app.actions[trip["action"]]
+        usual = {one.name: one.default for one in action.parameters}
+        given = {**usual, **trip.get("parameters", {})}
+        kind, value = _value(event.get("result"))
+        quantity = None
+        if action.name == MEASURE and kind != "photo":
+            kind, quantity = "measurement", given.pop("quantity")
+        unit = self._units.get(str(quantity))
+        self._result(event, kind, value, action.name, trip["target"], given, quantity, unit)
+
+    def _result(self, event: Event, kind: str, value: object, *more: object) -> None:
         facts = (event.get(fact) for fact in ("t", "mission", "trip", "round", "attempt", "drone"))
-        self.results.add(*facts, kind, value)
+        self.results.add(*facts, kind, value, *more)
+
+
+FACTS = (
+    *("number", "time", "mission", "trip", "round", "attempt", "drone", "kind", "value"),
+    *("action", "target", "parameters", "quantity", "unit"),
+)
+"""What is told of a result, in this order: of a verdict only what stands in the first line."""
 
 
 def _value(data: Any) -> tuple[str, object]:
@@ -79,11 +107,11 @@ def _value(data: Any) -> tuple[str, object]:
         case {"$photo": photo}:
             return "photo", photo
         case {"$text": str(text)} | {"$number": str(text)}:
-            return "value", text
+            return "result", text
         case None | bool() | int() | float() | str():
-            return "value", data
+            return "result", data
         case _:
-            return "value", json.dumps(data)
+            return "result", json.dumps(data)
 
 
 _VERDICTS = {"mission.judged": "not accepted", "mission.extended": "more to do"}

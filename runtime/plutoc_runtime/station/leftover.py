@@ -23,7 +23,7 @@ AWAY = "put_away"
 
 
 def found(app: App, settings: Settings, going_on: bool = False) -> TakenUp | None:
-    """Return the newest journal of the station's folder, opened, if it can be gone on with.
+    """Return the newest journal of the station's folder, opened, to be shown and gone on with.
 
     A flight over another map would be drawn over this one, and misread: it is left alone, unless
     this station was started to go on with it.
@@ -37,11 +37,13 @@ def found(app: App, settings: Settings, going_on: bool = False) -> TakenUp | Non
         output.tell(f"the last flight cannot be shown: {why}")
         return None
     same = taken.header["sim"], taken.header.get("crtp_sim") is not None
-    if taken.is_over or same != (settings.sim, settings.crtp_sim is not None):
+    if same != (settings.sim, settings.crtp_sim is not None):
         taken.store.close()
         return None
-    if not going_on and _drawn(taken.fleet) != _drawn(settings.fleet):
+    if not going_on and drawn(taken.fleet) != drawn(settings.fleet):
         taken.store.close()
+        if taken.is_over:
+            return None
         output.tell(
             "the last flight is not shown: it has another map, or other drones, than this station;"
             f" serve with the fleet file with which it began. Without it, {how_to_go_on(app, journal)}"
@@ -50,7 +52,7 @@ def found(app: App, settings: Settings, going_on: bool = False) -> TakenUp | Non
     return taken
 
 
-def _drawn(fleet: FleetFile) -> object:
+def drawn(fleet: FleetFile) -> object:
     """Return what people see of a fleet file."""
     return fleet.airspace, [(one.id, one.category, one.home) for one in fleet.drones]
 

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import asyncio
 import json
+import time
 import traceback
-from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from contextlib import closing, suppress
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -15,41 +16,48 @@ from ..cli import output
 from ..cli.flights import Flight, Watcher, lives
 from ..cli.flown import records_in
 from ..errors import BadInput
+from ..journal.fold import Records
 from ..journal.reader import Reader
 from ..kernel import WHATEVER
 from ..setting import End, Stops
-from ..status import DroneStatus
+from ..simulation.world import UNITS
 from . import rows
 from .feed import Feed
+from .plan.shape import BROKEN_OFF
+from .rest import Rest
 from .versions import Versions
+from .waiting import Waiting
 
 if TYPE_CHECKING:
     from ..fly import Recovered
-    from ..journal.fold import Records
     from ..journal.store import Store
     from ..life import Life
     from ..one_life import OneLife
     from ..trace import Event
-
-FLEET_EACH = 3.0
-"""Seconds after which those who wait are told anew what the drones are doing."""
 
 
 class Outing:
     """A journal, whoever lives it, and what everybody sees of it."""
 
     def __init__(
-        self, flight: Flight, ended: Callable[[], object], seen: Callable[[], object]
+        self,
+        flight: Flight,
+        ended: Callable[[], object],
+        seen: Callable[[], object],
+        known: Records | None = None,
     ) -> None:
-        """Begin; `seen` is called when drones were heard of, `ended` when it lives no more."""
+        """Begin; `seen` is called when drones were heard of, `ended` when it lives no more.
+
+        `known` is what is known of the drones before anything of it is on record.
+        """
         self.flight = flight
         self.id = flight.journal.name
-        self.feed = Feed()
+        self.feed = Feed(flight.app, UNITS if flight.sim else {})
         self.missions, self.drones = Versions(), Versions()
         self.stops = Stops()
         self.one: OneLife | None = None
         """What is lived now."""
-        self.records: Records | None = None
+        self.records: Records | None = known
         """What the journal said when it was read last."""
         self.end: End | None = None
         """How it ended the last time; None: it has not, or its process died."""
@@ -57,9 +65,8 @@ class Outing:
         """Why it could not go on."""
         self.task: asyncio.Task[None] | None = None
         self._ended, self._seen = ended, seen
-        self._last_seen = self._drones_at_home(())
-        self._fleet: dict[str, str] = {}
-        self._fleet_at = -FLEET_EACH
+        self._rest = Rest(flight.fleet.drones, flight.journal)
+        self._waiting = Waiting(time.monotonic)
         self._left_at = 0.0
 
     @property
@@ -78,6 +85,11 @@ class Outing:
         return self.one.life if self.one is not None else None
 
     @property
+    def known(self) -> Records | None:
+        """What is on record, as of now."""
+        return self.life.recorder.records if self.life is not None else self.records
+
+    @property
     def names(self) -> set[str]:
         """The missions that it has."""
         if self.life is not None and self.life.missions:
@@ -85,13 +97,25 @@ class Outing:
         known = self.records.missions if self.records is not None else {}
         return {*known} or {mission.name for mission in self.flight.missions}
 
+    @property
+    def ends(self) -> dict[str, str]:
+        """How each of its missions has ended."""
+        known = self.known.missions if self.known is not None else {}
+        return {
+            name: str(record["status"]) if record["ended"] else BROKEN_OFF
+            for name, record in known.items()
+        }
+
     def read(self, known: Recovered) -> None:
         """Show what a journal says that nobody lives."""
         self.records = known.records
-        self._last_seen = self._drones_at_home(known.records.retired)
+        told = Records()
         with closing(Reader(self.flight.journal)) as reader:
             for row in reader.rows():
                 for event in json.loads(row.text):
+                    told.take(event)
+                    if event["event"] == "trip.completed":
+                        event["did"] = told.flown_last(event["mission"])
                     self.feed.take(event)
 
     def begin(self, store: Store, known: Recovered | None) -> None:
@@ -116,7 +140,7 @@ class Outing:
             self.end, self.records = lived.end, lived.records
         finally:
             store.close()
-            self._last_seen, self._left_at = self._drones_at_the_end(), self.now
+            self._left_at = self.now
             self.one = None
             if self.trouble:
                 self._say(self.trouble, "bad")
@@ -128,6 +152,7 @@ class Outing:
             self.records = records_in(self.flight.app, self.flight.journal)
 
     def _born(self, one: OneLife) -> None:
+        self.records = self.known  # until the drones have been reached anew
         self.one = one
         one.when_seen(self._seen)
 
@@ -156,9 +181,11 @@ class Outing:
         life, put, changed = self.life, self.missions.put, False
         if life is not None and life.missions:
             states = {state.mission.name: state for state in life.session.engine.states}
-            now, fleet, app = self.now, self._what_the_fleet_does, self.flight.app
+            now, app, fleet = self.now, self.flight.app, life.session.core.fleet
+            self._waiting.look(fleet)
+            why = partial(self._waiting.why, fleet)
             for mission in life.missions:
-                row = rows.mission_row(app, mission, states.get(mission.name), now, fleet)
+                row = rows.mission_row(app, mission, states.get(mission.name), now, why)
                 changed |= put(mission.name, row, number)
         elif self.records is not None:
             for name, record in self.records.missions.items():
@@ -167,7 +194,8 @@ class Outing:
 
     def _see_drones(self, number: int) -> bool:
         put, changed = self.drones.put, False
-        for row in self._last_seen if self.life is None else self._drones_now(self.life):
+        life = self.life
+        for row in self._rest.rows(self.records) if life is None else self._drones_now(life):
             changed |= put(str(row["id"]), row, number)
         return changed
 
@@ -175,36 +203,6 @@ class Outing:
         work = rows.mission_of_each(life.session.engine.states)
         fleet = life.session.core.fleet
         for drone in life.session.drones:
-            why = fleet.unready.get(drone, "")
-            yield rows.drone_row(drone, work.get(drone.id), drone in fleet.retired, why)
-
-    def _drones_at_home(self, retired: Sequence[str]) -> list[rows.Row]:
-        """Return where drones are of which nobody has heard as yet."""
-        return [
-            rows.drone_at(entry.id, entry.home, None, trips=0, retired=entry.id in retired)
-            for entry in self.flight.fleet.drones
-        ]
-
-    def _drones_at_the_end(self) -> list[rows.Row]:
-        """Return where the drones were seen last: from now on nobody hears of them."""
-        if self.life is None:
-            return self._last_seen
-        retired = self.life.session.core.fleet.retired
-        return [
-            rows.drone_at(
-                drone.id, drone.location, drone.battery_level, drone.trips, drone in retired
-            )
-            for drone in self.life.session.drones
-        ]
-
-    def _what_the_fleet_does(self, action: str) -> str:
-        """Say why missions wait for drones; not anew at every look, for there may be many."""
-        now = asyncio.get_running_loop().time()
-        if now - self._fleet_at >= FLEET_EACH:
-            self._fleet, self._fleet_at = {}, now
-        if action not in self._fleet and self.life is not None:
-            able = (one for one in self.life.session.drones if one.category.can(action))
-            count = Counter(drone.status for drone in able)
-            said = (f"{count[s]} {s.value.lower()}" for s in DroneStatus if count[s])
-            self._fleet[action] = ", ".join(said)
-        return self._fleet.get(action, "")
+            low = self._waiting.why_low(fleet, drone)
+            why, status = low or fleet.unready.get(drone, ""), "LOW" if low else ""
+            yield rows.drone_row(drone, work.get(drone.id), drone in fleet.retired, why, status)

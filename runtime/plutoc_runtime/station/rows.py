@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Iterable, Sequence
+from math import isfinite
 from typing import TYPE_CHECKING, Any
 
 from ..cli.flown import aside
 from ..control import ANSWERS
+from ..gateway.wire import SILENT
 from ..status import Status, TripStatus
 from ..transitions import PRIORITY
 from ..words import cut_off
@@ -14,6 +17,7 @@ from .whereabouts import END, ENDED, blocks_of
 
 if TYPE_CHECKING:
     from ..app import App
+    from ..gateway.sightings import Sighting
     from ..journal.fold import Record
     from ..model import Drone, Mission, Point, Trip
     from ..state import State
@@ -29,9 +33,9 @@ def mission_row(
     mission: Mission[Any],
     state: State | None,
     now: float,
-    fleet: Callable[[str], str],
+    fleet: Callable[[Trip], str],
 ) -> Row:
-    """Return what there is to see of a mission; `fleet` says what those do that can do an action."""
+    """Return what there is to see of a mission; `fleet` says why no drone flies a trip yet."""
     done, todo = mission.completed_trips, mission.trips
     at = blocks_of(state, app.flow) if state is not None else ()
     status = mission.status
@@ -89,28 +93,41 @@ def recorded_row(name: str, record: Record) -> Row:
     }
 
 
-def drone_row(drone: Drone, mission: str | None, retired: bool, why: str = "") -> Row:
+def drone_row(
+    drone: Drone, mission: str | None, retired: bool, why: str = "", status: str = ""
+) -> Row:
     """Return what there is to see of a drone; to the centimetre, and the thousandth.
 
-    `why` is why it may not fly.
+    `why` is why it may not fly; `status` is its own unless a person had better read another.
     """
+    silence = drone.telemetry.silence
+    heard = isfinite(silence)
     return _drone_row(
         drone.id,
-        drone.status.value,
-        drone.location,
-        drone.battery_level,
+        status or drone.status.value,
+        drone.location if heard else None,
+        drone.battery_level if heard else None,
         mission,
         drone.trips,
         retired,
         why,
+        time.time() - silence if heard and silence > SILENT else None,
     )
 
 
 def drone_at(
-    id: str, place: Point, battery: float | None, trips: int, retired: bool = False
+    id: str,
+    status: str,
+    seen: Sighting | None,
+    trips: int,
+    retired: bool,
+    why: str,
 ) -> Row:
-    """Return the same of a drone of which nobody hears now: where it was seen last."""
-    return _drone_row(id, "OFFLINE", place, battery, None, trips, retired)
+    """Return the same of a drone that nobody commands now; `seen` is when it was heard of last."""
+    if seen is None:
+        return _drone_row(id, status, None, None, None, trips, retired, why)
+    battery = seen.battery if seen.when else None
+    return _drone_row(id, status, seen.at, battery, None, trips, retired, why, seen.when)
 
 
 def mission_of_each(states: Iterable[State]) -> dict[str, str]:
@@ -122,20 +139,22 @@ def mission_of_each(states: Iterable[State]) -> dict[str, str]:
 def _drone_row(
     id: str,
     status: str,
-    at: Point,
+    at: Point | None,
     battery: float | None,
     mission: str | None,
     trips: int,
     retired: bool,
     why: str = "",
+    when: float | None = None,
 ) -> Row:
-    x, y, z = at
+    x, y, z = (None, None, None) if at is None else (round(metres, 2) for metres in at)
     return {
         "id": id,
         "status": status,
-        "x": round(x, 2),
-        "y": round(y, 2),
-        "z": round(z, 2),
+        "x": x,
+        "y": y,
+        "z": z,
+        "seen": None if when is None else round(when) * 1000,
         "battery": None if battery is None else round(battery, 3),
         "mission": mission,
         "trips": trips,
@@ -178,7 +197,7 @@ def _why_it_waits(
     state: State,
     at: Sequence[str],
     until: float | None,
-    fleet: Callable[[str], str],
+    fleet: Callable[[Trip], str],
 ) -> str:
     mission = state.mission
     if mission.status is Status.PAUSED:
@@ -190,7 +209,8 @@ def _why_it_waits(
     if until is not None:
         return "waits until its time has come"
     if state.allocated is None and at and at[0] in app.resumes:
-        return f"waits for a drone ({fleet(mission.current.action)})"
+        why = fleet(mission.current)
+        return f"waits for a drone ({why})" if why else "waits for a drone"
     if at and mission.status in ENDED:
         return f"waits for what {at[0]} says"
     return ""

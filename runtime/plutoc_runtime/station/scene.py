@@ -13,8 +13,10 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Protocol
 
 from .phase import phase_of
+from .versions import Versions
 
 if TYPE_CHECKING:
+    from .inheritance import Inheritance
     from .outing import Outing
     from .plan.plan import Plan
 
@@ -34,6 +36,7 @@ class Shown(Protocol):
     described: dict[str, object]
     outing: Outing | None
     plan: Plan
+    inheritance: Inheritance
 
 
 class Scene:
@@ -42,6 +45,8 @@ class Scene:
     def __init__(self, station: Shown) -> None:
         self._station = station
         self._number, self._state = 0, ""
+        self.drones = Versions()
+        """Those that are seen while there is no flight."""
         self._tick: asyncio.Future[None] | None = None
         self._timer: asyncio.Handle | None = None
         self._ticked_at = 0.0
@@ -98,6 +103,9 @@ class Scene:
         self._state = state
         if outing is not None:
             changed |= outing.look(number)
+        else:
+            for row in self._station.inheritance.rows():
+                changed |= self.drones.put(str(row["id"]), row, number)
         if changed:
             self._number = number
 
@@ -124,7 +132,7 @@ class Scene:
             "flight": json.dumps(outing.id if outing is not None else ""),
             "state": f'{{"time": {outing.now if outing else 0.0:.3f}, {self._state[1:]}',
             "missions": _listed(outing.missions.since(seen) if outing else ()),
-            "drones": _listed(outing.drones.since(seen) if outing else ()),
+            "drones": _listed((outing or self).drones.since(seen)),
             "log": _listed(outing.feed.log.since(log) if outing else ()),
             "results": _listed(outing.feed.results.since(results) if outing else ()),
         }

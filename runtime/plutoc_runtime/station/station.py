@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import json
 import secrets
 import time
 from collections import OrderedDict
@@ -18,15 +17,18 @@ from ..cli.taken_up import take_up
 from ..errors import BadInput
 from ..gateway.starting import cut_directly, let_end, still_runs, stop_directly
 from ..journal import lock, place
+from ..journal.fold import Records
 from ..journal.header import header
 from ..journal.store import Store
 from ..remote_control import perform
+from ..setting import End
 from ..simulation.faults import Faults
 from ..standing import Down
 from ..words import counted
 from . import leftover
 from .commands import checked
 from .describe import described
+from .inheritance import Inheritance
 from .outing import Outing
 from .phase import Phase, phase_of
 from .scene import Scene
@@ -64,6 +66,8 @@ class Station:
         self._answers: OrderedDict[str, asyncio.Future[str]] = OrderedDict()
         self._scene = Scene(self)
         self._one_at_a_time = asyncio.Lock()
+        self.inheritance = Inheritance(app, settings)
+        """What is known of the drones while there is no flight."""
         self._before: Path | None = None
         """The folder of the gateway that was put away last: its drones may still be coming down."""
 
@@ -79,12 +83,15 @@ class Station:
 
     def begin(self, going_on: bool = False) -> None:
         """Show the flight that an earlier station, or `fly`, has not brought to its end."""
+        self.inheritance.read()
         taken = leftover.found(self._app, self._settings, going_on)
         if taken is None:
             self.plan.unlock()
             return
         self.outing = Outing(taken.flight(self._settings.speed), self._over, self._scene.hurry)
         self.outing.read(taken.known)
+        if taken.is_over:
+            self.outing.end = End.OVER
         taken.store.close()
         self._lock_what_flies()
 
@@ -111,8 +118,7 @@ class Station:
         outing = self.outing
         if outing is None:
             return False
-        records = outing.life.recorder.records if outing.life is not None else outing.records
-        return records is not None and id in records.commands
+        return outing.known is not None and id in outing.known.commands
 
     async def _do(self, name: str, id: str, given: Mapping[str, object]) -> str:
         match name:
@@ -126,6 +132,9 @@ class Station:
             case "resume":
                 async with self._one_at_a_time:
                     return self.resume()
+            case "bring-back" if self.outing is None or not self.outing.lives:
+                async with self._one_at_a_time:
+                    return self._bring_back(id, str(given["drone"]))
             case "discard":
                 async with self._one_at_a_time:
                     return await self._discard()
@@ -140,7 +149,10 @@ class Station:
         if phase in (Phase.STOPPED, Phase.INTERRUPTED):
             raise BadInput("the last flight has not ended: resume it, or put it away")
         await self._others_are_down()
-        missions, keys = self.plan.launchable()
+        if phase is not Phase.FLYING:
+            self._look_at_the_drones()
+        chosen = given["missions"]
+        missions, keys = self.plan.launchable(chosen if isinstance(chosen, list) else None)
         if not missions and phase is Phase.FLYING:  # somebody else was quicker
             return "every mission of the plan flies already"
         if not missions:
@@ -157,7 +169,26 @@ class Station:
         except BaseException:
             self._lock_what_flies()
             raise
-        return f"{counted(len(missions), 'mission')} started"
+        left = self.inheritance.lost if phase is not Phase.FLYING else ()
+        without = f"; without {', '.join(left)}, lost until brought back" if left else ""
+        return f"{counted(len(missions), 'mission')} started{without}"
+
+    def _look_at_the_drones(self) -> None:
+        """Raise `BadInput` if none of them may fly."""
+        self.inheritance.read()
+        self.inheritance.check_free()
+        lost = self.inheritance.lost
+        if lost and len(lost) == len(self._settings.fleet.drones):
+            raise BadInput(
+                "every drone is lost: look after one, put it into its dock, and bring it back first"
+            )
+
+    def _bring_back(self, id: str, drone: str) -> str:
+        """A person has looked after a drone, while nothing flies."""
+        said = self.inheritance.bring_back(id, drone)
+        if self.outing is not None:
+            self.outing.records = self.inheritance.records
+        return said
 
     async def _add(self, id: str, missions: list[Mission[Any]]) -> None:
         """Let missions set out beside those that fly."""
@@ -174,8 +205,10 @@ class Station:
 
     def _lock_what_flies(self) -> None:
         """Let the missions that the flight has, and no others, be as they are in the plan."""
-        if self.outing is None or self.phase is Phase.OVER:
+        if self.outing is None:
             self.plan.unlock()
+        elif self.phase is Phase.OVER:
+            self.plan.settle(self.outing.ends)
         else:
             self.plan.adopt(self.outing.names)
 
@@ -192,7 +225,9 @@ class Station:
             crtp_sim=settings.crtp_sim,
             seed=settings.seed,
             faults=settings.faults,
+            inherited=self.inheritance.facts,
         )
+        self.inheritance.hand_on_the_world(journal)
         store = Store.create(journal, begun)
         flight = Flight(
             app=self._app,
@@ -205,7 +240,9 @@ class Station:
             sim=settings.sim,
             crtp=settings.crtp_sim is not None,
         )
-        self.outing = Outing(flight, self._over, self._scene.hurry)
+        known = Records()
+        known.take(begun)
+        self.outing = Outing(flight, self._over, self._scene.hurry, known)
         self.outing.begin(store, None)
 
     def resume(self) -> str:
@@ -234,9 +271,11 @@ class Station:
             await asyncio.to_thread(stop_directly, folder, Down.LAND, STOP_WITHIN)
         let_end(folder)
         self._before = folder
+        if self.outing.records is not None:
+            self.inheritance.leave(self.outing.journal, self.outing.records)
         leftover.put_away(self._settings, self.outing.journal)
+        self.plan.settle(self.outing.ends)
         self.outing = None
-        self.plan.unlock()
         return "put away; its journal is kept"
 
     async def _others_are_down(self) -> None:
@@ -309,6 +348,8 @@ class Station:
     def _over(self) -> None:
         """Nothing flies any more: let the plan be drawn anew, and whoever waits for it go."""
         self._lock_what_flies()
+        if self.outing is not None and self.outing.records is not None:
+            self.inheritance.leave(self.outing.journal, self.outing.records)
         if self._leaving:
             self.leaves.set()
 
@@ -326,7 +367,7 @@ class Station:
         """Return what the flight has brought in."""
         if self.outing is None:
             return []
-        return [json.loads(text) for text in self.outing.feed.results]
+        return self.outing.feed.brought()
 
 
 _NOT_YET = "the drones are just being asked where they are: try again in a moment"

@@ -105,6 +105,19 @@ def serve(apps: dict[str, App], tmp_path: Path) -> Iterator[Serve]:
         station.end()
 
 
+@pytest.fixture(scope="module")
+def ward(apps: dict[str, App], tmp_path_factory: pytest.TempPathFactory) -> Iterator[Station]:
+    """Serve a station for all that only draw."""
+    folder = tmp_path_factory.mktemp("ward")
+    station = Station(
+        app=apps["drugs_distribution"], folder=folder / "0", options=("--speed", "20")
+    )
+    station.folder.mkdir()
+    station.start()
+    yield station
+    station.end()
+
+
 @pytest.fixture
 def watch() -> Iterator[Watch]:
     """Fail the test for what any of its pages complains of, or asks of anybody else."""

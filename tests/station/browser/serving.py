@@ -89,6 +89,12 @@ class Station:
         self._life.kill()
         self._life.wait()
 
+    def stop(self) -> None:
+        """Tell the life to end, as a system does that shuts down."""
+        assert self._life is not None
+        self._life.terminate()
+        self._life.wait(PATIENCE)
+
     def end(self) -> None:
         """Leave no process behind: neither server, nor whoever it supervises, nor a gateway."""
         if self._life is not None and self._life.poll() is None:

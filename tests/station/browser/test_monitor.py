@@ -108,7 +108,7 @@ def test_the_graph_says_of_each_block_what_it_does_and_who_is_there(
 
 WAYS = """
 async ([graph, ways]) => {
-  const { finder } = await import("/pages/graph.js");
+  const { finder } = await import("/pages/monitor.js");
   const way = finder(graph);
   return ways.map((given) => way(...given).map((edge) => edge.to).join(" "));
 }
@@ -193,20 +193,18 @@ def test_a_panel_that_was_folded_stays_so(flying: tuple[Station, Page]) -> None:
     expect(page.get_by_role("button", name="Console")).to_have_attribute("aria-expanded", "true")
 
 
-def test_motors_are_cut_at_the_second_press_and_the_lost_drone_is_brought_back(
+def test_motors_are_cut_while_the_button_is_held_and_the_lost_drone_is_brought_back(
     flying: tuple[Station, Page],
 ) -> None:
     station, page = flying
     drones = panel(page, "Drones")
-    cut = drones.get_by_role("button", name="Cut motors of").first
-    cut.click()
-    sure = drones.get_by_role("button", name="Really cut motors of")
-    expect(sure).to_have_count(1)
-    who = sure.inner_text().removeprefix("Really cut motors of ").removesuffix("?")
-    assert row(station, "drones", "id", who)["status"] != "LOST"
-    sure.click()
+    cut = drones.get_by_role("button", name="cut motors of").first
+    who = cut.inner_text().split()[-1]
+    cut.hover()
+    page.mouse.down()
     line = drones.get_by_role("listitem").filter(has_text=who)
     expect(line).to_contain_text("Lost")
+    page.mouse.up()
     assert row(station, "drones", "id", who)["z"] == 0
     expect(panel(page, "Console")).to_contain_text(f"{who}'s motors were cut")
     drones.get_by_role("button", name=f"Bring back drone {who}").click()

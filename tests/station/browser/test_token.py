@@ -7,7 +7,7 @@ from playwright.sync_api import expect
 from tests.station.browser.conftest import Serve, Visit
 from tests.station.browser.exercise import put_in
 from tests.station.browser.serving import until
-from tests.station.browser.steps import missions_listed, sees_all, start
+from tests.station.browser.steps import missions_listed, open_page, sees_all, start
 from tests.station.browser.watched import Watch
 
 
@@ -46,3 +46,26 @@ def test_without_the_token_one_sees_where_to_find_it_and_can_paste_the_whole_add
     page.get_by_role("button", name="Open the station").click()
     expect(missions_listed(page)).to_have_count(3)
     until(lambda: station.phase == "idle", "nothing has happened")
+
+
+def test_one_browser_is_told_the_token_once_until_it_is_told_to_forget_it(
+    serve: Serve, visit: Visit, watch: Watch
+) -> None:
+    """Another tab knows it, and so does one that was opened after all were closed; no cookie does."""
+    station = serve("drugs_distribution", "--name", "ward.example")
+    put_in(station)
+    first = visit(station)
+    expect(missions_listed(first)).to_have_count(3)
+    context = first.context
+    another = context.new_page()
+    first.close()
+    another.goto(f"http://127.0.0.1:{station.port}/")
+    expect(missions_listed(another)).to_have_count(3)
+    assert context.cookies() == []
+    watch.expected += ["401"]
+    open_page(another, "Help")
+    another.get_by_role("button", name="Forget the token").click()
+    expect(another.get_by_role("heading")).to_contain_text("asks for its token")
+    last = context.new_page()
+    last.goto(f"http://127.0.0.1:{station.port}/")
+    expect(last.get_by_role("heading")).to_contain_text("asks for its token")

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 from functools import partial
 from typing import Any
 
-import pytest
 from playwright.sync_api import Locator, Page, expect
 
 from tests.station.browser.conftest import Serve, Visit
 from tests.station.browser.exercise import Place
-from tests.station.browser.installed import App
 from tests.station.browser.serving import Station, until
 from tests.station.browser.steps import (
     action_called,
@@ -64,19 +61,6 @@ def draw(station: Station, visit: Visit, *actions: tuple[str, Place]) -> Page:
         drag(page, action, place)
         until(partial(has, station, count), "the trip is kept")
     return page
-
-
-@pytest.fixture(scope="module")
-def ward(apps: dict[str, App], tmp_path_factory: pytest.TempPathFactory) -> Iterator[Station]:
-    """Serve a station for all that only draw."""
-    folder = tmp_path_factory.mktemp("ward")
-    station = Station(
-        app=apps["drugs_distribution"], folder=folder / "0", options=("--speed", "20")
-    )
-    station.folder.mkdir()
-    station.start()
-    yield station
-    station.end()
 
 
 def test_a_pin_goes_with_the_mouse_in_steps_of_ten_centimetres_and_of_one_with_shift(

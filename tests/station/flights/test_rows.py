@@ -46,7 +46,7 @@ class Waiting:
 
 
 def row(mission: Mission[Any], state: State | None) -> dict[str, object]:
-    return mission_row(cast("App", Resuming()), mission, state, 10.0, str)
+    return mission_row(cast("App", Resuming()), mission, state, 10.0, lambda trip: trip.action)
 
 
 def test_a_mission_whose_last_trip_is_judged_has_not_ended() -> None:

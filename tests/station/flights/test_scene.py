@@ -23,6 +23,14 @@ class Unseen:
         raise ZeroDivisionError
 
 
+class Nothing:
+    """What is known of the drones where none has flown yet."""
+
+    def rows(self) -> tuple[()]:
+        """Return that there is nothing to see."""
+        return ()
+
+
 class Shown:
     """A station with such a flight."""
 
@@ -30,6 +38,7 @@ class Shown:
         self.described: dict[str, object] = {"server": "x"}
         self.outing: Any = Unseen()
         self.plan = Plan(APP, FLEET, None)
+        self.inheritance: Any = Nothing()
 
 
 def test_a_mistake_in_what_is_shown_leaves_nobody_waiting_nor_who_heard_of_the_drones() -> None:

@@ -213,3 +213,61 @@ def full_disk() -> Iterator[None]:
     finally:
         setrlimit(RLIMIT_FSIZE, (soft, hard))
         signal(SIGXFSZ, before)
+
+
+def ended(plan: Plan) -> dict[str, object]:
+    """Return how the missions of a plan have ended, by their names."""
+    missions: Any = plan.data()["missions"]
+    return {mission["name"]: mission["ended"] for mission in missions}
+
+
+def flown(keep: Path | None = None) -> Plan:
+    """Return a plan of three missions that have flown: one failed, one was broken off."""
+    plan = a_plan(keep)
+    plan.replace(plan.revision, [mission(f"mission-{name}") for name in ("one", "two", "six")])
+    plan.launched(["mission-one", "mission-two", "mission-six"])
+    plan.settle({"mission-one": "COMPLETED", "mission-two": "FAILED", "mission-six": "BROKEN_OFF"})
+    return plan
+
+
+def test_start_leaves_out_what_was_completed_until_all_was_or_it_is_chosen() -> None:
+    plan = flown()
+    assert plan.launchable()[1] == ["mission-two", "mission-six"]
+    assert plan.launchable(["mission-two"])[1] == ["mission-two"]
+    assert plan.launchable(["mission-one"])[1] == ["mission-one"]
+    with pytest.raises(BadInput, match='no mission of the plan has the key "nowhere"'):
+        plan.launchable(["nowhere"])
+    plan.launched(["mission-two", "mission-six"])
+    assert plan.launchable()[1] == []  # what was completed does not fly beside them by itself
+    with pytest.raises(BadInput, match='"mission-two" belongs to the flight that is under way'):
+        plan.launchable(["mission-two"])
+    plan.settle({"mission-two": "COMPLETED", "mission-six": "COMPLETED"})
+    assert len(plan.launchable()[1]) == 3
+
+
+def test_a_mission_that_is_drawn_anew_has_not_been_completed_but_its_name_changes_nothing() -> None:
+    plan = flown()
+    one, two, six = (mission(f"mission-{name}") for name in ("one", "two", "six"))
+    plan.replace(plan.revision, [{**one, "name": "First", "ended": None}, two, six])
+    assert ended(plan) == {
+        "First": "COMPLETED",
+        "mission-two": "FAILED",
+        "mission-six": "BROKEN_OFF",
+    }
+    more = {**one, "trips": [*one["trips"], trip("trip-more")], "ended": "COMPLETED"}
+    plan.replace(plan.revision, [more, two, {**mission("mission-new"), "ended": "COMPLETED"}])
+    assert ended(plan) == {"mission-one": None, "mission-two": "FAILED", "mission-new": None}
+
+
+def test_how_missions_have_ended_is_kept_and_problems_of_others_hold_up_nothing(
+    tmp_path: Path,
+) -> None:
+    flown(tmp_path / "plan.json")
+    plan = a_plan(tmp_path / "plan.json")
+    assert list(ended(plan).values()) == ["COMPLETED", "FAILED", "BROKEN_OFF"]
+    shapes: Any = plan.data()["missions"]
+    broken = {**shapes[2], "trips": [trip("trip-bad", target=[-5, 3])]}
+    plan.replace(plan.revision, [*shapes[:2], broken])
+    assert plan.launchable(["mission-two"])[1] == ["mission-two"]
+    with pytest.raises(BadInput, match="mission-six"):
+        plan.launchable()

@@ -8,8 +8,10 @@ const TOKEN = "pluto-token";
 
 export const wait = (time) => new Promise((done) => setTimeout(done, time));
 
-export const token = () => sessionStorage.getItem(TOKEN) ?? "";
-export const keepToken = (text) => sessionStorage.setItem(TOKEN, text.trim());
+// In no cookie: that would go to every port of this machine.
+export const token = () => localStorage.getItem(TOKEN) ?? "";
+export const keepToken = (text) => localStorage.setItem(TOKEN, text.trim());
+export const forgetToken = () => localStorage.removeItem(TOKEN);
 
 // The token moves out of the page's address at once.
 export function takeToken() {
@@ -80,7 +82,6 @@ const SILENCE = 4000; // ms; the station answers after a second at the latest
 const POLLS = 30; // so many plain requests before the WebSocket is tried again
 const NO_TOKEN = 4401;
 
-// A hidden page takes its time.
 const leisure = () => document.hidden && wait(1000);
 
 // Resolves when the line is gone, with how many messages came.
@@ -218,15 +219,17 @@ export function liveFeed() {
   return live;
 }
 
-// The plan that everybody draws together, and its usual changes: functions from missions to
-// missions (never changed in place) that find what they change by key. One is seen at once and
-// saved by itself; where somebody was quicker, on top of theirs; without a connection, later.
+// The plan that everybody draws together. Changes are functions from missions to missions that find
+// what they change by key: seen at once, saved by themselves; where somebody was quicker, on top of
+// theirs; without a connection, later.
 const TYPING = 300; // ms
 const BETWEEN = 120; // two savings, also while a pin is dragged
 
 export function planKept() {
   let base = { revision: 0, missions: [], problems: [] };
   let pending = []; // changes that the station does not know yet
+  let unanswered = []; // missions that the station may have got all the same
+  const drafts = new Map(); // what was typed and cannot be in the plan, by where it stands
   let timer = 0;
   let sending = false;
   let tries = 0;
@@ -237,11 +240,43 @@ export function planKept() {
     changed: bell(), refused: bell(),
   };
 
+  function judge() {
+    const found = [];
+    for (const [at, { mission, trip, field, typed, why, now }] of drafts) {
+      const of = plan.missions.find(({ key, launched }) => key === mission && !launched);
+      const thing = trip ? of?.trips.find(({ key }) => key === trip) : of;
+      if (!thing) drafts.delete(at);
+      else {
+        const text = `${why} The plan still has ${now(thing) ?? "nothing there"}.`;
+        found.push({ mission, trip, field, text, typed });
+      }
+    }
+    plan.problems = [...found, ...base.problems];
+    plan.changed.ring();
+  }
+
   function replay() {
     plan.missions = pending.reduce((missions, change) => change(missions), base.missions);
-    plan.problems = base.problems;
     plan.said = base.said ?? "";
-    plan.changed.ring();
+    judge();
+  }
+
+  // Where two have written at one place, the later one is told.
+  function tell(old, ours) {
+    const [was, mine, theirs, lost, now] =
+      [old, ours, base.missions, unanswered, plan.missions].map(leaves);
+    const said = [];
+    for (const [at, value] of mine) {
+      const other = theirs.get(at);
+      if (value === was.get(at)) continue;
+      if (now.get(at) !== value) {
+        said.push(`You wrote “${value}”, but somebody else has removed or started that meanwhile.`);
+      } else if (![was.get(at), value, lost.get(at)].includes(other)) {
+        said.push(`Somebody else wrote “${other ?? ""}” while you wrote “${value}” there. `
+          + "The plan has yours now.");
+      }
+    }
+    if (said.length) plan.refused.ring(said.slice(0, 3).join("\n"));
   }
 
   function later(time) {
@@ -255,11 +290,14 @@ export function planKept() {
     sending = true;
     sentAt = performance.now();
     const sent = pending.length;
+    const content = { revision: base.revision, missions: plan.missions };
     try {
-      const content = { revision: base.revision, missions: plan.missions };
       const { status, data } = await send("PUT", "/api/plan", content);
+      const [old, ours] = [base.missions, plan.missions];
       if (status !== 409) pending = pending.slice(sent);
       plan.take(data);
+      if (status === 409) tell(old, ours);
+      unanswered = [];
     } catch ({ status, message }) {
       if (status === 400 || status === 413) { // the station will never have it
         pending = pending.slice(sent);
@@ -267,6 +305,7 @@ export function planKept() {
         plan.refused.ring(message);
       } else {
         tries = Math.min(tries + 1, 3);
+        unanswered = content.missions;
         plan.trouble = message;
         plan.changed.ring();
       }
@@ -289,7 +328,6 @@ export function planKept() {
   };
   plan.revision = () => base.revision;
   plan.unsaved = () => pending.length > 0;
-  // Resolves when everything is saved, or after a while.
   plan.saved = async () => {
     if (pending.length) later(0);
     for (let i = 0; pending.length && i < 100; i += 1) await wait(30);
@@ -298,13 +336,19 @@ export function planKept() {
   plan.edit = (change, typing = false) => {
     pending.push(change);
     plan.missions = change(plan.missions);
-    plan.changed.ring();
+    judge();
     later(typing ? TYPING : 0);
+  };
+  // draft: { typed, why, now: thing → its value in the plan }, or nothing
+  plan.draft = (mission, trip, field, draft) => {
+    const at = [mission, trip, field].join();
+    if (!draft && !drafts.delete(at)) return;
+    if (draft) drafts.set(at, { mission, trip, field, ...draft });
+    judge();
   };
   return plan;
 }
 
-// Which mission is selected, on all pages alike.
 export function selection(plan) {
   const selected = { key: null, changed: bell() };
   selected.mission = () => plan.missions.find(({ key }) => key === selected.key) ?? null;
@@ -316,6 +360,15 @@ export function selection(plan) {
   plan.changed.heard(() => selected.mission() || selected.set(null));
   return selected;
 }
+
+// Each value of a plan as it is written, by where it stands.
+const leaves = (missions) => new Map(missions.flatMap(({ key, trips, launched, ...own }) =>
+  [[key, own], ...trips.map(({ key: trip, ...its }) => [`${key} ${trip}`, its])])
+  .flatMap(function flat([at, value]) {
+    return value && typeof value === "object" && !Array.isArray(value)
+      ? Object.entries(value).flatMap(([name, one]) => flat([`${at} ${name}`, one]))
+      : [[at, String(value ?? "")]];
+  }));
 
 const names = (missions) => missions.map(({ name }) => name);
 const has = (missions, key) => missions.some((mission) => mission.key === key);
@@ -359,7 +412,6 @@ export const deleteMission = (key) => (missions) =>
 export const putBack = (mission, index) => (missions) =>
   has(missions, mission.key) ? missions : missions.toSpliced(index, 0, mission);
 
-// A list of missions or trips, with one of them at another place.
 export function moved(list, key, to) {
   const from = list.findIndex((thing) => thing.key === key);
   if (from < 0) return list;

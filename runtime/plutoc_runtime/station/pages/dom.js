@@ -45,8 +45,8 @@ export function shown(node, yes) {
 
 const made = new WeakMap(); // parent → Map of key → element
 
-// An element for each item, in their order; it stays the same as long as the item's key is there,
-// so that focus and transitions survive. make(item) → element; update(element, item, i).
+// An element for each item, the same as long as its key is there, so that focus and transitions
+// survive. make(item) → element; update(element, item, i).
 export function keyed(parent, items, key, make, update) {
   const before = made.get(parent) ?? new Map();
   const now = new Map();
@@ -62,8 +62,7 @@ export function keyed(parent, items, key, make, update) {
   if (focused !== document.activeElement && parent.contains(focused)) focused.focus();
 }
 
-// Its children change their order by dragging: with the mouse anywhere on one, with a finger on
-// its grip, as elsewhere a finger scrolls.
+// Its children change their order by dragging; a finger takes them by the grip, elsewhere it scrolls.
 export function reorderable(list, moved) {
   let drag = null;
   list.addEventListener("pointerdown", (event) => {
@@ -143,13 +142,19 @@ export function seconds(time) {
   return `${minutes ? `${minutes} min ` : ""}${rest || !minutes ? `${rest} s` : ""}`.trim();
 }
 
-// A key for a new mission or trip.
+// The same of what need not be known to the second.
+export function since(time) {
+  if (time < 60) return seconds(time);
+  const hours = Math.floor(time / 3600);
+  return hours ? `${hours} h` : `${Math.floor(time / 60)} min`;
+}
+
 export function newKey() {
   const bytes = crypto.getRandomValues(new Uint8Array(16));
   return Array.from(bytes, (byte) => byte.toString(16).padStart(2, "0")).join("");
 }
 
-// A name that none of the others has: "Mission 1", "Mission 2".
+// "Mission 1", "Mission 2".
 export function freeName(stem, names, n = 1) {
   const name = `${stem} ${n}`;
   return names.some((other) => other.trim() === name) ? freeName(stem, names, n + 1) : name;
@@ -164,8 +169,7 @@ export function bell() {
   };
 }
 
-// Fields: a mission's, a trip's, a parameter of an action. Quantities stay as they were written,
-// "3 min", "40 mg"; a number alone is in SI units.
+// Fields. Quantities stay as they were written, "3 min", "40 mg"; a number alone is in SI units.
 const FACTORS = {
   ms: 0.001, s: 1, min: 60, h: 3600, mm: 0.001, cm: 0.01, m: 1, km: 1000, mg: 1e-6, g: 0.001, kg: 1,
   deg: Math.PI / 180, rad: 1, "%": 0.01, "m/s": 1, "km/h": 1 / 3.6, C: 1, K: 1,
@@ -184,19 +188,21 @@ function written(si, units) {
   return `${Number(of(best).toPrecision(6))} ${best}`;
 }
 
-// As it stands in the plan, in words.
-const inWords = (value, units = []) =>
+export const inWords = (value, units = []) =>
   typeof value === "number" && units.length ? written(value, units) : String(value);
 
-const number = (text) =>
-  Number.isFinite(Number(text.replace(",", "."))) ? Number(text.replace(",", ".")) : text;
+const LARGEST = 1e15; // what the station takes as a number
+function number(text) {
+  const value = Number(text.replace(",", "."));
+  return Math.abs(value) <= LARGEST ? value : text;
+}
 
 function typed(field, id, change) {
   const units = field.type === "time" ? TIME : field.units ?? [];
   const fallback = field.default ?? null;
   const usual = fallback === null ? "" : fallback === 0 && field.type === "time" ? "none"
     : inWords(fallback, units);
-  // the unit of a number without one is written beside it, so that it is seen what was understood
+  // a number without a unit gets one, so that it is seen what was understood
   const unit = (units.length && usual.split(" ")[1]) || USUAL.find((one) => units.includes(one));
   const numeric = field.type === "int" || field.type === "float";
   const read = (text) => {
@@ -207,16 +213,19 @@ function typed(field, id, change) {
     return value ? `${number(value)} ${of || unit}` : clean;
   };
   const dayTime = field.type === "time of day";
+  const heard = (typing) => () => {
+    const value = read(input.value);
+    const why = input.validity.badInput ? "This time is not complete." : field.wrong?.(value);
+    if (!typing && !why) input.value = value ?? "";
+    if (why) change(undefined, typing, { typed: input.value, why });
+    else change(value, typing);
+  };
   const input = h("input", {
     id, type: dayTime ? "time" : "text", maxlength: 500, autocomplete: "off", spellcheck: "false",
     inputmode: numeric && "decimal",
     placeholder: usual || (unit && `such as 3 ${field.type === "time" ? "min" : unit}`),
-    oninput: () => change(read(input.value), true),
-    onchange() {
-      const value = read(input.value);
-      input.value = value ?? "";
-      change(value, false);
-    },
+    oninput: heard(true), onchange: heard(false),
+    onblur: () => input.validity.badInput && heard(false)(),
   });
   const show = (value) => {
     const text = value === undefined || value === null ? "" : inWords(value, units);
@@ -225,11 +234,10 @@ function typed(field, id, change) {
   return { input, show };
 }
 
-// How many rounds more, or on and on.
 function rounds(id, change) {
   const count = h("input", {
-    id, type: "number", min: 0, placeholder: "0",
-    oninput: () => change(count.value === "" ? undefined : Number(count.value), true),
+    id, inputmode: "numeric", placeholder: "0", maxlength: 20, autocomplete: "off",
+    oninput: () => change(count.value.trim() ? number(count.value) : undefined, true),
   });
   const forever = h("input", {
     type: "checkbox", onchange: () => change(forever.checked || undefined, false),
@@ -242,7 +250,7 @@ function rounds(id, change) {
     show(value) {
       forever.checked = value === true;
       count.disabled ||= forever.checked;
-      if (document.activeElement !== count) count.value = typeof value === "number" ? value : "";
+      if (document.activeElement !== count) count.value = value === true ? "" : value ?? "";
     },
   };
 }
@@ -261,27 +269,46 @@ function control(field, id, evaluators, change) {
   return { input, show: (value) => { input.value = value ?? ""; } };
 }
 
-// field: { name, type, label?, default?, units? }; change(value, typing), undefined: empty
+// field: { name, type, label?, default?, units?, wrong?: value → why it cannot be in the plan }
+// change(value, typing, draft): undefined is empty; draft: { typed, why }, for what is not in the plan
 // → { element, input, update(value, { problem, locked }) }; what somebody types in stays meanwhile.
 export function fieldFor(field, { evaluators = [], change }) {
   const id = unique(field.name);
-  const { input, whole = input, also, show } = control(field, id, evaluators, change);
+  let known; // the value that was typed or shown here
+  let latest = [];
+  const foreign = () => known !== String(latest[0] ?? "");
+  const { input, whole = input, also, show } = control(field, id, evaluators,
+    (value, typing, draft) => {
+      const text = String(draft?.typed ?? value ?? "");
+      if (!typing && text === known && foreign()) return; // it is left: theirs stays
+      known = text;
+      latest[0] = draft?.typed ?? value;
+      change(value, typing, draft);
+    });
   const words = h("span");
-  const problem = h("p", { class: "problem", id: `${id}-problem` }, icon("warning"), words);
+  const problem = h("p", { class: "problem", id: `${id}-problem`, "aria-live": "polite" }, icon("warning"), words);
   const name = plain(field.name);
   const label = field.label ?? name[0].toUpperCase() + name.slice(1);
   set(input, "aria-describedby", problem.id);
-  return {
+  input.addEventListener("blur", () => one.update(...latest));
+  const one = {
     input,
     element: h("div", { class: "field", "data-field": field.name },
       h("label", { for: id }, label), whole, problem),
-    update(value, { problem: text = "", locked = false } = {}) {
+    update(value, { problem: own = "", locked = false } = {}) {
+      latest = [value, { problem: own, locked }];
       input.disabled = locked;
       if (also) also.disabled = locked;
       show(value);
+      const now = String(value ?? "");
+      if (document.activeElement !== input) known = now;
+      const text = !foreign() ? own
+        : `Somebody else has changed this to “${now}”: type on to replace that, or leave this field `
+          + `to take it. ${own}`;
       put(words, text);
       shown(problem, text);
       set(input, "aria-invalid", text ? "true" : null);
     },
   };
+  return one;
 }

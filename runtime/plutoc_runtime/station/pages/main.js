@@ -58,6 +58,14 @@ async function stop(how) {
   clearTimeout(alarm);
 }
 
+// Start, of the missions with these keys, or of what has not been completed.
+async function begun(missions = null) {
+  if (!await plan.saved()) {
+    say("The plan is not saved yet, so it was not started.", { bad: true });
+  } else if (await tell("start", { revision: plan.revision(), missions })) go("monitor");
+  plan.load().catch(() => null);
+}
+
 const DOWN = { rtl: "The drones fly home.", land: "The drones land where they are." };
 const PHASES = { // kind of chip, sign, words
   idle: ["info", "info", "Ready"],
@@ -68,32 +76,54 @@ const PHASES = { // kind of chip, sign, words
   interrupted: ["warn", "warning", "Interrupted"],
 };
 
-// → the button's words, whether it can be pressed, what to say beside it
-function startWords({ phase, busy, how, said: trouble }, plan) {
+function place(missions, { mission: key, trip }) {
+  const mission = missions.find((one) => one.key === key);
+  const nth = mission && trip && mission.trips.findIndex((one) => one.key === trip) + 1;
+  return `${mission?.name.trim() || "The plan"}${nth ? `, trip ${nth}` : ""}`;
+}
+
+// → the button's words, whether it can be pressed, what to say beside it, the problem
+// if it is one, whether something was completed and something was not
+function startWords({ phase, busy, how, said: trouble }, plan, drones) {
   const flying = phase === "flying";
-  const todo = plan.missions.filter((mission) => !flying || !mission.launched);
+  const open = plan.missions.filter(({ launched, ended }) => !launched && ended !== "COMPLETED");
+  const todo = open.length || flying ? open : plan.missions;
   const bad = plan.problems.filter(({ mission: key }) =>
     key === null || todo.some((mission) => mission.key === key));
   const text = !todo.length || phase === "stopping" ? "Start"
     : `Start ${many(todo.length, flying ? "new mission" : "mission")}`;
-  const why = busy
+  const other = busy
     || (phase === "stopping" && DOWN[how])
     || (phase === "stopped" && "Resume goes on with every mission where it was.")
     || (phase === "interrupted" && (trouble || "A flight was broken off. Resume goes on with it."))
     || (!todo.length && (flying ? "All missions are started. More can be added at any time."
-      : "Nothing to start yet: add a mission first."))
-    || (bad.length > 0 && `${todo.find(({ key }) => key === bad[0].mission)?.name ?? "The plan"} – `
-      + bad[0].text + (bad.length > 1 ? ` (and ${bad.length - 1} more)` : ""));
-  const again = phase === "over" ? "Start flies it all again." : "";
-  return [text, !why && plan.loaded && phase in PHASES, why || again];
+      : "Nothing to start yet: add a mission first."));
+  const problem = (!other && bad[0]) || null;
+  const why = other || (problem && `${place(todo, problem)}: ${problem.text}`
+    + (bad.length > 1 ? ` (and ${bad.length - 1} more)` : ""));
+  const lost = [...drones.values()].filter(({ status }) => status === "LOST");
+  const some = open.length > 0 && open.length < plan.missions.length && !flying;
+  const hint = [
+    some && (open.some(({ ended }) => ended)
+      ? "Start flies what was not completed, each mission from its beginning."
+      : "Start leaves out what was completed."),
+    !open.length && !flying && "All are completed: Start flies them all again.",
+    !flying && lost.length > 0 && `Lost, and left out until brought back: ${
+      lost.map(({ id }) => id).join(", ")}.`,
+  ].filter(Boolean).join(" ");
+  const can = !why && plan.loaded && phase in PHASES;
+  return [text, can, why || hint, problem, some];
 }
 
-function head({ live, plan, go, app }, bar) {
+function head({ live, plan, go, lead, app }, bar) {
   const title = h("h1", {}, "Ground station");
   const phase = h("span", { class: "chip" });
   const time = h("span", { class: "num" });
   const simulated = h("span", { class: "chip", hidden: true });
-  const why = h("span", { class: "muted", id: "why" });
+  const reason = h("span", { class: "muted" });
+  const fix = h("button", { class: "link", onclick: () => lead(problem) });
+  const why = h("span", { class: "why", id: "why" }, reason, fix);
+  let problem = null;
   const unsaved = h("span", { class: "chip warn" }, "Not saved yet");
   const age = h("span", { class: "chip num age" });
   const lostAge = h("span", { "aria-live": "off" });
@@ -103,16 +133,11 @@ function head({ live, plan, go, app }, bar) {
   let able = false;
   let last = "";
 
-  const start = button("Start", async () => {
-    if (!able) {
-      if (why.textContent) say(why.textContent);
-      return;
-    }
-    if (!await plan.saved()) {
-      say("The plan is not saved yet, so it was not started.", { bad: true });
-    } else if (await tell("start", { revision: plan.revision() })) go("monitor");
-    plan.load().catch(() => null);
+  const start = button("Start", () => {
+    if (able) begun();
+    else if (why.textContent) say(why.textContent);
   }, "primary", "start");
+  const all = button("", () => begun(plan.missions.map(({ key }) => key)), "small");
   const resume = button("Resume", async () => await tell("resume") && go("monitor"), "primary",
     "start");
   const away = button("Put away", () => tell("discard"));
@@ -126,15 +151,21 @@ function head({ live, plan, go, app }, bar) {
     const known = state.phase in PHASES;
     const flies = state.phase === "flying" || state.phase === "stopping";
     const waits = state.phase === "stopped" || state.phase === "interrupted";
-    const [text, can, reason] = startWords(state, plan);
+    const [text, can, because, bad, some] = startWords(state, plan, live.drones);
+    problem = bad;
     able = can && !live.lost();
     put(start.lastChild, text);
     set(start, "aria-disabled", able ? null : "true");
+    put(all.lastChild, `Start all ${plan.missions.length} again`);
+    shown(all, some && able);
     shown(start, !waits);
     shown(resume, waits);
     shown(away, waits);
     home.disabled = land.disabled = known && !flies && !live.lost();
-    put(why, known && plan.loaded ? reason : "");
+    for (const [one, yes] of [[reason, !bad], [fix, bad]]) {
+      put(one, yes && known && plan.loaded ? because : "");
+      shown(one, one.textContent);
+    }
 
     if (last !== words) {
       if (last && known) hush(words);
@@ -165,7 +196,7 @@ function head({ live, plan, go, app }, bar) {
     h("div", { class: "head" }, title, bar,
       h("div", { class: "run", role: "group", "aria-label": "Fly" },
         start, resume, away, home, land)),
-    h("div", { class: "row strip" }, phase, time, simulated, why,
+    h("div", { class: "row strip" }, phase, time, simulated, why, all,
       h("span", { class: "row spread" }, unsaved, age)),
     lost);
   return { element, update };
@@ -173,7 +204,7 @@ function head({ live, plan, go, app }, bar) {
 
 const LOAD = {
   missions: () => import("./missions.js"),
-  trips: () => import("./trips.js"),
+  trips: () => import("./missions.js"),
   monitor: () => import("./monitor.js"),
   help: () => import("./missions.js"),
 };
@@ -183,7 +214,9 @@ const capital = (id) => id[0].toUpperCase() + id.slice(1);
 takeToken();
 const live = liveFeed();
 const plan = planKept();
-const context = { app: {}, live, plan, say, hush, tell, selected: selection(plan), go };
+const context = {
+  app: {}, live, plan, say, hush, tell, begun, selected: selection(plan), go, lead,
+};
 const pages = new Map();
 let now = "";
 let said = "";
@@ -218,6 +251,13 @@ function go(id, quiet) {
   });
   there?.hide?.();
   pages.get(now)?.show?.();
+}
+
+// To the field where something is wrong.
+function lead({ mission, trip, field }) {
+  context.selected.set(mission);
+  go(trip || (mission && !field) ? "trips" : "missions");
+  pages.get(now)?.lead?.({ trip, field });
 }
 
 const top = head(context, bar);

@@ -1,6 +1,10 @@
-// The table of missions: how each stands, what opens below it, and which are shown in which order.
+// The lists of the Monitor. Missions: how each stands, what opens below it, which are shown,
+// and in which order.
 
-import { fill, h, icon, keyed, plain, put, seconds, set, shown } from "./dom.js";
+import {
+  clock, fill, h, icon, inWords, keyed, many, plain, put, seconds, set, shown, svg,
+} from "./dom.js";
+import { mapPicture } from "./floor.js";
 
 // A word with a sign, so that colour alone never says it.
 const STANDS = {
@@ -17,12 +21,16 @@ const STANDS = {
   EXECUTING: ["Flying", "start", "busy"],
   SKIPPED: ["Skipped", "close", "calm"],
   FREE: ["Ready", "good", "good"],
+  LOW: ["Battery low", "wait", "calm"],
   BUSY: ["Flying", "start", "busy"],
   RETURNING: ["Coming home", "home", "busy"],
   CHARGING: ["Charging", "wait", "calm"],
   RECOVERING: ["Recovering", "wait", "warn"],
   LOST: ["Lost", "warning", "bad"],
   OFFLINE: ["Not connected", "info", "calm"],
+  LANDED: ["On the ground", "info", "calm"],
+  ALOFT: ["In the air", "warning", "warn"],
+  UNKNOWN: ["Unknown", "warning", "warn"],
   RETIRED: ["Retired", "close", "calm"],
 };
 
@@ -64,10 +72,10 @@ export function battery() {
   return element;
 }
 
-// A row or a line that shows the chosen mission.
 export const mark = (element, yes) => set(element, "data-chosen", yes && "yes");
 
-// For what cannot be undone: the first press asks in place, the second one does it.
+// For what cannot be undone: the first press asks in place, the second one does it; a double click
+// and a key that repeats are one press.
 export function sureButton(label, act) {
   const button = h("button", { class: "button quiet small" }, label);
   const ask = (yes) => {
@@ -75,11 +83,100 @@ export function sureButton(label, act) {
     put(button, yes ? `Really ${label.toLowerCase()}?` : label);
   };
   button.addEventListener("blur", () => ask(false));
-  button.addEventListener("click", () => {
+  button.addEventListener("keydown", (event) => event.repeat && event.preventDefault());
+  button.addEventListener("click", ({ detail }) => {
+    if (detail > 1) return;
     if (button.dataset.sure) act();
     ask(!button.dataset.sure);
   });
   return button;
+}
+
+const HOLD = 1000; // ms
+const STUCK = 100; // ms that one frame counts at most: while a page is stuck, nobody is seen to hold
+
+// For what drops a drone: done while a pointer or a key is held down on it for a second. A press
+// that is shorter opens a field in which a word is typed instead.
+export function holdButton(label, word, act) {
+  const how = `Hold it down for a second, or press it once and type “${word}”.`;
+  const button = h("button", { class: "button quiet small hold", title: how }, label);
+  const typed = h("input", { class: "input", "aria-label": `${label}: type “${word}” and press Enter` });
+  const form = h("form", {
+    hidden: true,
+    onsubmit(event) {
+      event.preventDefault();
+      const right = typed.value.trim().toLowerCase() === word;
+      typed.value = "";
+      if (!right) return;
+      close();
+      act();
+    },
+    onkeydown: ({ key }) => key === "Escape" && close(),
+  }, h("p", { class: "hint" }, how), typed);
+  function close() {
+    typed.value = "";
+    if (form.contains(document.activeElement)) button.focus();
+    shown(form, false);
+  }
+  let held = null; // { at: where the pointer is, or null for a key; time: for how long }
+  let done = false; // by the press that is about to end
+  const end = () => {
+    held = null;
+    setTimeout(() => { done = false; });
+    button.style.removeProperty("--held");
+  };
+  function begin(at) {
+    const mine = held = { at, time: 0 };
+    let before = performance.now();
+    done = false;
+    requestAnimationFrame(function frame(now) {
+      if (mine !== held) return;
+      const { left, right, top, bottom } = button.getBoundingClientRect();
+      const [x, y] = held.at ?? [left, top];
+      if (left === right || x < left || x > right || y < top || y > bottom) {
+        end(); // it has gone from under the finger
+        return;
+      }
+      held.time += Math.min(Math.max(now - before, 0), STUCK);
+      before = now;
+      button.style.setProperty("--held", Math.min(held.time / HOLD, 1));
+      if (held.time < HOLD) {
+        requestAnimationFrame(frame);
+        return;
+      }
+      end();
+      done = true;
+      close();
+      act();
+    });
+  }
+  const press = (yes, touched) => {
+    if (!yes || done) return;
+    shown(form, true);
+    if (!touched) typed.focus();
+  };
+  const on = (kinds, heard) =>
+    kinds.split(" ").forEach((kind) => button.addEventListener(kind, heard));
+  on("pointerdown", (event) => {
+    if (event.button || !event.isPrimary) return;
+    button.setPointerCapture(event.pointerId);
+    begin([event.clientX, event.clientY]);
+  });
+  on("pointermove", ({ clientX, clientY }) => { if (held?.at) held.at = [clientX, clientY]; });
+  on("pointerup pointercancel lostpointercapture blur", end);
+  on("contextmenu", (event) => event.preventDefault()); // a finger that rests asks for one
+  on("keydown", (event) => {
+    if (event.key !== "Enter" && event.key !== " ") return;
+    event.preventDefault(); // no click
+    if (!event.repeat) begin(null);
+  });
+  on("keyup", () => {
+    press(held);
+    end();
+  });
+  // a screen reader and a voice only click
+  on("click", ({ detail, pointerType }) => press(detail < 2, pointerType === "touch"));
+  return h("span", { class: "sure" }, button, form);
 }
 
 const ANSWERS = { done: "It was done", "not-done": "It was not done", "go-on": "Go on" };
@@ -136,14 +233,19 @@ function details(context, name) {
   });
   const buttons = h("div", { class: "row" }, pause,
     sureButton("Cancel mission", () => send("cancel")));
+  const drawn = () => context.plan.missions.find((mission) => mission.name === name);
+  const again = h("button", {
+    class: "button small", onclick: () => context.begun([drawn().key]),
+  }, "Start this mission again");
   const list = h("ol", { class: "trip-lines" });
-  const element = h("div", { class: "details" }, list, buttons);
+  const element = h("div", { class: "details" }, list, buttons, h("div", null, again));
   element.show = (row) => {
     const over = ended(row) || context.live.state.phase !== "flying";
     paused = row.status === "PAUSED";
     put(pause, paused ? "Go on" : "Pause");
     shown(pause, !row.question);
     shown(buttons, !over);
+    shown(again, context.live.state.phase === "over" && drawn());
     // A line belongs to its trip: what one is about to press never becomes another trip's.
     const seen = new Map();
     const lines = row.trips.map((trip, index) => {
@@ -371,4 +473,286 @@ export function missionTable(context, chosen) {
   });
   filters.pick("All");
   return { tools: [find, filters], body: [table, empty], update, clear };
+}
+
+// What happens, line by line, and what the missions brought: measurements, photos, verdicts.
+
+const SHOWN = 1000; // lines on the page
+const TOGETHER = 50; // lines in a block of the page: those out of sight cost nothing
+const KINDS = {
+  "": "All lines", info: "News", good: "Good news", bad: "Trouble", hook: "The app's own lines",
+};
+const SIGNS = { good: "✓", bad: "!", hook: "›" };
+
+const line = ([, time, mission, text, kind]) => h("div", { class: `log-line ${kind}` },
+  h("span", { class: "when" }, clock(time)),
+  h("span", { class: "what", "aria-hidden": "true" }, SIGNS[kind]),
+  mission !== null && h("b", null, mission), h("span", null, text));
+
+export function consoleView(context, save) {
+  const { live } = context;
+  const option = ([value, label]) => h("option", { value }, label);
+  const text = h("input", {
+    type: "search", class: "input", placeholder: "Find text", "aria-label": "Find text",
+    oninput: rewrite,
+  });
+  const of = h("select", { class: "input", "aria-label": "Of which mission", onchange: rewrite },
+    option(["", "All missions"]));
+  const kind = h("select", { class: "input", "aria-label": "Which lines", onchange: rewrite },
+    Object.entries(KINDS).map(option));
+  const lines = h("div", {
+    class: "log", role: "log", "aria-live": "off", "aria-label": "Console", tabIndex: 0,
+    onscroll: () => {
+      following = lines.scrollTop + lines.clientHeight >= lines.scrollHeight - 8;
+      if (following) unread = 0;
+      shown(newest, unread);
+    },
+  });
+  const newest = h("button", {
+    class: "button small newest", hidden: true, onclick: () => {
+      following = true;
+      follow();
+      lines.focus();
+    },
+  });
+  const missions = new Set();
+  let following = true;
+  let unread = 0;
+  let block = null;
+
+  const fits = ([, , mission, said, sort]) => (!of.value || mission === of.value)
+    && (!kind.value || sort === kind.value)
+    && `${mission ?? ""} ${said}`.toLowerCase().includes(text.value.toLowerCase());
+  function follow() {
+    if (following) {
+      lines.scrollTop = lines.scrollHeight;
+      unread = 0;
+    }
+    put(newest, `${many(unread, "new line")} below`);
+    shown(newest, unread);
+  }
+  function add(entries) {
+    for (const entry of entries) {
+      if (!block || block.childElementCount >= TOGETHER) {
+        block = h("div", { class: "log-block" });
+        lines.append(block);
+      }
+      block.append(line(entry));
+    }
+    while (lines.childElementCount > SHOWN / TOGETHER) lines.firstElementChild.remove();
+    follow();
+  }
+  function rewrite() {
+    block = null;
+    following = true;
+    lines.replaceChildren();
+    add(live.log.filter(fits).slice(-SHOWN));
+  }
+  function update(entries) {
+    for (const [, , mission] of entries) {
+      if (mission === null || missions.has(mission)) continue;
+      missions.add(mission);
+      of.append(option([mission, mission]));
+    }
+    const fitting = entries.filter(fits).slice(-SHOWN);
+    if (!following) unread += fitting.length;
+    add(fitting);
+  }
+  function clear() {
+    missions.clear();
+    of.replaceChildren(of.firstElementChild);
+    block = null;
+    lines.replaceChildren();
+  }
+  new ResizeObserver(follow).observe(lines);
+  return {
+    tools: [text, of, kind, save("/api/console.txt")], body: [lines, newest], update, clear,
+  };
+}
+
+const LINES = 300;
+const PHOTOS = 60;
+const VALUES = 60; // in a sparkline
+const written = (value) => (typeof value === "number" ? Number(value.toPrecision(4)) : value);
+const place = ([x, y]) => `${round(x)}, ${round(y)} m`;
+
+const link = (chosen, mission) =>
+  h("button", { class: "link", onclick: () => chosen.set(mission) }, mission);
+
+// How a value went, in a few pixels; a ring marks the newest.
+function sparkline(values) {
+  const [low, high] = [Math.min(...values), Math.max(...values)];
+  const points = values.map((value, i) => [4 + (i * 80) / (values.length - 1),
+    22 - (high > low ? (18 * (value - low)) / (high - low) : 9)]);
+  const [cx, cy] = points.at(-1);
+  return svg("svg", { class: "spark", width: 88, height: 26, "aria-hidden": "true" },
+    svg("polyline", { points: points.join(" ") }), svg("circle", { cx, cy, r: 2.6 }));
+}
+
+function measurements(chosen) {
+  const body = h("tbody");
+  const lines = new Map();
+  const make = (quantity, at, mission, trip) => {
+    const cells = Array.from({ length: 3 }, () => h("td", { class: "num" }));
+    const element = h("tr", null, h("th", { scope: "row" }, quantity), ...cells, h("td", null, at),
+      h("td", null, link(chosen, mission), h("small", null, `trip ${trip}`)));
+    return { element, cells, mission, values: [] };
+  };
+  const heads = ["Measured", "Newest", "How it went", "When", "Where", "For"].map((name) =>
+    h("th", { scope: "col" }, name));
+  const highlight = () => {
+    for (const { element, mission } of lines.values()) mark(element, mission === chosen.name);
+  };
+  chosen.changed.heard(highlight);
+  return {
+    element: h("table", { class: "table" }, h("thead", null, h("tr", null, heads)), body),
+    add(entries) {
+      for (const [, time, mission, trip, , , , , value, , at, , quantity, unit]
+        of entries.slice(-LINES)) {
+        const what = [plain(quantity), place(at), mission, trip];
+        const key = JSON.stringify(what);
+        if (!lines.has(key)) lines.set(key, make(...what));
+        const { element, cells, values } = lines.get(key);
+        if (typeof value === "number") values.push(value);
+        values.splice(0, values.length - VALUES);
+        put(cells[0], `${written(value)} ${unit ?? ""}`);
+        if (values.length > 1) cells[1].replaceChildren(sparkline(values));
+        put(cells[2], clock(time));
+        body.prepend(element);
+      }
+      while (body.rows.length > LINES) body.lastElementChild.remove();
+      highlight();
+    },
+    clear() {
+      lines.clear();
+      body.replaceChildren();
+    },
+  };
+}
+
+function ground(map, { position: [x, y], width, height }) {
+  const [across, up] = map.size;
+  const picture = svg("image", { width: across, height: up, preserveAspectRatio: "none" });
+  const lines = Array.from({ length: Math.ceil(Math.max(across, up)) }, (_, i) =>
+    `M${i} 0V${up}M0 ${up - i}H${across}`);
+  mapPicture(map).then((address) => address && set(picture, "href", address));
+  return svg("svg", {
+    class: "ground", "aria-hidden": "true",
+    viewBox: `${x - width / 2} ${up - y - height / 2} ${width} ${height}`,
+  }, svg("rect", { width: across, height: up }), picture, svg("path", { d: lines.join("") }));
+}
+
+function photos({ app }, chosen, floor) {
+  const list = h("ul", { class: "photos" });
+  const layer = floor.layer("photo-frame");
+  const frame = ({ position: [x, y], width, height }) => layer.replaceChildren(
+    svg("rect", { x: x - width / 2, y: y - height / 2, width, height }));
+  const card = ([, time, mission, trip, , , , , photo]) => {
+    const [x, y] = photo.position;
+    const sees = photo.sees.map(plain).join(", ");
+    const sharp = photo.sharpness < 0.4 ? "blurred" : photo.sharpness < 0.7 ? "soft" : "sharp";
+    const act = () => frame(photo);
+    const away = () => layer.replaceChildren();
+    return h("li", null, h("button", {
+      class: "photo", "data-sees": Boolean(sees), "data-sharp": sharp,
+      onpointerenter: act, onfocus: act, onpointerleave: away, onblur: away,
+      onclick: () => {
+        chosen.set(mission);
+        floor.reveal(x, y);
+      },
+    }, ground(app.map, photo), h("b", null, sees || "nothing special"),
+    h("span", null, `${mission}, ${trip}`),
+    h("small", null, `${clock(time)} at ${round(x)}, ${round(y)}, ${sharp}`)));
+  };
+  return {
+    element: list,
+    add(entries) {
+      list.prepend(...entries.slice(-PHOTOS).map(card).reverse());
+      while (list.childElementCount > PHOTOS) list.lastElementChild.remove();
+    },
+    clear: () => list.replaceChildren(),
+  };
+}
+
+function told(chosen, words) {
+  const list = h("ul", { class: "verdicts" });
+  return {
+    element: list,
+    add(entries) {
+      list.prepend(...entries.slice(-LINES).map((entry) => h("li", null,
+        h("span", { class: "when" }, clock(entry[1])),
+        link(chosen, entry[2]), h("span", null, words(entry)))).reverse());
+      while (list.childElementCount > LINES) list.lastElementChild.remove();
+    },
+    clear: () => list.replaceChildren(),
+  };
+}
+
+export function resultsView(context, chosen, floor, save) {
+  const part = (kind, none, view) => ({ kind, none, ...view });
+  const { app } = context;
+  const own = app.actions.filter(({ item, name }) =>
+    !item && !["measure", "take_photo"].includes(name));
+  const given = (action, [name, value]) => {
+    const units = own.find((one) => one.name === action)?.parameters
+      .find((one) => one.name === name)?.units;
+    return ` ${plain(name)} ${inWords(value, units)},`;
+  };
+  const parts = {
+    Measurements: part("measurement", "Nothing has been measured yet.", measurements(chosen)),
+    Photos: part("photo", "No photo has been taken yet.", photos(context, chosen, floor)),
+  };
+  if (own.length) {
+    parts["Other actions"] = part("result", "No such action has been done yet.", told(chosen,
+      ([, , , trip, , , , , value, action, at, parameters]) => `trip ${trip}: ${plain(action)},${
+        Object.entries(parameters).map((one) => given(action, one)).join("")} at ${
+        place(at)}; it returned ${written(value)}`));
+  }
+  if (app.evaluators.length) {
+    parts.Verdicts = part("verdict", "No mission has been judged yet.", told(chosen,
+      (entry) => entry[8]));
+  }
+  const all = Object.entries(parts);
+  const empty = h("p", { class: "empty" });
+  let now = "";
+  const show = () => {
+    for (const [name, { element, none, number }] of all) {
+      shown(element, name === now && number);
+      if (name !== now) continue;
+      shown(empty, !number);
+      put(empty, none);
+    }
+  };
+  let picked = false;
+  const tabs = sieve(Object.keys(parts), "Which results", (name) => {
+    now = name;
+    picked = true;
+    show();
+  });
+  function update(entries) {
+    for (const [name, part] of all) {
+      const own = entries.filter((entry) => entry[7] === part.kind && entry[8] !== null);
+      if (!own.length) continue;
+      part.number += own.length;
+      tabs.count(name, part.number);
+      part.add(own);
+      if (!picked && !parts[now].number) tabs.pick(name);
+    }
+    show();
+  }
+  function clear() {
+    for (const [name, part] of all) {
+      part.number = 0;
+      tabs.count(name, 0);
+      part.clear();
+    }
+    show();
+  }
+  clear();
+  tabs.pick("Measurements");
+  picked = false;
+  return {
+    tools: [tabs, save("/api/results.json")], body: [empty, all.map(([, part]) => part.element)],
+    update, clear,
+  };
 }

@@ -60,6 +60,17 @@ def key_twice(key: str) -> BadInput:
 # What cannot be flown
 
 
+def not_in_the_plan(key: str) -> BadInput:
+    return BadInput(f"no mission of the plan has the key {quoted(key)}: look at the plan again")
+
+
+def under_way(name: str) -> BadInput:
+    return BadInput(
+        f"mission {quoted(name)} belongs to the flight that is under way: it can be started again"
+        " when that has ended"
+    )
+
+
 def not_ready(sentences: Sequence[str], most: int) -> BadInput:
     """Say what is still to be done, as far as somebody reads it."""
     more = len(sentences) - most

@@ -103,7 +103,7 @@ def _kept(path: Path, data: Mapping[str, object], app: App) -> Kept:
     except BadInput as error:
         raise _Unreadable(str(error)) from None
     for shape, was in zip(shapes, missions, strict=True):
-        shape["launched"] = was.get("launched") is True
+        shape["launched"], shape["ended"] = was.get("launched") is True, was.get("ended")
     if not gone:
         return Kept(missions=shapes, revision=revision)
     aside = _aside(path)

@@ -15,7 +15,7 @@ from .errors import Stale
 from .example import example_missions
 from .flyable import Flyable
 from .problems import PlanProblem, as_in_a_file, as_json, read
-from .shape import Shape, check_together, missions_from, trips_of
+from .shape import COMPLETED, Shape, check_together, missions_from, trips_of
 from .text import NAME, shapes_of, text_of
 
 if TYPE_CHECKING:
@@ -114,18 +114,37 @@ class Plan:
 
     # What flies
 
-    def launchable(self) -> tuple[list[Mission[Any]], list[str]]:
-        """Return what has not been launched yet, with its keys; raise `BadInput` if it cannot be.
+    def launchable(
+        self, chosen: Collection[str] | None = None
+    ) -> tuple[list[Mission[Any]], list[str]]:
+        """Return the missions that Start starts, with their keys; raise `BadInput` if it cannot.
 
-        The missions are new ones each time: whoever flies them changes them.
+        These are the chosen ones, by their keys. Nobody chose: all that have not been completed; if
+        all were, all anew, but not while any of them flies. They are new ones each time: whoever
+        flies them changes them.
         """
         self._flyable.ask_at_once(self._readable())
-        problems = [problem.alone for problem in self._problems()]
+        waiting = self._wanted(chosen)
+        keys = [str(one["key"]) for one in waiting]
+        of_these = (None, *keys)
+        problems = [one.alone for one in self._problems() if one.mission in of_these]
         if problems:
             raise errors.not_ready(problems, MOST_SAID)
-        waiting = [mission for mission in self._missions if not mission["launched"]]
         missions, _ = read(self._app, self._fleet.airspace, waiting)
-        return missions, [str(one["key"]) for one in waiting]
+        return missions, keys
+
+    def _wanted(self, chosen: Collection[str] | None) -> list[Shape]:
+        waiting = [mission for mission in self._missions if not mission["launched"]]
+        if chosen is None:
+            to_do = [mission for mission in waiting if mission["ended"] != COMPLETED]
+            return waiting if not to_do and len(waiting) == len(self._missions) else to_do
+        known = {str(mission["key"]): mission for mission in self._missions}
+        for key in chosen:
+            if key not in known:
+                raise errors.not_in_the_plan(key)
+            if known[key]["launched"]:
+                raise errors.under_way(str(known[key]["name"]))
+        return [mission for mission in waiting if mission["key"] in chosen]
 
     def launched(self, keys: Collection[str]) -> None:
         """These missions fly: nobody may change them now."""
@@ -134,6 +153,18 @@ class Plan:
     def adopt(self, names: Collection[str]) -> None:
         """Missions of these names fly, and no others: so says a journal that was found."""
         self._mark(lambda mission: mission["name"] in names)
+
+    def settle(self, ends: Mapping[str, str]) -> None:
+        """A flight is over: keep how each of its missions has ended, by their names."""
+
+        def settled(mission: Shape) -> Shape:
+            if not mission["launched"]:
+                return mission
+            return {**mission, "launched": False, "ended": ends.get(str(mission["name"]))}
+
+        missions = [settled(mission) for mission in self._missions]
+        if missions != self._missions:
+            self._change(missions)
 
     def unlock(self) -> None:
         """Nothing flies any more: every mission may be changed, and launched again."""
@@ -166,7 +197,11 @@ class Plan:
     def _with_launched(self, drawn: Sequence[Shape]) -> list[Shape]:
         """Put those that were launched back as they are; those that are missing come first."""
         fixed = {one["key"]: one for one in self._missions if one["launched"]}
-        merged = [fixed.pop(mission["key"], mission) for mission in drawn]
+        known = {one["key"]: one for one in self._missions}
+        merged = [
+            fixed.pop(mission["key"], _as_it_ended(mission, known.get(mission["key"])))
+            for mission in drawn
+        ]
         missions = [*fixed.values(), *merged]
         check_together(missions)
         return missions
@@ -198,3 +233,11 @@ class Plan:
             self.trouble = errors.not_kept(self._keep, error)
         else:
             self.trouble = ""
+
+
+def _as_it_ended(drawn: Shape, before: Shape | None) -> Shape:
+    """Keep how a mission has ended, unless it is another one now; its name does not make it one."""
+    if before is None or not before["ended"]:
+        return drawn
+    same = as_in_a_file({**drawn, "name": ""}) == as_in_a_file({**before, "name": ""})
+    return {**drawn, "ended": before["ended"] if same else None}

@@ -80,7 +80,7 @@ def as_in_a_file(mission: Mapping[str, object]) -> dict[str, object]:
 
 
 def _bare(given: Mapping[str, object]) -> dict[str, object]:
-    ours = ("key", "launched", "trips")
+    ours = ("key", "launched", "ended", "trips")
     return {
         key: value
         for key, value in given.items()

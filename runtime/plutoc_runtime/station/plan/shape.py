@@ -27,9 +27,13 @@ LONGEST_TEXT = 1_000
 LARGEST = 1e15
 """Every whole number up to here is the same in a browser."""
 
-MISSION_KEYS = ("key", "name", "launched", "trips")
+MISSION_KEYS = ("key", "name", "launched", "ended", "trips")
 TRIP_KEYS = ("key", "name", "action", "target", "source", "parameters", "item")
 """What every app's plan has; its graph brings in more."""
+
+COMPLETED, BROKEN_OFF = "COMPLETED", "BROKEN_OFF"
+ENDS = (COMPLETED, "FAILED", "CANCELLED", BROKEN_OFF)
+"""How a mission has ended the last time that it flew, if it is still as it was then."""
 
 KEY = re.compile(r"[A-Za-z0-9_-]{8,32}")
 
@@ -74,11 +78,14 @@ def _mission(given: object, who: str, app: App) -> Shape:
     data = _table(given, who, (*MISSION_KEYS, *fields))
     if data.get("launched") is not None and not isinstance(data["launched"], bool):
         raise errors.wrong(f"{who}: launched", data["launched"], "true or false")
+    if data.get("ended") not in (None, *ENDS):
+        raise errors.wrong(f"{who}: ended", data["ended"], " or ".join(ENDS))
     trips = _list(_given(data, "trips", who), f"{who}: trips")
     return {
         "key": _key(data, who),
         "name": _text(_given(data, "name", who), f"{who}: name"),
-        "launched": False,  # that is not for pages to say
+        "launched": False,  # neither is for pages to say
+        "ended": None,
         **_scalars(data, fields, who),
         "trips": [_trip(one, f"{who}, trip {i}", app) for i, one in enumerate(trips, 1)],
     }

@@ -1,0 +1,63 @@
+"""What has not been completed is flown again alone; what was completed, only by choice."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from tests.station.browser.serving import Station, until
+from tests.station.flights.conftest import Serve
+from tests.station.flights.test_flights import comes_to, flies, refused, tell
+
+
+def ends(station: Station) -> dict[str, Any]:
+    """Return how the missions of the plan have ended."""
+    return {one["name"]: one["ended"] for one in station.get("/api/plan")["missions"]}
+
+
+def key_of(station: Station, name: str) -> str:
+    return next(str(m["key"]) for m in station.get("/api/plan")["missions"] if m["name"] == name)
+
+
+def test_what_was_not_completed_flies_again_alone_also_after_a_crash_of_the_station(
+    serve: Serve,
+) -> None:
+    """Nothing is flown twice but what somebody chose, and then from its beginning."""
+    station = serve("drugs_distribution", "--speed", "60")
+    tell(station, "start")
+    until(flies(station), "something flies")
+    one = key_of(station, "Mission 1")
+    assert "belongs to the flight that is under way" in refused(station, "start", missions=[one])[1]
+    tell(station, "cancel", mission="Mission 1")
+    comes_to(station, "over")
+    others = {"Mission 2": "COMPLETED", "Mission 3": "COMPLETED"}
+    assert ends(station) == {"Mission 1": "CANCELLED", **others}
+    station.kill()
+    station.start()
+    assert ends(station) == {"Mission 1": "CANCELLED", **others}
+    assert tell(station, "start") == "1 mission started"
+    assert tell(station, "start") == "every mission of the plan flies already"
+    comes_to(station, "over")
+    assert station.statuses() == {"Mission 1": "COMPLETED"}
+    assert tell(station, "start", missions=[key_of(station, "Mission 2")]) == "1 mission started"
+    comes_to(station, "over")
+    assert station.statuses() == {"Mission 2": "COMPLETED"}
+    assert tell(station, "start") == "3 missions started"
+
+
+def test_of_what_was_put_away_the_next_start_leaves_out_what_was_completed(serve: Serve) -> None:
+    station = serve("drugs_distribution", "--speed", "60")
+    tell(station, "start")
+    until(lambda: "COMPLETED" in station.statuses().values(), "one is completed")
+    tell(station, "stop", how="land")
+    comes_to(station, "stopped")
+    done = [name for name, status in station.statuses().items() if status == "COMPLETED"]
+    tell(station, "discard")
+    assert [name for name, end in ends(station).items() if end == "COMPLETED"] == done
+    assert set(ends(station).values()) == {"COMPLETED", "BROKEN_OFF"}
+    said = tell(station, "start")
+    assert said.startswith(f"{3 - len(done)} mission")
+    until(flies(station), "something flies")
+    assert not {*done} & {*station.statuses()}
+    wrong = refused(station, "start", missions=["Mission 1"])[1]
+    assert wrong.startswith('no mission of the plan has the key "Mission 1"')
+    assert refused(station, "start", missions=[1])[0] == 400

@@ -1,0 +1,191 @@
+"""What everybody sees of the drones while nobody flies them: where they are, and who is lost."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+from collections.abc import Callable
+from contextlib import closing
+from typing import Any
+
+import pytest
+
+from plutoc_runtime.gateway.starting import still_runs
+from plutoc_runtime.journal.place import gateway_folder
+from plutoc_runtime.journal.reader import Reader
+from tests.station.browser.serving import Station, until
+from tests.station.flights.conftest import Serve
+from tests.station.flights.test_flights import comes_to, events, flies, refused, tell
+from tests.station.world import disagreements, truth
+
+
+def rows(station: Station) -> list[dict[str, Any]]:
+    drones: list[dict[str, Any]] = station.now()["drones"]
+    return drones
+
+
+def gateway(station: Station) -> int | None:
+    return still_runs(gateway_folder(station.journals()[-1]))
+
+
+def is_away_from_home(station: Station) -> bool:
+    """Whether some drone is well on its way."""
+    homes = {drone["id"]: drone["home"] for drone in station.get("/api/app")["drones"]}
+    return any(
+        row["x"] is not None and abs(row["x"] - homes[row["id"]][0]) > 1 for row in rows(station)
+    )
+
+
+def is_home(station: Station, row: dict[str, Any]) -> bool:
+    homes = {drone["id"]: drone["home"] for drone in station.get("/api/app")["drones"]}
+    return bool([row["x"], row["y"]] == homes[row["id"]][:2])
+
+
+def agrees(station: Station) -> bool:
+    """Whether everybody is shown the world as it is."""
+    return disagreements(rows(station), truth(station, station.folder / "scratch")) == []
+
+
+def ends_by_a_stop_to_land(station: Station) -> None:
+    tell(station, "stop", how="land")
+    comes_to(station, "stopped")
+    station.end()
+
+
+def ends_by_a_stop_home(station: Station) -> None:
+    tell(station, "stop", how="rtl")
+    comes_to(station, "stopped")
+    station.end()
+
+
+def is_killed(station: Station) -> None:
+    station.kill()
+    scratch = station.folder / "scratch"
+    until(lambda: all(one.landed for one in truth(station, scratch).values()), "all are down")
+
+
+def is_killed_with_its_gateway(station: Station) -> None:
+    process = gateway(station)
+    station.kill()
+    assert process is not None
+    os.kill(process, signal.SIGKILL)
+
+
+@pytest.mark.parametrize(
+    "ends",
+    [ends_by_a_stop_to_land, ends_by_a_stop_home, is_killed, is_killed_with_its_gateway],
+)
+def test_after_each_end_drones_are_shown_where_they_lie_before_and_after_somebody_resumes(
+    serve: Serve, ends: Callable[[Station], None]
+) -> None:
+    station = serve("drugs_distribution", "--speed", "60")
+    tell(station, "start")
+    until(lambda: is_away_from_home(station), "somebody is away")
+    ends(station)
+    station.start()
+    until(lambda: agrees(station), "page and world agree")
+    world, seen = truth(station, station.folder / "scratch"), rows(station)
+    if ends is not is_killed_with_its_gateway:
+        assert {row["status"] for row in seen} == {"LANDED"}
+        assert any(not is_home(station, row) for row in seen) is (ends is not ends_by_a_stop_home)
+    assert all(row["seen"] for row in seen)
+    assert world.keys() == {row["id"] for row in seen}
+    tell(station, "resume")
+    comes_to(station, "over")
+    until(lambda: agrees(station), "page and world agree")
+    station.end()
+    station.start()
+    assert station.phase == "over"
+    until(lambda: agrees(station), "page and world agree")
+
+
+def loses_one(station: Station) -> str:
+    """Cut the motors of a drone in flight, see the flight to its end, and say which one it was."""
+    tell(station, "start")
+    until(flies(station), "something flies")
+    who = str(events(station, "trip.launched")[0]["drone"])
+    tell(station, "cut-motors", drone=who)
+    comes_to(station, "over")
+    return who
+
+
+def test_a_lost_drone_stays_lost_over_ends_restarts_and_starts_until_it_is_brought_back(
+    serve: Serve,
+) -> None:
+    """Why and where is shown all the time; Start says that it leaves it out, and does."""
+    station = serve("drugs_distribution", "--speed", "60")
+    who = loses_one(station)
+    before = next(row for row in rows(station) if row["id"] == who)
+    assert (before["status"], before["why"]) == ("LOST", f"{who}'s motors were cut")
+    for end in (station.kill, station.end):
+        end()
+        station.start()
+        assert station.phase == "over"
+        assert {**before, "seen": 0} == {**found(station, who), "seen": 0}
+    assert all_again(station) == f"3 missions started; without {who}, lost until brought back"
+    comes_to(station, "over")
+    assert who not in [event["drone"] for event in events_of_newest(station, "trip.launched")]
+    assert {**before, "seen": 0, "trips": 0} == {**found(station, who), "seen": 0}
+    assert agrees(station)
+    assert refused(station, "bring-back", drone="cf9")[1].startswith('no drone "cf9" is in the')
+    assert tell(station, "bring-back", drone=who).startswith(f"{who} is brought back: it is asked")
+    back = found(station, who)
+    assert (back["status"], back["x"]) == ("UNKNOWN", None)  # a person has it in their hands
+    assert all_again(station) == "3 missions started"
+    until(lambda: found(station, who)["status"] in ("FREE", "BUSY", "CHARGING"), "it is well")
+    comes_to(station, "over")
+
+
+def test_who_is_lost_is_remembered_though_journals_are_moved_away_and_nobody_left_flies_nothing(
+    serve: Serve,
+) -> None:
+    station = serve("drugs_distribution", "--speed", "60")
+    who = loses_one(station)
+    station.end()
+    (journal,) = station.journals()
+    journal.rename(station.folder.parent / journal.name)
+    station.start()
+    assert station.phase == "idle"
+    assert [(row["id"], row["why"]) for row in rows(station) if row["status"] == "LOST"] == [
+        (who, f"{who}'s motors were cut")
+    ]
+    kept = station.folder / "station" / "drones.json"
+    data = json.loads(kept.read_text())
+    for row in rows(station):
+        data["drones"]["lost"].setdefault(row["id"], {"reason": "it fell", "at": None})
+    station.end()
+    kept.write_text(json.dumps(data))
+    station.start()
+    assert "every drone is lost: look after one" in refused(station, "start")[1]
+    assert station.journals() == []
+
+
+def test_a_lost_drone_is_brought_back_by_command_while_nothing_flies(serve: Serve) -> None:
+    station = serve("drugs_distribution", "--speed", "60")
+    who = loses_one(station)
+    (journal,) = station.journals()
+    app = [str(station.app.program), "tell", str(journal), "bring-back"]
+    said = subprocess.run([*app, who], capture_output=True, text=True, check=True).stdout
+    assert said.startswith(f"{who} is brought back")
+    other = subprocess.run([*app, "cf9"], capture_output=True, text=True, check=True).stdout
+    assert other == "cf9 is neither retired nor lost\n"
+    assert all_again(station) == "3 missions started"
+    until(lambda: found(station, who)["status"] in ("FREE", "BUSY", "CHARGING"), "it is well")
+
+
+def all_again(station: Station) -> str:
+    """Start every mission of the plan, what was completed included; return what is said."""
+    keys = [mission["key"] for mission in station.get("/api/plan")["missions"]]
+    return tell(station, "start", missions=keys)
+
+
+def found(station: Station, drone: str) -> dict[str, Any]:
+    return next(row for row in rows(station) if row["id"] == drone)
+
+
+def events_of_newest(station: Station, kind: str) -> list[dict[str, Any]]:
+    with closing(Reader(station.journals()[-1])) as reader:
+        found = [event for row in reader.rows() for event in json.loads(row.text)]
+    return [event for event in found if event["event"] == kind]

@@ -1,0 +1,97 @@
+"""Why a mission waits for a drone, and which drone is ready: as allocation has it, in words."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from plutoc_runtime.model import Category, Item
+from plutoc_runtime.simulation.motion import Charge
+from plutoc_runtime.station.waiting import AT_ONCE, Waiting, why_nobody
+from plutoc_runtime.status import DroneStatus
+from tests.runtime import apps
+from tests.runtime.living import Living, enterable
+
+HOMES = ((0.5, 0.5, 0.0), (1.5, 0.5, 0.0), (2.5, 0.5, 0.0))
+
+
+def living(*missions: apps.Mission, low: float | None = None, **on: Any) -> Living:
+    """Return a fleet of three that has just been asked how it is, with so much in its batteries."""
+    fleet = Living(enterable(), *missions, on=apps.fleet(*HOMES, **on))
+    for body in fleet.navigation.bodies.values() if low is not None else ():
+        vars(body)["_charge"] = Charge(low or 0.0, 0.0, 1.0 / body.drone.category.charge_time)
+    fleet.run(0.5)
+    return fleet
+
+
+def far(name: str, **more: Any) -> apps.Mission:
+    return apps.mission(name, apps.trip("1", 19.0, 19.0, **more))
+
+
+def said(fleet: Living) -> list[str]:
+    """Return what is said of each that waits."""
+    session = fleet.life.session
+    return [why_nobody(session.core.fleet, request) for request in session.core.queue.waiters()]
+
+
+def test_drones_that_are_free_but_too_low_are_not_what_a_mission_waits_for_without_a_word() -> None:
+    """It says how many are too low, what it takes, and what the nearest to it has."""
+    fleet = living(far("a"), far("b"), low=0.25)
+    takes = {why.split("it takes ")[1].split(" %")[0] for why in said(fleet)}
+    assert [why.split(":")[0] for why in said(fleet)] == ["3 free, but too low"] * 2
+    assert all(25 < int(percent) < 100 for percent in takes)
+    assert all(why.endswith("the nearest has 25 %") for why in said(fleet))
+
+
+def test_drones_that_can_never_fly_it_are_counted_apart_with_the_reason() -> None:
+    heavy = Item(name="a sack", mass=0.5)
+    mission = apps.mission("a", apps.trip("1", 4.0, action="pick_item", item=heavy))
+    carrier = Category(name="carrier", payload=1.0)
+    app = replace(enterable(), categories=(apps.SCOUT, carrier))
+    kinds = ["scout", "scout", "carrier"]
+    fleet = Living(app, mission, on=apps.fleet(*HOMES, categories=kinds))
+    fleet.at(0.2, lambda: fleet.life.control.retire("cf3"))
+    body = fleet.navigation.bodies["cf3"]
+    vars(body)["_charge"] = Charge(0.05, 0.0)  # it cannot be given: the mission waits
+    fleet.run(0.5)
+    (why,) = said(fleet)
+    assert why == ("1 retired; 2 cannot: scout carries at most 10 g, the item weighs 500 g")
+
+
+def test_who_is_busy_lost_or_kept_on_the_ground_by_the_limit_is_said() -> None:
+    missions = [apps.mission(name, apps.trip("1", 9.0)) for name in "abc"]
+    assert (
+        said(living(*missions, max_airborne=1))
+        == ["2 free, but no more may fly at once; 1 flying"] * 2
+    )
+    fleet = living(*missions, apps.mission("d", apps.trip("1", 9.0)))
+    fleet.life.session.drones[0].status = DroneStatus.LOST
+    assert said(fleet) == ["1 lost; 2 flying"]
+
+
+def test_a_free_drone_with_little_more_than_its_reserve_or_too_little_for_all_is_not_ready() -> (
+    None
+):
+    def why_low(fleet: Living) -> list[str]:
+        waiting, core = Waiting(lambda: 0.0), fleet.life.session.core
+        waiting.look(core.fleet)
+        return [waiting.why_low(core.fleet, drone) for drone in core.fleet.drones]
+
+    too_low = "its battery is too low for every trip that waits"
+    assert why_low(living(far("a"), low=0.25)) == [too_low] * 3
+    near = apps.mission("a", apps.trip("1", 1.0))
+    little = "its battery has little more than its reserve"
+    assert sorted(why_low(living(near, low=0.3))) == ["", little, little]  # one flies
+    assert why_low(living(near)) == ["", "", ""]
+
+
+def test_of_hundreds_that_wait_some_are_found_out_at_each_look() -> None:
+    """None is forgotten, and nothing is found out twice within seconds."""
+    fleet = living(*[far(f"m{n}") for n in range(3 * AT_ONCE)], low=0.25)
+    core = fleet.life.session.core
+    waiting, seen = Waiting(lambda: 0.0), []
+    trips = [request.trip for request in core.queue.waiters()]
+    for _ in range(4):
+        waiting.look(core.fleet)
+        seen.append(sum(bool(waiting.why(core.fleet, trip)) for trip in trips))
+    assert seen == [AT_ONCE, 2 * AT_ONCE, 3 * AT_ONCE, 3 * AT_ONCE]
