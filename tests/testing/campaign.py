@@ -17,6 +17,7 @@ from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
 from functools import partial
+from operator import attrgetter
 from pathlib import Path
 from random import Random
 from time import perf_counter, process_time
@@ -26,6 +27,7 @@ from plutoc_runtime.app import App
 from plutoc_runtime.cli.report import table
 from plutoc_runtime.files.fleet import FleetFile
 from plutoc_runtime.model import AfterTrip, Mission
+from plutoc_runtime.testing.alike import first_the_same, shows_the_same
 from plutoc_runtime.testing.case import Case
 from plutoc_runtime.testing.explore import (
     FAULTS,
@@ -48,6 +50,9 @@ CHANCES = 20
 """Cases by chance for each seed."""
 ENOUGH = 5
 """After so many findings in an example nobody looks for more."""
+
+_VIOLATIONS = attrgetter("violations")
+"""What is looked for: an evaluator may well ask too much of half a fleet."""
 
 
 def cases(
@@ -106,15 +111,17 @@ def struck(name: str, seeds: range, own: bool = False) -> Struck:
         cases(app, fleet, seeds, missions),
         tally,
         lambda tally: len(tally.findings) >= ENOUGH,
-        lambda trial: trial.violations,  # an evaluator may well ask too much of half a fleet
+        _VIOLATIONS,
     )
     findings, tally.findings = tally.findings, []  # they are of classes that no other process has
     said: list[str] = []
     if findings:
-        small = shrunk(findings[0].case, lambda case: bool(tried(app, case).violations))
-        finding = Finding(case=small, sentences=tried(app, small).violations)
+        first = findings[0]
+        small = shrunk(first.case, shows_the_same(app, first, _VIOLATIONS))
+        sentences = first_the_same(first, tried(app, small).violations)
         options = Options(file=Path("examples") / name / "app.pluto")
-        said = [f"--- {name}", *smallest_case(app, options, finding)]
+        smallest = smallest_case(app, options, Finding(case=small, sentences=sentences))
+        said = [f"--- {name}", *first.sentences, "The smallest case:", *smallest]
     seconds = process_time() - began
     return Struck(name=name, tally=tally, found=len(findings), said=tuple(said), seconds=seconds)
 

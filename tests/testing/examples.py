@@ -41,10 +41,10 @@ def example(name: str, overrides: Overrides | None = None, *, plain: bool = Fals
     return package.app(hooks, patient=True)
 
 
-def app_of(text: str) -> App:
-    """Return the app of a source that needs no hooks."""
+def app_of(text: str, hooks: Overrides | None = None) -> App:
+    """Return the app of a source, with the hooks that it needs."""
     package = packaged(planned(analyse(Source("app.pluto", text))[0]))
-    return package.app(SimpleNamespace(), patient=True)
+    return package.app(SimpleNamespace(**(hooks or {})), patient=True)
 
 
 def fleet_of(name: str, app: App) -> FleetFile:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 from pathlib import Path
 
 import pytest
@@ -11,12 +12,13 @@ from hypothesis import strategies as st
 from plutoc_runtime.files.fleet import load_fleet
 from plutoc_runtime.files.fleet_text import fleet_text
 from plutoc_runtime.files.missions import load_missions
+from plutoc_runtime.testing import explore
 from plutoc_runtime.testing.blows import Blow, Kind, blows_of, blows_text
 from plutoc_runtime.testing.case import FAIR, Case, Weather, weather_of, weather_text
 from plutoc_runtime.testing.drawing import drawn_missions
-from plutoc_runtime.testing.explore import drawn_case, small_case
+from plutoc_runtime.testing.explore import Tally, drawn_case, explored, small_case
 from plutoc_runtime.testing.plan_text import missions_text
-from plutoc_runtime.testing.rig import tried
+from plutoc_runtime.testing.rig import Rig, tried
 from plutoc_runtime.testing.shrink import shrunk
 from tests.testing.examples import example, fleet_of
 
@@ -101,6 +103,14 @@ def test_a_case_is_made_as_small_as_it_can_be() -> None:
     assert [str(blow) for blow in small.blows] == ["crash@1"]
     assert [len(mission.trips) for mission in small.missions] in ([1], [2])  # 2: pick and release
     assert len(small.fleet.drones) == 1
+
+
+def test_trials_leave_nothing_behind(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Many thousands come one after the other: none keeps its world in memory for long."""
+    monkeypatch.setattr(explore, "FORGOTTEN", 4)
+    cases = (drawn_case(APP, FLEET, seed) for seed in range(8))
+    explored(APP, cases, Tally(), lambda _: False)
+    assert [one for one in gc.get_objects() if isinstance(one, Rig)] == []
 
 
 def test_small_cases_have_fair_weather_every_other_time() -> None:

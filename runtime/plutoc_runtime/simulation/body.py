@@ -122,6 +122,11 @@ class Body:
         return self._landed
 
     @property
+    def silence(self) -> float:
+        """What is simulated is known at any moment."""
+        return 0.0
+
+    @property
     def is_docked(self) -> bool:
         """Whether it stands in its dock."""
         return self.landed and docked(self._leg.end, self.drone.home)
@@ -157,18 +162,19 @@ class Body:
             boot=self.boot,
             carrying=None if self.carries is None else self.carries.name,
             done=dict(self.done),
+            problems=() if self.down is None else (str(self.down),),
         )
 
     # What navigation does to it
 
     def begin(self, drawn: Drawn, now: float) -> None:
-        """Begin a flight, with what will go wrong on it."""
+        """Begin a flight, with what will go wrong on it: from here, or from its take-off on."""
         self._drawn, self._began = drawn, now
 
     def lift_off(self, now: float) -> None:
-        """Leave the ground: from now on the battery drains."""
+        """Leave the ground: from now on the battery drains, and things go wrong."""
         self._charge = self._charge.changing(now, -1.0 / self.drone.category.flight_time)
-        self._landed = False
+        self._began, self._landed = now, False
 
     def move(self, target: Point, now: float, arrives: float) -> None:
         """Go straight to a point, to be there at a time."""

@@ -114,6 +114,7 @@ class SimulatedNavigation:
         if body.landed:
             x, y, _ = body.location
             body.lift_off(now)
+            body.check(now)  # what goes wrong at once leaves it on the ground
             await self._move(body, (x, y, height), CLIMB_SPEED, "to take off")
 
     async def go_to(self, drone: str, target: Point) -> None:

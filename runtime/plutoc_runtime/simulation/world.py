@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from math import exp
+from math import exp, inf
 from random import Random
 from typing import TYPE_CHECKING
 
@@ -16,7 +16,11 @@ if TYPE_CHECKING:
     from ..model import Photo, Point
 
 BACKGROUND: Mapping[str, float] = {"temperature": 21.0, "pm10": 20.0}
-"""What is measured far from every source: °C, µg/m³. Any other quantity is 0 there."""
+"""What is measured far from every source, in `UNITS`. Any other quantity is 0 there."""
+
+UNITS: Mapping[str, str] = {"temperature": "°C", "pm10": "µg/m³"}
+"""What the numbers of a simulated world mean; any other quantity has the unit that its author had
+in mind."""
 
 _NOISE = 0.001
 """The sensors' error, as a share of what they measure."""
@@ -46,6 +50,13 @@ class Source:
     peak: float
     radius: float
     """Metres within which most of it stays: the standard deviation of a bell curve."""
+
+    def at_distance(self, x: float, y: float) -> float:
+        """Return what there is of it so many metres away, however narrow or wide it is."""
+        away, spread = x * x + y * y, 2 * self.radius * self.radius
+        if away == 0.0 or spread == inf:
+            return self.peak
+        return self.peak * exp(-away / spread) if spread > 0.0 else 0.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -78,8 +89,7 @@ class World:
         value = self.background.get(quantity, 0.0)
         for source in self.sources:
             if source.quantity == quantity:
-                x, y = point[0] - source.at[0], point[1] - source.at[1]
-                value += source.peak * exp(-(x * x + y * y) / (2 * source.radius**2))
+                value += source.at_distance(point[0] - source.at[0], point[1] - source.at[1])
         error = self._random(quantity, point, time).gauss(0.0, _NOISE)
         return round(value * (1 + error), 3)
 

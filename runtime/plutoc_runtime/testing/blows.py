@@ -7,6 +7,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
 
+from ..words import number
+
 
 class Kind(Enum):
     """What can strike. The words are those of the command line."""
@@ -48,7 +50,7 @@ class Blow:
     """So many seconds later."""
 
     def __str__(self) -> str:
-        later = f"+{self.after:g}" if self.after else ""
+        later = f"+{number(self.after)}" if self.after else ""
         return f"{self.kind.value}@{self.row}{later}"
 
 

@@ -109,10 +109,10 @@ class Book:
 
     def hook_did(self, hook: Callable[..., object], args: tuple[object, ...], now: float) -> None:
         """A hook has returned: if it is an action of the app's own, that was done."""
-        for name, action in self._app.actions.items():
-            if action.hook is hook:
-                context: Any = args[2]
-                self.did(context._state.flight.id, name, now)
+        if any(action.hook is hook for action in self._app.actions.values()):
+            context: Any = args[2]
+            flight = context._state.flight
+            self.did(flight.id, flight.trip.action, now)
 
     def answer(self, name: str, records: Records) -> str:
         """Say what is true about a mission that asks: somebody looks whether it was done."""

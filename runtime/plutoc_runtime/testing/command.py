@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from copy import deepcopy
+from operator import attrgetter
 from typing import TYPE_CHECKING, Any
 
 from ..cli import output
-from ..cli.progress import on_terminal
 from ..errors import BadInput
 from ..fields import Entity, FieldType
 from ..files.fleet import default_fleet, load_fleet
 from ..files.missions import load_missions
 from ..journal_line import dumped
 from ..plan_check import problems
+from ..words import counted
+from .alike import first_the_same, shows_the_same
 from .case import FAIR, Case
 from .explore import Finding, Tally, drawn_case, everywhere, explored, small_case
 from .options import Options, parse
+from .patience import patience
 from .report import findings_data, report, shown_again
 from .rig import tried
 from .shrink import shrunk
@@ -32,6 +35,8 @@ STRUCK_EVERYWHERE = 3
 """Of so many seeds, what can strike does so at every row of the journal."""
 ENOUGH = 5
 """After so many findings nobody looks for more."""
+
+_WRONG = attrgetter("wrong")
 
 
 def test(app: App, argv: Sequence[str]) -> int:
@@ -49,18 +54,25 @@ def _tried(app: App, options: Options) -> int:
     if options.single:
         return _once_more(app, fleet, options, missions)
     tally = Tally()
-    progress = on_terminal(quiet=options.json)
+    waiting = patience(lines=not options.json)
+    seen: list[int] = []
 
     def enough(tally: Tally) -> bool:
-        progress.update(len(seen) / options.seeds, f"{tally.runs} runs, {len(seen)} seeds")
+        waiting.tell(len(seen) / options.seeds, _so_far(tally, seen, options))
         return len(tally.findings) >= ENOUGH
 
-    seen: list[int] = []
+    def fails(case: Case) -> bool:
+        waiting.tell(1.0, f"{_so_far(tally, seen, options)}: making the first one smaller")
+        return the_same(case)
+
+    smallest: Finding | None = None
     try:
         explored(app, _cases(app, fleet, options, missions, seen), tally, enough)
-        smallest = _smallest(app, tally.findings)
+        if tally.findings:
+            the_same = shows_the_same(app, tally.findings[0], _WRONG)
+            smallest = _smallest(app, tally.findings[0], fails)
     finally:
-        progress.clear()
+        waiting.over()
     if not tally.runs:
         raise BadInput("the fleet can fly none of the missions that were drawn: use --missions")
     if options.json:
@@ -81,13 +93,15 @@ def _cases(
             yield from everywhere(app, small_case(app, fleet, seed, missions))
 
 
-def _smallest(app: App, findings: Sequence[Finding]) -> Finding | None:
-    """Make the first finding small; it must still show the same kind of thing."""
-    if not findings:
-        return None
-    first = findings[0]
-    small = shrunk(first.case, lambda case: bool(tried(app, case).wrong))
-    return Finding(case=small, sentences=tried(app, small).wrong)
+def _so_far(tally: Tally, seen: Sequence[int], options: Options) -> str:
+    found = counted(len(tally.findings), "mistake")
+    return f"{counted(tally.runs, 'run')}, seed {len(seen)} of {options.seeds}, {found} found"
+
+
+def _smallest(app: App, first: Finding, fails: Callable[[Case], bool]) -> Finding:
+    """Make a finding small; it still shows the same mistake."""
+    small = shrunk(first.case, fails)
+    return Finding(case=small, sentences=first_the_same(first, tried(app, small).wrong))
 
 
 def _once_more(

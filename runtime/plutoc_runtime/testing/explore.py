@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 from bisect import bisect_right
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -42,6 +43,9 @@ FAULTS = (
     "flight: action",
 )
 """Everything of which it is counted how often it has really struck."""
+
+FORGOTTEN = 100
+"""After so many trials the memory that they took is given back."""
 
 _MOMENTS = (0.0, 0.0, 0.4, 1.1, 2.2, 7.0)
 """Seconds after a row at which something strikes: also while an action is under way."""
@@ -98,6 +102,8 @@ def explored(
             continue  # the fleet can fly none that was drawn
         trial = tried(app, case)
         tally.runs += 1
+        if tally.runs % FORGOTTEN == 0:
+            gc.collect()  # each has kept the collector from its world
         tally.rows += trial.rows
         tally.lives += trial.lives
         tally.fired.update(trial.fired)

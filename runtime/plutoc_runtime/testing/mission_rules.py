@@ -20,12 +20,14 @@ class EndsOnce:
         self._say = say
         self._ended: Counter[object] = Counter()
         self._set_out_by_now: dict[object, None] = {}
-        """Those to which more has happened than to exist: they may not begin anew."""
+        """Those that were on their way to a drone: they may not begin anew, whatever a person skips."""
         self._waits: dict[object, object] = {}
         """Those that wait for a person, and why."""
         self.hears = {
             "mission.created": self._create,
-            "trip": self._set_out,
+            "trip.delayed": self._set_out,
+            "trip.allocated": self._set_out,
+            "trip.launched": self._set_out,
             "mission.ended": self._end,
             "mission.uncertain": self._wait,
             "mission.held": self._wait,

@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from pathlib import Path
+from shlex import quote
 from typing import TYPE_CHECKING
 
 from ..cli.events import line_of
 from ..cli.report import table
 from ..files.fleet_text import fleet_text
 from ..words import counted, printable
+from .alike import Alike
 from .blows import blows_text
 from .case import weather_text
 from .explore import FAULTS
 from .plan_text import missions_text
+from .wording import ENDS, WORDS, WRITTEN
 
 if TYPE_CHECKING:
     from ..app import App
@@ -25,29 +30,68 @@ _MOST_EVENTS = 200
 
 def report(app: App, options: Options, tally: Tally, smallest: Finding | None) -> Iterator[str]:
     """Yield the lines for a person."""
+    struck = [what for what in FAULTS if tally.fired[what]]
     yield from table(
-        ("what struck", "how often"),
-        [(what, str(tally.fired[what])) for what in FAULTS],
+        ("what went wrong on purpose", "times", "written"),
+        [(WORDS[what], str(tally.fired[what]), WRITTEN.get(what, "")) for what in struck],
         right=(1,),
     )
+    never = [WORDS[what] for what in FAULTS if not tally.fired[what]]
+    if never and smallest is None:  # else it was over too soon for most
+        yield f"Never happened, for want of an occasion: {'; '.join(never)}."
     yield ""
-    ends = ", ".join(f"{times} {status}" for status, times in sorted(tally.missions.items()))
-    lives = f"{counted(tally.runs, 'run')} in {counted(tally.lives, 'life', 'lives')} of the app"
-    yield f"{lives}: {counted(tally.missions.total(), 'mission')} ended ({ends})"
+    yield from _tried(tally)
     if smallest is None:
         yield "No run did what no run may do."
         return
-    seeds = dict.fromkeys(str(finding.case.seed) for finding in tally.findings)
-    yield f"Something is wrong, with seed {', '.join(seeds)}. The smallest case that shows it:"
+    first = tally.findings[0]
+    found = counted(len(tally.findings), "run")
+    yield f"Something is wrong, in {found}. What was found first:"
+    yield ""
+    yield from _said(first)
+    yield ""
+    yield "See it again:"
+    yield "  " + _again(options, first)
+    yield from _others(tally.findings)
+    yield ""
+    yield "The smallest case that shows the same:"
     yield ""
     yield from smallest_case(app, options, smallest)
+
+
+def _tried(tally: Tally) -> Iterator[str]:
+    runs, missions = counted(tally.runs, "run"), counted(tally.missions.total(), "mission")
+    again = tally.lives - tally.runs
+    yield f"{runs}, in which the app was started anew {counted(again, 'time')} after it had died or was stopped."
+    ends = [f"{tally.missions[end]} {words}" for end, words in ENDS.items() if tally.missions[end]]
+    yield f"{missions} ended: {', '.join(ends) or 'none'}."
+
+
+def _said(finding: Finding) -> Iterator[str]:
+    return (f"  {printable(sentence)}" for sentence in finding.sentences)
+
+
+def _others(findings: Sequence[Finding]) -> Iterator[str]:
+    """Yield what else was found, once each: a mistake that shows once shows often."""
+    alike = Alike(findings[0].case)
+    known = {alike.kind(sentence) for sentence in findings[0].sentences}
+    new: list[str] = []
+    for finding in findings[1:]:
+        alike = Alike(finding.case)
+        for sentence in finding.sentences:
+            if alike.kind(sentence) not in known:
+                known.add(alike.kind(sentence))
+                new.append(f"  {printable(sentence)} (seed {finding.case.seed})")
+    if new:
+        yield ""
+        yield "Found later, and not looked into:"
+        yield from new
 
 
 def smallest_case(app: App, options: Options, finding: Finding) -> Iterator[str]:
     """Yield what is wrong, the files that show it, and the command that shows it again."""
     case = finding.case
-    for sentence in finding.sentences:
-        yield f"  {printable(sentence)}"
+    yield from _said(finding)
     yield ""
     yield "# failing.toml"
     yield from missions_text(app, case.missions).rstrip().split("\n")
@@ -56,20 +100,22 @@ def smallest_case(app: App, options: Options, finding: Finding) -> Iterator[str]
     yield from fleet_text(case.fleet).rstrip().split("\n")
     yield ""
     yield "Save that, and see it again:"
-    yield "  " + _again(options, finding)
+    small = replace(options, missions=Path("failing.toml"), fleet=Path("failing-fleet.toml"))
+    yield "  " + _again(small, finding)
 
 
 def _again(options: Options, finding: Finding) -> str:
+    """Return the command that flies a case again, with the files that it was drawn for."""
     case = finding.case
-    words = [
-        f"plutoc test {options.file} --missions failing.toml",
-        f"--fleet failing-fleet.toml --seed {case.seed}",
-    ]
+    words = ["plutoc", "test", quote(str(options.file))]
+    for flag, path in (("--missions", options.missions), ("--fleet", options.fleet)):
+        words += [] if path is None else [flag, quote(str(path))]
+    words += ["--seed", str(case.seed)]
     weather = weather_text(case.weather)
     if case.blows or not weather:
-        words.append(f"--strike {blows_text(case.blows) or '-'}")
+        words += ["--strike", blows_text(case.blows) or "-"]
     if weather:
-        words.append(f"--weather {weather}")
+        words += ["--weather", weather]
     return " ".join(words)
 
 
@@ -94,7 +140,12 @@ def findings_data(app: App, tally: Tally, smallest: Finding | None) -> dict[str,
         "missions": dict(sorted(tally.missions.items())),
         "struck": dict(sorted(tally.fired.items())),
         "findings": [
-            {"seed": finding.case.seed, "what": list(finding.sentences)}
+            {
+                "seed": finding.case.seed,
+                "what": list(finding.sentences),
+                "strike": blows_text(finding.case.blows),
+                "weather": weather_text(finding.case.weather),
+            }
             for finding in tally.findings
         ],
         "smallest": None if smallest is None else _data(app, smallest),

@@ -101,12 +101,11 @@ class Wire(Link):
         """Bring all drones down."""
         return self._far(partial(self._real.bring_down, how))
 
-    def _far(self, command: Callable[[], Coroutine[Any, Any, T]]) -> Coroutine[Any, Any, T]:
-        """Let the gateway do something, and hear of it."""
-        return self._sent_and_answered(command) if self._slow else command()
+    async def _far(self, command: Callable[[], Coroutine[Any, Any, T]]) -> T:
+        """Let the gateway do something, in the world and not in a brain that may die, and hear of it.
 
-    async def _sent_and_answered(self, command: Callable[[], Coroutine[Any, Any, T]]) -> T:
-        """Let messages travel; whoever does not want it any more, says so."""
+        Messages travel; whoever does not want it any more, says so.
+        """
         over: Signal[T] = Signal()
         under_way: list[Task[T]] = []
 

@@ -15,6 +15,7 @@ from plutoc_runtime.errors import Failure, FlightFailed
 from plutoc_runtime.kernel import FLEET
 from plutoc_runtime.model import Item, Point
 from plutoc_runtime.realtime import RealTime
+from plutoc_runtime.simulation.drones import SimulatedNavigation
 from plutoc_runtime.simulation.faults import Faults, draw
 from plutoc_runtime.virtual import VirtualTime
 from tests.runtime.simulation.flights import CLIMB, HOME, SCOUT, Team, failure, fly, order, team
@@ -56,6 +57,42 @@ def test_a_crash_comes_at_its_moment(seed: int) -> None:
     assert not fly(kernel, navigation.recover("cf1"))
     assert kernel.now == pytest.approx(moment)
     assert failure(kernel, navigation.takeoff("cf1", 1.2, None)).failure is Failure.CRASH
+
+
+@pytest.mark.parametrize("late", [0.0, 0.5, 20.0])
+@given(seed=st.integers(0, 200))
+def test_a_flight_goes_wrong_after_its_take_off_however_late_that_is(
+    late: float, seed: int
+) -> None:
+    """A command is on its way for a while: what is drawn comes so long after the drone has left."""
+    kernel = VirtualTime()
+    navigation = team(kernel, Faults(link=1), seed=seed)
+    drawn = draw(Faults(link=1), seed, order()).link
+    assert drawn is not None
+    navigation.bodies["cf1"].begin(draw(Faults(link=1), seed, order()), kernel.now)
+    fly(kernel, kernel.sleep(late))
+
+    async def flight() -> None:
+        await SimulatedNavigation.takeoff(navigation, "cf1", 1.2)
+        await navigation.go_to("cf1", FAR)
+        await navigation.act("cf1", "take_photo", {}, None)
+
+    assert failure(kernel, flight()).failure is Failure.LINK
+    assert kernel.now == pytest.approx(late + drawn)
+    assert fly(kernel, navigation.reach("cf1"))
+    telemetry = navigation.telemetry("cf1")
+    assert telemetry.landed
+    assert telemetry.location == pytest.approx((*place_at(drawn)[:2], 0.0))
+
+
+def test_a_drone_that_fails_as_it_leaves_the_ground_stays_there() -> None:
+    """With nothing in its battery it does not rise, and nobody takes it to be up there."""
+    kernel = VirtualTime()
+    navigation = team(kernel, battery_level=0.0)
+    error = failure(kernel, navigation.takeoff("cf1", 1.2, order()))
+    telemetry = navigation.telemetry("cf1")
+    assert error.failure is Failure.BATTERY
+    assert (kernel.now, telemetry.location, telemetry.landed) == (0.0, HOME, True)
 
 
 @pytest.mark.parametrize(
