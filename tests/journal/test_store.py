@@ -143,3 +143,29 @@ def test_a_reader_that_stops_in_the_middle_keeps_nobody_from_tidying_up(
     assert sum(1 for _ in rows) == 3_000  # what was there when it began
     assert sum(1 for _ in reader.more()) == 1
     reader.close()
+
+
+@pytest.mark.parametrize("suffix", ["", "-wal"])
+@pytest.mark.parametrize("replaced", [False, True])
+def test_a_journal_that_was_deleted_takes_nothing_more(
+    suffix: str, replaced: bool, store: Store, place: Path
+) -> None:
+    """Also when another file has its name by now, and though nothing is being written."""
+    store.append([row(1)])
+    gone = place.with_name(place.name + suffix)
+    gone.unlink()
+    if replaced:
+        gone.write_text("something else")
+    with pytest.raises(JournalError, match=f"{gone}: it was deleted"):
+        store.look()
+    with pytest.raises(JournalError, match="it was deleted"):
+        store.append([row(2)])
+
+
+def test_a_journal_that_was_renamed_is_called_by_its_new_name(store: Store, place: Path) -> None:
+    moved = place.rename(place.with_name("elsewhere"))
+    with pytest.raises(JournalError, match=f"^{moved}: .* moved away from {place}: move it back"):
+        store.append([row(1)])
+    moved.rename(place)
+    store.close()
+    Store.open(place).close()

@@ -187,3 +187,16 @@ def test_missions_are_paused_skipped_and_cancelled_while_they_fly(new_flight: Ne
         "east": "CANCELLED",
     }
     assert max(done_by_the_world(flight.journal).values()) == 1
+
+
+def test_a_journal_that_is_deleted_in_flight_ends_it(new_flight: NewFlight) -> None:
+    """As a full disk does: the drones land, it says why, and nothing names what is not there."""
+    flight = new_flight(5.0)
+    flight.start()
+    flight.until_it_says("launched")
+    flight.journal.unlink()
+    assert flight.see_through() == 2
+    assert f"{flight.journal}: it was deleted while the flight was being written" in flight.lives[0]
+    assert "resume" not in flight.lives[0]
+    assert all(z == 0.0 for _, _, z in drones_are_at(flight))
+    assert no_process_is_left(flight)

@@ -103,6 +103,20 @@ def cannot_write(path: Path, error: Exception, seq: int) -> JournalError:
     )
 
 
+def gone(file: Path, now: Path | None, journal: Path) -> JournalError:
+    """It was deleted or renamed while it was written: whoever looks for it finds nothing."""
+    if now is not None:
+        return JournalError(
+            f"{now}: it is part of a journal that is being written, and was moved away from {file}:"
+            " move it back, and then resume"
+        )
+    return JournalError(
+        f"{file}: it was deleted while the flight was being written into it: nothing of that flight"
+        " can be gone on with"
+        + (f"; what {journal.name} itself holds is older" if file != journal else "")
+    )
+
+
 def full(seq: int) -> JournalError:
     """A journal in memory has no room left: as on a full disk."""
     return cannot_write(Path("the journal in memory"), OSError(ENOSPC, ""), seq)

@@ -45,6 +45,9 @@ class Records:
         """The drones that nobody may have."""
         self.mended: list[str] = self.data.setdefault("mended", [])
         """The drones that were lost, that a person has looked after, and that are not back yet."""
+        self.lost: dict[str, Record] = self.data.setdefault("lost", {})
+        """The drones that nobody may have before a person has looked after them: why, and where
+        each was when it was lost."""
 
     @property
     def time(self) -> float:
@@ -55,6 +58,11 @@ class Records:
     def stopped(self) -> bool:
         """Whether everything was stopped on purpose, and nothing has begun again since."""
         return self.data["stopped"] is not None
+
+    def flown_last(self, mission: str) -> Record:
+        """Return the trip that a mission completed last."""
+        trip: Record = self.missions[mission]["done"][-1]
+        return trip
 
     def take(self, event: Fact) -> None:
         """Something happened."""
@@ -102,9 +110,9 @@ def _new() -> Record:
 
 
 def _created(_: Records, record: Record, event: Fact) -> None:
-    plan = event["plan"]
+    plan, gone = event["plan"], record["gone"]  # it may begin anew, but without what was skipped
     record.update(_new())
-    record.update(index=plan["index"], fields=plan["fields"], todo=plan["trips"])
+    record.update(index=plan["index"], fields=plan["fields"], todo=plan["trips"], gone=gone)
 
 
 def _changed(_: Records, record: Record, event: Fact) -> None:
@@ -278,6 +286,13 @@ def _decided(_: Records, record: Record, event: Fact) -> None:
         record["accepted"] = record["at"]  # this block need not be there any more
 
 
+def _inherited(records: Records, event: Fact) -> None:
+    """What the flights before this one have left: drones do not heal because a journal is new."""
+    records.lost.update(event.get("lost") or {})
+    records.mended += event.get("mended") or []
+    records.retired += event.get("retired") or []
+
+
 def _began(records: Records, event: Fact) -> None:
     """A brain has taken over: delays that a Stop has interrupted keep their rest."""
     if records.stopped:
@@ -304,14 +319,23 @@ def _retired(records: Records, event: Fact) -> None:
 def _brought_back(records: Records, event: Fact) -> None:
     if event["drone"] in records.retired:
         records.retired.remove(str(event["drone"]))
-    if event.get("lost") and event["drone"] not in records.mended:
-        records.mended.append(str(event["drone"]))
+    if event.get("lost"):
+        records.lost.pop(str(event["drone"]), None)
+        if event["drone"] not in records.mended:
+            records.mended.append(str(event["drone"]))
 
 
 def _came_back(records: Records, event: Fact) -> None:
-    """A drone is back, or is lost once more: that somebody had looked after it says nothing now."""
+    """A drone is back: that somebody had looked after it says nothing any more."""
     if event["drone"] in records.mended:
         records.mended.remove(str(event["drone"]))
+
+
+def _lost(records: Records, event: Fact) -> None:
+    """A drone is lost, perhaps once more; if it has been so all the time, the first reason counts."""
+    _came_back(records, event)
+    found = {"reason": event.get("reason", ""), "at": event.get("at")}
+    records.lost.setdefault(str(event["drone"]), found)
 
 
 def shift_delays(records: Records, seconds: float) -> None:
@@ -377,6 +401,7 @@ _MISSION: dict[str, Callable[[Records, Record, Fact], None]] = {
 }
 
 _WHOLE: dict[str, Callable[[Records, Fact], None]] = {
+    "journal.begun": _inherited,
     "brain.began": _began,
     "stopped": _stopped,
     "commanded": _commanded,
@@ -384,5 +409,5 @@ _WHOLE: dict[str, Callable[[Records, Fact], None]] = {
     "drone.brought_back": _brought_back,
     "drone.free": _came_back,
     "drone.charging": _came_back,
-    "drone.lost": _came_back,
+    "drone.lost": _lost,
 }

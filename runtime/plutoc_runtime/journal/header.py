@@ -32,8 +32,12 @@ def header(
     crtp_sim: int | None = None,
     seed: int,
     faults: Mapping[str, float] | None = None,
+    inherited: Mapping[str, object] | None = None,
 ) -> dict[str, object]:
-    """Return the header of a new journal; the two files are kept as text, for whoever goes on."""
+    """Return the header of a new journal; the two files are kept as text, for whoever goes on.
+
+    `inherited` is what is known of the drones from before: who is lost, mended or retired.
+    """
     return {
         "t": 0.0,
         "event": "journal.begun",
@@ -47,6 +51,7 @@ def header(
         "crtp_sim": crtp_sim,
         "seed": seed,
         "faults": dict(faults or {}),
+        **(inherited or {}),
     }
 
 

@@ -8,6 +8,7 @@ import time
 from contextlib import suppress
 from pathlib import Path
 
+from ..forked import not_for_children
 from . import errors
 from .place import beside
 
@@ -19,6 +20,8 @@ class Lock:
 
     def __init__(self, path: Path, descriptor: int) -> None:
         self._file, self._descriptor = beside(path, ".lock"), descriptor
+        self._process = os.getpid()
+        not_for_children(descriptor)
 
     @classmethod
     def take(cls, path: Path) -> Lock:
@@ -48,6 +51,8 @@ class Lock:
 
     def release(self) -> None:
         """Let others have it; the file goes while nobody else can have taken it."""
+        if os.getpid() != self._process:
+            return  # it is not a forked child's to release
         with suppress(OSError):
             self._file.unlink()
         os.close(self._descriptor)

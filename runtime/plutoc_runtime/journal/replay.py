@@ -11,16 +11,19 @@ from typing import TYPE_CHECKING
 from .fold import Records
 
 if TYPE_CHECKING:
+    from ..trace import Event
     from .reading import Read
 
 
-def replayed(read: Read) -> Records:
-    """Return what a journal comes to: its snapshot, and what has happened since.
+def replayed(read: Read, header: Event | None = None) -> Records:
+    """Return what a journal comes to: its header, or a snapshot, and what has happened since.
 
     Ask afterwards whether `read` was damaged: then it is what was so far.
     """
     with _without_collections():
         records = Records(None if read.snapshot is None else json.loads(read.snapshot))
+        if read.snapshot is None and header is not None:
+            records.take(header)
         take = records.take
         for event in read.events:
             take(event)

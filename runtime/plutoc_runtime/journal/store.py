@@ -15,6 +15,7 @@ from ..trace import Event
 from . import errors
 from .database import connect, found, look_at, sync_folder
 from .errors import TROUBLE, JournalError
+from .following import Identity, identity, moved_to
 from .format import row_checksum, snapshot_checksum, tip_checksum
 from .lock import Lock
 from .making import made
@@ -47,7 +48,9 @@ class Store:
         self.failure: JournalError | None = None
         """Why nothing more is taken; None: all is well."""
         self._lock, self._database, self._clock = lock, database, clock
-        self._closed = False
+        self._files: dict[Path, Identity | None] = {}
+        """The files that are written, and which they were when it was opened."""
+        self._closed, self._process = False, os.getpid()
         most = database.getlimit(sqlite3.SQLITE_LIMIT_VARIABLE_NUMBER)
         self._at_once = min(_AT_ONCE, most // _COLUMNS)
 
@@ -115,11 +118,21 @@ class Store:
         )
         database.execute("COMMIT")
         database.execute("PRAGMA wal_checkpoint(TRUNCATE)")
+        self._files = {file: identity(file) for file in (self.path, beside(self.path, "-wal"))}
+
+    def look(self) -> None:
+        """Raise a `JournalError` if what is written is in no place any more where it would be found."""
+        if self.failure is not None:
+            raise self.failure
+        for file, which in self._files.items():
+            if which is not None and identity(file) != which:
+                self.failure = errors.gone(file, moved_to(which), self.path)
+                give_back(self.path)
+                raise self.failure
 
     def append(self, rows: Sequence[str]) -> None:
         """Write rows, each the events of one instant; when this returns they are durable."""
-        if self.failure is not None:
-            raise self.failure
+        self.look()
         try:
             self._commit(rows)
         except (ValueError, *TROUBLE) as error:  # ValueError: a text that is none
@@ -161,7 +174,7 @@ class Store:
 
     def close(self) -> None:
         """Let others have it; what was acknowledged is on disk already."""
-        if self._closed:
+        if self._closed or os.getpid() != self._process:
             return  # what lies beside the journal may be another's by now
         self._closed = True
         with suppress(*TROUBLE):

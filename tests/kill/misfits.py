@@ -1,0 +1,224 @@
+"""An app whose hooks misbehave in every way there is, beside missions that must not notice.
+
+What its action does is the name of its trip, and which process it must not do it in again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from tests.flying import compiled_file
+from tests.kill.plans import Plan, fleet, trip
+
+APP = """pluto 1
+
+app misfits "Do what hooks must not do" {
+  category worker can act, dig, measure
+
+  action act safe
+  action dig safe
+  modifier change
+  evaluator verdict
+
+  create = MissionCreator
+  prepare = MissionModifier(hook: change)
+  allocate = DroneAllocator
+  launch = TripLauncher
+  watch = TripMonitor
+  judge = MissionEvaluator(hook: verdict)
+
+  start -> create -> prepare -> allocate -> launch -> watch
+  watch -> allocate when STANDBY
+  watch -> judge when COMPLETED
+  watch -> end otherwise
+  judge -> allocate when STANDBY
+  judge -> end otherwise
+}
+"""
+
+HOOKS = '''"""Hooks that misbehave as the name of a trip, or of a mission, says."""
+
+import asyncio
+import ctypes
+import multiprocessing
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+from . import ActionFailed, Verdict
+
+HERE = Path(os.environ["FLIGHT"])
+FORK = multiprocessing.get_context("fork")
+
+
+def once(name):
+    """Whether this was never done before, by an earlier life either."""
+    try:
+        (HERE / f"{name}.done").open("x").close()
+    except FileExistsError:
+        return False
+    return True
+
+
+def lives_for_ever():
+    while True:
+        time.sleep(1)
+
+
+async def ended_child(context):
+    """Start children in each way, end them, and let one live on beside the app."""
+    for way in ("fork", "spawn", "forkserver"):
+        child = multiprocessing.get_context(way).Process(target=time.sleep, args=(100,), daemon=True)
+        child.start()
+        child.terminate()
+        while child.is_alive():
+            await asyncio.sleep(0.01)
+    child = subprocess.Popen([sys.executable, "-S", "-c", "import time; time.sleep(100)"])
+    child.terminate()
+    child.wait()
+    pid = os.fork()
+    if not pid:
+        lives_for_ever()
+    for number in (signal.SIGTERM,):
+        os.kill(pid, number)
+    _, status = os.waitpid(pid, 0)
+    (HERE / "killed").write_text(str(os.waitstatus_to_exitcode(status)))
+    lasting = FORK.Process(target=lives_for_ever, daemon=True)
+    lasting.start()
+    (HERE / "lasting").write_text(str(lasting.pid))
+
+
+async def comes_back(context):
+    """Fork, and let both come back into the app."""
+    pid = os.fork()
+    await context.sleep(0.1)
+    if pid:
+        _, status = os.waitpid(pid, 0)
+        (HERE / "came_back").write_text(str(os.waitstatus_to_exitcode(status)))
+
+
+def round_list():
+    value = []
+    value.append(value)
+    return value
+
+
+def deep_list():
+    value = []
+    for _ in range(100_000):
+        value = [value]
+    return value
+
+
+def many_lists():
+    value = ["ha"] * 10
+    for _ in range(30):
+        value = [value] * 10
+    return value
+
+
+class Odd:
+    def __repr__(self):
+        raise SystemExit(0)
+
+    def __eq__(self, other):
+        raise GeneratorExit
+
+    __hash__ = None
+
+
+VALUES = {
+    "huge": lambda: 10 ** 10_000,
+    "round": round_list,
+    "deep": deep_list,
+    "many": many_lists,
+    "odd": Odd,
+    "long": lambda: "x" * 5_000_000,
+    "torn": lambda: "\\ud800",
+    "keys": lambda: {Odd: 1, 2: {3}, "$number": "no"},
+    "nan": lambda: [float("nan"), float("-inf")],
+}
+
+RAISED = {
+    "exit": lambda: SystemExit(0),
+    "generator": GeneratorExit,
+    "interrupt": KeyboardInterrupt,
+    "cancelled": asyncio.CancelledError,
+    "shout": lambda: ValueError("x" * 5_000_000),
+    "failed": lambda: ActionFailed(10 ** 10_000),
+}
+
+
+async def act(drone, trip, context):
+    """Misbehave, if the trip's name says so."""
+    await context.sleep(0.5)
+    name = trip.name
+    if name in VALUES:
+        return VALUES[name]()
+    if name in RAISED:
+        raise RAISED[name]()
+    if name == "children":
+        await ended_child(context)
+    if name == "forks":
+        await comes_back(context)
+    if name.startswith("leaves") and once(name):
+        os._exit(int(name.removeprefix("leaves")))
+    return 1
+
+
+def dig(drone, trip, context):
+    """The same, in a thread."""
+    if trip.name in VALUES:
+        return VALUES[trip.name]()
+    if trip.name in RAISED:
+        raise RAISED[trip.name]()
+    return 1
+
+
+def change(mission, context):
+    """Misbehave before anything has flown."""
+    name = mission.name.removeprefix("prepare ")
+    if mission.name != name and name in RAISED:
+        raise RAISED[name]()
+
+
+def verdict(mission, results):
+    """Misbehave when all was flown."""
+    name = mission.name.removeprefix("judge ")
+    if mission.name == name:
+        return Verdict()
+    if name in RAISED:
+        raise RAISED[name]()
+    return Verdict(ok=False, fail=VALUES[name]())
+'''
+
+VALUES = ("huge", "round", "deep", "many", "odd", "long", "torn", "keys", "nan")
+"""What its actions return: each is kept as far as it can be, and none of it is a failure."""
+
+RAISED = ("exit", "generator", "interrupt", "cancelled", "shout", "failed")
+"""What its hooks raise: each fails one mission, and says why."""
+
+
+def misfits_in(folder: Path) -> Path:
+    """Compile the app into a folder, and return the package's own."""
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "app.pluto").write_text(APP)
+    (folder / "hooks.py").write_text(HOOKS)
+    return compiled_file(folder / "app.pluto", folder / "package")
+
+
+def plan_of(*missions: tuple[str, Sequence[tuple[str, str]]]) -> Plan:
+    """Return a plan of these missions, by their trips' names and actions, and an innocent one."""
+    text = ""
+    for number, (name, trips) in enumerate((*missions, INNOCENT)):
+        text += f'[[mission]]\nname = "{name}"\n'
+        for place, (called, action) in enumerate(trips):
+            text += trip(called, action, f"{0.5 + number % 5}, {1.5 + (number + place) % 2}")
+    return Plan(app="misfits", missions=text, fleet=fleet("worker worker worker"))
+
+
+INNOCENT = ("innocent", (("one", "act"), ("two", "dig"), ("three", "act")))
