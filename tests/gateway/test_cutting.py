@@ -81,6 +81,20 @@ def test_nothing_turns_its_motors_on_before_somebody_has_looked_after_it() -> No
     assert heard[1] is None
 
 
+def test_one_whose_motors_are_cut_on_its_way_home_is_lost_at_once() -> None:
+    """Nobody waits until it was carried home: it is for a person to say that it is well."""
+    field = Field()
+    link = field.gateway.link(1)
+    link.fly(Task(action=None), lambda _: None)
+    field.advance(100)
+    recovery = field.kernel.spawn(link.recover("cf1"), FLEET, "a recovery")
+    field.advance(1)
+    cut(field)
+    field.advance(1)
+    assert recovery.is_set
+    assert recovery.result() is False
+
+
 def test_a_drone_that_cannot_be_told_is_not_taken_for_cut(monkeypatch: pytest.MonkeyPatch) -> None:
     """It is said why; when it can be reached again, it shall come home."""
 

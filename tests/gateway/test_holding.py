@@ -14,6 +14,7 @@ import pytest
 from plutoc_runtime.errors import BadInput
 from plutoc_runtime.gateway.holding import Held, holding
 
+ROOT = Path(__file__).parents[2]
 RADIO = "radio://0/80/2M/E7E7E7E7E7"
 
 
@@ -91,6 +92,38 @@ def test_a_folder_that_others_may_enter_is_refused(
     folder.mkdir()
     folder.chmod(0o777)
     with pytest.raises(BadInput, match="nobody else may enter it"):
+        _hold(None, cf1=RADIO)
+
+
+def test_tests_take_no_lock_of_what_else_runs_on_this_machine(tmp_path: Path) -> None:
+    """Another checkout's tests, say, that command drones by the very same addresses."""
+    (tmp_path / f"pluto-drones-{os.geteuid()}").mkdir(mode=0o700)
+    alone = f"{__file__}::{test_the_users_lock_is_free.__name__}"
+    with _holder(tmp_path / f"pluto-drones-{os.geteuid()}", RADIO):
+        done = subprocess.run(
+            [
+                sys.executable,
+                "-m",
+                "pytest",
+                "-q",
+                "-p",
+                "no:cacheprovider",
+                "-p",
+                "no:xdist",
+                alone,
+            ],
+            cwd=ROOT,
+            env={**os.environ, "XDG_RUNTIME_DIR": str(tmp_path)},
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_the_users_lock_is_free() -> None:
+    """Nothing but a test of this session could hold it."""
+    with holding({"cf1": RADIO}), pytest.raises(Held):
         _hold(None, cf1=RADIO)
 
 

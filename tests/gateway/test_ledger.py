@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -134,6 +135,64 @@ def test_the_file_does_not_grow_for_ever(tmp_path: Path) -> None:
     assert kept(path) == {"stays": JobState.DONE}
     assert path.stat().st_size < before / 100
     assert kept(path) == {"stays": JobState.DONE}
+
+
+def test_the_file_does_not_grow_while_its_gateway_runs(tmp_path: Path) -> None:
+    """However many trips are flown; what is still to be known is there all the time."""
+    path = tmp_path / "ledger"
+    ledger = FileLedger(path)
+    ledger.write(entry("stays", JobState.BEGUN))
+    ledger.write_cut("cf9", True)
+    for number in range(3000):
+        ledger.write_cut("cf1", number % 2 == 0)
+        ledger.forget(str(number))
+    ledger.write(entry("last"))
+    assert path.stat().st_size < 150_000
+    ledger.close()
+    again = FileLedger(path)
+    assert list(again.entries()) == [entry("stays", JobState.BEGUN), entry("last")]
+    assert list(again.cut) == ["cf9"]
+    again.close()
+
+
+class PowerCut(BaseException):
+    """The process is gone in the middle of something."""
+
+
+@pytest.mark.parametrize("at", range(8))
+def test_whatever_dies_while_the_file_is_written_anew_nothing_is_lost(
+    at: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Cut off at each of its calls to the system, before it and after it."""
+    path, calls = tmp_path / "ledger", iter(range(100))
+    ledger = FileLedger(path)
+    ledger.write(entry("stays", value=PHOTO))
+    ledger.write_cut("cf2", True)
+    for number in range(2000):
+        ledger.forget(str(number))
+
+    def dying(real: Callable[..., object]) -> Callable[..., object]:
+        def call(*given: object, **named: object) -> object:
+            if next(calls) == at:
+                raise PowerCut
+            result = real(*given, **named)
+            if next(calls) == at:
+                raise PowerCut
+            return result
+
+        return call
+
+    with monkeypatch.context() as patch:
+        patch.setattr(Path, "write_bytes", dying(Path.write_bytes))
+        patch.setattr(Path, "replace", dying(Path.replace))
+        patch.setattr(os, "fsync", dying(os.fsync))
+        with pytest.raises(PowerCut):
+            for number in range(20):
+                ledger.forget(str(number))
+    again = FileLedger(path)
+    assert (list(again.entries()), list(again.cut)) == ([entry("stays", value=PHOTO)], ["cf2"])
+    assert again.is_whole
+    again.close()
 
 
 def test_whose_motors_are_cut_is_there_for_the_next_process(tmp_path: Path) -> None:

@@ -178,6 +178,7 @@ class Heard:
     location: Point
     battery_level: float
     landed: bool
+    silence: float = 0.0
 
 
 def test_of_a_drone_that_is_silent_in_the_air_people_are_warned(tmp_path: Path) -> None:

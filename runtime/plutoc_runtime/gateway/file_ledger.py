@@ -14,7 +14,7 @@ from ..standing import Entry, JobState
 from .ledger import Written
 
 _SPARE = 1000
-"""Lines that may be of no use any more before the file is written anew."""
+"""Lines that may be of no use any more when a process begins; while it runs, twice as many."""
 
 _sync: Callable[[int], None] = getattr(os, "fdatasync", os.fsync)  # not every system has the former
 
@@ -24,40 +24,43 @@ class FileLedger:
 
     def __init__(self, path: Path) -> None:
         self._path = path
-        self._entries: dict[str, Entry] = {}
+        self._kept: dict[str, Mapping[str, object]] = {}
+        """The last line of each job, in the order in which the jobs were given."""
         self.cut: dict[str, None] = {}
         """The drones whose motors are cut."""
         self.is_whole = True
         """Whether every line could be read, but for one at the end that was never finished."""
-        self._lines = self._end = 0
+        self._lines = self._end = self._tried = 0
         is_new = not path.exists()
         if not is_new:
             self._read(path.read_bytes())
         self._file = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_CLOEXEC, 0o600)
         os.ftruncate(self._file, self._end)
         os.lseek(self._file, 0, os.SEEK_END)
-        if self.is_whole and self._lines > 2 * len(self._entries) + _SPARE:
-            self._write_anew()
+        self._compact(_SPARE)
         if is_new:
             _sync_folder(path.parent)
 
     def entries(self) -> Iterator[Entry]:
         """Yield what is kept, in the order in which the jobs were given."""
-        yield from self._entries.values()
+        yield from map(_entry, self._kept.values())
 
     def write(self, job: Written) -> None:
         """Keep how a job stands; when this returns, it is on the disk."""
         self._append(_text(job))
 
     def forget(self, id: str) -> None:
-        """Drop a job. Should that be lost, it is only known for longer than it need be."""
+        """Drop a job. Should that be lost, it is only known for longer than it need be.
+
+        What has been dropped takes room until there is much of it; here nobody waits for the disk.
+        """
         with suppress(OSError):
             self._append({"forget": id}, sync=False)
+            self._compact(2 * _SPARE)
 
     def write_cut(self, drone: str, is_cut: bool) -> None:
         """Keep whether a drone's motors are cut; if the computer dies, only after `make_sure`."""
         self._append(_motors(drone, is_cut), sync=False)
-        self._turned(drone, is_cut)
 
     def make_sure(self) -> None:
         """Return when all is on the disk."""
@@ -81,6 +84,8 @@ class FileLedger:
                 os.lseek(self._file, self._end, os.SEEK_SET)
             raise
         self._end += len(line)
+        self._lines += 1
+        self._take(data)
 
     def _read(self, told: bytes) -> None:
         *lines, _torn = told.split(b"\n")
@@ -94,31 +99,45 @@ class FileLedger:
 
     def _take(self, data: Mapping[str, object]) -> None:
         if "forget" in data:
-            self._entries.pop(str(data["forget"]), None)
+            self._kept.pop(str(data["forget"]), None)
             return
         if "motors" in data:
             self._turned(str(data["motors"]), data["cut"] is True)
             return
-        entry = _entry(data)
-        self._entries[entry.id] = entry
+        self._kept[_entry(data).id] = data
 
     def _turned(self, drone: str, is_cut: bool) -> None:
         self.cut.pop(drone, None)
         if is_cut:
             self.cut[drone] = None
 
+    def _compact(self, spare: int) -> None:
+        """Write the file anew if most of it is of no use; what was damaged stays for whoever looks."""
+        needed = len(self._kept) + len(self.cut)
+        if self.is_whole and self._lines > max(2 * needed, self._tried) + spare:
+            self._tried = self._lines  # on a full disk: not again at once
+            with suppress(OSError):
+                self._write_anew()
+                self._lines, self._tried = needed, 0
+
     def _write_anew(self) -> None:
-        """Leave out what has been overtaken or forgotten: beside the file, then in its place."""
+        """Leave out what has been overtaken or forgotten: beside the file, then in its place.
+
+        Until the folder knows of the new file the old one is whole; nothing is added to either.
+        """
         part = self._path.with_name(f"{self._path.name}.part")
-        kept = [_text(entry) for entry in self._entries.values()]
-        text = b"".join(map(_line, [*kept, *(_motors(drone, True) for drone in self.cut)]))
-        with suppress(OSError):
-            part.write_bytes(text)
-            file = os.open(part, os.O_WRONLY | os.O_CLOEXEC)
+        text = b"".join(map(_line, [*self._kept.values(), *(_motors(id, True) for id in self.cut)]))
+        part.write_bytes(text)
+        file = os.open(part, os.O_WRONLY | os.O_CLOEXEC)
+        try:
             os.fsync(file)
             part.replace(self._path)
-            os.close(self._file)
-            self._file, self._end = file, os.lseek(file, 0, os.SEEK_END)
+        except OSError:
+            os.close(file)
+            raise
+        os.close(self._file)
+        self._file, self._end = file, os.lseek(file, 0, os.SEEK_END)
+        _sync_folder(self._path.parent)
 
 
 def _text(job: Written) -> dict[str, object]:

@@ -16,6 +16,7 @@ from hashlib import sha256
 from pathlib import Path
 
 from ..errors import BadInput
+from ..forked import not_for_children
 from ..private import is_private
 from ..words import quoted
 
@@ -69,6 +70,7 @@ def _taken(file: Path, id: str, uri: str, until: float) -> int:
             f"{id} ({quoted(uri)}) is commanded by {whose} already, and two must not fly one drone:"
             " stop that flight first, or wait: a minute after its drones are down it lets go of them"
         )
+    not_for_children(lock)
     os.ftruncate(lock, 0)
     os.pwrite(lock, f"{os.getpid()}\n".encode(), 0)
     return lock

@@ -210,7 +210,10 @@ class Pilots:
             return False
         if self._traffic is not None:
             self._traffic.found(drone)
-        if not await self._flies_home(drone) and not await controls.fetched(drone):
+        home = await self._flies_home(drone)
+        if drone in self._cut:  # meanwhile: it fell, and is nobody's to fetch before it is mended
+            return False
+        if not home and not await controls.fetched(drone):
             return False
         controls.unload(drone)
         return True

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 
 from ..drones.real_fleet import SLACK
 from ..errors import BadInput
+from ..forked import deaf, in_children, not_for_children
 from ..private import new_address, publish, withdraw
 from ..realtime import RealTime
 from ..signals import Signal
@@ -31,6 +32,7 @@ from .gateway import Gateway
 from .holding import LEAVING, holding
 from .server import Server
 from .settings import Settings, settings_of
+from .sightings import SEEN, Sightings
 from .wire import LONGEST_TOLD
 
 if TYPE_CHECKING:
@@ -83,6 +85,7 @@ def taken(folder: Path) -> int | None:
     except BlockingIOError:
         os.close(lock)
         return None
+    not_for_children(lock)
     os.ftruncate(lock, 0)
     os.pwrite(lock, f"{os.getpid()}\n".encode(), 0)
     return lock
@@ -91,8 +94,11 @@ def taken(folder: Path) -> int | None:
 async def run(folder: Path, settings: Settings) -> None:
     """Reach the drones, or let the simulated world go on, and let brains command until all is over."""
     kernel = RealTime(settings.speed)
+    drones = [drone.id for drone in settings.drones]
     if settings.real is None:
-        await _command(folder, settings, kernel, _simulated(folder, settings, kernel))
+        simulated = _simulated(folder, settings, kernel)
+        seen = Sightings(folder / SEEN, drones, simulated.telemetry, speed=settings.speed)
+        await _command(folder, settings, kernel, simulated, seen)
         return
     from ..drones.making import make_team  # a simulation does without
 
@@ -100,10 +106,12 @@ async def run(folder: Path, settings: Settings) -> None:
     with holding(uris, patience=LEAVING):
         team = make_team(kernel, settings.drones, settings.real, settings.airspace, folder, _say)
         team.begin()
+        seen = Sightings(folder / SEEN, drones, team.telemetry)
         try:
-            await _command(folder, settings, kernel, team)
+            await _command(folder, settings, kernel, team, seen)
         finally:
             await team.close()
+            seen.keep()
 
 
 def _simulated(folder: Path, settings: Settings, kernel: RealTime) -> Controls:
@@ -123,7 +131,9 @@ def _simulated(folder: Path, settings: Settings, kernel: RealTime) -> Controls:
     return navigation
 
 
-async def _command(folder: Path, settings: Settings, kernel: RealTime, controls: Controls) -> None:
+async def _command(
+    folder: Path, settings: Settings, kernel: RealTime, controls: Controls, seen: Sightings
+) -> None:
     """Let brains command."""
     gateway = Gateway(
         kernel,
@@ -142,16 +152,21 @@ async def _command(folder: Path, settings: Settings, kernel: RealTime, controls:
     ending.server = server
     for number in (signal.SIGTERM, signal.SIGINT):
         asyncio.get_running_loop().add_signal_handler(number, kernel.post, ending.told_to_end)
+    no_more = in_children(deaf)
     signal.signal(signal.SIGHUP, signal.SIG_IGN)
     note = folder / NOTE
     address = new_address(note)
     listening = await asyncio.start_unix_server(server.accept, address, limit=LONGEST_TOLD)
+    watching = asyncio.ensure_future(seen.watch())
     try:
         publish(note, address)
         _say("the gateway is ready")
         kernel.post(ending.look)
         await kernel.run(over)
     finally:
+        no_more()
+        watching.cancel()
+        seen.keep()
         listening.close()
         withdraw(note)
         await server.close()

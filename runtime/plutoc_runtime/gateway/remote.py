@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable
+import time
+from collections.abc import Callable, Sequence
 from contextlib import suppress
+from math import inf
 from typing import TYPE_CHECKING, Any
 
 from ..errors import BadInput
@@ -27,16 +29,24 @@ SILENCE = 5.0
 class Seen:
     """What was heard of a drone last."""
 
-    __slots__ = ("battery_level", "landed", "location")
+    __slots__ = ("_silent_since", "battery_level", "landed", "location")
 
     def __init__(self) -> None:
         self.location: Point = (0.0, 0.0, 0.0)
         self.battery_level, self.landed = 0.0, True
+        self._silent_since: float | None = 0.0
 
-    def take(self, told: tuple[float, float, float, float, bool]) -> None:
+    def take(self, told: Sequence[Any]) -> None:
         """Hear something new of it."""
-        x, y, z, self.battery_level, self.landed = told
+        x, y, z, self.battery_level, self.landed, *since = told
         self.location = x, y, z
+        self._silent_since = since[0] if since else None
+
+    @property
+    def silence(self) -> float:
+        """Seconds since the gateway last heard of it; infinite: it never has."""
+        since = self._silent_since
+        return 0.0 if since is None else inf if not since else max(0.0, time.time() - since)
 
 
 class RemoteLink:

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 from .. import again
 from ..asking import ask
 from ..errors import BadInput
+from ..forked import not_for_children
 from ..private import address_in
 from ..standing import Down
 from .process import ANOTHER_RUNS, LOCK, LOG, NO_ROOM, NOTE, SETTINGS
@@ -89,6 +90,7 @@ async def _linked(
     if address is None:
         raise FileNotFoundError(folder / NOTE)
     reader, writer = await asyncio.open_unix_connection(address, limit=LONGEST_HEARD)
+    not_for_children(writer.get_extra_info("socket").fileno())
     link = RemoteLink(kernel, reader, writer, lost)
     try:
         async with asyncio.timeout(SILENCE):

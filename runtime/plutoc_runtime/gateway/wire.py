@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
+import time
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from math import isinf
 from typing import TYPE_CHECKING, Any
 
 from ..errors import Failure, FlightFailed
@@ -18,6 +20,8 @@ if TYPE_CHECKING:
     from ..model import Item, Point, Telemetry
     from ..navigation import Job
 
+SILENT = 2.0
+"""Seconds without a word after which a drone's place is no longer news."""
 LONGEST_TOLD = 256 * 1024
 """Bytes of a line that the gateway reads."""
 LONGEST_HEARD = 256 * 1024 * 1024
@@ -100,8 +104,15 @@ def result_of(data: Message) -> object:
 
 
 def seen(telemetry: Telemetry) -> tuple[object, ...]:
-    """Return what is known of a drone, in short."""
-    return *telemetry.location, telemetry.battery_level, telemetry.landed
+    """Return what is known of a drone, in short.
+
+    Last comes since when it is silent, in seconds since 1970: None where it is not, 0 where it was
+    never heard of.
+    """
+    silence, since = telemetry.silence, None
+    if silence > SILENT:
+        since = 0.0 if isinf(silence) else round(time.time() - silence)
+    return *telemetry.location, telemetry.battery_level, telemetry.landed, since
 
 
 def standing_data(standing: Standing) -> dict[str, object]:

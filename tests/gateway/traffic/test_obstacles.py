@@ -30,6 +30,7 @@ class Flown:
     location: Point
     battery_level: float = 1.0
     landed: bool = False
+    silence: float = 0.0
 
 
 def moments(way: tuple[Point, ...]) -> list[tuple[float, int, Point]]:

@@ -1,0 +1,117 @@
+"""Where each drone was heard of last: kept on the disk, for who looks when nobody commands them.
+
+A brain knows where its drones are while it lives. After a Stop, a crash or a kill the gateway is the
+last that hears of them: so it is the gateway that writes it down, also while no brain is there.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import time
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from math import isfinite
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ..journal.values import point_of
+
+if TYPE_CHECKING:
+    from ..model import Point, Telemetry
+
+SEEN = "seen.json"
+"""The file, in the gateway's folder."""
+EACH, SHORTEST = 1.0, 0.1
+"""Seconds between two looks, as the drones' time passes; and on the wall, however fast that is."""
+ANEW = 5
+"""After so many looks without any change the file says once more that nothing has changed."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Sighting:
+    """How a drone was when it was last heard of."""
+
+    at: Point
+    battery: float
+    landed: bool
+    when: float
+    """Seconds since 1970."""
+
+
+class Sightings:
+    """Writes down how all drones are, as long as somebody hears of them."""
+
+    def __init__(
+        self,
+        path: Path,
+        drones: Sequence[str],
+        telemetry: Callable[[str], Telemetry],
+        *,
+        speed: float = 1.0,
+        clock: Callable[[], float] = time.time,
+    ) -> None:
+        self._path, self._drones, self._telemetry = path, tuple(drones), telemetry
+        self._clock, self._quiet, self._kept = clock, 0, dict[str, list[object]]()
+        self._before, self._each = _told(path), max(SHORTEST, EACH / speed)
+
+    async def watch(self) -> None:
+        """Look again and again, until nobody wants that any longer."""
+        while True:
+            self.look()
+            await asyncio.sleep(self._each)
+
+    def look(self) -> None:
+        """Write down what has changed, if anything has."""
+        self._quiet += 1
+        if self._quiet >= ANEW or self._now() != self._kept:
+            self.keep()
+
+    def keep(self) -> None:
+        """Write down how all drones are; of one that is not heard of, what was known before."""
+        now, clock = self._now(), self._clock()
+        drones = self._before | {
+            drone: [*known, round(clock - self._telemetry(drone).silence, 1)]
+            for drone, known in now.items()
+        }
+        part = self._path.with_name(f".{self._path.name}.part")
+        with suppress(OSError):  # on a full disk drones fly on; the next look is another chance
+            part.write_text(json.dumps(drones), encoding="utf-8")
+            part.replace(self._path)
+            self._kept, self._quiet = now, 0
+
+    def _now(self) -> dict[str, list[object]]:
+        found: dict[str, list[object]] = {}
+        for drone in self._drones:
+            one = self._telemetry(drone)
+            if isfinite(one.silence):
+                place = [round(metres, 3) for metres in one.location]
+                found[drone] = [place, round(one.battery_level, 3), one.landed]
+        return found
+
+
+def sightings_in(folder: Path) -> dict[str, Sighting]:
+    """Return how the drones of a gateway's folder were last heard of; what is unknown is not in it."""
+    with suppress(ValueError, TypeError):  # then it is none of ours, and nothing is known
+        return {
+            drone: Sighting(
+                at=point_of(at), battery=float(battery), landed=bool(landed), when=float(when)
+            )
+            for drone, (at, battery, landed, when) in _told(folder / SEEN).items()
+        }
+    return {}
+
+
+def at_home(folder: Path, homes: Mapping[str, Point]) -> None:
+    """Say of simulated drones that were never heard of where they begin."""
+    known = {drone: [home, 1.0, True, time.time()] for drone, home in homes.items()}
+    (folder / SEEN).write_text(json.dumps(known | _told(folder / SEEN)), encoding="utf-8")
+
+
+def _told(path: Path) -> dict[str, list[Any]]:
+    with suppress(OSError, ValueError):
+        told = json.loads(path.read_text(encoding="utf-8"))
+        if isinstance(told, dict):
+            return told
+    return {}
