@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from ..model import AfterTrip
 from ..quantities import Type
-from . import values
+from . import limits, values
 
 if TYPE_CHECKING:
     from .table import Table
@@ -42,7 +42,7 @@ def read_behaviour(top: Table) -> Behaviour:
     if table is None:
         return Behaviour()
     table.only(KEYS, "[fleet]")
-    apart = table.read("apart", partial(values.quantity, kind=Type.LENGTH, least=0.0))
+    apart = table.read("apart", partial(values.quantity, kind=Type.LENGTH, limit=limits.APART))
     return Behaviour(
         after_trip=table.read("after_trip", _after_trip) or AfterTrip.HOME,
         apart=APART if apart is None else apart,

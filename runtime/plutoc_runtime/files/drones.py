@@ -20,6 +20,9 @@ if TYPE_CHECKING:
 HOME_SIZE = 0.1
 """Metres that a drone takes up where it stands."""
 
+Cell = tuple[int, int]
+"""A square of the map with sides of that length."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DroneEntry:
@@ -43,11 +46,12 @@ def read_drones(top: Table, app: App, airspace: Airspace | None) -> tuple[DroneE
     drones: list[DroneEntry] = []
     ids: dict[str, Table] = {}
     uris: dict[str, Table] = {}
+    homes: dict[Cell, list[DroneEntry]] = {}
     for index, table in enumerate(top.tables("drone", "drone")):
         drone = _drone(table, index, app, airspace, ids)
         _answers_alone(table, uris)
         if drone is not None:
-            _stands_alone(drone, drones, table)
+            _stands_alone(drone, homes, table)
             drones.append(drone)
     if top.data.get("drone", []) == []:
         top.problem(errors.none_given("drone"))
@@ -109,11 +113,15 @@ def _category(table: Table, app: App) -> str | None:
     return name
 
 
-def _stands_alone(drone: DroneEntry, others: list[DroneEntry], table: Table) -> None:
-    for other in others:
-        if dist(drone.home, other.home) < HOME_SIZE:
-            table.problem(errors.shared_home(other.id), "home")
-            return
+def _stands_alone(drone: DroneEntry, homes: dict[Cell, list[DroneEntry]], table: Table) -> None:
+    """Tell if another has its home here: only those in this square and those around it can."""
+    column, row = (int(along // HOME_SIZE) for along in drone.home[:2])
+    around = [(column + x, row + y) for x in (-1, 0, 1) for y in (-1, 0, 1)]
+    others = (other for cell in around for other in homes.get(cell, ()))
+    near = next((other for other in others if dist(drone.home, other.home) < HOME_SIZE), None)
+    if near is not None:
+        table.problem(errors.shared_home(near.id), "home")
+    homes.setdefault((column, row), []).append(drone)
 
 
 def _answers_alone(table: Table, uris: dict[str, Table]) -> None:

@@ -217,6 +217,14 @@ def no_uri(drone: str, line: int | None) -> str:
     )
 
 
+def too_fast(category: str, speed: float, followed: float) -> str:
+    return (
+        f"drones of the category {quoted(category)} fly at up to {number(speed)} m/s: a Crazyflie"
+        f" follows no course faster than {number(followed)} m/s as its firmware comes, and will not"
+        " take off; lower the speed, or set its posCtlPid.xVelMax and yVelMax"
+    )
+
+
 def no_fly_area(place: int, problem: str) -> str:
     return f"no_fly area {place} {problem}"
 

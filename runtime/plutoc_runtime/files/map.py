@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from ..airspace import Airspace
 from ..quantities import Type
 from . import errors, values
+from .limits import HEIGHT, SIDE
 
 if TYPE_CHECKING:
     from ..geometry import Corner
@@ -40,13 +41,11 @@ def read_map(top: Table) -> tuple[Airspace | None, str | None]:
 def _height(table: Table, key: str, default: float) -> float | None:
     if key not in table.data:
         return default
-    return table.read(key, partial(values.positive, kind=Type.LENGTH))
+    return table.read(key, partial(values.quantity, kind=Type.LENGTH, limit=HEIGHT))
 
 
 def _size(value: object) -> Corner:
-    width, depth = values.corner(value)
-    if width <= 0 or depth <= 0:
-        raise values.Wrong("has a side that is not more than 0")
+    width, depth = values.numbers(value, (2,), SIDE)
     return width, depth
 
 

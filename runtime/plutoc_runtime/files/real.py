@@ -13,6 +13,8 @@ if TYPE_CHECKING:
     from .fleet import DroneEntry, FleetFile
     from .free_tables import Options
 
+FOLLOWED = 1.0
+"""Metres per second: no course is followed faster, as the firmware comes (`posCtlPid.xVelMax`)."""
 PACE = 16 / 35
 """A Crazyflie's mean speed on a course, as a share of its peak speed."""
 
@@ -35,6 +37,20 @@ def not_real(fleet: FleetFile) -> list[str]:
         errors.no_uri(drone.id, drone.line)
         for drone in fleet.drones
         if drone.uri is None and navigation_of(fleet, drone) == CRAZYFLIE
+    ]
+
+
+def too_fast(app: App, fleet: FleetFile) -> list[str]:
+    """Return which categories are faster than a Crazyflie follows as it comes, a sentence each."""
+    flown = {
+        d.category
+        for d in fleet.drones
+        if d.line is not None and navigation_of(fleet, d) == CRAZYFLIE
+    }
+    return [
+        errors.too_fast(category.name, speed, FOLLOWED)
+        for category in app.categories
+        if category.name in flown and (speed := category.top_speed or category.speed) > FOLLOWED
     ]
 
 

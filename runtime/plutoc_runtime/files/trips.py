@@ -13,6 +13,7 @@ from ..words import quoted
 from . import errors, values
 from .app_fields import read_fields
 from .items import check_items
+from .limits import MASS
 
 if TYPE_CHECKING:
     from ..airspace import Airspace
@@ -111,5 +112,5 @@ def _item(table: Table, action: Action | None) -> Item | None:
     item.who = f"{table.who}, item"
     item.only(("name", "mass"), "an item")
     name = item.read("name", values.name, required=True)
-    mass = item.read("mass", partial(values.quantity, kind=Type.MASS, least=0.0), required=True)
+    mass = item.read("mass", partial(values.quantity, kind=Type.MASS, limit=MASS), required=True)
     return None if name is None or mass is None else Item(name=name, mass=mass)

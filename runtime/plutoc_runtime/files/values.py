@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from ..fields import FieldType
 from ..quantities import QUANTITIES, Type, parse_quantity, units_of
+from .limits import PLACE, TIME, Limit
 
 if TYPE_CHECKING:
     from ..actions import Plain
@@ -75,7 +76,7 @@ def real(value: object) -> float:
     return float(value)
 
 
-def quantity(value: object, kind: Type, *, least: float | None = None) -> float:
+def quantity(value: object, kind: Type, *, limit: Limit | None = None) -> float:
     """Read "3 min" or 180 as 180.0."""
     if isinstance(value, str):
         amount = real(parse_quantity(value, kind))
@@ -84,16 +85,9 @@ def quantity(value: object, kind: Type, *, least: float | None = None) -> float:
         raise Wrong(f"is not a {kind.value}: write a number, or a text with a unit ({units})")
     else:
         amount = real(value)
-    if least is not None and amount < least:
-        raise Wrong(f"is less than {least:g}")
-    return amount
-
-
-def positive(value: object, kind: Type) -> float:
-    """Read a quantity that is more than nothing."""
-    amount = quantity(value, kind)
-    if amount <= 0:
-        raise Wrong("is not more than 0")
+    problem = None if limit is None else limit.problem(amount)
+    if problem is not None:
+        raise Wrong(problem)
     return amount
 
 
@@ -112,13 +106,13 @@ _PLAIN: dict[Type, Callable[[object], Plain]] = {
 }
 
 
-def numbers(value: object, counts: tuple[int, ...]) -> tuple[float, ...]:
+def numbers(value: object, counts: tuple[int, ...], limit: Limit = PLACE) -> tuple[float, ...]:
     """Read a list of lengths; it may have so many."""
     wanted = " or ".join(str(count) for count in counts)
     if not isinstance(value, list) or len(value) not in counts:
         raise Wrong(f"is not a list of {wanted} numbers")
     try:
-        return tuple(quantity(element, Type.LENGTH) for element in value)
+        return tuple(quantity(element, Type.LENGTH, limit=limit) for element in value)
     except ValueError as error:
         raise Wrong(f"has an element that {error}") from None
 
@@ -163,7 +157,7 @@ def field_reader(kind: FieldType) -> Callable[[object], object]:
 
 
 _FIELDS: dict[FieldType, Callable[[object], object]] = {
-    FieldType.TIME: partial(quantity, kind=Type.TIME, least=0.0),
+    FieldType.TIME: partial(quantity, kind=Type.TIME, limit=TIME),
     FieldType.INT: integer,
     FieldType.ROUNDS: rounds,
     FieldType.TIME_OF_DAY: time_of_day,

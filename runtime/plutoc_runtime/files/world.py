@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from ..quantities import Type
 from ..simulation.world import Feature, Source, WorldData
 from . import values
+from .limits import RADIUS
 
 if TYPE_CHECKING:
     from .table import Table
@@ -43,7 +44,7 @@ def _feature(entry: Table) -> Feature | None:
     at = entry.read("at", values.corner, required=True)
     if "radius" not in entry.data:
         return None if kind is None or at is None else Feature(kind=kind, at=at)
-    radius = entry.read("radius", partial(values.positive, kind=Type.LENGTH))
+    radius = entry.read("radius", partial(values.quantity, kind=Type.LENGTH, limit=RADIUS))
     if kind is None or at is None or radius is None:
         return None
     return Feature(kind=kind, at=at, radius=radius)
@@ -55,7 +56,9 @@ def _source(entry: Table) -> Source | None:
     quantity = entry.read("quantity", values.name, required=True)
     at = entry.read("at", values.corner, required=True)
     peak = entry.read("peak", values.real, required=True)
-    radius = entry.read("radius", partial(values.positive, kind=Type.LENGTH), required=True)
+    radius = entry.read(
+        "radius", partial(values.quantity, kind=Type.LENGTH, limit=RADIUS), required=True
+    )
     if quantity is None or at is None or peak is None or radius is None:
         return None
     return Source(quantity=quantity, at=at, peak=peak, radius=radius)

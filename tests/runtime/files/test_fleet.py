@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import tempfile
 from dataclasses import replace
+from math import dist
 from pathlib import Path
 
 import pytest
@@ -13,10 +14,11 @@ from hypothesis import strategies as st
 from plutoc_runtime.airspace import Airspace
 from plutoc_runtime.app import App
 from plutoc_runtime.errors import BadInput
+from plutoc_runtime.files import drones
 from plutoc_runtime.files.fleet import DroneEntry, FleetFile, default_fleet, load_fleet
 from plutoc_runtime.files.fleet_text import fleet_text
 from plutoc_runtime.files.real import navigation_of, not_real, options_of
-from plutoc_runtime.model import AfterTrip
+from plutoc_runtime.model import AfterTrip, Point
 from plutoc_runtime.simulation.world import Feature, Source, WorldData
 from tests.runtime.files.an_app import APP, PLAIN
 
@@ -184,10 +186,11 @@ DRONE = '[[drone]]\nid = "a"\nhome = [1, 1]\ncategory = "scout"\n'
         (f"map = 3\n{DRONE}", ":1: map is not a table: write [map]"),
         ('[[drone]]\nid = "a"\nhome = [1, 1]',
          ':1: drone "a": has no category; this app has: scout, carrier'),
-        (f"{DRONE}[map]\nsize = [20, 0]", ":6: [map]: size […] has a side that is not more than 0"),
+        (f"{DRONE}[map]\nsize = [20, 0]", (":6: [map]: size […] has an element that is less than 0.1 m: "
+         "it may be 0.1 m to 10,000 m")),
         (f"{DRONE}[map]\nsize = 20", ":6: [map]: size 20 is not a list of 2 numbers"),
         (f"{DRONE}[map]\ncruise_height = 0",
-         ":6: [map]: cruise_height 0 is not more than 0"),
+         ":6: [map]: cruise_height 0 is less than 0.1 m: it may be 0.1 m to 1000 m"),
         (f"{DRONE}[map]\nceiling = 1",
          ":5: [map]: cruise_height, 1.2 m, is above the ceiling, 1 m"),
         (f"{DRONE}[map]\nno_fly = [\n[[0, 0], [1, 0]]\n]",
@@ -200,7 +203,7 @@ DRONE = '[[drone]]\nid = "a"\nhome = [1, 1]\ncategory = "scout"\n'
          ":6: [map]: no_fly 3 is not a list of areas, each a list of corners [x, y]"),
         (f'{DRONE}[[drone]]\nid = "b"\ncategory = "scout"\nhome = [1, 1.05]',
          ':8: drone "b": home is where drone "a" has its own: each needs a place to stand'),
-        (f"{DRONE}[fleet]\napart = -1", ":6: [fleet]: apart -1 is less than 0"),
+        (f"{DRONE}[fleet]\napart = -1", ":6: [fleet]: apart -1 is less than 0: it may be 0, or 0.05 m to 10 m"),
         (f"{DRONE}[world]\nbackground = {{ pm10 = true }}",
          ":6: [world]: pm10 true is not a number"),
         ((f'{DRONE}uri = "radio://0/80/2M/E7"\n{OTHER}'
@@ -318,3 +321,26 @@ def test_any_mixture_of_lines_is_loaded_or_refused(lines: list[str]) -> None:
             assert str(error)
         else:
             assert fleet.drones
+
+
+def test_a_great_fleet_is_read_in_proportion(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Each home is held against those around it, and not against every other one."""
+    asked = 0
+
+    def counted(a: Point, b: Point) -> float:
+        nonlocal asked
+        asked += 1
+        return dist(a, b)
+
+    monkeypatch.setattr(drones, "dist", counted)
+    many = [
+        f'[[drone]]\nid = "d{i}"\ncategory = "scout"\nhome = [{i % 30 / 5}, {i // 30 / 5}]\n'
+        for i in range(900)
+    ]
+    last = '[[drone]]\nid = "last"\ncategory = "scout"\nhome = [1.95, 4.04]\n'
+    assert problems(tmp_path, "".join([*many, last])) == [
+        ':3604: drone "last": home is where drone "d610" has its own: each needs a place to stand'
+    ]
+    assert asked < 10 * 900

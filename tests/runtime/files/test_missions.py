@@ -207,7 +207,7 @@ def test_names_must_differ(tmp_path: Path) -> None:
         (f"{PHOTO}delay = true",
          "delay true is not a time: write a number, or a text with a unit (ms, s, min, h)"),
         (f"{PHOTO}delay = nan", "delay nan is not a finite number"),
-        (f"{PHOTO}delay = -1", "delay -1 is less than 0"),
+        (f"{PHOTO}delay = -1", "delay -1 is less than 0: it may be 0, or 0.001 s to 1,000,000,000 s"),
         (f"{PHOTO}delay = 1e300", "delay 1e+300 is too large"),
         (f"{PHOTO}priority = 1.5", "priority 1.5 is not a whole number"),
         (f"{PHOTO}priority = true", "priority true is not a whole number"),
