@@ -19,6 +19,9 @@ BAD_INPUT, INTERNAL, INTERRUPTED, CLOSED_PIPE = 2, 70, 130, 141
 _WITHOUT_HOOKS = (["tell"], ["journal"])
 """Commands that need nothing of an app but its name: a Stop must work whatever is in hooks.py."""
 
+_CALLS_HOOKS_ITSELF = (["simulate"], ["fly"])
+"""Commands that call hooks in the main thread, where interrupts arrive."""
+
 
 def start(name: str, load: Callable[[], App]) -> int:
     """Load an app and run the command that the program was called with."""
@@ -36,7 +39,26 @@ def start(name: str, load: Callable[[], App]) -> int:
         from .loading import bare, loaded
 
         app = bare(name) if sys.argv[1:2] in _WITHOUT_HOOKS else loaded(load)
-    return main(app) if app is not None else ending.code
+    code = _heard(app) if app is not None else ending.code
+    if code == BAD_INPUT and "--supervised" in sys.argv:
+        from .supervise import CANNOT
+
+        code = CANNOT  # for whoever started it, and may start it again
+    if app is not None:
+        from .leaving import leave_in_time
+
+        leave_in_time(name, code)
+    return code
+
+
+def _heard(app: App) -> int:
+    """Run the program's command; a person who interrupts a simulation is told from a hook."""
+    if sys.argv[1:2] not in _CALLS_HOOKS_ITSELF:
+        return main(app)
+    from ..raised import interrupted_by_a_person
+
+    with interrupted_by_a_person():
+        return main(app)
 
 
 def main(app: App, argv: Sequence[str] | None = None) -> int:
@@ -77,11 +99,9 @@ class Ending:
             case KeyboardInterrupt():
                 output.tell(f"{name}: interrupted")
                 self.code = INTERRUPTED
-            case Exception():
+            case _:  # even a SystemExit: it would pass for a proper end
                 _report_bug(name, error)
                 self.code = INTERNAL
-            case _:
-                return False
         return True
 
 
@@ -92,6 +112,9 @@ def _command(app: App, argv: Sequence[str] | None) -> int:
         options = parse(app, argv)
     except SystemExit as end:  # argparse has printed the help, or what is wrong
         return end.code if isinstance(end.code, int) else BAD_INPUT
+    from .beside import take_fleet_beside
+
+    take_fleet_beside(options)
     match options.command:
         case "simulate":
             from .simulate import simulate
@@ -135,7 +158,7 @@ def _command(app: App, argv: Sequence[str] | None) -> int:
             return check(app, options)
 
 
-def _report_bug(name: str, error: Exception) -> None:
+def _report_bug(name: str, error: BaseException) -> None:
     if os.environ.get("PLUTO_DEBUG") == "1":
         import traceback
 

@@ -37,6 +37,8 @@ def outcome_data(name: str, seed: int, outcome: Outcome) -> dict[str, object]:
             for drone in outcome.drones
         ],
         "log": outcome.log,
+        **({"crashed_drones": outcome.crashed} if outcome.crashed else {}),
+        **({"given_up": outcome.given_up} if outcome.given_up else {}),
     }
 
 

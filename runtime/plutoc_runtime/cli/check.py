@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ..files.real import too_fast
+from ..plan_check import idle_actions
 from ..words import counted
 from . import output
 from .plans import load
@@ -16,6 +18,8 @@ if TYPE_CHECKING:
 def check(app: App, options: Options) -> int:
     """Say that the fleet can fly the missions; where it cannot, loading has said why."""
     plan = load(app, options)
+    for sentence in [*too_fast(app, plan.fleet), *idle_actions(app, plan.fleet)]:
+        output.tell(f"{options.fleet or app.name}: warning: {sentence}")
     trips = sum(len(mission.trips) for mission in plan.missions)
     missions, drones = len(plan.missions), len(plan.fleet.drones)
     output.line(

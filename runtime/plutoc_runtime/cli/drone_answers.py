@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from ..files.free_tables import Options
     from ..model import Point
 
-CONNECT, ANSWER, CLOSE, SCAN = 15.0, 5.0, 10.0, 90.0
+CONNECT, ANSWER, CLOSE, SCAN = 15.0, 12.0, 10.0, 90.0
 """Seconds that each may take."""
 
 LOST = "it does not tell where it is"

@@ -61,6 +61,11 @@ def _brought_back(event: Event) -> str:
     return f"{event['drone']} {said}"
 
 
+def _lost(event: Event) -> str:
+    reason = event.get("reason")
+    return f"{event['drone']} is lost" + (f": {reason}" if reason else "")
+
+
 _HOW = {"rtl": "all fly home", "land": "all land"}
 
 _SENTENCES: Mapping[str, Callable[[Event], str]] = {
@@ -83,6 +88,6 @@ _SENTENCES: Mapping[str, Callable[[Event], str]] = {
     "drone.not_ready": lambda event: f"{event['drone']} is not ready: {event['reason']}",
     "stopped": lambda event: f"everything stops ({_HOW.get(str(event['how']), event['how'])})",
     "drone.recovering": lambda event: f"{event['drone']} recovers",
-    "drone.lost": lambda event: f"{event['drone']} is lost",
+    "drone.lost": _lost,
     "log": lambda event: str(event["text"]),
 }

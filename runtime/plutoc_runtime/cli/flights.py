@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import asyncio
+import os
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import closing, suppress
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -22,9 +24,9 @@ from ..setting import End, Lived, Setting, Stops
 from ..words import in_shell, place
 from . import output, stop_mark
 from .events import line_of
-from .flown import finished, records_in, report_of, waiting_lines
+from .flown import finished, has_ended, records_in, report_of, waiting_lines
 from .interrupts import Interrupts
-from .supervise import Supervised, supervise
+from .supervise import STOPS, Supervised, supervise
 
 if TYPE_CHECKING:
     from ..app import App
@@ -212,9 +214,20 @@ def supervised(app: App, options: Options, journal: Path, first: Sequence[str] |
             first=on if first is None else again.command(*first, *speed, "--supervised"),
             again=lambda: on if journal.exists() else None,
             finished=lambda: finished(records_in(app, journal)) if journal.exists() else 0,
+            over=partial(_is_over, app, journal),
             how_to_go_on=how_to_go_on(app, journal),
         )
     )
+
+
+def _is_over(app: App, journal: Path, code: int) -> bool:
+    """Say whether a flight has ended as this exit code says; the journal knows."""
+    if not journal.exists():
+        return code in STOPS  # before anything was flown
+    if code in STOPS and stop_mark.found(Path(os.path.realpath(journal))):
+        return True
+    records = records_in(app, journal)
+    return has_ended(records) or (code in STOPS and records.stopped)
 
 
 def tell(event: Event) -> None:

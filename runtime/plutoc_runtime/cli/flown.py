@@ -62,6 +62,13 @@ def all_over(records: Records) -> bool:
     return bool(missions) and all(record["ended"] for record in missions)
 
 
+def has_ended(records: Records) -> bool:
+    """Whether nothing flies any more: each mission has ended, or waits for a person's answer."""
+    missions = records.missions.values()
+    asides = [record["ended"] or aside(record) is not None for record in missions]
+    return bool(asides) and all(asides)
+
+
 def waiting(records: Records, *, answered: bool = False) -> Iterator[tuple[str, str, str]]:
     """Yield the missions that wait for a person: name, for what, and the question.
 

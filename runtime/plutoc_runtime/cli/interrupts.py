@@ -1,4 +1,8 @@
-"""Ctrl-C and `kill` while drones fly: the first time they land, the second time the app is gone."""
+"""Ctrl-C and `kill` while drones fly: the first time they land, the second time the app is gone.
+
+They are told to the app and not to the processes that its hooks fork: a copy of the app's handlers
+would land the fleet when somebody ends such a child.
+"""
 
 from __future__ import annotations
 
@@ -13,10 +17,11 @@ from types import FrameType
 from typing import Protocol
 
 from ..errors import BadInput
+from ..forked import in_children
 from ..gateway.starting import stop_directly
 from ..journal.place import gateway_folder
 from ..standing import Down
-from . import output
+from . import output, stop_mark
 
 AT_ONCE = 1.0
 """Seconds that the app may take to stop its drones, before they are told without it."""
@@ -37,14 +42,22 @@ class Interrupts:
     """Whoever wants the app to end, and whether it has heard."""
 
     def __init__(
-        self, stops: Stoppable, journal: Callable[[], Path | None], how_to_go_on: str
+        self,
+        stops: Stoppable,
+        journal: Callable[[], Path | None],
+        how_to_go_on: str,
+        last: Callable[[], object] = lambda: None,
     ) -> None:
-        """Begin; `journal` says which one is being written then; None: nothing flies."""
+        """Begin; `journal` says which one is being written then; None: nothing flies.
+
+        `last` is called before the app leaves at once.
+        """
         self.code: int | None = None
         """The exit code of what has interrupted it."""
         self.loop: asyncio.AbstractEventLoop | None = None
         self._stops, self._journal, self._how = stops, journal, how_to_go_on
-        self._heard = False
+        self._heard, self._last = False, last
+        self._process = os.getpid()
 
     @contextmanager
     def listening(self) -> Iterator[None]:
@@ -54,16 +67,29 @@ class Interrupts:
             with suppress(ValueError):  # not in the main thread
                 if signal.getsignal(number) is not signal.SIG_IGN:  # as with nohup
                     before[number] = signal.signal(number, self._told)
-        try:
-            yield
-        finally:
+
+        def as_before() -> None:
             for changed, handler in before.items():
                 signal.signal(changed, handler)
 
+        no_more = in_children(as_before)
+        try:
+            yield
+        finally:
+            no_more()
+            as_before()
+
     def _told(self, number: int, _: FrameType | None) -> None:
+        if os.getpid() != self._process:  # a child, in the moment before it has let go of this
+            signal.signal(number, signal.SIG_DFL)
+            os.kill(os.getpid(), number)
+            return
         if self.code is not None:
-            if self._journal() is not None:
+            journal = self._journal()
+            if journal is not None:
+                stop_mark.leave(journal, Down.LAND)  # for whoever starts crashed apps again
                 output.tell(f"leaving at once: the gateway lands the drones; {self._how}")
+            self._last()
             os._exit(128 + number)
         self.code = 128 + number
         if self._journal() is not None:

@@ -40,14 +40,16 @@ def loaded(load: Callable[[], App]) -> App:
     """Return the app; raise `BadInput` with the place where its hooks cannot be loaded."""
     try:
         return load()
-    except Exception as error:
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:  # even a SystemExit: it would pass for a proper end
         said = _explained(error)
         if said is None:
             raise
         raise BadInput(said) from error
 
 
-def _explained(error: Exception) -> str | None:
+def _explained(error: BaseException) -> str | None:
     """Return what is wrong with the hooks; None: something else is wrong."""
     if isinstance(error, AttributeError) and isinstance(error.obj, ModuleType):
         file = error.obj.__file__ or ""

@@ -47,7 +47,8 @@ def often(app: App, options: Options, count: int, plan: Plan, progress: Progress
             data.append(outcome_data(app.name, seed, outcome))
         else:
             progress.clear()
-            output.line(f"seed {seed}: {last_line(outcome)}")
+            why = f"; given up: {printable(outcome.given_up)}" if outcome.given_up else ""
+            output.line(f"seed {seed}: {last_line(outcome)}{why}")
     progress.clear()
     if options.plot is not None:
         plot(options.plot, app.name, runs)

@@ -148,7 +148,8 @@ def _fleet(parser: ArgumentParser) -> None:
         "--fleet",
         metavar="F.toml",
         type=Path,
-        help="the map and the drones; default: five drones on a plain of 20 × 20 m",
+        help="the map and the drones; default: the fleet.toml beside the missions, or else five drones"
+        " on a plain of 20 × 20 m; real drones need it",
     )
 
 

@@ -11,6 +11,7 @@ from ..files.fleet import DEFAULT_SIZE, FleetFile, default_fleet, fleet_of
 from ..files.missions import missions_of
 from ..files.reading import parsed, shortened, text_of
 from ..files.real import as_flown
+from ..look_alikes import look_alikes
 from ..plan_check import endless, problems
 from . import output
 from .stand_ins import who_is_missing, with_stand_ins
@@ -48,6 +49,9 @@ def load(app: App, options: Options) -> Plan:
         found += endless(missions, app)
     if found:
         raise BadInput(shortened([f"{options.missions}: {sentence}" for sentence in found]))
+    if not options.supervised:  # then it has been said
+        for sentence in look_alikes(missions):
+            output.tell(f"{options.missions}: warning: {sentence}")
     return Plan(
         app=app,
         missions=missions,

@@ -36,6 +36,8 @@ def report(app: App, outcome: Outcome) -> Iterator[str]:
     yield ""
     yield from drone_table(outcome.drones, outcome.flown)
     yield ""
+    if outcome.given_up:
+        yield f"given up: {printable(outcome.given_up)}"
     yield last_line(outcome)
 
 
@@ -90,10 +92,14 @@ def last_line(outcome: Outcome) -> str:
     """Return the whole outcome in one line."""
     trips = trips_data(outcome)
     statuses = [mission.status for mission in outcome.missions]
-    return in_one_line(statuses, outcome.duration, trips["attempts"], trips["failed"])
+    return in_one_line(
+        statuses, outcome.duration, trips["attempts"], trips["failed"], outcome.crashed
+    )
 
 
-def in_one_line(statuses: Sequence[Status], seconds: float, flights: int, failed: int) -> str:
+def in_one_line(
+    statuses: Sequence[Status], seconds: float, flights: int, failed: int, crashed: int = 0
+) -> str:
     """Return how missions have ended, after how long and how many flights."""
     parts = [f"{statuses.count(Status.COMPLETED)} of {counted(len(statuses), 'mission')} completed"]
     rest = len(statuses) - statuses.count(Status.COMPLETED)
@@ -105,6 +111,7 @@ def in_one_line(statuses: Sequence[Status], seconds: float, flights: int, failed
     if rest:
         parts.append(f"{rest} not finished")
     bad = f", {failed} failed" if failed else ""
+    bad += f", {counted(crashed, 'drone')} crashed" if crashed else ""
     return f"{', '.join(parts)} in {duration(seconds)} ({counted(flights, 'flight')}{bad})"
 
 

@@ -15,6 +15,7 @@ from .. import again
 from ..errors import BadInput
 from ..files.reading import text_of
 from ..files.real import as_flown
+from ..forked import not_for_children
 from ..journal import place
 from ..standing import Down
 from ..station.phase import Phase
@@ -56,11 +57,14 @@ def serve(app: App, options: Options) -> int:
     if options.supervise:
         return _supervised(app, options, settings)
     with _alone(settings):
+        (settings.own_folder / LEFT).unlink(missing_ok=True)
         station = Station(app, settings, _plan(app, options, settings))
         leaving = _Leaving(station)
-        interrupts = Interrupts(leaving, leaving.journal, AGAIN)
+        left = settings.own_folder / LEFT
+        interrupts = Interrupts(leaving, leaving.journal, AGAIN, last=left.touch)
         with interrupts.listening():
             asyncio.run(_serve(app, options, settings, station, interrupts))
+        left.touch()
         return interrupts.code or 0
 
 
@@ -166,6 +170,9 @@ def _plan(app: App, options: Options, settings: Settings) -> Plan:
     return plan
 
 
+LEFT = "left"
+"""The file that is there once a station has ended as it was told to."""
+
 PORT = "port"
 """The file that says where browsers look for the station: after a crash it is there again."""
 
@@ -206,6 +213,7 @@ def _alone(settings: Settings) -> Iterator[None]:
                 f"{settings.folder}: another station is being served from there"
                 f" (process {lock.read()}): end that one, or name another folder with --folder"
             ) from None
+        not_for_children(lock.fileno())
         lock.truncate(0)
         lock.write(str(os.getpid()))
         lock.flush()
@@ -228,6 +236,7 @@ def _supervised(app: App, options: Options, settings: Settings) -> int:
             first=first,
             again=lambda: [*(word for word in first if word != "--open"), "--going-on"],
             finished=done,
+            over=lambda _: (settings.own_folder / LEFT).exists(),
             how_to_go_on=AGAIN,
         )
     )

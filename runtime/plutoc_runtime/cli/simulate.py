@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from ..errors import BadInput
 from ..journal_line import dumped
+from ..raised import Interrupted
 from ..session import Outcome
 from ..session import simulate as simulated
 from ..simulation.faults import Faults
@@ -29,7 +30,7 @@ if TYPE_CHECKING:
 Listener = Callable[[Event], None]
 
 
-class Halt(KeyboardInterrupt):
+class Halt(Interrupted):
     """Stops a simulation from inside: neither the kernel nor a hook stands in an interrupt's way."""
 
     def __init__(self, error: Exception) -> None:

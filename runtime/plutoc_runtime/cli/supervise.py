@@ -24,8 +24,19 @@ PAUSES = (0.0, 0.5, 1.0, 5.0, 15.0, 30.0)
 
 INTERNAL = 70
 
-_FINAL = (0, 1, 2, 4, 130, 141, 143)
-"""Exit codes of an app that meant to end."""
+CANNOT = 78
+"""What a supervised app ends with where it refuses to go on, instead of `BAD_INPUT`.
+
+No journal can say so, for it may be the journal that cannot be written; and 2 is what a hook may
+end the process with.
+"""
+
+BAD_INPUT = 2
+
+_SIGNALS = (signal.SIGHUP, signal.SIGINT, signal.SIGTERM)
+
+ENDS, STOPS = (0, 1, 4), (*(128 + number for number in _SIGNALS), 141)
+"""Exit codes of an app that meant to end: because all is over, and because somebody wanted it to."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -39,19 +50,23 @@ class Supervised:
     """The command that goes on; None: there is nothing yet to go on with."""
     finished: Callable[[], int]
     """How many trips and missions have ended: if it grows, the app gets somewhere."""
+    over: Callable[[int], bool]
+    """Whether it is true what an exit code says: a hook can end the process with any."""
     how_to_go_on: str
     pauses: Sequence[float] = PAUSES
 
 
 def supervise(what: Supervised) -> int:
-    """Keep an app running until it ends by itself; return its exit code."""
+    """Keep an app running until its flight has ended; return the exit code of its last life."""
     watch = _Watch()
     with watch.listening():
         command, crashes, finished = what.first, 0, what.finished()
         while True:
             began = time.monotonic()
             code = watch.run(command)
-            if code in _FINAL:
+            if code == CANNOT:
+                return BAD_INPUT
+            if code in (*ENDS, *STOPS) and (watch.asked or what.over(code)):
                 return code
             done = what.finished()
             if done > finished or time.monotonic() - began > LONG_LIFE:
@@ -82,7 +97,7 @@ class _Watch:
         """Pass signals on, for as long as this lasts."""
         before = {}
         self._door, self._bell = os.pipe()
-        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        for number in _SIGNALS:
             if signal.getsignal(number) is not signal.SIG_IGN:  # as with nohup
                 before[number] = signal.signal(number, self._told)
         try:
@@ -130,7 +145,9 @@ def _given_up(what: Supervised, code: int, crashes: int, asked: int) -> int:
 
 
 def _how(code: int) -> str:
+    if code == INTERNAL:
+        return f"crashed (exit code {code})"
     if code > 128:
         with suppress(ValueError):
             return f"was killed ({signal.Signals(code - 128).name})"
-    return f"crashed (exit code {code})"
+    return f"ended before its flight did (exit code {code})"

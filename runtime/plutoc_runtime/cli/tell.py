@@ -18,6 +18,7 @@ from ..journal.place import gateway_folder
 from ..standing import Down
 from ..words import in_shell
 from . import output, stop_mark
+from .looked_after import looked_after
 
 if TYPE_CHECKING:
     from ..app import App
@@ -37,9 +38,19 @@ def tell(app: App, options: Options) -> int:
         output.line(_stop(app, options, request))
     elif options.action == "cut-motors":
         output.line(cut_motors(app, options.the_journal, options.mission))
+    elif options.action == "bring-back":
+        output.line(_bring_back(app, options, request))
     else:
         output.line(asked(app, options, request))
     return 0
+
+
+def _bring_back(app: App, options: Options, request: Mapping[str, object]) -> str:
+    """Tell the running app, or its journal, that a person has looked after a drone."""
+    try:
+        return asked(app, options, request)
+    except Nobody:
+        return looked_after(app, options.the_journal, str(request["drone"]))
 
 
 def asked(app: App, options: Options, request: Mapping[str, object]) -> str:

@@ -15,11 +15,12 @@ _BAD = (Status.FAILED, Status.CANCELLED)
 
 
 def exit_code(outcome: Outcome) -> int:
-    """Return 0, 1 if a mission failed, or 4 if one waits for a person.
+    """Return 0, 1 if a mission failed or the simulation was given up, or 4 if one waits for a person.
 
     A mission that `--until` cut short has not failed.
     """
-    return code_of([mission.status for mission in outcome.missions])
+    code = code_of([mission.status for mission in outcome.missions])
+    return 1 if outcome.given_up and not code else code
 
 
 def code_of(statuses: Sequence[Status]) -> int:

@@ -5,17 +5,53 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from tests.runtime.cli.conftest import Command
+from tests.runtime.files.an_app import APP
 
 
 def test_check_says_that_the_fleet_can_fly_the_plan(missions: Path, command: Command) -> None:
     """In one line."""
     said = "2 missions with 3 trips: a fleet of 5 drones can fly them\n"
     assert command("check", missions) == (0, said, "")
+
+
+def test_check_warns_of_a_speed_that_a_crazyflie_does_not_follow(
+    missions: Path, command: Command
+) -> None:
+    """Before anybody stands there with drones that will not take off; other drones may."""
+    first, *others = APP.categories
+    fast = replace(APP, categories=(replace(first, speed=1.5), *others))
+    fleet = missions.with_name("f.toml")
+    drones = [
+        f'[[drone]]\nid = "{one.name}"\ncategory = "{one.name}"\nhome = [{at}, 1]\n'
+        for at, one in enumerate(APP.categories, 1)
+    ]
+    fleet.write_text("".join(drones))
+    code, _, said = command("check", missions, "--fleet", fleet, app=fast)
+    assert code == 0 and said.count("\n") == 1
+    assert said.startswith(
+        f'{fleet}: warning: drones of the category "{first.name}" fly at up to 1.5 m/s: a Crazyflie'
+        " follows no course faster than 1 m/s as its firmware comes"
+    )
+    assert command("check", missions, "--fleet", fleet)[2] == ""
+    fleet.write_text('[fleet]\nnavigation = "wren:Wren"\n' + fleet.read_text())
+    assert command("check", missions, "--fleet", fleet, app=fast)[2] == ""
+
+
+def test_check_warns_of_names_that_look_alike(missions: Path, command: Command) -> None:
+    """It is a plan that can be flown all the same."""
+    text = missions.read_text()
+    missions.write_text(text + text.replace('"North"', '"north"').replace('"South"', '"S"'))
+    code, _, said = command("check", missions)
+    assert code == 0
+    assert said.startswith(
+        f'{missions}: warning: two missions are easily taken for one another, "North" and "north"'
+    )
 
 
 def test_a_plan_that_nobody_can_fly_is_refused(missions: Path, command: Command) -> None:

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from plutoc_runtime.cli.supervise import GIVES_UP_AFTER, Supervised, supervise
+from plutoc_runtime.cli.supervise import CANNOT, GIVES_UP_AFTER, Supervised, supervise
 
 LIVES = """
 import os, signal, sys
@@ -39,7 +39,11 @@ def lived(tmp_path: Path) -> Lived:
     """Supervise a process that ends in these ways; give the exit code and how it was called."""
     log = tmp_path / "log"
 
-    def run(ends: str, finished: Callable[[], int] = lambda: 0) -> tuple[int, list[str]]:
+    def run(
+        ends: str,
+        finished: Callable[[], int] = lambda: 0,
+        over: Callable[[int], bool] = lambda _: True,
+    ) -> tuple[int, list[str]]:
         words = [sys.executable, "-S", "-c", LIVES, str(log), ends]
         code = supervise(
             Supervised(
@@ -47,6 +51,7 @@ def lived(tmp_path: Path) -> Lived:
                 first=[*words, "fly"],
                 again=lambda: [*words, "resume"],
                 finished=finished,
+                over=over,
                 how_to_go_on="to go on: app resume J",
                 pauses=(0.0,),
             )
@@ -56,7 +61,7 @@ def lived(tmp_path: Path) -> Lived:
     return run
 
 
-@pytest.mark.parametrize("code", [0, 1, 4, 143])
+@pytest.mark.parametrize("code", [0, 1, 4, 129, 143])
 def test_an_app_that_meant_to_end_is_not_started_again(code: int, lived: Lived) -> None:
     assert lived(str(code)) == (code, ["fly"])
 
@@ -68,6 +73,21 @@ def test_an_app_that_crashed_goes_on(
     """By a signal, or by a mistake in it; and one is told."""
     assert lived(f"{end},{end},1") == (1, ["fly", "resume", "resume"])
     assert capfd.readouterr().err.count("it is started again") == 2
+
+
+@pytest.mark.parametrize("code", [0, 1, 2, 4, 129, 130, 143])
+def test_an_exit_code_counts_only_if_the_flight_has_ended(code: int, lived: Lived) -> None:
+    """A hook can end the process with any: what has ended is in the journal."""
+    over = iter([False, True])
+    assert lived(f"{code},0", over=lambda _: next(over) if code != 2 else True) == (
+        0,
+        ["fly", "resume"],
+    )
+
+
+def test_an_app_that_refuses_to_go_on_is_not_asked_again(lived: Lived) -> None:
+    """Its journal cannot say so: it may be what cannot be written."""
+    assert lived(str(CANNOT), over=lambda _: False) == (2, ["fly"])
 
 
 def test_an_app_that_crashes_again_and_again_stays_down(
