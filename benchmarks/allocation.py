@@ -78,6 +78,7 @@ class Standing:
     location: Point
     battery_level: float = 1.0
     landed: bool = True
+    silence: float = 0.0
 
 
 class EveryDrone:

@@ -111,6 +111,7 @@ class Docked:
     location: Point = HOME
     battery_level: float = 1.0
     landed: bool = True
+    silence: float = 0.0
 
 
 class Instant:

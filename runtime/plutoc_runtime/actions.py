@@ -35,12 +35,13 @@ class Action:
 
 
 PICK, RELEASE = "pick_item", "release_item"
+MEASURE = "measure"
 
 BUILT_IN: dict[str, Action] = {
     action.name: action
     for action in (
         Action(
-            name="measure",
+            name=MEASURE,
             parameters=(Parameter(name="quantity", type=Type.TEXT, default="temperature"),),
             repeat="safe",
             seconds=1.0,

@@ -10,7 +10,7 @@ is put aside until it is charged, or until somebody comes for whom it is enough.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from heapq import heapify, heappop, heappush
 from itertools import compress, islice
 from math import inf
@@ -158,13 +158,19 @@ class Queue:
         """Whether one more drone may fly."""
         return self._max_airborne is None or self._airborne < self._max_airborne
 
+    @property
+    def low(self) -> Collection[Drone]:
+        """The free drones that are of no use to anybody who waits, as they are now."""
+        return self._low.keys()
+
     def too_low(self) -> Iterator[Drone]:
         """Give the free drones that waiting missions could use if they were charged."""
         for drone in sorted(self._low, key=lambda drone: drone.index):
-            if any(request.never(drone) is None for request in self._waiters()):
+            if any(request.never(drone) is None for request in self.waiters()):
                 yield drone
 
-    def _waiters(self) -> Iterator[Request]:
+    def waiters(self) -> Iterator[Request]:
+        """Give the requests of all who wait."""
         return (request for _, _, request in self._entries if request.waits)
 
     # The free drones
@@ -323,7 +329,7 @@ class Queue:
 
     def _refuse_what_cannot_be(self) -> None:
         """Refuse those who have come, and after a loss all who wait, if no drone is able."""
-        asked = self._fresh if self._asked_of == self._gone else list(self._waiters())
+        asked = self._fresh if self._asked_of == self._gone else list(self.waiters())
         self._asked_of = self._gone
         for request in asked:
             if not request.is_set and not self._any_able(request):
@@ -364,7 +370,7 @@ class Queue:
         """
         now = self._kernel.now
         for drone in list(self._ready_drones()):
-            if not any(request.able(drone) for request in islice(self._waiters(), _IN_VAIN)):
+            if not any(request.able(drone) for request in islice(self.waiters(), _IN_VAIN)):
                 until = now + _charging(drone, self._thresholds.least(drone, self._entries))
                 if until > now:
                     self._take(drone)

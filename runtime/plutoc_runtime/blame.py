@@ -9,6 +9,8 @@ from collections.abc import Callable, Iterator
 from types import CodeType, FrameType, TracebackType
 from typing import Any
 
+from .hooks import said
+
 _KNOWN: dict[tuple[CodeType, int], str] = {}
 """Comments that were found before, by the line below them."""
 
@@ -24,6 +26,13 @@ def blame(error: BaseException, flow: Callable[..., Any]) -> None:
     block = blamed(error, flow)
     if block:
         error.add_note(f"in block {block}")
+
+
+def as_crash(error: BaseException) -> Exception:
+    """Return an error that ends the app as a mistake: a block's `SystemExit` would pass for an end."""
+    if isinstance(error, Exception):
+        return error
+    return RuntimeError(f"it raised {said(error)}").with_traceback(error.__traceback__)
 
 
 def blamed(error: BaseException, flow: Callable[..., Any]) -> str:

@@ -31,7 +31,6 @@ def abort(state: State, reason: str) -> None:
     ):
         fail(state, flight, reason)
         return
-    flight.called_off = True
     core.kernel.spawn(
         _fail_unless_done(state, flight, reason, core.link),
         mission_key(state.mission.index),
@@ -41,7 +40,7 @@ def abort(state: State, reason: str) -> None:
 
 async def _fail_unless_done(state: State, flight: Flight, reason: str, link: Commanding) -> None:
     roll = await link.call()
-    if state.flight is not flight or flight.is_set or state.task is None:
+    if state.in_flight is not flight or state.task is None:
         return  # it has ended, or somebody else sees to it
     core, entry = state.core, roll.jobs.get(flight.id)
     what = fate(entry, core.app.actions[flight.trip.action], begun=False)

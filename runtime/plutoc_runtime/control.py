@@ -157,11 +157,12 @@ class Control:
         """Let a retired drone be handed out again, or one that was lost: a person has looked after it."""
         who, fleet = self._drone(drone), self._core.fleet
         lost = who.status is DroneStatus.LOST
-        if not lost and who not in fleet.retired:
+        asked = lost or who in fleet.unready
+        if not asked and who not in fleet.retired:
             return f"{drone} is neither retired nor lost"
         self._core.trace.note("drone.brought_back", drone=drone, lost=lost)
         fleet.bring_back(who)
-        return f"{drone} is asked whether it is well" if lost else f"{drone} is back"
+        return f"{drone} is asked whether it is well" if asked else f"{drone} is back"
 
     def remember(self, id: str, command: str) -> None:
         """Put on record that a command is carried out: nobody shall carry it out twice."""

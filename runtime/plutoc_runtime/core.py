@@ -5,6 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from .hooks import LONGEST_LOG
+from .words import bounded
+
 if TYPE_CHECKING:
     from .airspace import Airspace
     from .allocation import Queue
@@ -42,4 +45,4 @@ class Core:
     def log(self, text: str, mission: str | None = None) -> None:
         """Write a line on the console of whoever watches."""
         if self.trace.live:
-            self.trace.note("log", mission=mission, text=text)
+            self.trace.note("log", mission=mission, text=bounded(text, LONGEST_LOG))

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
-from .blame import blame, blamed
+from .blame import as_crash, blame, blamed
 from .calling_off import abort_now
 from .errors import HookFault, MissionFailed
+from .fields import Entity, wrong_field
 from .kernel import Cancelled, Task, mission_key
 from .run import Run
 from .signals import Signal
@@ -163,11 +164,24 @@ class Engine:
                 self._tell(error, state.mission)
         elif isinstance(error, Cancelled):
             status, reason = FAILED, state.doom or "it was called off"
+        elif (wrong := self._wrong(state.mission)) is not None:
+            status, reason = FAILED, wrong
         else:
-            blame(error, self._core.app.flow)
-            self._core.kernel.crash(error)
+            crash = as_crash(error)
+            blame(crash, self._core.app.flow)
+            self._core.kernel.crash(crash)
             return
         self._end(state, status, reason)
+
+    def _wrong(self, mission: Mission[Any]) -> str | None:
+        """Return what a hook has left that a block could not go by; None: it is the block's mistake."""
+        fields, names = self._core.app.fields, self._core.app.evaluators
+        for trip in mission.trips:
+            wrong = wrong_field(fields, Entity.TRIP, trip, names)
+            if wrong is not None:
+                return f"trip {trip.name}: its {wrong}"
+        wrong = wrong_field(fields, Entity.MISSION, mission, names)
+        return None if wrong is None else f"its {wrong}"
 
     def _tell(self, fault: HookFault, mission: Mission[Any]) -> None:
         """Log where a hook failed, and by which block it was called."""

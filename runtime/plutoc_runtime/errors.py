@@ -40,6 +40,13 @@ class MissionFailed(PlutoError):
     """A failure that no retry can mend: the mission ends at once, whatever its graph says."""
 
 
+def nothing_to_fly(reason: str) -> MissionFailed:
+    """Return the error of a mission that shall fly on, and has no trip left; it may have failed before."""
+    return MissionFailed(
+        f"{reason}; no trip is left to fly" if reason else "no trip is left to fly"
+    )
+
+
 class HookFault(MissionFailed):
     """A hook raised what it may not, or returned what it did not declare."""
 

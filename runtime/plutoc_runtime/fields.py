@@ -2,8 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Container, Iterable
 from dataclasses import dataclass
 from enum import Enum
+from math import isfinite, nan
+from operator import index
+from typing import SupportsFloat, SupportsIndex, cast
+
+from .kernel import WHATEVER
+from .words import bounded, shown, unless_by_a_person
 
 
 class Entity(Enum):
@@ -44,3 +51,38 @@ class Field:
     doc: str = ""
     """A sentence for pages. In a generated package it stands beside the attribute instead."""
     default: int | float | None = None
+
+
+def wrong_field(
+    fields: Iterable[Field], entity: Entity, of: object, evaluators: Container[str]
+) -> str | None:
+    """Return what a hook has put into a field that no block can go by; None: all is well."""
+    for field in fields:
+        value = getattr(of, field.name, None) if field.on is entity else None
+        if value is None or (type(value) is bool and field.type is FieldType.ROUNDS):
+            continue
+        if field.type is FieldType.EVALUATOR:
+            wanted, is_right = "an evaluator's name", type(value) is str and value in evaluators
+        else:
+            wanted, is_right = "a number", number_of(value) is not None
+        if not is_right:
+            there = bounded(shown(value), _LONGEST)
+            return f"{field.name} must be {wanted}, and a hook has put {there} there"
+    return None
+
+
+def number_of(value: object) -> float | None:
+    """Return a number that is finite and not too large, as one of Python's own; None: it is none."""
+    kind, number = type(value), nan
+    try:
+        if kind is not bool and hasattr(kind, "__index__"):
+            number = int.__pos__(index(cast("SupportsIndex", value)))
+        elif kind is not bool and hasattr(kind, "__float__"):
+            number = float.__pos__(float(cast("SupportsFloat", value)))
+        return number if isfinite(number) and abs(number) < _LARGEST else None
+    except WHATEVER as error:  # its own, whatever its class makes of it
+        unless_by_a_person(error)
+        return None
+
+
+_LARGEST, _LONGEST = 1e12, 100

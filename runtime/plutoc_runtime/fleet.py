@@ -51,7 +51,9 @@ class Fleet:
         self.retired: set[Drone] = set()
         """Those that nobody may have until they are brought back."""
         self.unready: dict[Drone, str] = {}
-        """Those that stand somewhere and could not fly when they were asked, and why."""
+        """Those that could not fly when they were asked, or that are lost, and why."""
+        self.lost: dict[Drone, str] = {}
+        """Those that were lost in an earlier life, and that nobody has brought back since."""
         self.somebody_comes = True
         """Whether who needs a person is waited for when all missions have ended."""
         queue.served = self._fetch_what_is_low
@@ -74,7 +76,7 @@ class Fleet:
                 await self._navigation.land(drone.id)
             except FlightFailed as error:
                 lose(str(error))
-                await self._bring_back(drone)
+                await self._bring_back(drone, str(error))
 
         self._send(drone, DroneStatus.BUSY, land, "waits with its item")
 
@@ -96,7 +98,7 @@ class Fleet:
             self.queue.freed(drone)
             if self._change is not None:
                 self._changed()
-        elif self._after_trip is AfterTrip.HOME or self._is_low(drone):
+        elif self._after_trip is AfterTrip.HOME or self.is_low(drone):
             self.send_home(drone)
         else:
             self._send(drone, DroneStatus.RETURNING, self._stay, "lands")
@@ -105,9 +107,10 @@ class Fleet:
         """A drone goes home."""
         self._send(drone, DroneStatus.RETURNING, self._return, "returns")
 
-    def recover(self, drone: Drone) -> None:
-        """A drone's flight has failed: it is not handed out before it is home again."""
-        self._send(drone, DroneStatus.RECOVERING, self._bring_back, "recovers")
+    def recover(self, drone: Drone, reason: str = "") -> None:
+        """A drone's flight has failed, for this reason: it is not handed out before it is home."""
+        back = partial(self._bring_back, reason=reason)
+        self._send(drone, DroneStatus.RECOVERING, back, "recovers")
 
     def never_flew(self, drone: Drone) -> None:
         """A drone was allocated and is not needed after all."""
@@ -116,20 +119,40 @@ class Fleet:
     def take_up(self, drone: Drone, standing: Standing) -> None:
         """Find out what becomes of a drone that nobody needs now, when an app begins or goes on.
 
-        It is handed out only once it stands on the ground, well, with nothing aboard.
+        It is handed out only once it stands on the ground, well, with nothing aboard; one that was
+        lost, only once somebody has looked after it, whatever it says of itself.
         """
+        if drone in self.lost:
+            self._leave_lost(drone, standing)
+            return
         why = self._say_why_not(drone, standing)
         well = standing.reached and standing.landed and not standing.problems
         if not (well and standing.carrying is None and self._rests(drone)):
-            self.recover(drone)
+            self.recover(drone, why or f"{drone.id} does not answer")
             if why and standing.landed:
                 self.unready[drone] = why
+
+    def _leave_lost(self, drone: Drone, standing: Standing) -> None:
+        """Let it be where it is, unless it is in the air: then it comes home, and stays lost."""
+        if standing.reached and not standing.landed:
+            down = partial(self._bring_down, reason=self.lost[drone])
+            self._send(drone, DroneStatus.RECOVERING, down, "comes down")
+        else:
+            self._lose(drone, self.lost[drone])
+
+    async def _bring_down(self, drone: Drone, reason: str) -> None:
+        await self._navigation.recover(drone.id)
+        self._lose(drone, reason)
+
+    def _lose(self, drone: Drone, reason: str) -> None:
+        self.unready[drone] = reason
+        self._become(drone, DroneStatus.LOST)
 
     def _say_why_not(self, drone: Drone, standing: Standing) -> str:
         """Let people know why a drone may not fly, and return it."""
         if not standing.problems:
             return ""
-        why = cut_off("; ".join(map(printable, standing.problems)), _LONGEST)
+        why = _in_words(standing)
         self._trace.note("drone.not_ready", drone=drone.id, reason=why)
         return why
 
@@ -142,10 +165,14 @@ class Fleet:
     def bring_back(self, drone: Drone) -> None:
         """A retired drone may be handed out again; one that was lost, once it has come home."""
         self.retired.discard(drone)
+        self.lost.pop(drone, None)
         if drone.status is DroneStatus.LOST:
             self._navigation.mended(drone.id)
             self._send(drone, DroneStatus.RECOVERING, self._come_back, "comes back")
-        elif drone.status is DroneStatus.OFFLINE and not self._rests(drone):
+            return
+        if drone in self.unready:  # it may wait for just this
+            self._navigation.mended(drone.id)
+        if drone.status is DroneStatus.OFFLINE and not self._rests(drone):
             self.send_home(drone)
 
     def flies_on(self, drone: Drone) -> None:
@@ -218,11 +245,13 @@ class Fleet:
 
     def _note(self, drone: Drone) -> None:
         x, y, z = drone.location
+        lost = drone.status is DroneStatus.LOST
         self._trace.note(
             _EVENT[drone.status],
             drone=drone.id,
             battery=round(drone.battery_level, 4),
             at=[round(x, 3), round(y, 3), round(z, 3)],
+            **({"reason": self.unready.get(drone, "")} if lost else {}),
         )
 
     def _changed(self) -> None:
@@ -234,8 +263,8 @@ class Fleet:
         """Land a drone where it is, and say whether it could; it is brought home otherwise."""
         try:
             await self._navigation.land(drone.id)
-        except FlightFailed:
-            await self._bring_back(drone)
+        except FlightFailed as error:
+            await self._bring_back(drone, str(error))
             return False
         return True
 
@@ -265,25 +294,31 @@ class Fleet:
             for point in permitted_way(self._airspace, drone.id, drone.location, home):
                 await self._navigation.go_to(drone.id, point)
             await self._navigation.land(drone.id)
-        except FlightFailed:
-            await self._bring_back(drone)
+        except FlightFailed as error:
+            await self._bring_back(drone, str(error))
         else:
             await self._settle(drone)
 
-    async def _bring_back(self, drone: Drone) -> None:
+    async def _bring_back(self, drone: Drone, reason: str) -> None:
+        """Bring a drone home whose flight has failed for this reason, or give it up as lost."""
         self._become(drone, DroneStatus.RECOVERING)
         if await self._navigation.recover(drone.id):
             self.unready.pop(drone, None)
             await self._settle(drone)
         else:
-            self._become(drone, DroneStatus.LOST)
+            standing = await self._navigation.roll_call(drone.id)  # it may have become worse
+            self._lose(
+                drone, _in_words(standing) or cut_off(printable(reason), _LONGEST) or _UNKNOWN
+            )
 
     async def _come_back(self, drone: Drone) -> None:
         """Bring home whom a person has looked after; if that was in vain, say why."""
-        await self._bring_back(drone)
-        if drone.status is DroneStatus.LOST:
+        self._become(drone, DroneStatus.RECOVERING)
+        if await self._navigation.recover(drone.id):
+            await self._settle(drone)
+        else:
             standing = await self._navigation.roll_call(drone.id)
-            self.unready[drone] = self._say_why_not(drone, standing)
+            self._lose(drone, self._say_why_not(drone, standing) or _STILL)
 
     async def _settle(self, drone: Drone) -> None:
         """It stands on the ground, well: is there enough in its battery to be handed out?
@@ -327,7 +362,7 @@ class Fleet:
             if not self._is_docked(drone) and self.queue.room:
                 self.send_home(drone)
 
-    def _is_low(self, drone: Drone) -> bool:
+    def is_low(self, drone: Drone) -> bool:
         """Whether there is little more in it than the way home takes."""
         return drone.battery_level < drone.category.reserve + 0.2
 
@@ -341,7 +376,16 @@ class Fleet:
         return FLEET + 1 + drone.index
 
 
+def _in_words(standing: Standing) -> str:
+    """Return why a drone may not fly, as it says itself."""
+    return cut_off("; ".join(map(printable, standing.problems)), _LONGEST)
+
+
 _FREE = DroneStatus.FREE
+
+_UNKNOWN = "it could not be brought home"
+_STILL = "it was brought back, and could not be reached"
+"""Why a drone is lost, where nobody has said more."""
 
 _LOOK_AGAIN = 10.0
 """Seconds between two looks at a battery that should be full enough by now."""

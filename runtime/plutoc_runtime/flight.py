@@ -10,10 +10,12 @@ from .actions import PICK, RELEASE
 from .context import Context
 from .errors import ActionFailed, Failure, FlightFailed, HookFault
 from .handle import LiveDrone, can_wait
-from .hooks import Hook, call_action
+from .hooks import LONGEST_REASON, Held, Hook, call_action, changed, look
+from .journal.values import keepable
 from .kernel import Task, mission_key
 from .signals import Signal
 from .status import FAILED, Status, TripStatus
+from .words import bounded, text_of
 
 if TYPE_CHECKING:
     from .actions import Plain
@@ -99,7 +101,7 @@ class Flight(Signal[Status]):
             fail(state, self, str(result))
         elif self._own is None:
             complete(state, self, result)
-        elif not isinstance(self._own, Task):
+        elif not (self.called_off or isinstance(self._own, Task)):
             self._own = state.core.kernel.spawn(
                 self._act(self._own),
                 mission_key(state.mission.index),
@@ -117,7 +119,7 @@ class Flight(Signal[Status]):
             state.core.log(fault.detail, state.mission.name)
             fail(state, self, str(fault), mends=False)
         else:
-            complete(state, self, value)
+            complete(state, self, keepable(value))
 
     async def _done_while_hovering(self, hook: Hook) -> object:
         state, trip, drone = self.state, self.trip, self.flier
@@ -131,6 +133,7 @@ class Flight(Signal[Status]):
         call = call_action(kernel, hook, drone, trip, context, **trip.parameters)
         work = kernel.spawn(call, key, f"{state.mission.name}: {trip.action}")
         hover = kernel.spawn(core.navigation.hold(drone.id), key, f"{drone.id} hovers")
+        held = Held(trip, "name", "action", "item", "index", "attempt", "status")
         over: Signal[None] = Signal()
         work.watch(over.set)
         hover.watch(over.set)
@@ -140,21 +143,30 @@ class Flight(Signal[Status]):
                 hover.result()  # raises what went wrong with the drone
             value = work.result()
         except ActionFailed as error:
-            raise FlightFailed(Failure.ACTION, f"{trip.action} failed: {error}") from error
+            raise FlightFailed(Failure.ACTION, f"{trip.action} failed: {_why(error)}") from error
         finally:
+            fact = held.put_back() if work.is_set else ""  # it may have been called off
             work.cancel()
             hover.cancel()
             if live is not None:
                 live.lets_go()
+        if fact:
+            raise changed(hook, "trip", fact)
         if core.recorder is not None:
-            core.recorder.look(state.mission)
+            look(hook, core.recorder, state.mission)
         return value
 
     def break_off(self) -> None:
-        """Stop where it is; nothing of it is reported any more."""
+        """Stop where it is; what it has done is still heard, and nothing more begins."""
+        self.called_off = True
         if isinstance(self._own, Task):
             self._own.cancel()
         self.state.core.navigation.break_off(self.flier.id)
+
+
+def _why(error: ActionFailed) -> str:
+    """Return what an action says of its failure."""
+    return bounded(text_of(error, "it does not say why"), LONGEST_REASON)
 
 
 def launch(state: State, drone: Drone) -> None:
@@ -165,7 +177,7 @@ def launch(state: State, drone: Drone) -> None:
         core.fleet.engage(drone)
     retry = last is not None and last.trip is trip and last.failed
     state.flight = flight = Flight(state, trip, drone, retry)
-    state.allocated = None
+    state.allocated, state.calls = None, 0
     core.transitions.launch(mission, trip, drone)
     core.navigation.fly(flight, flight.report)
 
@@ -221,7 +233,7 @@ def fail(state: State, flight: Flight, reason: str, *, mends: bool = True) -> No
         mends = False
     state.carries = state.carrier = None
     state.core.transitions.fail(state.mission, flight.trip, reason)
-    state.core.fleet.recover(flight.flier)
+    state.core.fleet.recover(flight.flier, reason)
     if mends:
         flight.set(state.mission.status)
     else:

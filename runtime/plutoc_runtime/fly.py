@@ -35,7 +35,7 @@ class Recovered:
 def recovered(store: Store) -> Recovered:
     """Return what a journal says; raise `BadInput` where it is damaged."""
     read = store.read()
-    records = replayed(read)
+    records = replayed(read, store.header)
     if read.damaged is not None:
         raise errors.damaged(store.path, read.damaged)
     return Recovered(records=records, written=read.written)

@@ -3,10 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from contextlib import suppress
+from typing import TYPE_CHECKING, Any
 
 from .errors import ActionFailed, HookFault
 from .kernel import WHATEVER, Cancelled, Kernel
+from .raised import by_a_person
+from .words import bounded, text_of
+
+if TYPE_CHECKING:
+    from .journal.recorder import Recorder
+    from .model import Mission
 
 Hook = Callable[..., object]
 
@@ -21,13 +27,46 @@ async def call_action(kernel: Kernel, hook: Hook, /, *args: object, **named: obj
         raise fault_of(hook, error) from error
 
 
+class Held:
+    """What the runtime knows things by, while a hook has them in its hands: nobody may change that."""
+
+    def __init__(self, of: object, *facts: str) -> None:
+        self._of, self._facts = of, {fact: getattr(of, fact) for fact in facts}
+
+    def put_back(self) -> str:
+        """Make it as it was; return what had been changed, or nothing."""
+        changed = ""
+        for fact, value in self._facts.items():
+            if getattr(self._of, fact, None) is not value:
+                setattr(self._of, fact, value)
+                changed = changed or fact
+        return changed
+
+
+def changed(hook: Hook, what: str, fact: str) -> HookFault:
+    """A hook has changed what is not its own."""
+    return HookFault(f"hook {hook_name(hook)} changed the {what}'s {fact}, by which it is known")
+
+
+def look(hook: Hook, recorder: Recorder, mission: Mission[Any]) -> None:
+    """Put on record what a hook has changed; what cannot be kept is a fault of the hook."""
+    try:
+        recorder.look(mission)
+    except WHATEVER as error:
+        if by_a_person(error):
+            raise
+        reason = f"hook {hook_name(hook)} left its mission so that it cannot be kept: {said(error)}"
+        raise HookFault(reason, trace_of(error)) from None
+
+
 def fault_of(hook: Hook, error: BaseException) -> HookFault:
     """Return what becomes of an error that a hook raised.
 
     Even `SystemExit` is a fault: it would end the flights of all others. An interrupt is the user's.
     """
     if isinstance(error, ActionFailed):
-        reason = f"hook {hook_name(hook)} raised ActionFailed, which only an action may: {error}"
+        text = bounded(text_of(error), LONGEST_REASON)
+        reason = f"hook {hook_name(hook)} raised ActionFailed, which only an action may: {text}"
     else:
         reason = f"hook {hook_name(hook)} raised {said(error)}"
     return HookFault(reason, trace_of(error))
@@ -35,9 +74,8 @@ def fault_of(hook: Hook, error: BaseException) -> HookFault:
 
 def said(error: BaseException) -> str:
     """Return an error's type and its text, if it has any to give."""
-    with suppress(Exception):
-        return f"{type(error).__name__}: {error}".removesuffix(": ")
-    return type(error).__name__
+    text = f"{type(error).__name__}: {text_of(error)}".removesuffix(": ")
+    return bounded(text, LONGEST_REASON)
 
 
 def hook_name(hook: Hook) -> str:
@@ -50,4 +88,16 @@ def trace_of(error: BaseException) -> str:
     """Return the traceback of a hook's error, for the log."""
     import traceback  # not needed by those who only declare blocks
 
-    return "".join(traceback.format_exception(error)).rstrip()
+    if all(type(given) in (str, int, float) for given in error.args):
+        try:
+            return bounded("".join(traceback.format_exception(error)).rstrip(), LONGEST_LOG)
+        except WHATEVER as its_own:
+            if by_a_person(its_own):
+                raise
+    # Python would ask what it was given how it is written, which may take for ever
+    lines = ["Traceback (most recent call last):\n", *traceback.format_tb(error.__traceback__)]
+    return bounded("".join(lines), LONGEST_LOG) + said(error)
+
+
+LONGEST_REASON, LONGEST_LOG = 2_000, 20_000
+"""Characters of what a hook says of a failure, and of a line that it has logged."""

@@ -65,7 +65,7 @@ async def what_became(core: Core, flight: Flight, entry: Entry | None, begun: bo
     except WHATEVER as error:  # then it cannot tell: a person must
         core.log(trace_of(error), flight.state.mission.name)
         return what
-    return _PROBED[answer] if isinstance(answer, bool) else what
+    return _PROBED[answer] if type(answer) is bool else what
 
 
 _PROBED = {True: Fate.DONE, False: Fate.AGAIN}

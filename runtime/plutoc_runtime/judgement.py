@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 from .actions import PICK, RELEASE
 from .capability import why_not
 from .errors import HookFault
-from .hooks import hook_name
-from .soundness import unsound
+from .hooks import hook_name, said
+from .kernel import WHATEVER
+from .raised import by_a_person
+from .soundness import unsound, unsound_mission
 from .status import COMPLETED, FAILED, STANDBY, Status, TripStatus
 from .verdict import Verdict
+from .words import shown, text_of
 
 if TYPE_CHECKING:
     from .core import Core
@@ -22,28 +25,31 @@ if TYPE_CHECKING:
 def apply(run: Run[Any], hook: Callable[..., object], verdict: object) -> Status:
     """Do as the verdict says; one that cannot be followed is a fault of the evaluator."""
     mission, core = run.mission, run.core
-    if not isinstance(verdict, Verdict):
-        what = type(verdict).__name__
-        raise HookFault(f"evaluator {hook_name(hook)} must return a Verdict, not {what}")
-    if mission.trips:
-        raise HookFault(
-            f"evaluator {hook_name(hook)} changed the mission's trips: that is what `add` is for"
-        )
-    if verdict.ok and verdict.fail is None and verdict.asks_nothing:
-        return COMPLETED
     name = hook_name(hook)
+    wrong = unsound_mission(core, mission)
+    if wrong is not None:
+        raise HookFault(f"evaluator {name} left a mission that cannot go on: {wrong}")
+    if not issubclass(type(verdict), Verdict):
+        what = type(verdict).__name__
+        raise HookFault(f"evaluator {name} must return a Verdict, not {what}")
+    verdict = Verdict._make(tuple.__iter__(cast("Verdict", verdict)))  # its class may change facts
+    if type(mission.trips) is not list or mission.trips:
+        raise HookFault(f"evaluator {name} changed the mission's trips: that is what `add` is for")
+    if verdict.ok is True and verdict.fail is None and verdict.asks_nothing:
+        return COMPLETED
     redo, add = _listed(name, "redo", verdict.redo), _listed(name, "add", verdict.add)
     for line in _listed(name, "log", verdict.log):
-        core.log(str(line), mission.name)
-    if verdict.fail is not None or not (verdict.ok or redo or add):
-        reason = "" if verdict.fail is None else str(verdict.fail).strip()
+        core.log(text_of(line, f"<{type(line).__name__}>"), mission.name)
+    if verdict.fail is not None or not (_is_ok(name, verdict.ok) or redo or add):
+        reason = "" if verdict.fail is None else text_of(verdict.fail, shown(verdict.fail)).strip()
         core.transitions.judge_failed(mission, reason or f"{name} did not accept it")
         return FAILED
     for trip in redo:
-        if trip not in mission.completed_trips:
+        if not any(trip is done for done in mission.completed_trips):
+            called = trip.name if type(trip) is core.app.trip else shown(trip)
             raise HookFault(
                 f"evaluator {name} asks to redo a trip that mission {mission.name} "
-                f"has not completed: {getattr(trip, 'name', trip)!r}"
+                f"has not completed: {called!r}"
             )
     added = tuple(_accepted(core, mission, name, trip) for trip in _once_each(add))
     _name(mission, added)
@@ -53,9 +59,21 @@ def apply(run: Run[Any], hook: Callable[..., object], verdict: object) -> Status
     return STANDBY
 
 
+def _is_ok(evaluator: str, value: object) -> bool:
+    try:
+        return bool(value)
+    except WHATEVER as error:
+        if by_a_person(error):
+            raise
+        raise HookFault(
+            f"evaluator {evaluator} must give `ok` as True or False: {said(error)}"
+        ) from None
+
+
 def _listed(evaluator: str, field: str, value: object) -> Sequence[Any]:
-    if isinstance(value, (tuple, list)):
-        return value
+    for kind in (tuple, list):
+        if issubclass(type(value), kind):
+            return tuple(kind.__iter__(cast("Any", value)))
     raise HookFault(
         f"evaluator {evaluator} must give `{field}` as a tuple, not as {type(value).__name__}"
     )
@@ -92,7 +110,7 @@ def _problem(core: Core, mission: Mission[Any], trip: Trip) -> str | None:
     problem = unsound(core, trip)
     if problem is not None:
         return problem
-    if trip in mission.completed_trips:
+    if any(trip is done for done in mission.completed_trips):
         return f"trip {trip.name} is the mission's already: ask to redo it"
     if trip.now is not None or trip.status is not TripStatus.WAITING:
         return f"trip {trip.name} has been used already: make a new Trip each time"

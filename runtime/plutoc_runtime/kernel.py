@@ -140,7 +140,7 @@ class Task(Signal[T]):
             waits_for = self._coroutine.send(None)
         except StopIteration as end:
             returned: T = end.value
-        except (KeyboardInterrupt, SystemExit):
+        except KeyboardInterrupt:
             raise
         except WHATEVER as error:
             self._failed(error)
@@ -166,7 +166,7 @@ class Task(Signal[T]):
                 waits_for = self._coroutine.throw(foreign)
         except StopIteration as end:
             returned: T = end.value
-        except (KeyboardInterrupt, SystemExit):
+        except KeyboardInterrupt:
             raise
         except WHATEVER as ended:
             self._failed(ended)

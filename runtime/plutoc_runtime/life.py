@@ -6,7 +6,7 @@ next life begins with the journal's records and a roll call of the drones, which
 
 from __future__ import annotations
 
-from collections.abc import Coroutine, Sequence
+from collections.abc import Coroutine, Mapping, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -57,6 +57,7 @@ class Life:
         self.control = Control(self.session, link)
         self._retired: Sequence[str] = records.retired
         self._mended: Sequence[str] = records.mended
+        self._lost: Mapping[str, Any] = records.lost
         self.missions: tuple[Mission[Any], ...] = ()
         """All missions, those of earlier lives that have ended included."""
 
@@ -69,7 +70,9 @@ class Life:
 
     def _when_durable(self, watcher: Listener, event: Event) -> None:
         if event["event"] == "trip.completed":
-            event = {**event, "result": self.recorder.records.results[-1][-1]}
+            records = self.recorder.records
+            trip = records.flown_last(str(event["mission"]))
+            event = {**event, "result": records.results[-1][-1], "did": trip}
         self.recorder.when_durable(partial(watcher, event))
 
     def start(self, missions: Sequence[Mission[Any]]) -> Task[float]:
@@ -101,7 +104,7 @@ class Life:
     async def _started(self, missions: Sequence[Mission[Any]]) -> float:
         core = self.session.core
         roll = await self._link.call()
-        _refuse_if_none_is_ready(roll)
+        _refuse_if_none_is_ready(roll, {name: one["reason"] for name, one in self._lost.items()})
         core.trace.note("brain.began", epoch=self._epoch)
         self._retire()
         for drone in core.fleet.drones:
@@ -120,19 +123,34 @@ class Life:
         return await session.see_through()
 
     def _retire(self) -> None:
-        """Let nobody have the drones that were retired in an earlier life.
+        """Let nobody have the drones that were retired in an earlier life, or lost.
 
         Those that somebody has looked after, and that were not back when it ended, are asked anew.
         """
         fleet = self.session.core.fleet
         fleet.retired.update(drone for drone in fleet.drones if drone.id in self._retired)
+        fleet.lost.update(
+            {
+                drone: self._lost[drone.id]["reason"]
+                for drone in fleet.drones
+                if drone.id in self._lost
+            }
+        )
         for drone in self._mended:
             self._link.mended(drone)
 
 
-def _refuse_if_none_is_ready(roll: RollCall) -> None:
+def _refuse_if_none_is_ready(roll: RollCall, lost: Mapping[str, str]) -> None:
     """Raise `BadInput` if no drone may fly: nothing has begun."""
-    problems = [of(drone, "; ".join(one.problems)) for drone, one in roll.drones.items()]
-    if problems and all(standing.problems for standing in roll.drones.values()):
+    reasons = {
+        drone: (
+            f"it is lost, and nobody has brought it back ({lost[drone]})"
+            if drone in lost
+            else "; ".join(one.problems)
+        )
+        for drone, one in roll.drones.items()
+    }
+    problems = [of(drone, reason) for drone, reason in reasons.items()]
+    if problems and all(reasons.values()):
         whole = shortened(["no drone is ready to fly", *problems])
         raise BadInput(f"{whole}\nnothing has begun: mend that, and begin anew, with a new journal")

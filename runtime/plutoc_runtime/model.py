@@ -93,6 +93,11 @@ class Telemetry(Protocol):
         """Whether it stands still on the ground or in its dock."""
         ...
 
+    @property
+    def silence(self) -> float:
+        """Seconds since it last told anything of itself; infinite: it never has."""
+        ...
+
 
 @dataclass(slots=True, kw_only=True, eq=False)
 class Drone:

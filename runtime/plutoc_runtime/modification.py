@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any
 from .calling_off import abort
 from .errors import HookFault
 from .hooks import hook_name
-from .soundness import unsound
+from .soundness import unsound, unsound_mission
 from .status import Status, TripStatus
+from .words import bounded, shown
 
 if TYPE_CHECKING:
     from .run import Run
@@ -25,6 +26,9 @@ async def settle(
 ) -> Status:
     """Return the status with which the mission goes on; one that cannot be is a fault."""
     name = hook_name(hook)
+    wrong = unsound_mission(run.core, run.mission)
+    if wrong is not None:
+        raise HookFault(f"modifier {name} left a mission that cannot go on: {wrong}")
     _check_trips(run, name)
     if not emits:
         if returned is not None:
@@ -32,7 +36,7 @@ async def settle(
                 f"modifier {name} declares no `emits` and so must return nothing, not {_shown(returned)}"
             )
         return status
-    if not isinstance(returned, Status) or returned not in emits:
+    if type(returned) is not Status or returned not in emits:
         declared = ", ".join(status.value for status in emits)
         raise HookFault(f"modifier {name} must return one of {declared}, not {_shown(returned)}")
     lie = _contradiction(run.state, returned)
@@ -53,20 +57,22 @@ async def settle(
 def _check_trips(run: Run[Any], name: str) -> None:
     """A modifier may change what is still to do; what comes of it must be trips."""
     mission, flying = run.mission, run.state.in_flight
-    if not isinstance(mission.trips, list):
+    if type(mission.trips) is not list:
         raise HookFault(
             f"modifier {name} made mission.trips {type(mission.trips).__name__}, not a list"
         )
-    if flying is not None and mission.trips[:1] != [flying.trip]:
+    if flying is not None and (not mission.trips or mission.trips[0] is not flying.trip):
         raise HookFault(
             f"modifier {name} took trip {flying.trip.name}, which is flying, from its place"
         )
+    seen: set[int] = set()
     for number, trip in enumerate(mission.trips, start=1):
         problem = unsound(run.core, trip)
-        if problem is None and trip in mission.trips[: number - 1]:
+        if problem is None and id(trip) in seen:
             problem = "it is in the list twice"
+        seen.add(id(trip))
         if problem is not None:
-            called = getattr(trip, "name", number)
+            called = trip.name if type(getattr(trip, "name", None)) is str else number
             raise HookFault(
                 f"modifier {name} left a trip that cannot be flown, {called}: {problem}"
             )
@@ -94,4 +100,8 @@ def _contradiction(state: State, status: Status) -> str | None:
 
 
 def _shown(value: object) -> str:
-    return value.value if isinstance(value, Status) else repr(value)
+    return value.value if type(value) is Status else bounded(shown(value), _LONGEST)
+
+
+_LONGEST = 200
+"""Characters of a value that is no status."""

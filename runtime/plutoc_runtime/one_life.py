@@ -38,6 +38,9 @@ SNAPSHOT_EVERY = 50_000
 SNAPSHOT_AT_END = 1_000
 """Events that are worth one at the end of a life."""
 
+LOOK_EVERY = 1.0
+"""Seconds on the wall between two looks at whether the journal is still there."""
+
 _ENDED = "the app ended before it could say whether that was done: look, once it goes on"
 
 
@@ -84,12 +87,14 @@ class OneLife:
         life.control.stopped.watch(lambda _: self._end.set(End.STOPPED))
         stops.stop_now = self._stop
         async with listening(setting.note, self.answer):
+            looks = asyncio.create_task(self._looks())
             try:
                 end = await self._lived(life, stops)
             except BadInput:  # no drone is ready: the gateway is not needed either
                 await link.goodbye()
                 raise
             finally:  # whoever still waits for an answer need not any longer
+                looks.cancel()
                 self._kept.set_result(self._end.is_set and self._end.result() is End.OVER)
         if end is not End.LOST:
             await link.goodbye()
@@ -163,10 +168,20 @@ class OneLife:
         with suppress(RuntimeError):  # the loop is closed: it is all over
             self._loop.call_soon_threadsafe(self._kernel.post, call, *args)
 
+    async def _looks(self) -> None:
+        """See now and then whether the journal is still there, though nothing may be written."""
+        while self._failure is None:
+            await asyncio.sleep(LOOK_EVERY)
+            try:
+                self._store.look()
+            except JournalError as failure:
+                self._unwritable(failure)
+
     def _unwritable(self, failure: JournalError) -> None:
         """Nothing can be put on record any more: bring everything down, and say why."""
-        self._failure = failure
-        self._post(self._stop_unrecorded)
+        if self._failure is None:
+            self._failure = failure
+            self._post(self._stop_unrecorded)
 
     def _stop_unrecorded(self) -> None:
         if self.life is None:

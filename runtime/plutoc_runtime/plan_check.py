@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from .actions import BUILT_IN
 from .capability import Miss, chain_of, miss_of
 from .fields import Entity, FieldType
 from .words import quoted
@@ -56,6 +57,21 @@ def unflyable(
             if misses is not None:
                 reason = _nobody(_nearest(misses, drones))
                 found.append(Unflyable(mission=mission, trips=chain, reason=reason))
+    return found
+
+
+def idle_actions(app: App, fleet: FleetFile) -> list[str]:
+    """Return a sentence for each action of the app that no drone of the fleet can do.
+
+    No mission need ask for it, so that is no error; but who draws the next mission might.
+    """
+    there = {drone.category for drone in fleet.drones}
+    found = []
+    for action in app.actions:
+        able = [category.name for category in app.categories if category.can(action)]
+        if there.isdisjoint(able) and (able or action not in BUILT_IN):
+            who = f"it has no {' and no '.join(able)}" if able else "no category of the app can"
+            found.append(f"no drone of the fleet can {action}: {who}")
     return found
 
 

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
 
 from .errors import HookFault
+from .forked import end_if_forked
 from .hooks import hook_name, said, trace_of
+from .model import Drone
+from .raised import by_a_person
 
 if TYPE_CHECKING:
-    from .model import Drone, Trip
+    from .model import Trip
 
 Able = Callable[["Drone"], bool]
 """Says whether a drone may fly the trip now."""
@@ -88,15 +92,18 @@ class Asked:
         candidates = tuple(drone for drone in free if able(drone))
         if not candidates:
             return None
+        parent = os.getpid()
         try:
             drone = self._hook(trip, candidates)
-        except KeyboardInterrupt:
-            raise
+            end_if_forked(parent)
         except BaseException as error:
+            end_if_forked(parent, error)
+            if by_a_person(error):
+                raise
             raise HookFault(f"policy {self._name} raised {said(error)}", trace_of(error)) from error
         if drone is None:
             return None
-        if drone not in candidates:
+        if not any(drone is candidate for candidate in candidates):
             raise HookFault(
                 f"policy {self._name} must return one of the candidates or None, not {_named(drone)}"
             )
@@ -105,5 +112,4 @@ class Asked:
 
 def _named(answer: object) -> str:
     """Name what a hook answered, in a word or two."""
-    name = getattr(answer, "id", None)
-    return f"drone {name}" if isinstance(name, str) else type(answer).__name__
+    return f"drone {answer.id}" if type(answer) is Drone else type(answer).__name__

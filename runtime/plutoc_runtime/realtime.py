@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 import asyncio
+import os
 import time
 from collections.abc import Callable, Coroutine
 from contextlib import suppress
 from functools import partial
-from inspect import iscoroutine, iscoroutinefunction
+from inspect import iscoroutinefunction
 from math import inf
 from threading import Thread
 from typing import Any, NoReturn, TypeVar, cast
 
+from .forked import alone, end_if_forked
 from .kernel import WHATEVER, Call, Kernel, Key, Kind
+from .raised import NOT_ITS_OWN, as_a_fault, by_a_person
 from .signals import Signal
-from .straight import never_waits
+from .straight import is_coroutine, never_waits
 
 T = TypeVar("T")
 
@@ -70,9 +73,9 @@ class RealTime(Kernel):
             self.drain()
             if self.settled is not None:
                 self.settled()
-        except KeyboardInterrupt:
-            raise
         except WHATEVER as error:  # it must not leave everybody waiting for ever
+            if by_a_person(error):
+                raise
             self.crash(error)
         finally:
             self._draining = False
@@ -121,7 +124,15 @@ class RealTime(Kernel):
         One that never waits needs no task: it is over as soon as it is called.
         """
         if never_waits(hook):
-            return await cast("Coroutine[Any, Any, object]", hook(*args, **named))
+            parent = os.getpid()
+            try:
+                answer = await cast("Coroutine[Any, Any, object]", hook(*args, **named))
+                if os.getpid() != parent:
+                    end_if_forked(parent)
+                return answer
+            except NOT_ITS_OWN as error:
+                end_if_forked(parent, error)
+                raise as_a_fault(error) from error.__cause__
         result: Signal[object] = Signal()
         running = asyncio.ensure_future(self._answer(hook, partial(hook, *args, **named), result))
         try:
@@ -135,12 +146,12 @@ class RealTime(Kernel):
         """Wait for a hook, and post what it ends with, whatever that is."""
         try:
             returned = call() if iscoroutinefunction(hook) else await self._in_thread(call)
-            if iscoroutine(returned):
-                returned = await returned
-        except KeyboardInterrupt:
-            raise
+            if is_coroutine(returned):
+                returned = await alone(returned)
         except WHATEVER as error:
-            self.post(result.fail, error)
+            if by_a_person(error):
+                raise
+            self.post(result.fail, as_a_fault(error))
         else:
             self.post(result.set, returned)
 
@@ -156,12 +167,16 @@ class RealTime(Kernel):
             with suppress(RuntimeError):  # the loop is closed: nobody waits any longer
                 self._loop.call_soon_threadsafe(finish, end)
 
+        parent = os.getpid()
+
         def work() -> None:
             try:
                 returned = call()
             except WHATEVER as error:
+                end_if_forked(parent, error)
                 tell(partial(_raise, error))
             else:
+                end_if_forked(parent)
                 tell(lambda: returned)
 
         Thread(target=work, name="hook", daemon=True).start()

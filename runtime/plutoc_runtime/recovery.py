@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from .control import CANCELLED
@@ -53,9 +54,11 @@ async def go_on(
     at_work = {entry.drone for entry in roll.jobs.values() if entry.flies}
     for drone in drones.values():
         if drone not in engaged:
+            found = roll.drones[drone.id]
             if drone.id in at_work:  # the brain that ended its flight could not say so any more
                 link.break_off(drone.id)
-            core.fleet.take_up(drone, roll.drones[drone.id])
+                found = replace(found, landed=False)  # it may take off before it hears that
+            core.fleet.take_up(drone, found)
     engine.look_for_the_end()
     return [one.mission for one in missions.values()]
 

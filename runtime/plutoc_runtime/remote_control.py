@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from .asking import LONGEST
 from .errors import BadInput
+from .forked import not_for_children
 from .journal.errors import why
 from .private import new_address, publish, withdraw
 from .standing import Down
@@ -128,6 +129,8 @@ async def listening(note: Path, answer: Answer) -> AsyncIterator[None]:
         task.add_done_callback(served.discard)
 
     server = await asyncio.start_unix_server(serve, address, limit=LONGEST)
+    for one in server.sockets:
+        not_for_children(one.fileno())
     try:
         _publish(note, address)
         yield

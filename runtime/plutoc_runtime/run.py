@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from .context import Context
 from .errors import MissionFailed
-from .hooks import fault_of, hook_name
+from .hooks import Held, changed, fault_of, hook_name, look
 from .kernel import WHATEVER, Cancelled, branch_key
 from .model import Mission
+from .state import MOST_CALLS
 from .status import UNEXECUTED, Status
 
 if TYPE_CHECKING:
@@ -47,19 +48,31 @@ class Run(Generic[M]):
 
     async def hook(self, hook: Callable[..., object], *args: object) -> object:
         """Call a hook of the app's with these arguments; its faults end the mission."""
-        kernel = self.core.kernel
-        if self.state.goes_round(kernel.now):
+        if self.state.goes_round():
             raise MissionFailed(
-                f"it goes round in its graph for ever without time passing, by hook {hook_name(hook)}"
+                f"it goes round in its graph for ever: its hooks were called {MOST_CALLS:,} times "
+                f"since its last launch, and now {hook_name(hook)} again"
             )
+        mission, flying = self.mission, self.state.in_flight
+        name, index = mission.name, mission.index
+        held = None if flying is None else Held(flying.trip, "name", "action")
         try:
-            answer = await kernel.call_hook(hook, *args)
+            answer = await self.core.kernel.call_hook(hook, *args)
         except (Cancelled, GeneratorExit, KeyboardInterrupt):
             raise
         except WHATEVER as error:
             raise fault_of(hook, error) from error
+        finally:
+            known = mission.name is name and mission.index is index
+            if not known:
+                mission.name, mission.index = name, index
+            fact = held and held.put_back()
+        if not known:
+            raise changed(hook, "mission", "name or index")
+        if fact:
+            raise changed(hook, "trip", fact)
         if self.core.recorder is not None:
-            self.core.recorder.look(self.mission)
+            look(hook, self.core.recorder, self.mission)
         return answer
 
     @property

@@ -11,6 +11,7 @@ from .allocation import Queue
 from .core import Core
 from .eligibility import Reach
 from .engine import Engine
+from .enough import IDLE, Bound, Enough
 from .errors import BadInput
 from .fleet import Fleet
 from .gateway.gateway import Gateway
@@ -50,6 +51,13 @@ class Outcome:
     flown: dict[str, float]
     """Metres, by the drones' ids."""
     events: tuple[Event, ...]
+    given_up: str = ""
+    """Why a simulation was ended that would have gone on for ever."""
+
+    @property
+    def crashed(self) -> int:
+        """How many drones have crashed: nobody brings them back in a simulation."""
+        return sum(drone.status is DroneStatus.LOST for drone in self.drones)
 
     @property
     def log(self) -> list[str]:
@@ -180,7 +188,9 @@ class Simulation:
         listeners = [self._events.append, *([listener] if listener else [])]
         self.session = Session(app, fleet, kernel, gateway.link(1), listeners)
 
-    def outcome(self, missions: Sequence[Mission[Any]], ended: float) -> Outcome:
+    def outcome(
+        self, missions: Sequence[Mission[Any]], ended: float, given_up: str = ""
+    ) -> Outcome:
         """Return what has come of the missions."""
         drones = self.session.drones
         return Outcome(
@@ -189,6 +199,7 @@ class Simulation:
             drones=drones,
             flown={drone.id: self._navigation.flown(drone.id) for drone in drones},
             events=tuple(self._events),
+            given_up=given_up,
         )
 
 
@@ -206,13 +217,29 @@ def simulate(
 ) -> Outcome:
     """Fly the missions in virtual time, until the last one has ended or a time is reached.
 
+    Without such a time it is given up where missions set out again and again for nothing.
     `around` puts something between the gateway and its drones; `slack` keeps them further apart.
     """
-    kernel = VirtualTime()
-    simulation = Simulation(app, fleet, kernel, seed, faults, on_event, around, slack)
+    kernel, bound = VirtualTime(), Bound(missions)
+
+    def listen(event: Event) -> None:
+        if on_event is not None:
+            on_event(event)
+        if until is None and (enough := bound.look(event)) is not None:
+            kernel.crash(enough)
+
+    simulation = Simulation(app, fleet, kernel, seed, faults, listen, around, slack)
     over = simulation.session.start(missions)
     try:
-        ended = over.result() if kernel.run(over, until) else kernel.now
+        if until is None:
+            while not kernel.run(over, last := bound.last + IDLE):
+                if bound.last + IDLE <= last:
+                    raise Enough(bound.idle())
+            ended = over.result()
+        else:
+            ended = over.result() if kernel.run(over, until) else kernel.now
+    except Enough as enough:
+        return simulation.outcome(missions, kernel.now, str(enough))
     except Stuck:
         queue = simulation.session.core.queue
         if not queue.waiting:

@@ -12,12 +12,14 @@ if TYPE_CHECKING:
 
 _STEP = 0.25
 """Metres between the places that are looked at."""
+_FURTHEST = 30.0
+"""Metres within which a place is looked for: on a map of kilometres nobody could wait for all of it."""
 
 
 def free_spot(airspace: Airspace, point: Point, taken: Sequence[Point], apart: float) -> Point:
     """Return the nearest permitted place on the ground that is far enough from those taken.
 
-    Where there is none on the whole map, straight below is as good as any.
+    Where there is none anywhere near, straight below is as good as any.
     """
     return next(free_spots(airspace, point, taken, apart), (point[0], point[1], 0.0))
 
@@ -26,8 +28,14 @@ def free_spots(
     airspace: Airspace, point: Point, taken: Sequence[Point], apart: float
 ) -> Iterator[Point]:
     """Yield the permitted places on the ground that are far enough from those taken: near ones first."""
-    for x, y in _around(point, hypot(*airspace.size)):
-        if airspace.problem((x, y, 0.0)) is None and is_free((x, y, 0.0), taken, apart):
+    width, depth = airspace.size
+    for x, y in _around(point, min(_FURTHEST, hypot(width, depth))):
+        if (
+            0.0 <= x <= width
+            and 0.0 <= y <= depth
+            and airspace.problem((x, y, 0.0)) is None
+            and is_free((x, y, 0.0), taken, apart)
+        ):
             yield x, y, 0.0
 
 

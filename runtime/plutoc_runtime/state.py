@@ -18,10 +18,9 @@ T = TypeVar("T")
 Place = tuple[str, str, int, int]
 """A delay: block, trip, round, attempt."""
 
-_NO_HOOKS = 0.0, 0
-
-HOOKS_AT_ONCE = 100_000
-"""No graph has so many blocks in a row: a mission that calls so many hooks is in a loop."""
+MOST_CALLS = 100_000
+"""Between two launches: a mission that calls its hooks so often is in a loop that it never leaves,
+whether they answer at once or sleep in between."""
 
 
 class Seldom(Generic[T]):
@@ -50,9 +49,9 @@ class State:
     """One living mission. There may be very many: so it is small."""
 
     __slots__ = (
-        "_hooks",
         "allocated",
         "at",
+        "calls",
         "carrier",
         "core",
         "engine",
@@ -97,8 +96,8 @@ class State:
         """The drone that the mission keeps while it carries an item."""
         self.last_action_end: float | None = None
         """When its previous action in this round was done."""
-        self._hooks = _NO_HOOKS
-        """When its last hook was called, and how many were called at that instant."""
+        self.calls = 0
+        """How often its hooks were called since its last launch."""
 
     def __call__(self, task: Task[Status]) -> None:
         """Hear that its coroutine is over."""
@@ -114,12 +113,10 @@ class State:
             self.doom = reason
             self.engine.doomed(self)
 
-    def goes_round(self, now: float) -> bool:
-        """Count a call of a hook; say whether the mission goes round and round without time."""
-        last, count = self._hooks
-        count = count + 1 if now == last else 1
-        self._hooks = now, count
-        return count > HOOKS_AT_ONCE
+    def goes_round(self) -> bool:
+        """Count a call of a hook; say whether the mission goes round and round without a launch."""
+        self.calls += 1
+        return self.calls > MOST_CALLS
 
     @property
     def in_flight(self) -> Flight | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from .status import COMPLETED, FAILED, RUNNING, STANDBY, UNEXECUTED, Status, TripStatus
-from .words import shown
+from .words import bounded, shown
 
 if TYPE_CHECKING:
     from .kernel import Kernel
@@ -13,6 +13,9 @@ if TYPE_CHECKING:
     from .results import ResultStore
     from .trace import Trace
 
+
+LONGEST = 3_000
+"""Characters of a reason: more than one of a hook's, and than any of ours."""
 
 PRIORITY = "priority"
 """The field of trips that decides who gets a drone first, in apps whose graph has one."""
@@ -80,6 +83,7 @@ class Transitions:
 
     def fail(self, mission: Mission[Any], trip: Trip, reason: str) -> None:
         """A trip has failed: it stays first in the list."""
+        reason = bounded(reason, LONGEST)
         trip.status, trip.end_time, trip.reason = _FAILED, self._kernel.now, reason
         mission.status, mission.reason = FAILED, reason
         if self._trace.live:
@@ -99,10 +103,8 @@ class Transitions:
         )
 
     def put_back(self, mission: Mission[Any]) -> None:
-        """The trip that failed will be tried again."""
+        """The trip that failed will be tried again; one that has not flown since keeps its attempt."""
         trip = mission.current
-        if trip.status is _WAITING:  # it failed before it could be launched
-            trip.attempt += 1
         trip.reset()
         self._standby(mission)
         if self._trace.live:
@@ -201,11 +203,13 @@ class Transitions:
 
     def judge_failed(self, mission: Mission[Any], reason: str) -> None:
         """A finished mission was judged and found wanting."""
+        reason = bounded(reason, LONGEST)
         mission.status, mission.reason = FAILED, reason
         if self._trace.live:
             self._trace.note("mission.judged", mission=mission.name, reason=reason)
 
     def _stands(self, mission: Mission[Any], status: Status, reason: str, event: str) -> None:
+        reason = bounded(reason, LONGEST)
         mission.status, mission.reason = status, reason
         if self._trace.live:
             self._trace.note(event, mission=mission.name, status=status.value, reason=reason)

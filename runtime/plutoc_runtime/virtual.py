@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Coroutine, Generator
-from contextlib import suppress
 from functools import partial
-from inspect import iscoroutine
 from types import coroutine
 from typing import Any, TypeVar
 
-from .kernel import Cancelled, ForeignAwait, Kernel
+from .kernel import WHATEVER, ForeignAwait, Kernel
+from .raised import NOT_ITS_OWN, as_a_fault, by_a_person
 from .signals import Signal
-from .straight import never_waits
+from .straight import is_coroutine, never_waits
 
 T = TypeVar("T")
 
@@ -57,12 +56,12 @@ class VirtualTime(Kernel):
         """Run a hook here and now; an `async def` may await only what its context offers."""
         try:
             result = hook(*args, **named)
-        except (Cancelled, GeneratorExit) as error:
-            raise _not_its_own(error) from error
-        if not iscoroutine(result):
-            return result
-        if never_waits(hook):
-            return await result
+            if not is_coroutine(result):
+                return result
+            if never_waits(hook):
+                return await result
+        except NOT_ITS_OWN as error:
+            raise as_a_fault(error) from error.__cause__
         try:
             return await _called_off_for_good(result)
         except RuntimeError as error:
@@ -88,21 +87,18 @@ def _called_off_for_good(hook: Coroutine[Any, Any, T]) -> Generator[Any, Any, T]
         except StopIteration as end:
             returned: T = end.value
             return returned
-        except (Cancelled, GeneratorExit) as error:
-            raise _not_its_own(error) from error
+        except NOT_ITS_OWN as error:
+            raise as_a_fault(error) from error.__cause__
         try:
             yield waits_for
             step = partial(hook.send, None)
         except ForeignAwait as error:
             step = partial(hook.throw, error)
         except BaseException as error:
-            # whatever it does about it, nobody wants it any longer
-            with suppress(Exception, Cancelled, GeneratorExit, StopIteration):
-                hook.throw(error)
-            with suppress(Exception, Cancelled, GeneratorExit):
-                hook.close()
+            for call in (partial(hook.throw, error), hook.close):
+                try:
+                    call()
+                except WHATEVER as its_own:  # whatever it does about it, nobody wants it any longer
+                    if by_a_person(its_own):
+                        raise
             raise
-
-
-def _not_its_own(error: BaseException) -> RuntimeError:
-    return RuntimeError(f"it may not raise {type(error).__name__}")

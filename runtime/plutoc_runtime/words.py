@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import re
+from math import log10
 from reprlib import Repr
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, cast
+
+from .kernel import WHATEVER
 
 if TYPE_CHECKING:
     from .model import Point
@@ -78,21 +81,90 @@ def cut_off(text: str, longest: int) -> str:
     return text if len(text) <= longest else text[: longest - 1] + "…"
 
 
+def bounded(text: str, longest: int) -> str:
+    """Write no more of a text than so many characters, and how long it is."""
+    if len(text) <= longest:
+        return text
+    return f"{text[:longest]}… ({len(text):,} characters in all)"
+
+
+def text_of(value: object, otherwise: str = "") -> str:
+    """Return what an object says of itself, or something else where it cannot be asked."""
+    if type(value) is str:
+        return value
+    kind = type(value)
+    if issubclass(kind, BaseException) and kind.__str__ in (_AN_ERRORS, KeyError.__str__):
+        given = cast("BaseException", value).args  # which may be anything, and are asked alike
+        if len(given) != 1:
+            return shown(given) if given else ""
+        return text_of(given[0], otherwise) if kind.__str__ is _AN_ERRORS else shown(given[0])
+    if kind.__str__ is object.__str__:  # a list, and whatever has no words of its own
+        return shown(value)
+    try:
+        return str.__str__(str(value))  # which may be of a class of its own
+    except WHATEVER as error:  # its own, whatever it is
+        unless_by_a_person(error)
+        return otherwise
+
+
+_AN_ERRORS = BaseException.__str__
+
+
 def shown(value: object) -> str:
-    """Write any value so that it is the same text in every run."""
-    if value is None or isinstance(value, (bool, int, float)):
-        return repr(value)
-    return _ADDRESS.sub("", _EVERYTHING.repr(value))
+    """Write any value so that it is the same text in every run, and no longer than a page or two."""
+    try:
+        if value is None or type(value) in (bool, float):
+            return repr(value)
+        return bounded(_ADDRESS.sub("", _Everything().repr(value)), LONGEST_VALUE)
+    except WHATEVER as error:  # its own, whatever it is
+        unless_by_a_person(error)
+        return f"<{type(value).__name__} that cannot be shown>"
+
+
+def unless_by_a_person(error: BaseException) -> None:
+    """Raise a person's Ctrl-C on; all else is that of an object that was asked something."""
+    from .raised import by_a_person  # it is needed where something is wrong
+
+    if by_a_person(error):
+        raise error
+
+
+LONGEST_VALUE = 10_000
+"""Characters of a value that is kept as text."""
+
+_PARTS = 10_000
+"""Elements of it that are looked at: each may hold many others, and these the same ones."""
+
+_HOLDING: tuple[Any, ...] = (list, tuple, dict)
+"""What holds others: a class that is made of one of these is written as that."""
 
 
 class _Everything(Repr):
-    """Like `repr`, but sets are sorted, and an error of an object's own is no error here."""
+    """Like `repr`, but sets are sorted, it comes to an end, and an object's error is no error here."""
 
     def __init__(self) -> None:
         super().__init__()
         self.maxlevel = 20
-        self.maxtuple = self.maxlist = self.maxdict = self.maxset = self.maxfrozenset = 10_000
-        self.maxarray = self.maxdeque = self.maxstring = self.maxlong = self.maxother = 100_000
+        self.maxtuple = self.maxlist = self.maxdict = self.maxset = self.maxfrozenset = _PARTS
+        self.maxarray = self.maxdeque = _PARTS
+        self.maxstring = self.maxlong = self.maxother = 2 * LONGEST_VALUE
+        self._left = _PARTS
+
+    def repr1(self, x: Any, level: int) -> str:
+        """Write a part of it."""
+        self._left -= 1
+        for kind in _HOLDING:
+            if type(x) is not kind and type(x).__repr__ is kind.__repr__:
+                x = kind(kind.__iter__(x)) if kind is not dict else dict(dict.items(x))
+        return super().repr1(x, level) if self._left >= 0 else "…"
+
+    def repr_int(self, x: int, level: int) -> str:
+        """Write a number, which may have more digits than Python writes."""
+        digits = int(x.bit_length() * log10(2)) + 1
+        return super().repr_int(x, level) if digits < MOST_DIGITS else f"<int of {digits:,} digits>"
 
 
-_EVERYTHING, _ADDRESS = _Everything(), re.compile(r" at 0x[0-9A-Fa-f]+")
+MOST_DIGITS = 600
+"""A number with more is kept as text: not every reader of JSON takes it."""
+
+_ADDRESS = re.compile(r" at 0x[0-9A-Fa-f]+")

@@ -43,6 +43,18 @@ def test_every_starts_each_round_at_a_multiple_of_it_after_the_first() -> None:
     assert starts(outcome) == [60.0, 160.0, 260.0, 360.0]
 
 
+@pytest.mark.parametrize("every", [1e-300, 5e-324, float("nan"), float("inf")])
+def test_rounds_that_no_number_counts_begin_at_once(every: float) -> None:
+    """A hook may set it to anything: nothing but its own mission has that."""
+    outcome = apps.fly(
+        apps.app(apps.flow(clock=True, repeater=True)),
+        apps.mission("m", apps.trip("A", 3.0), repeat=1, every=every),
+        on=apps.fleet((0.5, 0.5, 0.0), (1.5, 0.5, 0.0)),
+    )
+    assert len(starts(outcome)) == 2
+    assert starts(outcome)[1] < 60.0
+
+
 def test_a_round_that_takes_longer_than_every_waits_for_the_next_multiple() -> None:
     outcome = apps.fly(
         apps.app(apps.flow(clock=True, repeater=True)),

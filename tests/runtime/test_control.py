@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from dataclasses import replace
 
 import pytest
 
@@ -11,6 +12,7 @@ from plutoc_runtime.context import Context
 from plutoc_runtime.errors import BadInput
 from plutoc_runtime.model import Drone, Trip
 from plutoc_runtime.standing import Down
+from plutoc_runtime.testing.invariants import violations
 
 from . import apps
 from .living import Living, enterable, names
@@ -88,6 +90,22 @@ def test_a_skip_is_remembered_by_a_later_life() -> None:
     living.crash(4.0)
     assert living.run() == ["COMPLETED"]
     assert names(living.named("trip.completed"), "trip") == ["1"]
+
+
+def test_what_a_person_says_before_the_first_drone_is_remembered_by_a_later_life() -> None:
+    alone = replace(apps.fleet(), drones=apps.fleet().drones[:1])
+    others = apps.mission("a", apps.trip("1", 3))
+    waits = apps.mission("b", apps.trip("1", 3), apps.trip("2", 4), apps.trip("3", 5))
+    living = Living(enterable(), others, waits, on=alone)
+    living.at(2.0, lambda: living.life.control.skip("b", "1"))
+    living.at(2.0, lambda: living.life.control.prioritise("b", "3", 7))
+    living.crash(3.0)
+    assert living.run() == ["COMPLETED", "COMPLETED"]
+    assert names(living.named("mission.created"), "mission") == ["a", "b", "b"]
+    assert [trip["name"] for trip in living.life.recorder.records.missions["b"]["gone"]] == ["1"]
+    last = living.life.recorder.records.missions["b"]["done"][-1]
+    assert (last["name"], last["fields"]["priority"]) == ("3", 7)
+    assert violations(living.events, {}) == []
 
 
 def test_what_picks_or_releases_cannot_be_skipped_by_itself() -> None:

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import replace
+from typing import Any
 
 import pytest
 
 from plutoc_runtime.cli.events import line_of
-from plutoc_runtime.errors import Failure
+from plutoc_runtime.errors import BadInput, Failure
 from plutoc_runtime.gateway.pilots import Pilots
+from plutoc_runtime.journal.fold import Records
+from plutoc_runtime.journal.memory import Memory
 from plutoc_runtime.kernel import FLEET
 from plutoc_runtime.model import Drone
 from plutoc_runtime.signals import Signal
@@ -29,6 +33,17 @@ def living(*names: str, homes: int = 2, attempts: int = 5) -> Living:
 def drone(living: Living, id: str = "cf1") -> Drone:
     """Return a drone as the latest life sees it."""
     return next(one for one in living.life.session.drones if one.id == id)
+
+
+def records(living: Living) -> Records:
+    """Return what the journal says to the latest life."""
+    return living.life.recorder.records
+
+
+def flights_of(living: Living, id: str) -> list[float]:
+    """Return when a drone has set out."""
+    flights = [event for event in living.named("trip.launched") if event["drone"] == id]
+    return [float(str(event["t"])) for event in flights]
 
 
 def passes(living: Living, until: float) -> None:
@@ -97,6 +112,92 @@ def test_what_a_person_has_said_of_a_lost_drone_outlives_the_app() -> None:
     assert heard == ["cf1"]
     assert drone(fleet).status is DroneStatus.FREE
     assert fleet.life.recorder.records.mended == []
+
+
+def test_a_lost_drone_stays_lost_in_the_next_life_whatever_it_says_of_itself() -> None:
+    """The app dies; the drone is put home and is well, but nobody has said that they saw to it."""
+    fleet = living(*"abcdefgh")
+    crashes(fleet, 5.0)
+    fleet.at(19.0, lambda: fleet.navigation.mended("cf1"))
+    fleet.crash(20.0)
+    seen: list[Any] = []
+    fleet.at(60.0, lambda: seen.append((drone(fleet).status, records(fleet).lost["cf1"]["at"])))
+    fleet.at(60.0, lambda: seen.append(fleet.life.session.core.fleet.unready[drone(fleet)]))
+    fleet.at(61.0, lambda: fleet.life.control.bring_back("cf1"))
+    assert fleet.run() == ["COMPLETED"] * 8
+    (status, at), why = seen
+    assert status is DroneStatus.LOST
+    assert why == f"cf1 crashed at ({at[0]:g}, {at[1]:g})"
+    assert not [time for time in flights_of(fleet, "cf1") if 5.0 < time < 61.0]
+    assert flights_of(fleet, "cf1")[-1] > 61.0
+    assert records(fleet).lost == {}
+
+
+def test_a_lost_drone_that_hovers_when_the_app_goes_on_is_brought_down_and_stays_lost() -> None:
+    """It could not be reached when its action failed; it can now, but nobody has looked after it."""
+    action_fails = replace(apps.NO_FAULTS, action=1.0)
+    fleet = Living(
+        enterable(attempts=1), apps.mission("a", apps.trip("1", 4.0)), faults=action_fails
+    )
+
+    async def in_vain(_: str) -> bool:
+        return False
+
+    navigation = fleet.gateway.navigation
+    vars(navigation).update(recover=in_vain)
+
+    def start_anew() -> None:
+        fleet.die()
+        del vars(navigation)["recover"]
+        fleet.live_on()
+
+    fleet.at(40.0, start_anew)
+    passes(fleet, 39.0)
+    (lost,) = fleet.named("drone.lost")
+    who = str(lost["drone"])
+    assert not fleet.navigation.bodies[who].landed
+    passes(fleet, 100.0)
+    assert fleet.navigation.bodies[who].is_docked
+    assert drone(fleet, who).status is DroneStatus.LOST
+    assert records(fleet).lost[who]["reason"] == lost["reason"]
+
+
+def test_a_new_journal_knows_who_was_lost_and_who_was_brought_back_before() -> None:
+    """Drones do not heal because a journal is new."""
+    known = Records()
+    before = {"cf1": {"reason": "cf1 crashed", "at": [1.0, 2.0, 0.0]}}
+    begun = {"t": 0.0, "event": "journal.begun", "lost": before, "mended": ["cf2"]}
+    known.take({**begun, "retired": ["cf3"]})
+    assert (known.lost, known.mended, known.retired) == (before, ["cf2"], ["cf3"])
+    known.take({"t": 1.0, "event": "drone.lost", "drone": "cf1", "at": [9.0, 9.0, 0.0]})
+    assert known.lost["cf1"]["at"] == [1.0, 2.0, 0.0]
+    known.take({"t": 2.0, "event": "drone.brought_back", "drone": "cf1", "lost": True})
+    assert (known.lost, known.mended) == ({}, ["cf2", "cf1"])
+
+
+def test_where_every_drone_is_lost_nothing_begins() -> None:
+    """It says who, why, and what to do."""
+    fleet = living("a", homes=1)
+    fleet.die()
+    lost = {"cf1": {"reason": "cf1 crashed at (1, 2)", "at": [1.0, 2.0, 0.0]}}
+    fleet.memory = Memory({"t": 0.0, "event": "journal.begun", "lost": lost})
+    fleet.memory.append([json.dumps([{"t": 0.0, "event": "journal.begun", "lost": lost}])])
+    fleet.live_on()
+    passes(fleet, 10.0)
+    assert fleet.life.control.whole is not None
+    with pytest.raises(BadInput, match="cf1: it is lost, and nobody has brought it back"):
+        fleet.life.control.whole.result()
+
+
+def test_a_drone_that_was_not_ready_is_asked_anew_when_a_person_has_looked_after_it() -> None:
+    """It crashed before anything began, say, and waits for just that."""
+    fleet = living("a")
+    fleet.run(2.0)
+    heard: list[str] = []
+    vars(fleet.gateway.navigation).update(mended=heard.append)
+    fleet.life.session.core.fleet.unready[drone(fleet)] = "it has crashed"
+    assert fleet.life.control.bring_back("cf1") == "cf1 is asked whether it is well"
+    assert heard == ["cf1"]
 
 
 def test_a_drone_that_is_neither_retired_nor_lost_need_not_be_brought_back() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import signal
 from collections.abc import Callable
 from contextlib import suppress
 from typing import Any
@@ -11,19 +12,23 @@ import pytest
 
 from plutoc_blocks.gate_funnel.step import wait_for_all
 from plutoc_blocks.mission_creator.step import create_mission
+from plutoc_blocks.mission_evaluator.step import evaluate_mission
 from plutoc_blocks.mission_modifier.step import modify_mission
 from plutoc_blocks.priority_manager.step import raise_priority
+from plutoc_runtime import state
 from plutoc_runtime.actions import Action
 from plutoc_runtime.context import Context
 from plutoc_runtime.errors import ActionFailed
 from plutoc_runtime.kernel import Cancelled
 from plutoc_runtime.model import Mission
+from plutoc_runtime.raised import Interrupted, interrupted_by_a_person
 from plutoc_runtime.run import Run
 from plutoc_runtime.status import Status
 from plutoc_runtime.verdict import Verdict
 from tests.runtime import apps
 
 Hook = Callable[..., object]
+ANY_END = (Status.STANDBY, Status.COMPLETED, Status.FAILED)
 
 
 def reason_of(hook: Hook, *, watch: apps.Way | None = None) -> str:
@@ -72,8 +77,33 @@ def test_whatever_a_hook_raises_is_its_missions_fault_alone(
         await context.sleep(1)
         raise error
 
+    async def never_waits(mission: Mission[apps.Trip], context: Context) -> None:
+        raise error
+
     assert says in reason_of(at_once)
     assert says in reason_of(later)
+    if not isinstance(error, StopIteration):  # of which Python itself makes a RuntimeError
+        assert says in reason_of(never_waits)
+
+
+def test_an_interrupt_that_a_hook_raises_is_not_a_persons() -> None:
+    """Where the program itself hears Ctrl-C, it can tell one from the other."""
+
+    def at_once(mission: Mission[apps.Trip], context: Context) -> None:
+        raise KeyboardInterrupt
+
+    async def later(mission: Mission[apps.Trip], context: Context) -> None:
+        await context.sleep(1)
+        raise KeyboardInterrupt
+
+    def a_person(mission: Mission[apps.Trip], context: Context) -> None:
+        signal.raise_signal(signal.SIGINT)
+
+    with interrupted_by_a_person():
+        assert "may not raise KeyboardInterrupt" in reason_of(at_once)
+        assert "may not raise KeyboardInterrupt" in reason_of(later)
+        with pytest.raises(Interrupted):
+            reason_of(a_person)
 
 
 def empties(mission: Any, context: Context) -> None:
@@ -197,13 +227,13 @@ def test_a_fault_in_one_branch_does_not_wait_for_the_others() -> None:
     assert apps.times(outcome, "mission.ended") == [1.0]
 
 
-def test_a_failure_before_the_launch_counts_as_an_attempt() -> None:
-    """Else a modifier that fails every time would be retried for ever, at one instant."""
+def test_a_failure_before_the_launch_counts_as_no_attempt(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Only flights count; a modifier that fails every time is stopped by the number of its calls."""
+    monkeypatch.setattr(state, "MOST_CALLS", 10)
     asked: list[int] = []
 
     def never(mission: Any, context: Context) -> Status:
         asked.append(mission.current.attempt)
-        assert len(asked) < 10
         return Status.FAILED
 
     async def flow(run: Run[Any]) -> Status:
@@ -216,7 +246,69 @@ def test_a_failure_before_the_launch_counts_as_an_attempt() -> None:
 
     (mission,) = apps.fly(apps.app(flow), apps.mission("m", apps.trip("A", 3.0))).missions
     assert mission.status is Status.FAILED
-    assert asked == [1, 2, 3]
+    assert "it goes round in its graph for ever" in mission.reason
+    assert asked == [1] * 10
+
+
+@pytest.mark.parametrize("max_attempts", [1, 3])
+def test_a_failure_after_another_trips_end_is_charged_to_no_trip(max_attempts: int) -> None:
+    """The hook fails the mission once, when A is over; B has not flown, and flies as attempt 1."""
+    said: list[Status] = []
+
+    def once(mission: Any, context: Context) -> Status:
+        said.append(Status.FAILED if not said else mission.status)
+        return said[-1]
+
+    async def watch(run: Run[Any], status: Status) -> Status:
+        status = await apps.watched(run, status)
+        status = await modify_mission(run, status, hook=once, emits=ANY_END)
+        if status is Status.FAILED:
+            return raise_priority(run, status, max_attempts=max_attempts, priority=0)
+        return status
+
+    tested = apps.app(apps.flow(watch=watch))
+    outcome = apps.fly(tested, apps.mission("m", apps.trip("A", 3.0), apps.trip("B", 5.0)))
+    assert outcome.completed
+    launched = apps.events(outcome, "trip.launched")
+    assert [(event["trip"], event["attempt"]) for event in launched] == [("A", 1), ("B", 1)]
+
+
+def test_a_trip_that_flew_and_failed_is_charged_once_whatever_hooks_say_then() -> None:
+    """It failed in flight, was put back, and a hook failed the mission again before it flew."""
+    said: list[int] = []
+
+    def twice(mission: Any, context: Context) -> Status:
+        said.append(mission.current.attempt)
+        return Status.FAILED
+
+    async def watch(run: Run[Any], status: Status) -> Status:
+        for _ in range(3):
+            status = await modify_mission(run, status, hook=twice, emits=(Status.FAILED,))
+            status = raise_priority(run, status, max_attempts=2, priority=0)
+        return status
+
+    tested = apps.app(apps.flow(watch=watch))
+    outcome = apps.fly(tested, apps.mission("m", apps.trip("A", 3.0)))
+    assert outcome.missions[0].status is Status.FAILED
+    assert said == [1, 2, 2, 2, 2, 2]
+    assert [event["attempt"] for event in apps.events(outcome, "trip.launched")] == [1, 2]
+
+
+def test_nothing_is_put_back_where_no_trip_is_left() -> None:
+    """A PriorityManager behind an evaluator's FAILED ends the mission, and says both reasons."""
+
+    async def watch(run: Run[Any], status: Status) -> Status:
+        status = await apps.watched(run, status)
+        status = await evaluate_mission(
+            run, status, hook=lambda mission, results: Verdict(fail="too dry"), evaluator=None
+        )
+        raise_priority(run, status, max_attempts=3, priority=0)
+        raise AssertionError("it went on")
+
+    outcome = apps.fly(apps.app(apps.flow(watch=watch)), apps.mission("m", apps.trip("A", 3.0)))
+    (mission,) = outcome.missions
+    assert mission.status is Status.FAILED
+    assert mission.reason == "too dry; no trip is left to fly"
 
 
 def verdict_of(verdict: Verdict) -> Mission[Any]:

@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 
 from plutoc_blocks.mission_modifier.step import modify_mission
+from plutoc_runtime import state
 from plutoc_runtime.context import Context
 from plutoc_runtime.model import Mission
 from plutoc_runtime.run import Run
@@ -127,18 +128,41 @@ def test_a_trip_is_reset_only_when_it_is_over() -> None:
     assert (trip.status, trip.attempt) == (TripStatus.WAITING, 2)
 
 
-def test_a_mission_that_goes_round_without_time_passing_fails_with_the_reason() -> None:
-    def look(mission: Mission[apps.Trip], context: Context) -> None:
-        return None
+async def round_and_round(run: Run[Any], status: Status) -> Status:
+    """A loop of one modifier, which sleeps or does not."""
+    while True:
+        status = await modify_mission(run, status, hook=LOOKS[run.mission.name])
 
-    async def round_and_round(run: Run[Any], status: Status) -> Status:
-        while True:
-            status = await modify_mission(run, status, hook=look)
 
+def look(mission: Mission[apps.Trip], context: Context) -> None:
+    """Look, and change nothing."""
+
+
+async def look_later(mission: Mission[apps.Trip], context: Context) -> None:
+    """Look after a while."""
+    await context.sleep(0.001)
+
+
+LOOKS = {"at once": look, "later": look_later}
+
+
+@pytest.mark.parametrize("name", LOOKS)
+def test_a_mission_that_goes_round_for_ever_fails_with_the_reason(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Also where its hook sleeps in between: then the clock does not stand still."""
+    monkeypatch.setattr(state, "MOST_CALLS", 5_000)
     outcome = apps.fly(
-        apps.app(apps.flow(watch=round_and_round)), apps.mission("m", apps.trip("A", 2.0))
+        apps.app(apps.flow(watch=round_and_round)), apps.mission(name, apps.trip("A", 2.0))
     )
     (mission,) = outcome.missions
     assert mission.status is Status.FAILED
-    assert "goes round in its graph for ever" in mission.reason
+    assert "it goes round in its graph for ever" in mission.reason
     assert outcome.drones[0].status.value == "FREE"
+
+
+def test_hooks_calls_are_counted_from_launch_to_launch(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A mission of many trips calls its hooks often, and goes round nowhere."""
+    monkeypatch.setattr(state, "MOST_CALLS", 1)
+    trips = [apps.trip(f"{number}", 1.0 + number) for number in range(4)]
+    assert apps.fly(apps.app(apps.flow(prepare=look)), apps.mission("m", *trips)).completed

@@ -12,12 +12,16 @@ from typing import Any
 
 import pytest
 
+from plutoc_blocks.mission_modifier.step import modify_mission
+from plutoc_runtime import state
 from plutoc_runtime.actions import Action
 from plutoc_runtime.airspace import Airspace
 from plutoc_runtime.context import Context
 from plutoc_runtime.kernel import FLEET
-from plutoc_runtime.model import Category, Drone
+from plutoc_runtime.model import Category, Drone, Mission
 from plutoc_runtime.realtime import RealTime
+from plutoc_runtime.run import Run
+from plutoc_runtime.status import Status
 from plutoc_runtime.trace import Event
 from tests.runtime import apps, in_real_time
 
@@ -170,3 +174,29 @@ def test_time_can_pass_faster_than_on_the_wall() -> None:
         return kernel.now
 
     assert asyncio.run(main()) >= 1000
+
+
+async def look(mission: Mission[apps.Trip], context: Context) -> None:
+    """Look again and again, and change nothing."""
+    await context.sleep(0.0001)
+
+
+def test_a_mission_that_goes_round_for_ever_fails_though_time_passes(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Here the clock never stands still; what counts is what lies between two launches."""
+    monkeypatch.setattr(state, "MOST_CALLS", 20)
+
+    async def round_and_round(run: Run[Any], status: Status) -> Status:
+        while True:
+            status = await modify_mission(run, status, hook=look)
+
+    mission = apps.mission("a", apps.trip("A", 0.6))
+    in_real_time.fly(
+        apps.app(apps.flow(watch=round_and_round), categories=[FAST]),
+        [mission],
+        apps.fleet((0.5, 0.5, 0.0), airspace=LOW),
+        lambda event: None,
+    )
+    assert mission.status is Status.FAILED
+    assert "it goes round in its graph for ever" in mission.reason

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.spots import free_spot
+from plutoc_runtime.spots import free_spot, free_spots
 
 MAP = Airspace(size=(8.0, 6.0), no_fly=(((2, 2), (5, 2), (5, 4), (2, 4)), ((6, 0), (8, 0), (8, 1))))
 places = st.tuples(st.floats(0, 8), st.floats(0, 6), st.floats(0, 3))
@@ -42,3 +42,11 @@ def test_a_map_that_is_full_leaves_no_choice() -> None:
     """Down is better than nowhere."""
     crowd = [(i / 2, j / 2, 0.0) for i in range(17) for j in range(13)]
     assert free_spot(MAP, (3.0, 3.0, 1.0), crowd, 2.0) == (3.0, 3.0, 0.0)
+
+
+def test_on_a_map_of_kilometres_only_what_is_near_is_looked_at() -> None:
+    """A drone that must come down does not wait until all of it was."""
+    strip = Airspace(size=(5.0, 10_000.0))
+    found = list(free_spots(strip, (2.0, 5000.0, 3.0), [(2.0, 5000.0, 0.0)], 10.0))
+    assert found
+    assert all(hypot(x - 2.0, y - 5000.0) <= 30.1 for x, y, _ in found)

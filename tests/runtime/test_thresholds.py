@@ -20,6 +20,7 @@ class Standing:
     location: Point = (0.0, 0.0, 0.0)
     battery_level: float = 0.5
     landed: bool = True
+    silence: float = 0.0
 
 
 @dataclass(eq=False)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import ceil
+from math import ceil, isfinite
 from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.kernel import Kind
@@ -66,5 +66,7 @@ def _begins(run: Run[Any]) -> float:
     if mission.round == 0 and at is not None and first_start is None:
         return arrival + (at - kernel.time_of_day) % DAY
     if mission.round > 0 and every and first_start is not None:
-        return first_start + ceil(round((arrival - first_start) / every, 9)) * every
+        rounds = (arrival - first_start) / every
+        # a hook may have made it as short as it likes: then the next round begins at once
+        return first_start + ceil(round(rounds, 9)) * every if isfinite(rounds) else arrival
     return 0.0

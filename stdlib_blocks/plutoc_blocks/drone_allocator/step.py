@@ -6,7 +6,7 @@ from collections.abc import Generator
 from types import coroutine
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.errors import MissionFailed
+from plutoc_runtime.errors import MissionFailed, nothing_to_fly
 from plutoc_runtime.kernel import Kind
 from plutoc_runtime.status import FAILED, STANDBY, Status
 from plutoc_runtime.words import duration
@@ -36,7 +36,7 @@ def allocate_drone(
     if state.goes_on:
         return status  # it was interrupted after its launch
     if not mission.trips:
-        raise MissionFailed(mission.reason or "no trip is left to fly")
+        raise nothing_to_fly(mission.reason)
     if status is FAILED:
         core.transitions.put_back(mission)
         status = STANDBY

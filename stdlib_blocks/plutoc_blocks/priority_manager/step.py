@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.errors import MissionFailed
-from plutoc_runtime.status import STANDBY, Status
+from plutoc_runtime.errors import nothing_to_fly
+from plutoc_runtime.status import STANDBY, Status, TripStatus
 
 if TYPE_CHECKING:
     from plutoc_runtime.run import Run
@@ -15,11 +15,10 @@ def raise_priority(run: Run[Any], status: Status, *, max_attempts: int, priority
     """Put the trip that failed back, unless it has been tried often enough."""
     mission = run.mission
     if not mission.trips:
-        if max_attempts:
-            return status
-        raise MissionFailed(mission.reason)
-    trip = mission.current
-    if max_attempts and trip.attempt >= max_attempts:
+        raise nothing_to_fly(mission.reason)
+    trip = mission.trips[0]
+    flown = trip.attempt - (trip.status is TripStatus.WAITING)  # its next attempt is no flight yet
+    if max_attempts and flown >= max_attempts:
         return status
     trip.priority = priority + 1
     run.core.transitions.put_back(mission)

@@ -18,6 +18,7 @@ class Standing:
     location: Point
     battery_level: float = 1.0
     landed: bool = True
+    silence: float = 0.0
 
 
 def drone(index: int, place: Point) -> Drone:

@@ -1,0 +1,56 @@
+"""A simulation that nothing bounds ends all the same: a graph may try for ever what can never succeed.
+
+Flights are counted and not hours: a plan may well last for months.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from .model import Mission
+from .trace import Event
+from .words import counted, quoted
+
+FLIGHTS = 1_000
+"""So many flights a planned trip, in one round of its mission, and no more."""
+IDLE = 366 * 86_400.0
+"""Seconds for which nothing at all sets out."""
+
+
+MORE = "to fly on, say how long with --until, such as --until 2h"
+
+
+class Enough(Exception):
+    """The simulation is given up; the message says why."""
+
+
+class Bound:
+    """Counts the flights of each mission, and says when it is enough."""
+
+    def __init__(self, missions: Sequence[Mission[Any]]) -> None:
+        self._most = {one.name: FLIGHTS * max(1, len(one.trips)) for one in missions}
+        self._flights = dict.fromkeys(self._most, 0)
+        self.last = 0.0
+        """When the last flight set out."""
+
+    def look(self, event: Event) -> Enough | None:
+        """Hear of an event; return why there is no end to be expected, once there is none."""
+        what = event["event"]
+        if what == "trip.launched":
+            name = str(event["mission"])
+            self.last = float(str(event["t"]))
+            self._flights[name] = flights = self._flights[name] + 1
+            if flights >= self._most[name]:
+                trips = counted(self._most[name] // FLIGHTS, "trip")
+                return Enough(
+                    f"mission {quoted(name)} has set out {flights} times for {trips}, and nothing"
+                    f" ends that; {MORE}"
+                )
+        elif what == "mission.repeated":
+            self._flights[str(event["mission"])] = 0
+        return None
+
+    def idle(self) -> str:
+        """Return what is said where nothing has set out for too long."""
+        return f"nothing has set out for {IDLE / 86_400:.0f} days, and missions are not at their end; {MORE}"
