@@ -13,6 +13,7 @@ from types import MappingProxyType
 
 from plutoc.block import Block
 from plutoc.frozen import frozen
+from plutoc.terminated import Terminated
 
 GROUP = "plutoc.blocks"
 STD = "std"
@@ -22,7 +23,15 @@ OURS = "plutoc_blocks:BLOCKS"
 
 
 class RegistryError(Exception):
-    """A package of blocks cannot be used. The message is a sentence for a person."""
+    """A package of blocks cannot be used. The message is a sentence for a person.
+
+    It may quote what somebody else has written: nothing in it can command a terminal.
+    """
+
+    def __init__(self, message: str) -> None:
+        from plutoc_runtime.words import printable
+
+        super().__init__("\n".join(map(printable, message.split("\n"))))
 
 
 @frozen
@@ -84,12 +93,17 @@ def _ours() -> object:
 def _loaded(package: str, value: str, load: Callable[[], object]) -> Mapping[str, Block]:
     try:
         declared = load()
-    except Exception as error:  # it is somebody else's code: anything can come out of it
+        if isinstance(declared, Iterable):
+            declared = tuple(declared)
+    except (KeyboardInterrupt, Terminated):
+        raise
+    except BaseException as error:  # somebody else's code, which may even call sys.exit
+        from plutoc_runtime.hooks import said  # only where something has gone wrong
+
         raise RegistryError(
-            f"the blocks of {package} cannot be loaded from {value}:"
-            f" {type(error).__name__}: {error}"
+            f"the blocks of {package} cannot be loaded from {value}: {said(error)}"
         ) from error
-    if not isinstance(declared, Iterable):
+    if not isinstance(declared, tuple):
         raise RegistryError(
             f"{value} of {package} is of type {type(declared).__name__}, not a tuple of blocks"
         )
@@ -99,6 +113,8 @@ def _loaded(package: str, value: str, load: Callable[[], object]) -> Mapping[str
             raise RegistryError(
                 f"{value} of {package} holds something of type {type(block).__name__}, not only blocks"
             )
+        if package != STD:  # ours are looked at by our tests: this takes its time
+            _look_at(block, package)
         if (block.holds or block.allocates) and not block.named:
             what = "gives missions their drones" if block.allocates else "holds missions back"
             raise RegistryError(
@@ -109,3 +125,16 @@ def _loaded(package: str, value: str, load: Callable[[], object]) -> Mapping[str
             raise RegistryError(f"{package} declares {block.name} twice")
         found[block.name] = block
     return MappingProxyType(found)
+
+
+def _look_at(block: Block, package: str) -> None:
+    """Raise `RegistryError` if a declaration is not what it must be."""
+    from plutoc.declared import is_name, mistakes_in
+
+    try:
+        mistakes = list(mistakes_in(block))
+    except Exception as error:  # noqa: BLE001 - a value of some class of theirs, which raises this
+        mistakes = [f"it cannot be looked at: {type(error).__name__}"]
+    if mistakes:
+        name = block.name if is_name(block.name) else "one of its blocks"
+        raise RegistryError(f"{name} of {package} is not declared as a block is: {mistakes[0]}")

@@ -55,6 +55,7 @@ def test_package_is_found_by_its_entry_point(install: Install) -> None:
         ("import a_module_that_is_not_there", "cannot be loaded"),
         ("raise RuntimeError('out of tune')", "RuntimeError: out of tune"),
         ("", "cannot be loaded"),
+        ("raise SystemExit(0)", "SystemExit: 0"),
         ("BLOCKS = 3", "is of type int, not a tuple of blocks"),
         ("BLOCKS = ('Scan',)", "of type str, not only blocks"),
         (GOOD + "BLOCKS *= 2", "declares Scan twice"),

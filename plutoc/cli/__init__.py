@@ -15,9 +15,9 @@ from plutoc.cli.endings import (
     INTERRUPTED,
     REFUSED,
     USAGE,
-    Terminated,
     Unusable,
 )
+from plutoc.terminated import Terminated
 from plutoc_runtime.cli import output
 
 TYPE_CHECKING = False  # `typing` itself is slow to import, and `--version` does without
@@ -83,11 +83,9 @@ class _Ending:
             case Terminated():
                 output.tell("plutoc: terminated")
                 self.code = error.code
-            case Exception():
+            case _:  # even a SystemExit: it would pass for a proper end
                 _report_bug(error)
                 self.code = INTERNAL
-            case _:
-                return False
         return True
 
 
@@ -169,7 +167,7 @@ def _run(options: Options) -> int:
             return blocks(options)
 
 
-def _report_bug(error: Exception) -> None:
+def _report_bug(error: BaseException) -> None:
     if os.environ.get("PLUTO_DEBUG") == "1":
         import traceback
 

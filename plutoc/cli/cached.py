@@ -14,7 +14,7 @@ from tempfile import TemporaryDirectory
 
 from plutoc.cache import cache_folder
 from plutoc.check.model import Checked
-from plutoc.cli.endings import Terminated, Unusable
+from plutoc.cli.endings import Unusable
 from plutoc.cli.files import default_folder, find_hooks, hooks_path, read_module
 from plutoc.cli.say import say
 from plutoc.compile import Compiled, compile_source
@@ -24,6 +24,7 @@ from plutoc.emit.lock import NAME as LOCK
 from plutoc.emit.package import Package
 from plutoc.emit.write import CannotWrite, compare, write
 from plutoc.source import Source
+from plutoc.terminated import Terminated
 from plutoc_runtime.cli import output
 from plutoc_runtime.words import printable
 

@@ -168,7 +168,10 @@ def _outcome(compiled: Compiled, changes: Changes) -> Iterator[str]:
             yield f"  your own code goes into {own}"
         path = os.path.join(".", changes.folder)
         if printable(path) == path:  # else a shell would need it otherwise than can be shown
-            yield f"  install it with: pip install {quote(path)}"
+            why = (
+                "; by -e what you edit there counts at once" if graph.hooks or graph.actions else ""
+            )
+            yield f"  install it with: pip install -e {quote(path)}{why}"
     elif changes.files:
         yield f"{folder}: {counted(len(changes.files), 'file')} changed"
         for change in changes.files:

@@ -7,11 +7,3 @@ CLEAN, ERRORS, USAGE, REFUSED, INTERNAL, INTERRUPTED, CLOSED_PIPE = 0, 1, 2, 3, 
 
 class Unusable(Exception):
     """Wrong usage, or a file that cannot be read or written. The text says so to a person."""
-
-
-class Terminated(BaseException):
-    """We were told to end, by a signal: no mistake of anybody's, so no `Exception` either."""
-
-    def __init__(self, signal: int) -> None:
-        super().__init__(signal)
-        self.code = 128 + signal

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import os
+import stat
 import sys
 from pathlib import Path
+from typing import NoReturn
 
 from plutoc.check.model import Checked
 from plutoc.cli.endings import Unusable
@@ -46,22 +48,46 @@ def find_hooks(checked: Checked, file: Path, folder: Path) -> Source | None:
     """Return the hooks.py that counts: the package's own, else the one beside the app."""
     own = folder / hooks_path(checked)
     for path, top in ((own, folder), (file.parent / HOOKS, file.parent / HOOKS)):
-        if path.is_file():
+        if _is_there(checked, path):
             _refuse_links(checked, path, top)
             return read_module(path)
     return None
+
+
+def _is_there(checked: Checked, path: Path) -> bool:
+    """Say whether there is a file, or a link; refuse what is neither, and has its name.
+
+    A pipe is not opened: nobody may ever write into it.
+    """
+    try:
+        mode = os.lstat(path).st_mode
+    except (FileNotFoundError, NotADirectoryError):
+        return False
+    except (
+        OSError,
+        ValueError,
+    ) as error:  # a name that is too long, a folder that nobody may enter
+        raise Unusable(f"{shown(path)} cannot be read: {_why(error)}") from None
+    if not (stat.S_ISREG(mode) or stat.S_ISLNK(mode)):
+        is_folder = stat.S_ISDIR(mode)
+        _refuse(
+            checked, path, "a folder" if is_folder else "a pipe, a socket or a device", "a file"
+        )
+    return True
 
 
 def _refuse_links(checked: Checked, path: Path, top: Path) -> None:
     """Follow no link: a stranger's folder could show, or take along, any file of the user's."""
     for one in reversed((path, *path.parents)):
         if one.is_relative_to(top) and one.is_symlink():
-            from plutoc.emit.errors import in_the_way, place_of
-            from plutoc.emit.write import Refused
+            _refuse(checked, one, "a symbolic link", "a file" if one == path else "a folder")
 
-            wanted = "a file" if one == path else "a folder"
-            place = place_of(checked.graph)
-            raise Refused([in_the_way(place, shown(one), "a symbolic link", wanted)])
+
+def _refuse(checked: Checked, path: Path, what: str, wanted: str) -> NoReturn:
+    from plutoc.emit.errors import in_the_way, place_of
+    from plutoc.emit.write import Refused
+
+    raise Refused([in_the_way(place_of(checked.graph), shown(path), what, wanted)])
 
 
 def hooks_path(checked: Checked) -> str:

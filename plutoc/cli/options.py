@@ -44,6 +44,8 @@ class Options:
     fleet: Path | None = None
     seed: int | None = None
     seeds: int | None = None
+    runs: int | None = None
+    fail: str | None = None
     strike: str | None = None
     weather: str | None = None
     json: bool = False
@@ -199,6 +201,14 @@ def _run(parser: ArgumentParser) -> None:
     )
     parser.add_argument(
         "--seed", metavar="N", type=_whole, help="what chance depends on (default 0)"
+    )
+    parser.add_argument(
+        "--fail",
+        metavar="WHAT=SHARE,…",
+        help="let flights go wrong: crash, link, action, battery; such as crash=10%%,link=1%%",
+    )
+    parser.add_argument(
+        "--runs", metavar="N", type=_whole, help="simulate N times, with N seeds from --seed on"
     )
     parser.add_argument("--json", action="store_true", help="print one JSON object instead")
 

@@ -22,6 +22,8 @@ def run(options: Options) -> int:
     with in_cache(options.file, source) as (path, app):
         arguments = ["simulate", os.fspath(missions)]
         arguments += ["--fleet", os.fspath(fleet)] if fleet else []
-        arguments += ["--seed", str(options.seed)] if options.seed is not None else []
+        for flag in ("seed", "fail", "runs"):
+            value = getattr(options, flag)
+            arguments += [f"--{flag}={value}"] if value is not None else []
         arguments += ["--json"] if options.json else []
         return call(path, app, arguments)

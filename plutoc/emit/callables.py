@@ -18,7 +18,8 @@ from plutoc_runtime.watching import watch
 RESERVED = frozenset(
     {
         *("APP", "Action", "App", "BUILT_IN", "CATEGORIES", "FIELDS", "Mission", "Parameter"),
-        *("Run", "Status", "Trip", "Type", "at", "flow", "hooks", "mission", "partial"),
+        *("Run", "Status", "Trip", "Type", "at", "declared", "flow", "hooks", "mission"),
+        "partial",
         *("run", "status"),
         *(status.name for status in IN_GRAPH),
     }

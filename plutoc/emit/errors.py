@@ -153,6 +153,19 @@ def not_embeddable(place: Place, sentence: str) -> Diagnostic:
     )
 
 
+def newer(place: Place, folder: str, made_by: str, ours: str) -> Diagnostic:
+    """A package that a newer compiler wrote."""
+    return error(
+        "P4010",
+        f"`{folder}` was made by plutoc {made_by}, and this is plutoc {ours}",
+        place.source,
+        place.span,
+        label="its package",
+        help=f"compile with plutoc {made_by} or newer: what has been mended since would be undone;"
+        " `--force` overwrites it with what this one makes",
+    )
+
+
 def _first_difference(text: str, wanted: str | None) -> Span:
     """Return the first line that is not as it should be."""
     if wanted is None:

@@ -8,6 +8,7 @@ from dataclasses import replace
 
 from plutoc.block import HookKind
 from plutoc.emit.callables import carried_functions, imports_of, names_of
+from plutoc.emit.declared import declared_of
 from plutoc.emit.fields import fields_of
 from plutoc.emit.imports import Import, import_lines, names
 from plutoc.emit.python import call, items, literal
@@ -50,6 +51,7 @@ def flow_file(plan: Plan) -> str:
         fields={field.name: field for field in fields_of(graph)},
         left_out=frozenset(plan.left_out),
         mission="mission",
+        declared=declared_of(plan.checked),
         place="at" if _asked_in_loops(plan.body) else "run.at",
     )
     in_branch = replace(scope, mission="run.mission")
@@ -103,6 +105,8 @@ def _imports(graph: Graph, written: str) -> list[Import]:
     ]
     if "hooks." in written:
         imports += names(".", "hooks")
+    if "declared(" in written:
+        imports += names("._runtime.declared", "declared")
     if "partial(" in written:
         imports += names("functools", "partial")
     if graph.actions:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import replace
+from dataclasses import field, replace
 from inspect import CO_ITERABLE_COROUTINE, iscoroutinefunction
 from typing import Any
 
@@ -45,6 +45,8 @@ class Scope:
     """Blocks and their parameters that are not handed over."""
     mission: str
     """How the mission is reached here."""
+    declared: Mapping[str, str] = field(default_factory=dict)
+    """The statuses that blocks of other packages may give, as Python has them."""
     head: str = ""
     """Where the innermost loop begins."""
     place: str = "run.at"
@@ -114,7 +116,9 @@ def _call(node: Node, branches: tuple[str, ...], scope: Scope) -> str:
     step = Carried(package=node.package, function=node.block.step)
     arguments = ("run", "status", *branches, *_keywords(node, scope))
     called = call(scope.names[step], arguments)
-    return f"await {called}" if _waits(node.block.step) else called
+    called = f"await {called}" if _waits(node.block.step) else called
+    given = scope.declared.get(node.name)
+    return call("declared", (literal(node.name), called, given)) if given else called
 
 
 def _waits(step: Callable[..., Any]) -> bool:
@@ -162,9 +166,9 @@ def _keywords(node: Node, scope: Scope) -> Iterator[str]:
                 pass
     if block.emits_by_hook and node.hook and node.hook.emits:
         yield f"emits={_any_of(node.hook.emits)}"
-    for field in asked_for(node, scope):
-        place = scope.mission if field.on is Entity.MISSION else "run.trip"
-        yield f"{field.name}={place}.{field.name}"
+    for one in asked_for(node, scope):
+        place = scope.mission if one.on is Entity.MISSION else "run.trip"
+        yield f"{one.name}={place}.{one.name}"
 
 
 def asked_for(node: Node, scope: Scope) -> tuple[Field, ...]:

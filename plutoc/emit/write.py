@@ -14,6 +14,7 @@ from hashlib import sha256
 from pathlib import Path
 from types import MappingProxyType
 
+from plutoc import __version__
 from plutoc.diagnostic import Diagnostic, Rejected
 from plutoc.emit import errors
 from plutoc.emit.errors import Place
@@ -123,6 +124,8 @@ def _lock(app: str, folder: Path, place: Place, *, force: bool) -> Lock | None:
         raise Refused([errors.damaged_lock(place, str(path), str(error))]) from None
     if lock.app != app:
         raise Refused([errors.another_app(place, str(folder), lock.app)])
+    if lock.made_by is not None and not force and lock.is_by_newer_than(__version__):
+        raise Refused([errors.newer(place, str(folder), lock.made_by, __version__)])
     return lock
 
 

@@ -17,13 +17,21 @@ IMPLICIT = "drone"
 """The name of the category of an app that declares none."""
 
 PARAMS = (
-    Param(name="payload", type=Type.MASS, doc="What it can carry.", default=0.01, least=0.0),
+    Param(name="payload", type=Type.MASS, doc="What it can carry.", default=0.01),
     Param(name="speed", type=Type.SPEED, doc="How fast it flies.", default=0.5),
     Param(name="flight_time", type=Type.TIME, doc="From a full battery.", default=420.0),
     Param(name="charge_time", type=Type.TIME, doc="To a full battery.", default=1200.0),
     Param(name="reserve", type=Type.PERCENT, doc="The charge to land with.", default=0.2),
 )
 _BY_NAME = {param.name: param for param in PARAMS}
+
+_POSSIBLE = {
+    "payload": (0.0, 1000.0, "from 0 g to 1000 kg"),
+    "speed": (0.01, 100.0, "from 0.01 m/s to 100 m/s"),
+    "flight_time": (1.0, 1e6, "from 1 s to 1000000 s"),
+    "charge_time": (1.0, 1e6, "from 1 s to 1000000 s"),
+}
+"""The smallest and the largest, in SI units: a drone is never beyond, and arithmetic may be."""
 
 
 def implicit() -> Category:
@@ -70,10 +78,9 @@ def _is_possible(
 ) -> bool:
     if param.type is Type.PERCENT:
         possible, rule = value < 1, "less than 100 %"
-    elif param.least is not None:
-        possible, rule = value >= param.least, f"{param.least:g} or more"
     else:
-        possible, rule = value > 0, "more than 0"
+        least, most, rule = _POSSIBLE[param.name]
+        possible = least <= value <= most
     if not possible:
         found.append(value_errors.out_of_range(source, argument.value.span, param.name, rule))
     return possible

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import keyword
 import re
-import sys
 import unicodedata
 from collections.abc import Iterable
 from enum import Enum
@@ -14,24 +13,6 @@ from plutoc.syntax.newlines import WORDS
 LONGEST = 63
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
-
-_TAKEN_PACKAGES = frozenset(
-    {
-        *("cflib", "starlette", "uvicorn", "pytest", "numpy", "scipy", "hatchling"),
-        *("matplotlib", "websockets"),
-        *("anyio", "click", "h11", "idna", "typing_extensions"),  # they need these
-        *("libusb_package", "packaging", "pyusb", "usb", "pyyaml", "yaml"),  # and cflib these
-        *("pluto", "plutoc", "plutoc_runtime", "plutoc_blocks", "plutoc_grammar"),
-        *("src", "tests", "test", "docs", "dist", "build", "setup", "conftest"),
-    }
-)
-"""Packages that a generated one can depend on, ours, and folders that it stands beside."""
-
-_DEVICES = frozenset(
-    {"con", "prn", "aux", "nul"}
-    | {f"{port}{number}" for port in ("com", "lpt") for number in range(10)}
-)
-"""Names that Windows keeps for devices: no folder can have them."""
 
 
 class Style(Enum):
@@ -84,16 +65,6 @@ def reserved(name: str) -> str | None:
     if keyword.iskeyword(name) or keyword.issoftkeyword(name):
         return "a word of Python, in which your hooks are written"
     return "what Python calls an object itself" if name == "self" else None
-
-
-def taken_app_name(name: str) -> str | None:
-    """Say what has that name already, for an app, whose name is its package's."""
-    lower = name.lower()
-    if lower in sys.stdlib_module_names:
-        return "a module of Python's standard library"
-    if lower in _TAKEN_PACKAGES:
-        return "a package or folder that a generated app needs"
-    return "a device on Windows" if lower in _DEVICES else None
 
 
 def near(name: str, options: Iterable[str]) -> list[str]:

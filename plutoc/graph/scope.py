@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from plutoc.diagnostic import Diagnostic
 from plutoc.frozen import frozen
 from plutoc.graph import errors, names
+from plutoc.graph.app_names import taken_app_name
 from plutoc.graph.names import Style
 from plutoc.graph.unclear import bad_statements
 from plutoc.source import Source
@@ -100,7 +101,7 @@ def check_name(source: Source, name: Name, role: str, found: list[Diagnostic]) -
 
 def check_app_name(source: Source, name: Name, found: list[Diagnostic]) -> None:
     """Check an app's name, which is its package's too."""
-    taken = names.taken_app_name(name.text)
+    taken = taken_app_name(name.text)
     if not name.text:
         return  # it cannot be read, which is told
     if taken:

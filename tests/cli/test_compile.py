@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from plutoc.emit import lock, recorded, write
 from tests.cli.conftest import APP, Call, tree
 
 FLOW, HOOKS, LOCK = Path("crop/src/crop/flow.py"), Path("crop/src/crop/hooks.py"), "crop/pluto.lock"
@@ -19,7 +20,7 @@ def test_a_package_goes_beside_the_app(plutoc: Call, app: Path) -> None:
     said = plutoc("compile", app)
     assert (said.code, said.err) == (0, "")
     assert said.out.startswith("crop: a new package of ")
-    assert "pip install ./crop" in said.out
+    assert "pip install -e ./crop; by -e what you edit there counts at once" in said.out
     assert FLOW.is_file()
     assert HOOKS.is_file()
 
@@ -249,6 +250,39 @@ def test_a_damaged_lock_is_refused_with_3(
     assert said.code == 3
     assert "[P4005]: `crop/pluto.lock` is damaged" in said.err
     assert why in said.err
+    assert plutoc("compile", app, "--force").code == 0
+    assert plutoc("compile", app, "--check").code == 0
+
+
+@pytest.mark.parametrize(
+    ("made_by", "code"),
+    [
+        ('plutoc = "999.0"', 3),
+        ('plutoc = "0.1.1.dev3"', 3),
+        ('plutoc = "0.1.0.post1"', 3),
+        ('plutoc = "0.1.10"', 3),
+        ('plutoc = "0.1.0rc1"', 0),
+        ('plutoc = "0.0.99"', 0),
+        ("", 0),
+    ],
+)
+@pytest.mark.parametrize("other", ["", 'survey = "survey 2.0"\n'])
+def test_what_a_newer_plutoc_made_is_not_overwritten(
+    plutoc: Call, app: Path, monkeypatch: pytest.MonkeyPatch, made_by: str, code: int, other: str
+) -> None:
+    """The order of versions is that of PEP 440; a package without one is older than any."""
+    for module in (lock, recorded, write):
+        monkeypatch.setattr(module, "__version__", "0.1.0")
+    plutoc("compile", app)
+    text = Path(LOCK).read_text().replace('plutoc = "0.1.0"\n', f"{made_by}\n{other}")
+    Path(LOCK).write_text(text)
+    FLOW.write_bytes(FLOW.read_bytes())
+    said = plutoc("compile", app)
+    assert said.code == code
+    if code:
+        assert "[P4010]: `crop` was made by plutoc " in said.err
+        assert Path(LOCK).read_text() == text
+        assert plutoc("compile", app, "--check").code == 3
     assert plutoc("compile", app, "--force").code == 0
     assert plutoc("compile", app, "--check").code == 0
 

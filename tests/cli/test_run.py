@@ -37,6 +37,18 @@ def test_json_and_seed_are_passed_on(plutoc: Call, app: Path) -> None:
     assert (facts["app"], facts["seed"], facts["missions"][0]["status"]) == ("crop", 7, "COMPLETED")
 
 
+def test_mishaps_and_many_runs_are_passed_on(plutoc: Call, app: Path) -> None:
+    """As the app's own `simulate` takes them."""
+    said = plutoc("run", app, "--fail", "crash=100%", "--seed", "3", "--runs", "2", "--json")
+    facts = json.loads(said.out)
+    assert said.code == 1
+    assert [run["seed"] for run in facts["runs"]] == [3, 4]
+    assert all(run["crashed_drones"] for run in facts["runs"])
+    said = plutoc("run", app, "--fail", "rain=10%")
+    assert said.code == 2
+    assert '"rain" cannot go wrong' in said.err
+
+
 def test_bad_missions_end_with_2(plutoc: Call, app: Path) -> None:
     """The app's own exit code is passed on, and its message."""
     Path("missions.toml").write_text(MISSIONS.replace("take_photo", "take_foto"))

@@ -38,7 +38,11 @@ def test_a_sound_app_is_sound(app: Path, capfd: Said) -> None:
     """It says how often what has struck, and what came of all runs."""
     assert main(["test", str(app), "--seeds", "1"]) == 0
     out = capfd.readouterr().out
-    assert re.search(r"^crash-lost +\d+$", out, re.MULTILINE)
+    died = (
+        r"the app died before it had written down what it was about to do +\d+  --strike crash-lost"
+    )
+    assert re.search(rf"^{died}$", out, re.MULTILINE)
+    assert re.search(r"^\d+ missions ended: \d+ were completed", out, re.MULTILINE)
     assert out.endswith("No run did what no run may do.\n")
 
 
@@ -50,7 +54,9 @@ def test_a_mistake_in_a_hook_is_found_and_shown_small(
     assert main(["test", "app.pluto", "--seeds", "3"]) == 1
     out = capfd.readouterr().out
     sentence = "hook find_blooms raised AttributeError: 'float' object has no attribute 'sees'"
-    assert sentence in out
+    first, small = out.split("The smallest case that shows the same:")
+    assert sentence in first.partition("What was found first:")[2]
+    assert sentence in small
     files, _, command = out.partition("# failing.toml\n")[2].partition("\nSave that")
     missions, fleet = files.split("# failing-fleet.toml\n")
     assert missions.count("[[mission.trip]]") == 1
@@ -58,11 +64,13 @@ def test_a_mistake_in_a_hook_is_found_and_shown_small(
     Path("failing.toml").write_text(missions, encoding="utf-8")
     Path("failing-fleet.toml").write_text(fleet, encoding="utf-8")
     words = command.splitlines()[-1].split()
-    assert words[:2] == ["plutoc", "test"]
-    assert main(words[1:]) == 1
-    again = capfd.readouterr().out
-    assert "trip" in again and " launched" in again
-    assert sentence in again
+    found = re.findall(r"^  (plutoc test .*)$", first, re.MULTILINE)[0].split()
+    for one in (words, found):
+        assert one[:2] == ["plutoc", "test"]
+        assert main(one[1:]) == 1
+        again = capfd.readouterr().out
+        assert "trip" in again and " launched" in again
+        assert sentence in again
 
 
 def test_a_program_gets_one_object(broken: Path, capfd: Said) -> None:
@@ -80,6 +88,7 @@ def test_a_program_gets_one_object(broken: Path, capfd: Said) -> None:
         "smallest",
     ]
     assert data["findings"][0]["seed"] == 0
+    assert list(data["findings"][0]) == ["seed", "what", "strike", "weather"]
     assert list(data["smallest"]) == ["what", "seed", "strike", "weather", "missions", "fleet"]
 
 

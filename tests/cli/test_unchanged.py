@@ -17,10 +17,7 @@ from plutoc import cli
 from plutoc.cli import compiler, unchanged
 from plutoc.cli.options import Options
 from plutoc.emit import modules
-from tests.cli.conftest import APP, Call, Said, tree
-from tests.cli.test_somebodys_blocks import FIELD_APP, installed
-
-__all__ = ["installed"]
+from tests.cli.conftest import APP, FIELD_APP, Call, Said, tree
 
 FLOW, HOOKS = Path("crop/src/crop/flow.py"), Path("crop/src/crop/hooks.py")
 WARNED = APP.replace("  retry -> end otherwise\n", "").replace("attempts: 3", "attempts: 0")

@@ -8,9 +8,10 @@ import re
 import subprocess
 import sys
 import tomllib
+from contextlib import suppress
 from dataclasses import replace
 from hashlib import sha256
-from importlib.metadata import packages_distributions, requires
+from importlib.metadata import PackageNotFoundError, packages_distributions, requires
 from pathlib import Path
 
 import hypothesis.strategies as st
@@ -23,7 +24,7 @@ from plutoc.emit.package import Package, emit
 from plutoc.emit.project_files import project_file
 from plutoc.emit.python import owned
 from plutoc.emit.readme_file import readme
-from plutoc.graph.names import taken_app_name
+from plutoc.graph.app_names import taken_app_name
 from plutoc.plan.model import Plan
 from tests.emit.apps import ODD_NAMES, PARCELS, PLAIN
 from tests.emit.plans import plan_of
@@ -187,26 +188,43 @@ def test_project_has_a_name_that_a_distribution_can_have() -> None:
 
 
 def test_no_app_has_the_name_of_what_its_extras_bring() -> None:
-    """Its package would stand in the way of theirs."""
+    """Nor of anything that those need in turn: by its distribution, and by what is imported."""
     project = tomllib.loads(package_of(PLAIN).owned["pyproject.toml"])["project"]
     needed = [one for extra in project["optional-dependencies"].values() for one in extra]
-    names = [re.split("[<>=]", one)[0].replace("-", "_") for one in needed]
-    assert {"starlette", "uvicorn", "websockets", "matplotlib", "cflib"} <= {*names}
-    assert all(map(taken_app_name, names))
-
-
-def test_no_app_has_the_name_of_what_cflib_brings() -> None:
-    """Neither that under which it is installed, nor that under which it is imported."""
-    needed = [one for one in requires("cflib") or () if "extra ==" not in one]
-    names = [re.split("[^A-Za-z0-9_.-]", one)[0].lower() for one in needed]
-    imported = [
+    names = {_normal(re.split("[<>=]", one)[0]) for one in needed}
+    assert {"starlette", "uvicorn", "websockets", "matplotlib", "cflib", "pytest"} <= names
+    brought = _with_all_they_need(names)
+    assert len(brought) > 2 * len(names)
+    imported = {
         package
-        for package, installed in packages_distributions().items()
-        if not package.startswith("_") and {one.lower() for one in installed} & {*names}
-    ]
-    assert len(imported) >= len(names) >= 6
-    every = [name.replace("-", "_") for name in (*names, *imported)]
-    assert [name for name in every if taken_app_name(name) is None] == []
+        for package, owners in packages_distributions().items()
+        if not package.startswith("_") and {_normal(one) for one in owners} & brought
+    }
+    assert {"PIL", "yaml", "usb"} <= imported
+    every = {name.replace("-", "_") for name in brought | imported}
+    assert {name for name in every if taken_app_name(name) is None} == set()
+
+
+def _with_all_they_need(names: set[str]) -> set[str]:
+    found: set[str] = set()
+    left = {*names}
+    while left:
+        name = left.pop()
+        with suppress(PackageNotFoundError):  # of another system, or an extra that is not here
+            needed = [one for one in requires(name) or () if "extra ==" not in one]
+            found.add(name)
+            left |= {_normal(re.split("[^A-Za-z0-9_.-]", one)[0]) for one in needed} - found
+    return found
+
+
+def _normal(name: str) -> str:
+    return re.sub("[-_.]+", "-", name).lower()
+
+
+def test_no_app_has_the_name_of_what_builds_its_package() -> None:
+    """It would be replaced by it, in the environment in which the app is installed."""
+    needed = tomllib.loads(package_of(PLAIN).owned["pyproject.toml"])["build-system"]["requires"]
+    assert needed and all(map(taken_app_name, needed))
 
 
 SCRIPT = """

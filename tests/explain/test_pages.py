@@ -20,7 +20,7 @@ from tests.explain.examples import (
     write,
 )
 
-CODES = [code for code in codes() if code != WITHOUT_EXAMPLES]
+CODES = [code for code in codes() if code not in WITHOUT_EXAMPLES]
 SEVERITY = {"Refused": "error", "Warned": "warning"}
 
 

@@ -113,10 +113,15 @@ def test_category_defaults() -> None:
 
 
 @pytest.mark.parametrize(
-    "argument", ["payload: -1 g", "speed: -1 m/s", "flight_time: 0 s", "reserve: 100 %"]
+    "argument",
+    [
+        *("payload: -1 g", "payload: 5000 kg", "speed: -1 m/s", "speed: 0.00000000000001 m/s"),
+        *("speed: 5000 m/s", "flight_time: 0 s", "flight_time: 0.00000000000001 s"),
+        *("charge_time: 0.5 s", "charge_time: 1000 h", "reserve: 100 %"),
+    ],
 )
 def test_impossible_category_is_refused(argument: str) -> None:
-    """All but the payload must be more than nothing, and the reserve less than all."""
+    """No drone is so slow, or so fast, or so small; and the reserve is less than all."""
     assert [f.split()[0] for f in codes(f"category c({argument}) can measure")] == ["P1020"]
 
 
