@@ -8,6 +8,8 @@ from collections.abc import Iterator
 import pytest
 from hypothesis import HealthCheck, settings
 
+from tests.apart import apart
+
 # The same examples in every run, however busy the machine is: a test that fails is a change's fault.
 settings.register_profile(
     "pluto", deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow]
@@ -26,6 +28,13 @@ def own_cache(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
     """Keep nothing in the user's own cache, and take nothing from there."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("XDG_CACHE_HOME", str(tmp_path_factory.mktemp("cache")))
+        yield
+
+
+@pytest.fixture(autouse=True, scope="session")
+def own_locks() -> Iterator[None]:
+    """Take no drone's lock that other tests on this machine take, those of another checkout."""
+    with apart():
         yield
 
 

@@ -83,7 +83,18 @@ def test_every_example_says_how_it_is_served() -> None:
     """With the extra that this needs, under the app's own name."""
     for page in ROOT.glob("examples/*/README.md"):
         name, text = page.parts[-2], page.read_text(encoding="utf-8")
-        assert f'$ pip install "./{name}[station]"\n$ {name} serve --sim' in text, name
+        assert f'$ pip install -e "./{name}[station]"\n$ {name} serve --sim' in text, name
+
+
+def test_a_developer_installs_so_that_edits_count() -> None:
+    """A copy of the package would fly the hooks of the day on which it was installed."""
+    pages = [ROOT / "README.md", *MAKE.pages()]
+    said = [line for page in pages for line in page.read_text("utf-8").splitlines()]
+    lines = [line for line in said if re.search(r"""pip install (-\S+ )*["']?\./""", line)]
+    assert len(lines) > 15
+    apps = "|".join([*APPS, "greenhouse", "APP"])
+    own = [line for line in lines if re.search(rf"\./({apps})\b", line)]
+    assert own and not [line for line in own if "pip install -e " not in line]
 
 
 def test_outdated_picture_is_replaced(tmp_path: Path) -> None:
