@@ -9,11 +9,14 @@ from typing import Any
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
+from tests.kill.lives import eventually
 from tests.station.browser.conftest import Serve, Visit
 from tests.station.browser.serving import Station, until
 from tests.station.browser.steps import open_page, row_of, start
+from tests.station.browser.test_cut_motors import HELD
 
 FIELD = Path(__file__).parents[3] / "examples" / "alfalfa" / "missions.toml"
+A_FRAME = "() => new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn)))"
 MISSIONS = ("North arc", "South-west arc", "South-east arc")
 
 
@@ -47,6 +50,26 @@ def opened(page: Page, name: str) -> None:
     opener = row_of(page, name).get_by_role("button")
     opener.click()
     expect(opener).to_have_attribute("aria-expanded", "true")
+
+
+def dropped(station: Station, page: Page, buttons: Locator) -> str:
+    """Hold a drone's button until it is lost, anew where its line moves away; return its name."""
+
+    def tried() -> bool:
+        button = buttons.first.element_handle()
+        name = button.inner_text().split()[-1].rstrip("?")
+        button.hover()
+        page.mouse.down()
+        button.evaluate(A_FRAME)
+        until(lambda: button.evaluate(HELD) == 0, "its second is over, or its line has moved away")
+        page.mouse.up()
+        if is_lost := eventually(lambda: row(station, "drones", "id", name)["status"] == "LOST", 3):
+            lost.append(name)
+        return is_lost
+
+    lost: list[str] = []
+    until(tried, "one is lost")
+    return lost[0]
 
 
 def holds(station: Station, name: str, what: Callable[[dict[str, Any]], bool]) -> None:
@@ -198,13 +221,8 @@ def test_motors_are_cut_while_the_button_is_held_and_the_lost_drone_is_brought_b
 ) -> None:
     station, page = flying
     drones = panel(page, "Drones")
-    cut = drones.get_by_role("button", name="cut motors of").first
-    who = cut.inner_text().split()[-1]
-    cut.hover()
-    page.mouse.down()
-    line = drones.get_by_role("listitem").filter(has_text=who)
-    expect(line).to_contain_text("Lost")
-    page.mouse.up()
+    who = dropped(station, page, drones.get_by_role("button", name="cut motors of"))
+    expect(drones.get_by_role("listitem").filter(has_text=who)).to_contain_text("Lost")
     assert row(station, "drones", "id", who)["z"] == 0
     expect(panel(page, "Console")).to_contain_text(f"{who}'s motors were cut")
     drones.get_by_role("button", name=f"Bring back drone {who}").click()
