@@ -45,9 +45,11 @@ def stands_still(samples: Sequence[Sample], tolerance: float) -> bool:
 def fell(record: Record, speed: float) -> bool:
     """Say whether its motors went off in the air: higher than it can have sunk since the last look."""
     looks = [
-        (one.at, one.truth.position[2], one.truth.motors)
-        if one.truth
-        else (one.telemetry.time, one.telemetry.position[2], one.telemetry.flying)  # told by then
+        (
+            (one.at, one.truth.position[2], one.truth.motors)
+            if one.truth
+            else (one.telemetry.time, one.telemetry.position[2], one.telemetry.flying)
+        )  # told by then
         for one in record.samples
     ]
     ground = looks[0][1] + _GROUND if looks else 0.0
