@@ -167,7 +167,8 @@ def idle_otherwise(graph: Graph, edge: Edge, leaving: Sequence[Status]) -> Diagn
         f"nothing is left for the arrow `{edge.source} -> {edge.target}`",
         label="takes what no other arrow takes",
         related=(emits_here(graph, edge, leaving),),
-        help="remove it: the other arrows take every status",
+        help="remove it: "
+        + ("the other arrows take every status" if leaving else "missions end before it"),
         fix=without_arrow(graph.source, (edge.source, edge.target), edge.span, edge.guard_span),
     )
 
@@ -281,11 +282,12 @@ def _because(reasons: Sequence[str]) -> str:
     return f", for {' and '.join(dict.fromkeys(reasons))}" if reasons else ""
 
 
-def too_tangled(graph: Graph, most: int) -> Diagnostic:
+def too_tangled(graph: Graph, places: int, steps: int) -> Diagnostic:
     return error(
         "P2026",
         (graph, graph.name_span),
-        f"the graph of `{graph.name}` cannot be checked: missions can be in more than {most:,} states",
+        f"the graph of `{graph.name}` cannot be checked: missions can be in more than {places:,} states, "
+        f"or go from one to another in more than {steps:,} ways",
         help="draw it with fewer loops within loops, forks within forks, or bounds on attempts",
     )
 

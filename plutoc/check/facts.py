@@ -5,16 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from plutoc.check.flow import Facts, Place, ordered
-from plutoc.graph.model import Graph, Node
+from plutoc.graph.model import Node
 from plutoc_runtime.status import Status
 
 OUTCOMES = (Status.STANDBY, Status.COMPLETED, Status.FAILED)
 """How a trip can end: well with more to fly, well as the last one, or not well."""
 Way = tuple[Status, Facts]
 """A status with which a mission leaves a block, and what it has behind it then."""
-_MOST_REMEMBERED = 200_000
-"""Blocks times different bounds; in a graph with more, no bound is remembered, only its block's
-own word is taken: then a loop that only trips with attempts left can leave is not found."""
 
 
 def bound_of(node: Node) -> int:
@@ -23,14 +20,14 @@ def bound_of(node: Node) -> int:
     return int(bound) if bound and node.block.retries else 0
 
 
-def remembers_attempts(graph: Graph) -> bool:
-    """Say whether it is worth it to follow which bounds a trip has used up."""
-    return len({bound_of(node) for node in graph.nodes}) * len(graph.nodes) <= _MOST_REMEMBERED
-
-
 def puts_trips(node: Node) -> bool:
     """Say whether a block's hook may put another trip first."""
     return bool(node.hook and node.hook.emits)
+
+
+def says_the_same(node: Node) -> bool:
+    """Say whether a block that is asked again before anything is flown gives the same answer."""
+    return node.block.evaluates or node.block.repeats
 
 
 def is_over(place: Place) -> bool:
@@ -38,12 +35,12 @@ def is_over(place: Place) -> bool:
     return place.status is Status.COMPLETED or place.facts.spent
 
 
-def leaving(node: Node, place: Place, remember: bool, lasting: bool) -> Iterator[Way]:
+def leaving(node: Node, place: Place, number: int | None) -> Iterator[Way]:
     """Give each status with which a mission can leave a block, and what it has behind it then.
 
-    Where an answer is `lasting`, the block may be asked again before anything is flown.
+    A block that may be asked again before anything is flown has a number: it says the same.
     """
-    facts, bound = place.facts, bound_of(node) if remember else 0
+    facts, bound = place.facts, bound_of(node)
     if facts.spent and (node.block.allocates or node.block.retries):
         return  # with no trip left the mission ends here
     emitted = ordered(node.emitted(place.status))
@@ -51,27 +48,26 @@ def leaving(node: Node, place: Place, remember: bool, lasting: bool) -> Iterator
         emitted = (facts.outcome,)
     if bound and facts.attempts >= bound and Status.FAILED in emitted:
         emitted = (Status.FAILED,)
-    for name, said in facts.said:
-        if name == node.name and said in emitted:
-            emitted = (said,)
+    said = 0 if number is None else facts.said >> 2 * number & 3
+    if said and OUTCOMES[said - 1] in emitted:
+        emitted = (OUTCOMES[said - 1],)
     for status in emitted:
         for behind in _behind(node, facts, status, bound):
-            yield status, _remembered(node, behind, status) if lasting else behind
+            yield status, behind if number is None else _remembered(node, behind, status, number)
 
 
-def unless_failed(place: Place, ways: Sequence[Way]) -> Sequence[Way]:
+def unless_failed(ways: Sequence[Way]) -> Sequence[Way]:
     """Return how a mission that has nothing left to fly leaves a block, if no hook fails it.
 
     Without a trip in flight RUNNING is a fault, and so is UNEXECUTED once one has been flown. A hook
-    that can say nothing else fails it all the same.
+    that can say nothing else fails it all the same, or leaves it as FAILED as it was.
     """
-    kept = [way for way in ways if way[0] in (Status.STANDBY, Status.COMPLETED)]
-    return kept if kept and place.status is Status.COMPLETED else ways
+    return [way for way in ways if way[0] in (Status.STANDBY, Status.COMPLETED)] or ways
 
 
 def elsewhere(facts: Facts) -> Facts:
     """Forget what was said on a way round, where no way leads back before the next launch."""
-    return facts._replace(said=()) if facts.said else facts
+    return facts._replace(said=0) if facts.said else facts
 
 
 def _behind(node: Node, facts: Facts, status: Status, bound: int) -> tuple[Facts, ...]:
@@ -96,9 +92,10 @@ def _behind(node: Node, facts: Facts, status: Status, bound: int) -> tuple[Facts
     return (facts,)
 
 
-def _remembered(node: Node, facts: Facts, status: Status) -> Facts:
+def _remembered(node: Node, facts: Facts, status: Status, number: int) -> Facts:
     """Add what a block has said, if it says the same until something is flown."""
     # as long as a round is left, who repeats may find one round less the next time
-    if node.block.evaluates or (node.block.repeats and status is Status.COMPLETED):
-        return facts._replace(said=tuple(sorted({**dict(facts.said), node.name: status}.items())))
-    return facts
+    if node.block.repeats and status is not Status.COMPLETED:
+        return facts
+    others = facts.said & ~(3 << 2 * number)
+    return facts._replace(said=others | OUTCOMES.index(status) + 1 << 2 * number)

@@ -34,8 +34,8 @@ class Facts(NamedTuple):
     """At least so often the next trip has been flown: a bound that gave up once gives up again."""
     spent: bool = False
     """It has FAILED though no trip was left to fly, so nothing can be put back."""
-    said: tuple[tuple[str, Status], ...] = ()
-    """What blocks have said that say the same until something is flown, by their names."""
+    said: int = 0
+    """What blocks have said that say the same until something is flown: two bits each."""
 
 
 class Split(NamedTuple):

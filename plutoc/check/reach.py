@@ -88,12 +88,14 @@ def untaken(flow: Flow, stopped: Flow) -> list[Diagnostic]:
 
 
 def spent(flow: Flow) -> list[Diagnostic]:
-    """Find blocks to which missions come only when no trip is left: they end there, and go nowhere."""
+    """Find blocks to which missions come only when no trip is left: they end there, and go nowhere.
+
+    What lies behind is not reached, if nothing else leads to it, even by an `otherwise`.
+    """
     found = []
-    ended = {p.node for p in flow.places if p.facts.spent and not flow.after[p]}
     edges: dict[str, list[Edge]] = {}
-    for edge in flow.edges:
-        if edge.source in ended and not edge.otherwise and not flow.leaves[edge.source]:
+    for edge in _unflown(flow):
+        if not (edge.otherwise and (edge.target == END or flow.arrives[edge.target])):
             edges.setdefault(edge.source, []).append(edge)
     for name, left in edges.items():
         way = flow.way_to(name)
@@ -110,7 +112,14 @@ def spare(flow: Flow, stopped: Flow) -> list[Diagnostic]:
             found.append(errors.spare_guard(flow.graph, edge, never, leaving))
         elif not taken and edge.otherwise:
             found.append(errors.idle_otherwise(flow.graph, edge, leaving))
+    found += [errors.idle_otherwise(flow.graph, e, ()) for e in _unflown(flow) if e.otherwise]
     return found
+
+
+def _unflown(flow: Flow) -> list[Edge]:
+    """Return the edges of blocks at which every mission ends, since it has no trip left."""
+    ended = {p.node for p in flow.places if p.facts.spent and not flow.after[p]}
+    return [e for e in flow.edges if e.source in ended and not flow.leaves[e.source]]
 
 
 def _left_by(flow: Flow, stopped: Flow) -> Iterator[tuple[Edge, tuple[Status, ...], bool]]:

@@ -8,8 +8,8 @@ there it is told once more how that trip ended: nothing is flown again.
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Callable, Mapping, Sequence
+from heapq import heappop, heappush
 
 from plutoc.check.flow import Facts, Flow, Place
 from plutoc.graph.model import Graph
@@ -17,8 +17,8 @@ from plutoc_runtime.status import Status
 
 _FIRST = frozenset({Status.UNEXECUTED, Status.STANDBY})
 
-Points = Mapping[Place, Mapping[str, None]]
-"""For each place the nearest points on the ways to it, as an ordered set."""
+Points = Mapping[Place, int]
+"""For each place the nearest points on the ways to it: a bit a block, in the order of the source."""
 
 IsPoint = Callable[[Flow, Place], bool]
 
@@ -33,19 +33,20 @@ def nearest(flow: Flow) -> Points:
     }
 
 
-def resumed(points: Points) -> tuple[Place, ...]:
+def resumed(graph: Graph, points: Points) -> tuple[Place, ...]:
     """Return where interrupted missions go on, each with the status that it has then."""
+    found = {False: 0, True: 0}
+    for place, bits in points.items():
+        found[place.facts.launched] |= bits
     return tuple(
-        dict.fromkeys(
-            Place(
-                frame=None,
-                node=name,
-                status=Status.STANDBY if place.facts.launched else Status.UNEXECUTED,
-                facts=Facts(launched=place.facts.launched),
-            )
-            for place, names in points.items()
-            for name in names
+        Place(
+            frame=None,
+            node=name,
+            status=Status.STANDBY if launched else Status.UNEXECUTED,
+            facts=Facts(launched=launched),
         )
+        for launched, bits in found.items()
+        for name in _named(graph, bits)
     )
 
 
@@ -55,7 +56,7 @@ def entries(graph: Graph, points: Sequence[Points]) -> Mapping[str, frozenset[St
     Where they are made is none of them: those that are set back to there begin anew.
     """
     found: dict[str, set[Status]] = {}
-    for place in (place for some in points for place in resumed(some)):
+    for place in (place for some in points for place in resumed(graph, some)):
         found.setdefault(place.node, set()).add(place.status)
     return {
         node.name: frozenset(found[node.name])
@@ -66,27 +67,39 @@ def entries(graph: Graph, points: Sequence[Points]) -> Mapping[str, frozenset[St
 
 def resume_points(graph: Graph, points: Sequence[Points]) -> Mapping[str, tuple[str, ...]]:
     """Return the blocks at which a mission can go on that was interrupted at each block."""
-    found: dict[str, set[str]] = {name: set() for name in graph.node}
-    for place, names in (pair for some in points for pair in some.items()):
+    found = dict.fromkeys(graph.node, 0)
+    for place, bits in (pair for some in points for pair in some.items()):
         if place.node in found:
-            found[place.node].update(names)
-    number = {name: i for i, name in enumerate(graph.node)}
-    return {name: tuple(sorted(found[name], key=number.__getitem__)) for name in found}
+            found[place.node] |= bits
+    named = {bits: _named(graph, bits) for bits in set(found.values())}
+    return {name: named[bits] for name, bits in found.items()}
+
+
+def _named(graph: Graph, bits: int) -> tuple[str, ...]:
+    lowest_first = reversed(f"{bits:0{len(graph.node)}b}")
+    return tuple(n for n, bit in zip(graph.node, lowest_first, strict=True) if bit == "1")
 
 
 def _points(flow: Flow, is_point: IsPoint) -> Points:
+    places = tuple(flow.places)
+    number = {place: i for i, place in enumerate(places)}
+    bit = {name: 1 << i for i, name in enumerate(flow.graph.node)}
     points = [p for p, step in flow.places.items() if step is None or is_point(flow, p)]
-    found: dict[Place, dict[str, None]] = {place: {} for place in flow.places}
-    found.update((place, {place.node: None}) for place in points)
-    settled, queue = frozenset(points), deque(points)
+    found = dict.fromkeys(places, 0)
+    found.update((place, bit[place.node]) for place in points)
+    settled = frozenset(points)
+    queue = [number[place] for place in points]  # the first is always the nearest
+    queued = set(queue)
     while queue:
-        place = queue.popleft()
-        for following in flow.after[place]:
-            known = len(found[following])
-            if following not in settled:
-                found[following].update(found[place])
-            if len(found[following]) > known:
-                queue.append(following)
+        one = heappop(queue)
+        queued.remove(one)
+        brought = found[places[one]]
+        for following in flow.after[places[one]]:
+            if following not in settled and brought & ~found[following]:
+                found[following] |= brought
+                if number[following] not in queued:
+                    queued.add(number[following])
+                    heappush(queue, number[following])
     return found
 
 

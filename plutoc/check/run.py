@@ -116,7 +116,9 @@ def _after_a_stop(flow: Flow, points: resume.Points) -> tuple[Flow, resume.Point
     They may be stopped once more, so this ends where nothing is new any more.
     """
     begun: dict[Place, None] = {}
-    while again := [p for p in resume.resumed(points) if p not in flow.places and p not in begun]:
+    while again := [
+        p for p in resume.resumed(flow.graph, points) if p not in flow.places and p not in begun
+    ]:
         begun.update(dict.fromkeys(again))
         stopped = explore(flow.graph, flow.edges, begun)
         points = resume.nearest(stopped)

@@ -20,7 +20,7 @@ from plutoc.check.facts import (
     is_over,
     leaving,
     puts_trips,
-    remembers_attempts,
+    says_the_same,
     unless_failed,
 )
 from plutoc.check.flow import Facts, Flow, Frame, Place, Split, Step
@@ -32,8 +32,9 @@ from plutoc_runtime.status import Status
 
 Places = dict[Place, None]
 """An ordered set."""
-MOST_PLACES = 200_000
-"""So many places of missions are looked at; an app has about as many as it has blocks."""
+MOST_PLACES, MOST_STEPS = 200_000, 1_000_000
+"""So many places of missions are looked at, and so many steps from one to another; an app has about
+as many places as it has blocks, and as many steps as it has edges."""
 
 
 def explore(
@@ -48,12 +49,14 @@ def explore(
     With `idle` blocks, only as long as they stay there with nothing left to fly, and as no hook fails
     them that could do otherwise. Raises `Rejected` where there is no end of places.
     """
+    rounds = unflown(graph, edges)
+    asked = [name for name in rounds if says_the_same(graph.node[name])]
     walk = _Walk(
         graph=graph,
         edges=edges,
-        remember=remembers_attempts(graph),
         forgets=any(puts_trips(node) for node in graph.nodes),
-        rounds=unflown(graph, edges),
+        rounds=rounds,
+        numbers={name: number for number, name in enumerate(asked)},
         idle=idle,
     )
     walk.run(beginnings)
@@ -71,16 +74,18 @@ class _Walk:
 
     graph: Graph
     edges: tuple[Edge, ...]
-    remember: bool
     forgets: bool
     """A hook may put another trip first, in one branch while another one is in a gate."""
     rounds: Mapping[str, int]
     """Blocks that can be come to twice before anything is flown, and the way round of each."""
+    numbers: Mapping[str, int]
+    """Those of them that then say the same."""
     idle: Collection[str]
     """If there are any, a mission that leaves them, or has something to fly, is not followed."""
     hasty: dict[Split, None] = field(default_factory=dict)
     """Forks whose gate has stopped waiting for a branch that never arrives."""
     outgoing: dict[str, list[Edge]] = field(default_factory=dict)
+    steps: int = 0
     widths: dict[Split, int] = field(default_factory=dict)
     queue: deque[Place] = field(default_factory=deque)
     places: dict[Place, Step | None] = field(default_factory=dict)
@@ -108,10 +113,13 @@ class _Walk:
         while self.queue:
             while self.queue:
                 self.visit(self.queue.popleft())
-                if len(self.places) > MOST_PLACES:
-                    raise Rejected([errors.too_tangled(self.graph, MOST_PLACES)])
+                self.stop_if_tangled()
             self.stop_waiting()
         self.accompany()
+
+    def stop_if_tangled(self) -> None:
+        if len(self.places) > MOST_PLACES or self.steps > MOST_STEPS:
+            raise Rejected([errors.too_tangled(self.graph, MOST_PLACES, MOST_STEPS)])
 
     def visit(self, place: Place) -> None:
         self.arrives.setdefault(place.node, set()).add(place.status)
@@ -127,14 +135,15 @@ class _Walk:
             if node.block.allocates or node.block.launches:
                 self.stray(place, place.frame.split)
                 return
-        ways = tuple(leaving(node, place, self.remember, place.node in self.rounds))
-        for status, facts in unless_failed(place, ways) if self.idle else ways:
+        ways = tuple(leaving(node, place, self.numbers.get(place.node)))
+        for status, facts in unless_failed(ways) if self.idle else ways:
             self.leave(place, status, facts)
 
     def reach(self, place: Place, step: Step) -> None:
         if self.idle and self.rounds.get(place.node) != self.rounds.get(step.before.node):
             place = place._replace(node=END)  # what follows on another way round is looked at there
         self.after.setdefault(step.before, {})[place] = None
+        self.steps += 1
         if place not in self.places:
             self.places[place] = step
             self.queue.append(place)
@@ -228,6 +237,8 @@ class _Walk:
                     for what, bringer in passed.get(status, ()):
                         for entry in self.entries[split]:
                             after[self.beyond(bringer, what, entry)] = None
+                            self.steps += 1
+                    self.stop_if_tangled()
 
     def stray(self, place: Place, split: Split) -> None:
         """A clone is flown before its gate: an error, walked on as if its branch ended here."""

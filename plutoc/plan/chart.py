@@ -73,6 +73,10 @@ class Way:
     """Where those were interrupted that are led there; empty: it is the status that counts."""
 
 
+NO_TRIP_LEFT = Way(statuses=(Status.FAILED,), target=None, to=END)
+"""Out of a block in which every mission ends that comes there."""
+
+
 @frozen
 class Chart:
     """A body before it has a structure."""
@@ -108,9 +112,10 @@ class Charts:
         arrives: dict[Spot, set[Status]] = {}
         for spot, status in queue:
             arrives.setdefault(spot, set()).add(status)
+            found.setdefault(spot, {})
             for leaving in self.after(spot, status):
                 number, target, to = self.follow(spot, leaving)
-                found.setdefault(spot, {})[leaving] = (number, target, to)
+                found[spot][leaving] = (number, target, to)
                 if target is None:
                     exits.add(leaving)
                 elif (target, leaving) not in known:
@@ -118,7 +123,10 @@ class Charts:
                     queue.append((target, leaving))
         return Chart(
             entry=first,
-            ways={spot: _ways(leads, self.asked(spot, leads)) for spot, leads in found.items()},
+            ways={
+                spot: _ways(leads, self.asked(spot, leads)) if leads else (NO_TRIP_LEFT,)
+                for spot, leads in found.items()
+            },
             arrives={spot: frozenset(statuses) for spot, statuses in arrives.items()},
             exits=frozenset(exits),
         )

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import time
+import tracemalloc
+
 import pytest
 
 from plutoc.check import statuses
@@ -95,3 +98,91 @@ def test_of_many_ways_round_for_failures_a_few_are_shown() -> None:
     codes = [found.code for found in findings(text + "\n".join(rows))]
     assert set(codes) == {"P2056"}
     assert len(codes) == 10
+
+
+def looped(n: int) -> str:
+    """Judges in a row, and a way back."""
+    rows = [
+        f"    judge{i} = MissionEvaluator\n    judge{i} -> allocate when STANDBY\n"
+        f"    judge{i} -> end when FAILED\n    judge{i} -> judge{i + 1} when COMPLETED\n"
+        for i in range(n)
+    ]
+    return f"""{FLOWN}
+    judge{n} = MissionModifier emits STANDBY, COMPLETED
+    watch -> judge0 when COMPLETED
+    judge{n} -> judge0 when COMPLETED
+    judge{n} -> allocate when STANDBY
+{"".join(rows)}"""
+
+
+def test_what_is_remembered_of_many_verdicts_takes_little_room() -> None:
+    """A row of 2,000 took half a minute and more than a gigabyte."""
+    assert errors(looped(300)) == []
+    tracemalloc.start()
+    assert errors(looped(600)) == []
+    assert tracemalloc.get_traced_memory()[1] < 60e6
+    tracemalloc.stop()
+
+
+def test_steps_between_states_are_bounded_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of one fork that begins in many, each branch goes on with each of those that it began for."""
+    n = 30
+    rows = [
+        f"    before{i} = MissionModifier\n    branch{i} = MissionModifier\n"
+        f"    choice{i} = MissionModifier emits COMPLETED, FAILED\n"
+        f"    choice{i} -> before{i} when FAILED\n    before{i} -> [fork, note]\n"
+        f"    choice{i} -> choice{i + 1} when COMPLETED\n    fork -> branch{i} -> inner\n"
+        for i in range(n)
+    ]
+    text = f"""{FLOWN}
+    fork = MissionModifier
+    note = MissionModifier
+    inner = GateFIFO
+    outer = GateFIFO
+    choice{n} = MissionModifier
+    watch -> choice0 when COMPLETED
+    [inner, note] -> outer -> end
+    choice{n} -> end
+{"".join(rows)}"""
+    assert errors(text) == []
+    monkeypatch.setattr(statuses, "MOST_STEPS", 1_000)
+    (found,) = findings(text)
+    assert found.code == "P2026"
+    assert "more than 1,000 ways" in found.message
+
+
+def test_of_hundreds_of_unlike_bounds_each_is_remembered() -> None:
+    """The retries lead FAILED to each other and back: once all have given up, nothing ends that."""
+    n = 470
+    rows = [
+        f"    retry{i} = PriorityManager(max_attempts: {i + 1})\n"
+        f"    retry{i} -> allocate when STANDBY\n    retry{i} -> retry{(i + 1) % n} when FAILED\n"
+        for i in range(n)
+    ]
+    flown = FLOWN.replace("watch -> end", "watch -> retry0")
+    (found,) = findings(f"{flown}    watch -> end when COMPLETED\n{''.join(rows)}")
+    assert found.code in ("P2010", "P2026")
+
+
+def test_points_to_go_on_at_may_be_many_on_one_loop() -> None:
+    """It took a quarter of a minute for some hundreds of clocks and allocators that lead to each other."""
+    n = 800
+    rows = [
+        f"    wait{i} = Clock\n    say{i} = MissionModifier emits STANDBY, UNEXECUTED\n"
+        f"    other{i} = DroneAllocator\n    wait{i} -> say{i} -> other{i} when UNEXECUTED\n"
+        f"    say{i} -> wait{(i + 1) % n} when STANDBY\n    other{i} -> allocate\n"
+        for i in range(n)
+    ]
+    text = f"""
+    create = MissionCreator
+    allocate = DroneAllocator
+    launch = TripLauncher
+    watch = TripMonitor
+    start -> create -> wait0
+    allocate -> launch -> watch
+    watch -> wait1 when STANDBY
+    watch -> end
+{"".join(rows)}"""
+    began = time.process_time()
+    assert errors(text) == []
+    assert time.process_time() - began < 6

@@ -151,6 +151,15 @@ MISTAKES = {
             "    all -> end when FAILED"
         ),
     ),
+    "an evaluator's FAILED that a hook takes back, and that is asked for again": (
+        "P2025",
+        "mend",
+        (
+            f"{JUDGED.replace('judge -> end', 'judge -> mend')}    judge -> end when COMPLETED\n"
+            "    mend = MissionModifier emits COMPLETED, FAILED\n"
+            "    mend -> judge when COMPLETED\n    mend -> end when FAILED"
+        ),
+    ),
     "a loop that only a hook which fails the mission would leave": (
         "P2025",
         "mend",
@@ -184,6 +193,16 @@ MISTAKES = {
             f"{JUDGED.replace('judge -> end', 'judge -> other')}    judge -> end when COMPLETED\n"
             "    other = DroneAllocator\n    second = TripLauncher\n    see = TripMonitor\n"
             "    other -> second -> see\n    see -> allocate when STANDBY\n    see -> end"
+        ),
+    ),
+    "an allocation behind an evaluator's FAILED, and what else comes": (
+        "P2008",
+        "other -> second",
+        (
+            f"{JUDGED.replace('judge -> end', 'judge -> other')}    judge -> end when COMPLETED\n"
+            "    other = DroneAllocator\n    second = TripLauncher\n    see = TripMonitor\n"
+            "    other -> second otherwise\n    second -> see\n"
+            "    see -> allocate when STANDBY\n    see -> end"
         ),
     ),
     "a retry behind an evaluator's FAILED": (

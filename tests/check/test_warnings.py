@@ -40,6 +40,19 @@ def test_each_warning_is_given(code: str, text: str) -> None:
     assert codes(text) == [code]
 
 
+def test_an_otherwise_behind_a_retry_of_nothing_is_mentioned() -> None:
+    """Whoever was judged has no trip left, and ends in the retry."""
+    text = f"""{STRAIGHT}{RETRY}
+    judge = MissionEvaluator
+    mend = PriorityManager
+    watch -> judge when COMPLETED
+    judge -> mend when FAILED
+    judge -> allocate when STANDBY
+    judge -> end
+    mend -> allocate otherwise"""
+    assert codes(text) == ["P2053"]
+
+
 def test_a_drone_that_waits_for_a_delay_is_held() -> None:
     """Nobody else can use it meanwhile; before the allocation it would be free."""
     held = f"{STRAIGHT}{RETRY}\n    watch -> end".replace(

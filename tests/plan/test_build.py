@@ -16,7 +16,9 @@ from plutoc.check.run import check
 from plutoc.graph.resolve import resolve
 from plutoc.plan.build import build
 from plutoc.plan.model import Body, Join, Loop, Step, Switch
+from plutoc.plan.optimise import optimised
 from plutoc.plan.show import show
+from plutoc.plan.verify import verify
 from plutoc.source import Source
 from plutoc.syntax.parse import parse
 from plutoc_runtime.status import Status
@@ -156,3 +158,21 @@ def test_plans_do_not_depend_on_the_hashes_of_a_run() -> None:
     ]
     assert runs[0] == runs[1]
     assert b"join" in runs[0]
+
+
+@pytest.mark.parametrize("arrow", ["", "    retry -> allocate otherwise\n"])
+def test_a_block_that_nothing_leaves_is_the_end(arrow: str) -> None:
+    """An evaluator's FAILED leaves no trip: the mission ends in the retry behind it."""
+    text = f"""{BASIC}
+    judge = MissionEvaluator
+    retry = PriorityManager
+    start -> create -> allocate -> launch -> watch
+    [watch, judge] -> allocate when STANDBY
+    watch -> end when FAILED
+    watch -> judge when COMPLETED
+    judge -> end when COMPLETED
+    judge -> retry when FAILED
+{arrow}"""
+    for plan in (build(checked(text)), optimised(build(checked(text)))):
+        verify(plan)
+        assert "\n  call retry\n  end" in show(plan)

@@ -65,8 +65,10 @@ def hooks_fail(
 ) -> tuple[Status, ...]:
     """Return the statuses by which a hook would fail a mission that has nothing left to fly, for no
     need: it could leave it as it is. To say that it flies, or has never flown, is a fault."""
-    if not state.idle or token.status != C or not (block.emits or block.kind == "MissionEvaluator"):
+    if not state.idle or not (block.emits or block.kind == "MissionEvaluator"):
         return ()
+    if token.status != C and not state.spent:
+        return ()  # a hook failed it, which may have put trips back
     could = {status for status, _ in ways if status in (S, C)}
     return (F, R, U) if could else ()
 

@@ -116,6 +116,34 @@ def test_a_hook_between_changes_nothing() -> None:
     assert "P2025" in refused(noted)
 
 
+OVERRULED = """pluto 1
+app overruled {
+  modifier mends emits COMPLETED, FAILED
+  evaluator judges
+  create = MissionCreator
+  allocate = DroneAllocator
+  launch = TripLauncher
+  watch = TripMonitor
+  judge = MissionEvaluator(hook: judges)
+  mend = MissionModifier(hook: mends)
+  start -> create -> allocate -> launch -> watch
+  [watch, judge] -> allocate when STANDBY
+  watch -> end when FAILED
+  watch -> judge when COMPLETED
+  judge -> end when COMPLETED
+  judge -> mend when FAILED
+  mend -> judge when COMPLETED
+  mend -> end when FAILED
+}
+"""
+
+
+def test_a_verdict_that_is_taken_back_is_given_once_more() -> None:
+    """Nothing was flown since, so that only the hook's own FAILED would end it."""
+    assert judge(read(OVERRULED)).runs.keys() == {Verdict.ENDLESS}
+    assert refused(OVERRULED) == ("P2025",)
+
+
 ALONE = """pluto 1
 app alone {
   modifier more emits STANDBY, COMPLETED, FAILED
