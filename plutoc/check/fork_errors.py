@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from plutoc.check.branches import Astray, Branch
-from plutoc.check.flow import Way
+from plutoc.check.flow import Fork, Way
 from plutoc.check.words import error, fate, fork_of, is_flown, names, related_to, there
 from plutoc.diagnostic import Diagnostic
 from plutoc.graph.model import Graph, Node
@@ -154,4 +154,14 @@ def unwatched_limit(graph: Graph, node: Node, way: Way) -> Diagnostic:
         f"`{node.name}` sets a limit to a flight, but no block beside it watches the flight",
         help="put it on one branch of a fork, a block that only watches on another, and let both meet "
         f"at a gate{there(way)}",
+    )
+
+
+def too_deep(graph: Graph, fork: Fork, most: int) -> Diagnostic:
+    return error(
+        "P2026",
+        (graph, graph.node[fork[0]].name_span),
+        f"forks lie in each other more than {most} deep",
+        label=f"here is {fork_of(fork)}",
+        help="close forks before others begin",
     )

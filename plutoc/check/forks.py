@@ -11,6 +11,8 @@ from plutoc.check.flow import Flow, Fork
 from plutoc.diagnostic import Diagnostic
 
 Branched = tuple[Branch, ...]
+MOST_NESTED = 100
+"""So deep forks may lie in each other: a branch is written within the one around it."""
 _MOST_WAYS = 200
 """Of so many forks that go round for ever a way is shown; nobody reads those of thousands."""
 
@@ -31,6 +33,15 @@ def unclosed(flow: Flow, found: Branches) -> list[Diagnostic]:
             wrong = _shared(flow, found, branches) or _open(flow, found, branches, shown)
             diagnostics.extend([wrong] if wrong else [])
     return diagnostics
+
+
+def too_deep(flow: Flow, found: Branches) -> list[Diagnostic]:
+    """Find a fork within too many others, in a graph in which all of them close."""
+    inside = tuple(found)
+    for _ in range(MOST_NESTED):
+        inner = (fork for one in inside for branch in found[one] for fork in branch.inner)
+        inside = tuple(dict.fromkeys(inner))
+    return [errors.too_deep(flow.graph, fork, MOST_NESTED) for fork in inside[:1]]
 
 
 def closed(found: Branches) -> tuple[model.Fork, ...]:

@@ -53,8 +53,8 @@ def check(graph: Graph) -> tuple[Checked, tuple[Diagnostic, ...]]:
     found += reach.spent(flow)
     found += parallel.written_twice(flow, parallels)
     found += unwatched
-    if found:  # the same things go wrong once more after a Stop
-        raise Rejected(in_order(found))
+    if found or (found := forks.too_deep(flow, parallels)):
+        raise Rejected(in_order(found))  # the same things go wrong once more after a Stop
     again = branches(stopped)
     wrong = _in_flight(stopped, again, lacking=False) + forks.unclosed(stopped, again)
     if wrong:

@@ -7,9 +7,11 @@ import tracemalloc
 
 import pytest
 
-from plutoc.check import statuses
+from plutoc.check import forks, statuses
 from plutoc.diagnostic import Severity
-from tests.check.graphs import findings
+from plutoc.plan.build import build
+from plutoc.plan.optimise import optimised
+from tests.check.graphs import checked, findings
 from tests.check.test_mistakes import BRANCHED, FLOWN, JUDGED, REPEATED
 
 LEFT = {
@@ -186,3 +188,27 @@ def test_points_to_go_on_at_may_be_many_on_one_loop() -> None:
     began = time.process_time()
     assert errors(text) == []
     assert time.process_time() - began < 6
+
+
+def nested(n: int) -> str:
+    """Forks, each in the one before."""
+    rows = [
+        f"    fork{i} = MissionModifier\n    beside{i} = MissionModifier\n    gate{i} = GateFunnel\n"
+        f"    fork{i} -> [fork{i + 1}, beside{i}]\n    beside{i} -> gate{i}\n"
+        f"    gate{i + 1} -> gate{i}\n"
+        for i in range(n)
+    ]
+    rows[-1] = rows[-1].replace(f"gate{n} ->", f"fork{n} ->")
+    return f"""{FLOWN}
+    fork{n} = MissionModifier
+    watch -> fork0 when COMPLETED
+    gate0 -> end
+{"".join(rows)}"""
+
+
+def test_forks_lie_only_so_deep_in_each_other() -> None:
+    """Twice as deep, the app could not be written."""
+    assert errors(nested(forks.MOST_NESTED)) == []
+    assert optimised(build(checked(nested(forks.MOST_NESTED))))
+    (found,) = findings(nested(forks.MOST_NESTED + 1))
+    assert found.code == "P2026"
