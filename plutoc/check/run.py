@@ -22,7 +22,7 @@ from plutoc.check.branches import Branches, branches
 from plutoc.check.entry import entry
 from plutoc.check.flow import Flow, Place
 from plutoc.check.model import Checked
-from plutoc.check.statuses import creation, explore
+from plutoc.check.statuses import creation, explore, stop_if_tangled
 from plutoc.diagnostic import Diagnostic, Rejected, in_order
 from plutoc.graph.model import Edge, Graph, Node
 from plutoc_runtime.status import Status
@@ -113,14 +113,18 @@ def _in_flight(flow: Flow, parallels: Branches, *, lacking: bool) -> list[Diagno
 def _after_a_stop(flow: Flow, points: resume.Points) -> tuple[Flow, resume.Points]:
     """Follow missions that were stopped and go on, where that is another way than before.
 
-    They may be stopped once more, so this ends where nothing is new any more.
+    They may be stopped once more, so this ends where nothing is new any more. Raises `Rejected` where
+    that is too far.
     """
     begun: dict[Place, None] = {}
+    looked = 0
     while again := [
         p for p in resume.resumed(flow.graph, points) if p not in flow.places and p not in begun
     ]:
+        stop_if_tangled(flow.graph, looked)
         begun.update(dict.fromkeys(again))
         stopped = explore(flow.graph, flow.edges, begun)
+        looked += len(stopped.places) + len(flow.graph.nodes)  # the same ones, after each Stop
         points = resume.nearest(stopped)
     return (stopped, points) if begun else (explore(flow.graph, flow.edges, ()), {})
 

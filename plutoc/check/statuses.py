@@ -63,6 +63,12 @@ def explore(
     return walk.flow()
 
 
+def stop_if_tangled(graph: Graph, places: int, steps: int = 0) -> None:
+    """Raise `Rejected` if there is more to look at than anybody would wait for."""
+    if places > MOST_PLACES or steps > MOST_STEPS:
+        raise Rejected([errors.too_tangled(graph, MOST_PLACES, MOST_STEPS)])
+
+
 def creation(creator: str) -> Place:
     """Return where a mission comes into being."""
     return Place(frame=None, node=creator, status=Status.UNEXECUTED, facts=Facts())
@@ -113,13 +119,9 @@ class _Walk:
         while self.queue:
             while self.queue:
                 self.visit(self.queue.popleft())
-                self.stop_if_tangled()
+                stop_if_tangled(self.graph, len(self.places), self.steps)
             self.stop_waiting()
         self.accompany()
-
-    def stop_if_tangled(self) -> None:
-        if len(self.places) > MOST_PLACES or self.steps > MOST_STEPS:
-            raise Rejected([errors.too_tangled(self.graph, MOST_PLACES, MOST_STEPS)])
 
     def visit(self, place: Place) -> None:
         self.arrives.setdefault(place.node, set()).add(place.status)
@@ -238,7 +240,7 @@ class _Walk:
                         for entry in self.entries[split]:
                             after[self.beyond(bringer, what, entry)] = None
                             self.steps += 1
-                    self.stop_if_tangled()
+                    stop_if_tangled(self.graph, len(self.places), self.steps)
 
     def stray(self, place: Place, split: Split) -> None:
         """A clone is flown before its gate: an error, walked on as if its branch ended here."""

@@ -212,3 +212,21 @@ def test_forks_lie_only_so_deep_in_each_other() -> None:
     assert optimised(build(checked(nested(forks.MOST_NESTED))))
     (found,) = findings(nested(forks.MOST_NESTED + 1))
     assert found.code == "P2026"
+
+
+def test_stops_after_stops_are_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each clock lets those on that were stopped there to the next, which can be stopped there."""
+    n = 30
+    rows = [
+        f"    wait{i} = Clock\n    mark{i} = MissionModifier emits UNEXECUTED\n"
+        f"    mark{i} -> wait{i} -> allocate when UNEXECUTED\n"
+        f"    wait{i} -> mark{i + 1} when STANDBY\n"
+        for i in range(n)
+    ]
+    rows[-1] = rows[-1].replace(f"mark{n}", "mark0")
+    text = f"{FLOWN}    watch -> end when COMPLETED\n{''.join(rows)}".replace(
+        "watch -> allocate when", "watch -> mark0 when"
+    )
+    assert "P2026" not in errors(text)
+    monkeypatch.setattr(statuses, "MOST_PLACES", 500)
+    assert errors(text) == ["P2026"]
