@@ -73,6 +73,21 @@ def test_a_mistake_in_a_hook_is_found_and_shown_small(
         assert sentence in again
 
 
+def test_a_hook_that_raises_keyboard_interrupt_interrupts_nothing(app: Path, capfd: Said) -> None:
+    """It is found as whatever else a hook raises: only a person interrupts."""
+    hooks = app.with_name("hooks.py")
+    text = hooks.read_text(encoding="utf-8")
+    begins = "    for result in results.new:"
+    assert begins in text
+    hooks.write_text(
+        text.replace(begins, f"    raise KeyboardInterrupt\n{begins}"), encoding="utf-8"
+    )
+    assert main(["test", str(app), "--seeds", "1"]) == 1
+    said = capfd.readouterr()
+    assert "it may not raise KeyboardInterrupt" in said.out
+    assert "interrupted" not in said.err
+
+
 def test_a_program_gets_one_object(broken: Path, capfd: Said) -> None:
     """With every finding, and the smallest case as text."""
     assert main(["test", str(broken), "--seeds", "1", "--json"]) == 1

@@ -9,13 +9,17 @@ from random import Random
 
 import pytest
 
+from plutoc_runtime.app import App
+from plutoc_runtime.context import Context
 from plutoc_runtime.files.fleet import default_fleet
+from plutoc_runtime.testing import command as trials
 from plutoc_runtime.testing import invariants
 from plutoc_runtime.testing.alike import Alike
 from plutoc_runtime.testing.command import test as trial
 from plutoc_runtime.testing.explore import small_case
 from plutoc_runtime.testing.rule import Say, at
 from plutoc_runtime.trace import Event
+from tests.testing.examples import app_of
 from tests.testing.mutants import free_in_flight
 from tests.testing.random_apps import random_app
 
@@ -73,3 +77,94 @@ def test_two_sentences_are_of_one_kind_if_only_names_and_numbers_differ() -> Non
     assert alike.kind("cf1 at (1.2, -3)") == alike.kind("cf2 at (0.5, 4)")
     assert alike.kind("hook do1 raised") != alike.kind("hook do2 raised")
     assert alike.kind("1 s: cf1 is free in the air") != alike.kind("1 s: cf1 was lost before free")
+
+
+def failing(calls: range) -> App:
+    """Return an app whose action fails in these of its calls."""
+    called = iter(range(1_000_000))
+
+    async def spray(drone: object, trip: object, context: Context) -> None:
+        await context.sleep(2.0)
+        if next(called) in calls:
+            raise LookupError("nothing there")
+
+    return app_of(
+        """
+        pluto 1
+        app sprayer {
+          action spray
+          category sprayer can spray
+          create = MissionCreator
+          allocate = DroneAllocator
+          launch = TripLauncher
+          watch = TripMonitor
+          start -> create -> allocate -> launch -> watch -> end
+          watch -> allocate when STANDBY
+        }
+        """,
+        {"spray": spray},
+    )
+
+
+def test_what_does_not_show_again_is_told_as_that(capfd: Said) -> None:
+    """And no case is said to show it that does not."""
+    assert trial(failing(range(3, 4)), ["--file", "app.pluto", "--seeds", "1"]) == 1
+    rest = capfd.readouterr().out.partition("What was found first:")[2]
+    assert "LookupError: nothing there" in rest
+    assert "The same case, flown once more, did not show it" in rest
+    assert "The smallest case" not in rest
+
+
+def test_what_was_found_is_told_when_somebody_interrupts(
+    capfd: Said, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Who has waited for minutes does not lose it by not waiting any longer."""
+
+    def interrupted(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(trials, "shrunk", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        trial(failing(range(1_000_000)), ["--file", "app.pluto", "--seeds", "1"])
+    rest = capfd.readouterr().out.partition("What was found first:")[2]
+    assert "LookupError: nothing there" in rest
+    assert "  plutoc test app.pluto --seed 0 " in rest
+    assert rest.endswith("It was interrupted before that was made smaller.\n")
+
+
+def test_a_smallest_case_of_drones_that_are_flown_differently_can_be_read(
+    capfd: Said, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    """How the real ones are flown does not matter to it, and fewer of them need less of that."""
+    monkeypatch.chdir(tmp_path)
+    Path("fleet.toml").write_text(FLOWN_DIFFERENTLY, encoding="utf-8")
+    app, words = failing(range(1_000_000)), ["--file", "app.pluto", "--seed", "0"]
+    assert trial(app, [*words, "--seeds", "1", "--fleet", "fleet.toml", "--json"]) == 1
+    smallest = json.loads(capfd.readouterr().out)["smallest"]
+    assert smallest["fleet"].count("[[drone]]") == 1
+    Path("m.toml").write_text(smallest["missions"], encoding="utf-8")
+    Path("f.toml").write_text(smallest["fleet"], encoding="utf-8")
+    assert trial(app, [*words, "--strike", "-", "--missions", "m.toml", "--fleet", "f.toml"]) == 1
+    assert smallest["what"][0] in capfd.readouterr().out
+
+
+FLOWN_DIFFERENTLY = """
+[navigation.crazyflie]
+sure_within = 0.1
+[navigation."own:Way"]
+speed = 1
+[localization]
+rate = 10
+[fleet]
+localization = "own:Eyes"
+[[drone]]
+id = "a"
+category = "sprayer"
+home = [1, 1]
+navigation = "own:Way"
+[[drone]]
+id = "b"
+category = "sprayer"
+home = [2, 1]
+uri = "radio://0/80/2M/E7E7E7E7E2"
+"""

@@ -66,6 +66,15 @@ def test_what_is_no_weather_is_refused(text: str) -> None:
         weather_of(text)
 
 
+@pytest.mark.parametrize(
+    "text", ["crash=2", "link=-0.1", "hook=nan", "slow=1e9", "radio=-1", "down=inf", "jump=nan"]
+)
+def test_weather_that_cannot_be_is_refused(text: str) -> None:
+    """What waits for ever by itself would pass for a mistake."""
+    with pytest.raises(ValueError, match=r"is not between -?\d+ and \d+"):
+        weather_of(text)
+
+
 @pytest.mark.parametrize("seed", range(12))
 def test_drawn_missions_are_what_a_person_could_write(seed: int, tmp_path: Path) -> None:
     """Written down and read again they fly the same, row by row."""

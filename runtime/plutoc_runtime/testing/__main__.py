@@ -7,6 +7,7 @@ from importlib import import_module
 
 from ..cli import Ending, output
 from ..cli.loading import loaded
+from ..raised import interrupted_by_a_person
 from .command import test
 
 if __name__ == "__main__":
@@ -14,6 +15,8 @@ if __name__ == "__main__":
     home = (__package__ or "").partition("._runtime")[0]
     ending = Ending(home)
     with ending:
-        ending.code = test(loaded(lambda: import_module(f"{home}.flow").APP), sys.argv[1:])
+        app = loaded(lambda: import_module(f"{home}.flow").APP)
+        with interrupted_by_a_person():  # a hook may raise a KeyboardInterrupt, and is found then
+            ending.code = test(app, sys.argv[1:])
         output.flush()
     sys.exit(ending.code)

@@ -48,6 +48,12 @@ class Weather:
 
 FAIR = Weather()
 
+_SHARES = ("crash", "link", "action", "battery", "hook", "block", "late", "snapshot")
+_MOST = 3_600.0
+"""Seconds, of all others but `jump`: whoever is kept waiting for longer need not be at fault."""
+_LONGEST_JUMP = 1e10
+"""Seconds: a clock may well begin in 1970."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Case:
@@ -79,7 +85,16 @@ def weather_of(text: str) -> Weather:
             given[name] = float(value)
         except ValueError:
             raise ValueError(f"{part.strip()} is not written like slow=0.4") from None
+        least, most = _bounds(name)
+        if not least <= given[name] <= most:
+            raise ValueError(f"{part.strip()} is not between {number(least)} and {number(most)}")
     return replace(FAIR, **given)
+
+
+def _bounds(name: str) -> tuple[float, float]:
+    if name == "jump":
+        return -_LONGEST_JUMP, _LONGEST_JUMP
+    return 0.0, 1.0 if name in _SHARES else _MOST
 
 
 def weather_text(weather: Weather) -> str:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from copy import deepcopy
+from dataclasses import replace
 from operator import attrgetter
 from typing import TYPE_CHECKING, Any
 
 from ..cli import output
 from ..errors import BadInput
 from ..fields import Entity, FieldType
-from ..files.fleet import default_fleet, load_fleet
+from ..files.fleet import DroneEntry, FleetFile, default_fleet, load_fleet
 from ..files.missions import load_missions
 from ..journal_line import dumped
 from ..plan_check import problems
@@ -26,7 +27,6 @@ from .shrink import shrunk
 
 if TYPE_CHECKING:
     from ..app import App
-    from ..files.fleet import FleetFile
     from ..model import Mission
 
 FOUND, BAD_INPUT = 1, 2
@@ -49,7 +49,7 @@ def test(app: App, argv: Sequence[str]) -> int:
 
 
 def _tried(app: App, options: Options) -> int:
-    fleet = load_fleet(options.fleet, app) if options.fleet else default_fleet(app)
+    fleet = _simulated(load_fleet(options.fleet, app)) if options.fleet else default_fleet(app)
     missions = _missions(app, fleet, options)
     if options.single:
         return _once_more(app, fleet, options, missions)
@@ -66,11 +66,16 @@ def _tried(app: App, options: Options) -> int:
         return the_same(case)
 
     smallest: Finding | None = None
+    interrupted = False
     try:
         explored(app, _cases(app, fleet, options, missions, seen), tally, enough)
         if tally.findings:
             the_same = shows_the_same(app, tally.findings[0], _WRONG)
             smallest = _smallest(app, tally.findings[0], fails)
+    except KeyboardInterrupt:
+        if not tally.findings:
+            raise
+        interrupted = True  # what was found is told all the same
     finally:
         waiting.over()
     if not tally.runs:
@@ -78,9 +83,27 @@ def _tried(app: App, options: Options) -> int:
     if options.json:
         output.line(dumped(findings_data(app, tally, smallest)))
     else:
-        for line in report(app, options, tally, smallest):
+        for line in report(app, options, tally, smallest, interrupted=interrupted):
             output.line(line)
+    if interrupted:
+        raise KeyboardInterrupt
     return FOUND if tally.findings else 0
+
+
+def _simulated(fleet: FleetFile) -> FleetFile:
+    """Return the fleet without what is for real drones: with fewer drones it might not fit them."""
+    plain = FleetFile(airspace=fleet.airspace, drones=())
+    return replace(
+        fleet,
+        navigation=plain.navigation,
+        options=plain.options,
+        localization=plain.localization,
+        localization_options=plain.localization_options,
+        drones=tuple(
+            DroneEntry(id=drone.id, category=drone.category, home=drone.home)
+            for drone in fleet.drones
+        ),
+    )
 
 
 def _cases(
@@ -98,8 +121,10 @@ def _so_far(tally: Tally, seen: Sequence[int], options: Options) -> str:
     return f"{counted(tally.runs, 'run')}, seed {len(seen)} of {options.seeds}, {found} found"
 
 
-def _smallest(app: App, first: Finding, fails: Callable[[Case], bool]) -> Finding:
-    """Make a finding small; it still shows the same mistake."""
+def _smallest(app: App, first: Finding, fails: Callable[[Case], bool]) -> Finding | None:
+    """Make a finding small; it still shows the same mistake. None: not even its own case does so."""
+    if not fails(first.case):
+        return None
     small = shrunk(first.case, fails)
     return Finding(case=small, sentences=first_the_same(first, tried(app, small).wrong))
 

@@ -26,9 +26,21 @@ if TYPE_CHECKING:
     from .options import Options
 
 _MOST_EVENTS = 200
+_WAS_INTERRUPTED = "It was interrupted before that was made smaller."
+_VANISHED = (
+    "The same case, flown once more, did not show it: what your own code does must hang on something"
+    " else, such as a clock, chance, or what an earlier run has left behind."
+)
 
 
-def report(app: App, options: Options, tally: Tally, smallest: Finding | None) -> Iterator[str]:
+def report(
+    app: App,
+    options: Options,
+    tally: Tally,
+    smallest: Finding | None,
+    *,
+    interrupted: bool = False,
+) -> Iterator[str]:
     """Yield the lines for a person."""
     struck = [what for what in FAULTS if tally.fired[what]]
     yield from table(
@@ -37,11 +49,11 @@ def report(app: App, options: Options, tally: Tally, smallest: Finding | None) -
         right=(1,),
     )
     never = [WORDS[what] for what in FAULTS if not tally.fired[what]]
-    if never and smallest is None:  # else it was over too soon for most
+    if never and not tally.findings:  # else it was over too soon for most
         yield f"Never happened, for want of an occasion: {'; '.join(never)}."
     yield ""
     yield from _tried(tally)
-    if smallest is None:
+    if not tally.findings:
         yield "No run did what no run may do."
         return
     first = tally.findings[0]
@@ -54,6 +66,9 @@ def report(app: App, options: Options, tally: Tally, smallest: Finding | None) -
     yield "  " + _again(options, first)
     yield from _others(tally.findings)
     yield ""
+    if smallest is None:
+        yield _WAS_INTERRUPTED if interrupted else _VANISHED
+        return
     yield "The smallest case that shows the same:"
     yield ""
     yield from smallest_case(app, options, smallest)
