@@ -13,7 +13,7 @@ from .trace import Event
 from .words import counted, quoted
 
 FLIGHTS = 1_000
-"""So many flights a planned trip, in one round of its mission, and no more."""
+"""So many flights a planned trip, in one planned round of its mission, and no more."""
 IDLE = 366 * 86_400.0
 """Seconds for which nothing at all sets out."""
 
@@ -31,6 +31,8 @@ class Bound:
     def __init__(self, missions: Sequence[Mission[Any]]) -> None:
         self._most = {one.name: FLIGHTS * max(1, len(one.trips)) for one in missions}
         self._flights = dict.fromkeys(self._most, 0)
+        self._rounds = {one.name: getattr(one, "repeat", 0) for one in missions}
+        """How many are planned; a hook may ask for more, again and again."""
         self.last = 0.0
         """When the last flight set out."""
 
@@ -48,7 +50,9 @@ class Bound:
                     f" ends that; {MORE}"
                 )
         elif what == "mission.repeated":
-            self._flights[str(event["mission"])] = 0
+            name = str(event["mission"])
+            if int(str(event["round"])) <= self._rounds[name]:
+                self._flights[name] = 0
         return None
 
     def idle(self) -> str:

@@ -11,6 +11,7 @@ import pytest
 
 from plutoc_blocks.drone_allocator.step import allocate_drone
 from plutoc_blocks.mission_creator.step import create_mission
+from plutoc_blocks.mission_repeater.step import repeat_mission
 from plutoc_blocks.priority_manager.step import raise_priority
 from plutoc_blocks.trip_launcher.step import launch_trip
 from plutoc_blocks.trip_monitor.step import watch_trip
@@ -100,6 +101,28 @@ def test_a_round_counts_anew(tmp_path: Path, command: Command) -> None:
     code, out, _ = command("simulate", tmp_path / "m.toml")
     assert code == 0
     assert "1 of 1 mission completed" in out
+
+
+def test_rounds_that_nobody_has_planned_do_not_count_anew(tmp_path: Path, command: Command) -> None:
+    """A hook that asks for one more round, each time, is no bound."""
+
+    async def one_more(run: Run[FieldMission]) -> Status:
+        status = create_mission(run, Status.UNEXECUTED)
+        while True:
+            status = await allocate_drone(
+                run, status, block="allocate", policy=nearest, allocate_within=None
+            )
+            status = await watch_trip(run, launch_trip(run, status))
+            run.mission.repeat += 1
+            status = repeat_mission(run, status, repeat=run.mission.repeat)
+
+    (tmp_path / "m.toml").write_text(
+        '[[mission]]\nname = "South"\nrepeat = 2\n'
+        '[[mission.trip]]\naction = "measure"\ntarget = [2, 3]\n'
+    )
+    code, out, _ = command("simulate", tmp_path / "m.toml", app=replace(APP, flow=one_more))
+    assert code == 1
+    assert f"given up: {WHY}" in out
 
 
 def test_missions_that_only_rest_are_given_up(missions: Path, command: Command) -> None:
