@@ -95,6 +95,9 @@ def test_a_developer_installs_so_that_edits_count() -> None:
     apps = "|".join([*APPS, "greenhouse", "APP"])
     own = [line for line in lines if re.search(rf"\./({apps})\b", line)]
     assert own and not [line for line in own if "pip install -e " not in line]
+    generated = ROOT / "tests/cases/alfalfa/expected/README.md"
+    said = [line for line in generated.read_text("utf-8").splitlines() if "pip install" in line]
+    assert len(said) == 4 and not [line for line in said if "pip install -e " not in line]
 
 
 def test_outdated_picture_is_replaced(tmp_path: Path) -> None:
