@@ -15,7 +15,8 @@ from tempfile import TemporaryDirectory
 from plutoc.cache import cache_folder
 from plutoc.check.model import Checked
 from plutoc.cli.endings import Unusable
-from plutoc.cli.files import default_folder, find_hooks, hooks_path, read_module
+from plutoc.cli.files import default_folder, find_hooks, hooks_path, read_module, shown
+from plutoc.cli.options import Options
 from plutoc.cli.say import say
 from plutoc.compile import Compiled, compile_source
 from plutoc.emit.embed import embed
@@ -59,6 +60,21 @@ def _with(package: Package, modules: Sequence[str]) -> Package:
 def beside(file: Path, name: str, given: Path | None) -> Path | None:
     beside = file.parent / name
     return given or (beside if beside.exists() else None)
+
+
+def fleet_for(options: Options) -> Path | None:
+    """Return the fleet file that is named, else the one beside the missions, else beside the app.
+
+    Where the missions are named and the fleet is not, it is said which one is taken.
+    """
+    if options.fleet is not None or options.missions is None:
+        return beside(options.file, FLEET, options.fleet)
+    for what, file in (("missions", options.missions), ("app", options.file)):
+        fleet = beside(file, FLEET, None)
+        if fleet is not None:
+            output.tell(f"fleet: {shown(fleet)}, beside the {what}; or name one: --fleet")
+            return fleet
+    return None
 
 
 def _with_own_code(compiled: Compiled, file: Path) -> Package:

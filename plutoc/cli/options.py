@@ -46,6 +46,7 @@ class Options:
     seeds: int | None = None
     runs: int | None = None
     fail: str | None = None
+    until: str | None = None
     strike: str | None = None
     weather: str | None = None
     json: bool = False
@@ -197,7 +198,7 @@ def _run(parser: ArgumentParser) -> None:
         "--fleet",
         metavar="F.toml",
         type=Path,
-        help="the map and the drones (default: fleet.toml beside the app, if it is there)",
+        help="the map and the drones (default: fleet.toml beside the missions or the app)",
     )
     parser.add_argument(
         "--seed", metavar="N", type=_whole, help="what chance depends on (default 0)"
@@ -209,6 +210,9 @@ def _run(parser: ArgumentParser) -> None:
     )
     parser.add_argument(
         "--runs", metavar="N", type=_whole, help="simulate N times, with N seeds from --seed on"
+    )
+    parser.add_argument(
+        "--until", metavar="TIME", help='stop at this simulated time, such as "2 h"'
     )
     parser.add_argument("--json", action="store_true", help="print one JSON object instead")
 
@@ -231,7 +235,7 @@ def _test(parser: ArgumentParser) -> None:
         "--fleet",
         metavar="F.toml",
         type=Path,
-        help="the map and the drones (default: fleet.toml beside the app, if it is there)",
+        help="the map and the drones (default: fleet.toml beside the missions or the app)",
     )
     parser.add_argument(
         "--strike",

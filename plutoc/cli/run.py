@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 
-from plutoc.cli.cached import FLEET, beside, call, in_cache
+from plutoc.cli.cached import beside, call, fleet_for, in_cache
 from plutoc.cli.endings import Unusable
 from plutoc.cli.files import read_app, shown
 from plutoc.cli.options import Options
@@ -18,11 +18,11 @@ def run(options: Options) -> int:
     missions = beside(options.file, MISSIONS, options.missions)
     if missions is None:
         raise Unusable(f"there is no {MISSIONS} beside {shown(options.file)}: use --missions")
-    fleet = beside(options.file, FLEET, options.fleet)
+    fleet = fleet_for(options)
     with in_cache(options.file, source) as (path, app):
         arguments = ["simulate", os.fspath(missions)]
         arguments += ["--fleet", os.fspath(fleet)] if fleet else []
-        for flag in ("seed", "fail", "runs"):
+        for flag in ("seed", "fail", "runs", "until"):
             value = getattr(options, flag)
             arguments += [f"--{flag}={value}"] if value is not None else []
         arguments += ["--json"] if options.json else []

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 
-from plutoc.cli.cached import FLEET, beside, call, in_cache
+from plutoc.cli.cached import call, fleet_for, in_cache
 from plutoc.cli.files import read_app
 from plutoc.cli.options import Options
 
@@ -14,7 +14,7 @@ MODULES = (f"plutoc{TESTING}", f"plutoc{TESTING}.__main__")
 
 def test(options: Options) -> int:
     """Try an app, and end as the trial does."""
-    fleet = beside(options.file, FLEET, options.fleet)
+    fleet = fleet_for(options)
     with in_cache(options.file, read_app(options.file), MODULES) as (path, app):
         arguments = ["--fleet", os.fspath(fleet)] if fleet else []
         arguments += ["--missions", os.fspath(options.missions)] if options.missions else []

@@ -76,6 +76,32 @@ def test_a_fleet_beside_the_app_is_flown(plutoc: Call, app: Path) -> None:
     assert json.loads(said.out)["drones"][0]["id"] == "other"
 
 
+def test_a_fleet_beside_missions_that_are_named_is_flown(plutoc: Call, app: Path) -> None:
+    """As the app's own `simulate` flies it, rather than the one beside the app; and that is said."""
+    drone = '[map]\nsize = [9, 9]\n[[drone]]\nid = "{}"\ncategory = "scout"\nhome = [1, 1]\n'
+    other = Path("other")
+    other.mkdir()
+    (other / "missions.toml").write_text(MISSIONS)
+    Path("fleet.toml").write_text(drone.format("mine"))
+    for command in ("run", "test"):
+        words = ["--strike", "-"] if command == "test" else ["--json"]
+        said = plutoc(command, app, "--missions", "other/missions.toml", *words)
+        assert said.err == "fleet: fleet.toml, beside the app; or name one: --fleet\n"
+        assert "mine" in said.out
+    (other / "fleet.toml").write_text(drone.format("theirs"))
+    for command in ("run", "test"):
+        words = ["--strike", "-"] if command == "test" else ["--json"]
+        said = plutoc(command, app, "--missions", "other/missions.toml", *words)
+        assert said.err == "fleet: other/fleet.toml, beside the missions; or name one: --fleet\n"
+        assert "theirs" in said.out and "mine" not in said.out
+
+
+def test_what_repeats_for_ever_is_flown_for_so_long(plutoc: Call, app: Path) -> None:
+    """`simulate` asks for it, and so whoever calls it by `run` can say it."""
+    said = plutoc("run", app, "--until", "10 s", "--json")
+    assert json.loads(said.out)["duration_s"] == 10.0
+
+
 JUDGE = """from . import Verdict
 from .words import WORD
 

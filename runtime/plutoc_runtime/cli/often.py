@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from ..journal_line import dumped
 from ..testing.invariants import items_of
-from ..words import counted, duration, number, percent, printable
+from ..words import counted, duration, in_shell, number, percent, printable
 from . import output
 from .as_json import outcome_data
 from .plot import drawing, kind_of, plot
@@ -104,12 +104,13 @@ def _broken(app: App, options: Options, runs: Sequence[Run]) -> Iterator[str]:
         yield f"seed {seed} did what no run may do: {printable(sentence)}"
     if len(found) > _MOST_VIOLATIONS:
         yield f"and {len(found) - _MOST_VIOLATIONS} more"
-    fleet = f" --fleet {options.fleet}" if options.fleet else ""
+    fleet = f" --fleet {in_shell(options.fleet)}" if options.fleet else ""
     shares = ",".join(f"{what}={share:.12g}" for what, share in options.fail.items())
     fail = f" --fail {shares}" if shares else ""
+    until = f" --until {options.until:.12g}" if options.until else ""
     yield (
-        f"See it again: {app.name} simulate {options.missions}{fleet} --seed {runs[0].seed}{fail} "
-        "--trace trace.jsonl"
+        f"See it again: {app.name} simulate {in_shell(options.missions)}{fleet} --seed {runs[0].seed}"
+        f"{fail}{until} --trace trace.jsonl"
     )
     yield "This is a mistake of ours, or of whoever made a block: please report it, with that file."
 

@@ -7,6 +7,7 @@ import sys
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
+from shlex import split
 from typing import Any
 
 import pytest
@@ -86,6 +87,12 @@ def test_a_run_that_does_what_no_run_may_do_is_exit_70(
     assert "seed 3 did what no run may do: North ended 2 times\n" in out
     again = f"alfalfa simulate {missions} --seed 3 --fail crash=0.05 --trace trace.jsonl\n"
     assert f"See it again: {again}" in out
+    spaced = missions.with_name("what's to fly.toml")
+    spaced.write_text(missions.read_text())
+    _, out, _ = command("simulate", spaced, "--runs", 1, "--until", "2 h")
+    (again,) = (line for line in out.splitlines() if line.startswith("See it again: "))
+    words = split(again.removeprefix("See it again: "))
+    assert words[2:] == [str(spaced), "--seed", "0", "--until", "7200", "--trace", "trace.jsonl"]
 
 
 def test_a_percentile_lies_between_two_neighbours() -> None:
