@@ -88,6 +88,24 @@ def test_a_hook_that_raises_keyboard_interrupt_interrupts_nothing(app: Path, cap
     assert "interrupted" not in said.err
 
 
+def test_a_case_is_said_to_show_it_only_if_its_command_does(app: Path, capfd: Said) -> None:
+    """What hooks.py keeps from run to run is not there when somebody types the command."""
+    hooks = app.with_name("hooks.py")
+    text = hooks.read_text(encoding="utf-8")
+    begins = "    done = {result.trip.target"
+    assert begins in text
+    counted = (
+        "    CALLS.append(1)\n    if len(CALLS) > 30:\n        raise LookupError('too many')\n"
+    )
+    text = text.replace(begins, counted + begins)
+    hooks.write_text(text + "\n\nCALLS = []\n", encoding="utf-8")
+    assert main(["test", str(app), "--seeds", "1"]) == 1
+    out = capfd.readouterr().out
+    assert "LookupError: too many" in out.partition("What was found first:")[2]
+    assert "flown once more by itself, the case did not show it" in out
+    assert "The smallest case" not in out
+
+
 def test_a_program_gets_one_object(broken: Path, capfd: Said) -> None:
     """With every finding, and the smallest case as text."""
     assert main(["test", str(broken), "--seeds", "1", "--json"]) == 1

@@ -111,7 +111,7 @@ def test_what_does_not_show_again_is_told_as_that(capfd: Said) -> None:
     assert trial(failing(range(3, 4)), ["--file", "app.pluto", "--seeds", "1"]) == 1
     rest = capfd.readouterr().out.partition("What was found first:")[2]
     assert "LookupError: nothing there" in rest
-    assert "The same case, flown once more, did not show it" in rest
+    assert "flown once more by itself, the case did not show it" in rest
     assert "The smallest case" not in rest
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import subprocess
 import sys
 from importlib import import_module
 
@@ -10,6 +11,13 @@ from ..cli.loading import loaded
 from ..raised import interrupted_by_a_person
 from .command import test
 
+
+def by_itself(words: list[str]) -> int:
+    """Run the same with other words, in a new process; return the exit code."""
+    command = [sys.executable, "-P", "-m", __package__ or "", *words]
+    return subprocess.run(command, capture_output=True, check=False).returncode
+
+
 if __name__ == "__main__":
     output.prepare()
     home = (__package__ or "").partition("._runtime")[0]
@@ -17,6 +25,6 @@ if __name__ == "__main__":
     with ending:
         app = loaded(lambda: import_module(f"{home}.flow").APP)
         with interrupted_by_a_person():  # a hook may raise a KeyboardInterrupt, and is found then
-            ending.code = test(app, sys.argv[1:])
+            ending.code = test(app, sys.argv[1:], by_itself)
         output.flush()
     sys.exit(ending.code)

@@ -6,12 +6,15 @@ from collections.abc import Callable, Iterator, Sequence
 from copy import deepcopy
 from dataclasses import replace
 from operator import attrgetter
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 from ..cli import output
 from ..errors import BadInput
 from ..fields import Entity, FieldType
 from ..files.fleet import DroneEntry, FleetFile, default_fleet, load_fleet
+from ..files.fleet_text import fleet_text
 from ..files.missions import load_missions
 from ..journal_line import dumped
 from ..plan_check import problems
@@ -21,7 +24,8 @@ from .case import FAIR, Case
 from .explore import Finding, Tally, drawn_case, everywhere, explored, small_case
 from .options import Options, parse
 from .patience import patience
-from .report import findings_data, report, shown_again
+from .plan_text import missions_text
+from .report import findings_data, repeated, report, shown_again
 from .rig import tried
 from .shrink import shrunk
 
@@ -39,16 +43,20 @@ ENOUGH = 5
 _WRONG = attrgetter("wrong")
 
 
-def test(app: App, argv: Sequence[str]) -> int:
+ByItself = Callable[[list[str]], int]
+"""Tries in a new process what its words ask for, and returns the exit code."""
+
+
+def test(app: App, argv: Sequence[str], by_itself: ByItself | None = None) -> int:
     """Try the app, say what was found, and return the exit code."""
     try:
         options = parse(argv)
     except SystemExit as end:
         return end.code if isinstance(end.code, int) else BAD_INPUT
-    return _tried(app, options)
+    return _tried(app, options, by_itself)
 
 
-def _tried(app: App, options: Options) -> int:
+def _tried(app: App, options: Options, by_itself: ByItself | None) -> int:
     fleet = _simulated(load_fleet(options.fleet, app)) if options.fleet else default_fleet(app)
     missions = _missions(app, fleet, options)
     if options.single:
@@ -72,6 +80,8 @@ def _tried(app: App, options: Options) -> int:
         if tally.findings:
             the_same = shows_the_same(app, tally.findings[0], _WRONG)
             smallest = _smallest(app, tally.findings[0], fails)
+            if smallest and by_itself and not _shows(app, smallest, by_itself):
+                smallest = None
     except KeyboardInterrupt:
         if not tally.findings:
             raise
@@ -127,6 +137,15 @@ def _smallest(app: App, first: Finding, fails: Callable[[Case], bool]) -> Findin
         return None
     small = shrunk(first.case, fails)
     return Finding(case=small, sentences=first_the_same(first, tried(app, small).wrong))
+
+
+def _shows(app: App, small: Finding, by_itself: ByItself) -> bool:
+    """Say whether a case shows it where no earlier run has left anything behind, as in hooks.py."""
+    with TemporaryDirectory() as folder:
+        missions, fleet = Path(folder) / "missions.toml", Path(folder) / "fleet.toml"
+        missions.write_text(missions_text(app, small.case.missions), encoding="utf-8")
+        fleet.write_text(fleet_text(small.case.fleet), encoding="utf-8")
+        return by_itself(repeated(small.case, missions, fleet)) == FOUND
 
 
 def _once_more(

@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
-from shlex import quote
 from typing import TYPE_CHECKING
 
 from ..cli.events import line_of
 from ..cli.report import table
 from ..files.fleet_text import fleet_text
-from ..words import counted, printable
+from ..words import counted, in_shell, printable
 from .alike import Alike
 from .blows import blows_text
 from .case import weather_text
@@ -22,14 +21,16 @@ from .wording import ENDS, WORDS, WRITTEN
 if TYPE_CHECKING:
     from ..app import App
     from .book import Trial
+    from .case import Case
     from .explore import Finding, Tally
     from .options import Options
 
 _MOST_EVENTS = 200
 _WAS_INTERRUPTED = "It was interrupted before that was made smaller."
 _VANISHED = (
-    "The same case, flown once more, did not show it: what your own code does must hang on something"
-    " else, such as a clock, chance, or what an earlier run has left behind."
+    "It could not be made smaller: flown once more by itself, the case did not show it. What your own"
+    " code does must hang on something else, such as a clock, chance, or what an earlier run has left"
+    " behind."
 )
 
 
@@ -121,17 +122,22 @@ def smallest_case(app: App, options: Options, finding: Finding) -> Iterator[str]
 
 def _again(options: Options, finding: Finding) -> str:
     """Return the command that flies a case again, with the files that it was drawn for."""
-    case = finding.case
-    words = ["plutoc", "test", quote(str(options.file))]
-    for flag, path in (("--missions", options.missions), ("--fleet", options.fleet)):
-        words += [] if path is None else [flag, quote(str(path))]
+    words = repeated(finding.case, options.missions, options.fleet)
+    return " ".join(map(in_shell, ["plutoc", "test", options.file, *words]))
+
+
+def repeated(case: Case, missions: Path | None, fleet: Path | None) -> list[str]:
+    """Return the words of a command line that fly a case again."""
+    words: list[str] = []
+    for flag, path in (("--missions", missions), ("--fleet", fleet)):
+        words += [] if path is None else [flag, str(path)]
     words += ["--seed", str(case.seed)]
     weather = weather_text(case.weather)
     if case.blows or not weather:
         words += ["--strike", blows_text(case.blows) or "-"]
     if weather:
         words += ["--weather", weather]
-    return " ".join(words)
+    return words
 
 
 def shown_again(trial: Trial) -> Iterator[str]:
