@@ -34,14 +34,14 @@ class Bound:
         self._rounds = {one.name: getattr(one, "repeat", 0) for one in missions}
         """How many are planned; a hook may ask for more, again and again."""
         self.last = 0.0
-        """When the last flight set out."""
+        """When the last flight set out, or is to do so after a delay."""
 
     def look(self, event: Event) -> Enough | None:
         """Hear of an event; return why there is no end to be expected, once there is none."""
         what = event["event"]
         if what == "trip.launched":
             name = str(event["mission"])
-            self.last = float(str(event["t"]))
+            self.last = max(self.last, float(str(event["t"])))
             self._flights[name] = flights = self._flights[name] + 1
             if flights >= self._most[name]:
                 trips = counted(self._most[name] // FLIGHTS, "trip")
@@ -49,6 +49,8 @@ class Bound:
                     f"mission {quoted(name)} has set out {flights} times for {trips}, and nothing"
                     f" ends that; {MORE}"
                 )
+        elif what == "trip.delayed":
+            self.last = max(self.last, float(str(event["until"])))
         elif what == "mission.repeated":
             name = str(event["mission"])
             if int(str(event["round"])) <= self._rounds[name]:

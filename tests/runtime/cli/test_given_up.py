@@ -21,6 +21,7 @@ from plutoc_runtime.run import Run
 from plutoc_runtime.status import Status
 from tests.runtime.cli.conftest import Command
 from tests.runtime.files.an_app import APP, FieldMission
+from tests.testing.examples import app_of
 
 WHY = 'mission "South" has set out 100 times for 1 trip, and nothing ends that; to fly on, say how'
 
@@ -140,3 +141,27 @@ def test_crashed_drones_are_counted(missions: Path, command: Command) -> None:
     said = json.loads(command("simulate", missions, *crash, "--json")[1])
     assert said["crashed_drones"] == sum(one["status"] == "LOST" for one in said["drones"]) == 3
     assert "crashed" not in command("simulate", missions)[1]
+
+
+WAITS = app_of("""
+    pluto 1
+    app patient {
+      create = MissionCreator
+      wait = Clock
+      allocate = DroneAllocator
+      launch = TripLauncher
+      watch = TripMonitor
+      start -> create -> wait -> allocate -> launch -> watch -> end
+      watch -> wait when STANDBY
+    }
+    """)
+
+
+def test_who_is_to_wait_for_years_does_so(tmp_path: Path, command: Command) -> None:
+    """A plan may say so: nothing that is planned is given up."""
+    (tmp_path / "m.toml").write_text(
+        '[[mission]]\n[[mission.trip]]\naction = "measure"\ntarget = [2, 3]\ndelay = 80_000_000\n'
+    )
+    code, out, _ = command("simulate", tmp_path / "m.toml", app=WAITS)
+    assert code == 0
+    assert "1 of 1 mission completed" in out
