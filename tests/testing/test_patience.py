@@ -4,8 +4,12 @@ from __future__ import annotations
 
 from io import StringIO
 
+import pytest
+
 from plutoc_runtime.cli.progress import Progress
+from plutoc_runtime.testing import command
 from plutoc_runtime.testing.patience import EVERY, Patience
+from tests.testing.examples import example
 
 
 class Clock:
@@ -39,3 +43,23 @@ def test_at_a_terminal_a_bar_is_drawn_and_taken_away() -> None:
     assert terminal.getvalue().endswith("] 12 runs")
     patience.over()
     assert terminal.getvalue().endswith(" \r")
+
+
+@pytest.mark.parametrize("seeds", [1, 20])
+def test_the_bar_fills_as_runs_are_done(seeds: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of the first seeds there are hundreds of runs each: it is neither full at once nor empty for long."""
+    shares: list[float] = []
+
+    class Waiting:
+        def tell(self, share: float, _: str) -> None:
+            shares.append(share)
+
+        def over(self) -> None:
+            pass
+
+    monkeypatch.setattr(command, "patience", lambda *, lines: Waiting())
+    assert command.test(example("drugs_distribution"), ["--seeds", str(seeds), "--json"]) == 0
+    assert len(shares) > 100
+    assert shares[0] == 0
+    assert 0.4 < shares[len(shares) // 2] < 0.6
+    assert 0.9 < shares[-1] < 1.1

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from copy import deepcopy
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from math import inf
 from operator import attrgetter
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -63,20 +64,20 @@ def _tried(app: App, options: Options, by_itself: ByItself | None) -> int:
         return _once_more(app, fleet, options, missions)
     tally = Tally()
     waiting = patience(lines=not options.json)
-    seen: list[int] = []
+    way = _Way()
 
     def enough(tally: Tally) -> bool:
-        waiting.tell(len(seen) / options.seeds, _so_far(tally, seen, options))
+        waiting.tell(tally.runs / way.runs, _so_far(tally, way, options))
         return len(tally.findings) >= ENOUGH
 
     def fails(case: Case) -> bool:
-        waiting.tell(1.0, f"{_so_far(tally, seen, options)}: making the first one smaller")
+        waiting.tell(1.0, f"{_so_far(tally, way, options)}: making the first one smaller")
         return the_same(case)
 
     smallest: Finding | None = None
     interrupted = False
     try:
-        explored(app, _cases(app, fleet, options, missions, seen), tally, enough)
+        explored(app, _cases(app, fleet, options, missions, way), tally, enough)
         if tally.findings:
             the_same = shows_the_same(app, tally.findings[0], _WRONG)
             smallest = _smallest(app, tally.findings[0], fails)
@@ -116,19 +117,34 @@ def _simulated(fleet: FleetFile) -> FleetFile:
     )
 
 
+@dataclass(slots=True)
+class _Way:
+    """How far the work is, and how much there is of it."""
+
+    seeds: int = 0
+    """Of which anything was tried."""
+    runs: float = inf
+    """How many there will have been, as far as that is known."""
+
+
 def _cases(
-    app: App, fleet: FleetFile, options: Options, missions: Sequence[Mission[Any]], seen: list[int]
+    app: App, fleet: FleetFile, options: Options, missions: Sequence[Mission[Any]], way: _Way
 ) -> Iterator[Case]:
+    known = options.seeds
     for seed in range(options.seed, options.seed + options.seeds):
-        seen.append(seed)
+        way.seeds += 1
+        ahead = min(options.seeds, STRUCK_EVERYWHERE) - way.seeds
         yield drawn_case(app, fleet, seed, missions)
-        if len(seen) <= STRUCK_EVERYWHERE:
-            yield from everywhere(app, small_case(app, fleet, seed, missions))
+        if ahead >= 0:
+            struck = list(everywhere(app, small_case(app, fleet, seed, missions)))
+            known += len(struck)
+            way.runs = known + ahead * len(struck)
+            yield from struck
 
 
-def _so_far(tally: Tally, seen: Sequence[int], options: Options) -> str:
+def _so_far(tally: Tally, way: _Way, options: Options) -> str:
     found = counted(len(tally.findings), "mistake")
-    return f"{counted(tally.runs, 'run')}, seed {len(seen)} of {options.seeds}, {found} found"
+    return f"{counted(tally.runs, 'run')}, seed {way.seeds} of {options.seeds}, {found} found"
 
 
 def _smallest(app: App, first: Finding, fails: Callable[[Case], bool]) -> Finding | None:
