@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from plutoc_runtime.files.fleet import load_fleet
+from plutoc_runtime.files.fleet import default_fleet, load_fleet
 from plutoc_runtime.files.fleet_text import fleet_text
 from plutoc_runtime.files.missions import load_missions
 from plutoc_runtime.testing import explore
@@ -20,7 +20,7 @@ from plutoc_runtime.testing.explore import Tally, drawn_case, explored, small_ca
 from plutoc_runtime.testing.plan_text import missions_text
 from plutoc_runtime.testing.rig import Rig, tried
 from plutoc_runtime.testing.shrink import shrunk
-from tests.testing.examples import example, fleet_of
+from tests.testing.examples import app_of, example, fleet_of
 
 APP = example("drugs_distribution_retry")
 FLEET = fleet_of("drugs_distribution_retry", APP)
@@ -126,3 +126,27 @@ def test_small_cases_have_fair_weather_every_other_time() -> None:
     """So a mistake that needs none shows without it."""
     weathers = [small_case(APP, FLEET, seed).weather == FAIR for seed in range(6)]
     assert weathers == [True, False] * 3
+
+
+def test_a_plan_of_many_days_does_not_go_on_for_ever() -> None:
+    """What waits as its trips say is in time, however long that takes."""
+    app = app_of("""
+        pluto 1
+        app patient {
+          create = MissionCreator
+          wait = Clock
+          allocate = DroneAllocator
+          launch = TripLauncher
+          watch = TripMonitor
+          start -> create -> wait -> allocate -> launch -> watch -> end
+          watch -> wait when STANDBY
+        }
+        """)
+    trips = [
+        app.trip(name=str(x), index=x, action="measure", target=(2.0, 3.0, 1.0), delay=5 * 86_400.0)
+        for x in range(3)
+    ]
+    mission = app.mission(name="m1", index=0, trips=trips)
+    trial = tried(app, Case(seed=1, missions=(mission,), fleet=default_fleet(app)))
+    assert trial.wrong == ()
+    assert trial.ends == {"m1": "COMPLETED"}

@@ -76,6 +76,8 @@ class Book:
         """By mission, how it has ended."""
         self.known: dict[str, Known] = {}
         """By mission, what the next life must know."""
+        self.delays = 0.0
+        """Seconds that trips were to wait."""
         self.once = Once({name: action.repeat for name, action in app.actions.items()})
         self.fired: Counter[str] = Counter()
         self.found: list[str] = []
@@ -96,6 +98,8 @@ class Book:
             self.once.take(event)
             if event["event"] == "mission.ended":
                 self._end(event)
+            elif event["event"] == "trip.delayed":
+                self.delays += float(str(event["until"])) - float(str(event["t"]))
 
     def _end(self, event: Event) -> None:
         mission, reason = str(event["mission"]), str(event["reason"])
