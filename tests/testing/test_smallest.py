@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from collections import Counter
 from pathlib import Path
 from random import Random
 
@@ -16,7 +17,9 @@ from plutoc_runtime.testing import command as trials
 from plutoc_runtime.testing import invariants
 from plutoc_runtime.testing.alike import Alike
 from plutoc_runtime.testing.command import test as trial
-from plutoc_runtime.testing.explore import small_case
+from plutoc_runtime.testing.explore import Tally, small_case
+from plutoc_runtime.testing.options import Options
+from plutoc_runtime.testing.report import report
 from plutoc_runtime.testing.rule import Say, at
 from plutoc_runtime.trace import Event
 from tests.testing.examples import app_of
@@ -104,6 +107,13 @@ def failing(calls: range) -> App:
         """,
         {"spray": spray},
     )
+
+
+def test_one_mission_was_completed_and_two_were() -> None:
+    """As people say it."""
+    tally = Tally(runs=3, lives=3, missions=Counter({"COMPLETED": 1, "CANCELLED": 2}))
+    said = list(report(failing(range(0)), Options(), tally, None))
+    assert "3 missions ended: 1 was completed, 2 were cancelled." in said
 
 
 def test_what_does_not_show_again_is_told_as_that(capfd: Said) -> None:

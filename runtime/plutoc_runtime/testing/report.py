@@ -79,7 +79,11 @@ def _tried(tally: Tally) -> Iterator[str]:
     runs, missions = counted(tally.runs, "run"), counted(tally.missions.total(), "mission")
     again = tally.lives - tally.runs
     yield f"{runs}, in which the app was started anew {counted(again, 'time')} after it had died or was stopped."
-    ends = [f"{tally.missions[end]} {words}" for end, words in ENDS.items() if tally.missions[end]]
+    ends = [
+        f"{count} {words if count > 1 else words.replace('were ', 'was ')}"
+        for end, words in ENDS.items()
+        if (count := tally.missions[end])
+    ]
     yield f"{missions} ended: {', '.join(ends) or 'none'}."
 
 
