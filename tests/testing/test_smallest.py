@@ -125,6 +125,18 @@ def test_what_does_not_show_again_is_told_as_that(capfd: Said) -> None:
     assert "The smallest case" not in rest
 
 
+def test_actions_that_no_drone_can_do_are_told(capfd: Said, tmp_path: Path) -> None:
+    """They are not tried, and nobody shall take them for sound."""
+    fleet = tmp_path / "fleet.toml"
+    fleet.write_text('[[drone]]\nid = "w"\ncategory = "watcher"\nhome = [1, 1]\n')
+    app = random_app(Random("0/app"))
+    assert trial(app, ["--seeds", "1", "--fleet", str(fleet)]) == 0
+    why = "no drone of the fleet can do0: it has no worker, so it is not tried"
+    assert f"{fleet}: warning: {why}" in capfd.readouterr().err
+    assert trial(app, ["--seeds", "1"]) == 0
+    assert "warning" not in capfd.readouterr().err
+
+
 def test_what_was_found_is_told_when_somebody_interrupts(
     capfd: Said, monkeypatch: pytest.MonkeyPatch
 ) -> None:

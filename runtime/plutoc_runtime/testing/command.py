@@ -18,7 +18,7 @@ from ..files.fleet import DroneEntry, FleetFile, default_fleet, load_fleet
 from ..files.fleet_text import fleet_text
 from ..files.missions import load_missions
 from ..journal_line import dumped
-from ..plan_check import problems
+from ..plan_check import idle_actions, problems
 from ..words import counted
 from .alike import first_the_same, shows_the_same
 from .case import FAIR, Case
@@ -62,6 +62,9 @@ def _tried(app: App, options: Options, by_itself: ByItself | None) -> int:
     missions = _missions(app, fleet, options)
     if options.single:
         return _once_more(app, fleet, options, missions)
+    if not missions:
+        for sentence in idle_actions(app, fleet):
+            output.tell(f"{options.fleet or app.name}: warning: {sentence}, so it is not tried")
     tally = Tally()
     waiting = patience(lines=not options.json)
     way = _Way()
