@@ -41,9 +41,11 @@ _NEEDED = frozenset(
         *("contourpy", "cycler", "dateutil", "fonttools", "kiwisolver", "mpl_toolkits", "pil"),
         *("pillow", "pylab", "pyparsing", "python_dateutil", "six", "tzdata"),  # to here plots
         *("colorama", "exceptiongroup", "iniconfig", "pluggy", "pygments"),  # and pytest these
+        *("black", "blackd", "blib2to3", "jinja2", "lark", "markupsafe", "mypy_extensions"),
+        *("networkx", "pytokens"),  # the compiler, which is often installed beside its apps
     }
 )
-"""What the extras of a generated package bring, by distribution and by module."""
+"""What the extras of a generated package bring, by distribution and by module, and the compiler needs."""
 
 _OURS = frozenset(
     {

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from plutoc_runtime.files.drones import DroneEntry
 from plutoc_runtime.look_alikes import look_alikes
 from tests.runtime import apps
 
@@ -17,6 +18,12 @@ from tests.runtime import apps
         ("\uff21", "A"),
         ("a b", "a  b"),
         ("stra\u00dfe", "STRASSE"),
+        ("\u03bdan", "van"),
+        ("kit", "\u043ait"),
+        ("A-1", "A\u20111"),
+        ("North", "North\ufe0f"),
+        ("North", "No\u034frth"),
+        ("North", "North\u3164"),
     ],
 )
 def test_two_names_that_look_alike_are_told(one: str, other: str) -> None:
@@ -27,6 +34,9 @@ def test_two_names_that_look_alike_are_told(one: str, other: str) -> None:
     trips = apps.mission("m", apps.trip(one, 3.0), apps.trip(other, 4.0))
     (said,) = look_alikes([trips])
     assert 'two trips of mission "m" are easily taken' in said
+    drones = [DroneEntry(id=id, category="scout", home=(0.5, 0.5, 0.0)) for id in (one, other)]
+    (said,) = look_alikes([], drones)
+    assert "two drones are easily taken" in said
 
 
 def test_names_that_differ_are_left_alone() -> None:

@@ -50,7 +50,7 @@ def load(app: App, options: Options) -> Plan:
     if found:
         raise BadInput(shortened([f"{options.missions}: {sentence}" for sentence in found]))
     if not options.supervised:  # then it has been said
-        for sentence in look_alikes(missions):
+        for sentence in look_alikes(missions, fleet.drones):
             output.tell(f"{options.missions}: warning: {sentence}")
     return Plan(
         app=app,
