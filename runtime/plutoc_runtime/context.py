@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from .kernel import Key, Kind, mission_key
 from .signals import Signal
-from .words import text_of
+from .words import class_of, text_of
 
 if TYPE_CHECKING:
     from .core import Core
@@ -38,7 +38,7 @@ class Context:
 
     def log(self, text: str) -> None:
         """Write a line on the console."""
-        self._core.log(text_of(text, f"<{type(text).__name__}>"), self._state.mission.name)
+        self._core.log(text_of(text, f"<{class_of(text)}>"), self._state.mission.name)
 
     def live(self, drone: Drone) -> LiveDrone:
         """Return what the drone of this action can be asked, and set to, while it hovers here."""

@@ -166,7 +166,7 @@ class Flight(Signal[Status]):
 
 def _why(error: ActionFailed) -> str:
     """Return what an action says of its failure."""
-    return bounded(text_of(error, "it does not say why"), LONGEST_REASON)
+    return bounded(text_of(error) or "it does not say why", LONGEST_REASON)
 
 
 def launch(state: State, drone: Drone) -> None:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from .errors import ActionFailed, HookFault
 from .kernel import WHATEVER, Cancelled, Kernel
 from .raised import by_a_person
-from .words import bounded, text_of
+from .words import bounded, class_of, text_of
 
 if TYPE_CHECKING:
     from .journal.recorder import Recorder
@@ -64,7 +64,7 @@ def fault_of(hook: Hook, error: BaseException) -> HookFault:
 
     Even `SystemExit` is a fault: it would end the flights of all others. An interrupt is the user's.
     """
-    if isinstance(error, ActionFailed):
+    if issubclass(type(error), ActionFailed):
         text = bounded(text_of(error), LONGEST_REASON)
         reason = f"hook {hook_name(hook)} raised ActionFailed, which only an action may: {text}"
     else:
@@ -74,7 +74,7 @@ def fault_of(hook: Hook, error: BaseException) -> HookFault:
 
 def said(error: BaseException) -> str:
     """Return an error's type and its text, if it has any to give."""
-    text = f"{type(error).__name__}: {text_of(error)}".removesuffix(": ")
+    text = f"{class_of(error)}: {text_of(error)}".removesuffix(": ")
     return bounded(text, LONGEST_REASON)
 
 
@@ -88,14 +88,15 @@ def trace_of(error: BaseException) -> str:
     """Return the traceback of a hook's error, for the log."""
     import traceback  # not needed by those who only declare blocks
 
-    if all(type(given) in (str, int, float) for given in error.args):
-        try:
+    try:
+        if all(type(given) in (str, int, float) for given in error.args):
             return bounded("".join(traceback.format_exception(error)).rstrip(), LONGEST_LOG)
-        except WHATEVER as its_own:
-            if by_a_person(its_own):
-                raise
+    except WHATEVER as its_own:
+        if by_a_person(its_own):
+            raise
     # Python would ask what it was given how it is written, which may take for ever
-    lines = ["Traceback (most recent call last):\n", *traceback.format_tb(error.__traceback__)]
+    through = BaseException.__dict__["__traceback__"].__get__(error)
+    lines = ["Traceback (most recent call last):\n", *traceback.format_tb(through)]
     return bounded("".join(lines), LONGEST_LOG) + said(error)
 
 

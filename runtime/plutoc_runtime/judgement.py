@@ -14,7 +14,7 @@ from .raised import by_a_person
 from .soundness import unsound, unsound_mission
 from .status import COMPLETED, FAILED, STANDBY, Status, TripStatus
 from .verdict import Verdict
-from .words import shown, text_of
+from .words import class_of, shown, text_of
 
 if TYPE_CHECKING:
     from .core import Core
@@ -30,7 +30,7 @@ def apply(run: Run[Any], hook: Callable[..., object], verdict: object) -> Status
     if wrong is not None:
         raise HookFault(f"evaluator {name} left a mission that cannot go on: {wrong}")
     if not issubclass(type(verdict), Verdict):
-        what = type(verdict).__name__
+        what = class_of(verdict)
         raise HookFault(f"evaluator {name} must return a Verdict, not {what}")
     verdict = Verdict._make(tuple.__iter__(cast("Verdict", verdict)))  # its class may change facts
     if type(mission.trips) is not list or mission.trips:
@@ -39,7 +39,7 @@ def apply(run: Run[Any], hook: Callable[..., object], verdict: object) -> Status
         return COMPLETED
     redo, add = _listed(name, "redo", verdict.redo), _listed(name, "add", verdict.add)
     for line in _listed(name, "log", verdict.log):
-        core.log(text_of(line, f"<{type(line).__name__}>"), mission.name)
+        core.log(text_of(line, f"<{class_of(line)}>"), mission.name)
     if verdict.fail is not None or not (_is_ok(name, verdict.ok) or redo or add):
         reason = "" if verdict.fail is None else text_of(verdict.fail, shown(verdict.fail)).strip()
         core.transitions.judge_failed(mission, reason or f"{name} did not accept it")
@@ -75,7 +75,7 @@ def _listed(evaluator: str, field: str, value: object) -> Sequence[Any]:
         if issubclass(type(value), kind):
             return tuple(kind.__iter__(cast("Any", value)))
     raise HookFault(
-        f"evaluator {evaluator} must give `{field}` as a tuple, not as {type(value).__name__}"
+        f"evaluator {evaluator} must give `{field}` as a tuple, not as {class_of(value)}"
     )
 
 

@@ -10,7 +10,7 @@ from .errors import HookFault
 from .hooks import hook_name
 from .soundness import unsound, unsound_mission
 from .status import Status, TripStatus
-from .words import bounded, shown
+from .words import bounded, class_of, shown
 
 if TYPE_CHECKING:
     from .run import Run
@@ -58,9 +58,7 @@ def _check_trips(run: Run[Any], name: str) -> None:
     """A modifier may change what is still to do; what comes of it must be trips."""
     mission, flying = run.mission, run.state.in_flight
     if type(mission.trips) is not list:
-        raise HookFault(
-            f"modifier {name} made mission.trips {type(mission.trips).__name__}, not a list"
-        )
+        raise HookFault(f"modifier {name} made mission.trips {class_of(mission.trips)}, not a list")
     if flying is not None and (not mission.trips or mission.trips[0] is not flying.trip):
         raise HookFault(
             f"modifier {name} took trip {flying.trip.name}, which is flying, from its place"

@@ -12,6 +12,7 @@ from .forked import end_if_forked
 from .hooks import hook_name, said, trace_of
 from .model import Drone
 from .raised import by_a_person
+from .words import class_of
 
 if TYPE_CHECKING:
     from .model import Trip
@@ -112,4 +113,4 @@ class Asked:
 
 def _named(answer: object) -> str:
     """Name what a hook answered, in a word or two."""
-    return f"drone {answer.id}" if type(answer) is Drone else type(answer).__name__
+    return f"drone {answer.id}" if type(answer) is Drone else class_of(answer)

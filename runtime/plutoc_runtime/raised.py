@@ -9,6 +9,7 @@ from types import FrameType
 
 from .forked import in_children
 from .kernel import Cancelled
+from .words import class_of
 
 NOT_ITS_OWN = (Cancelled, GeneratorExit, KeyboardInterrupt)
 """What ends coroutines, or the whole app, when it is not a hook that raises it."""
@@ -44,14 +45,15 @@ def _as_usual() -> None:
 
 def by_a_person(error: BaseException) -> bool:
     """Say whether this is a person's Ctrl-C, or, where that cannot be told, may be."""
-    if not isinstance(error, KeyboardInterrupt):
+    kind = type(error)  # the error itself is asked nothing: it may be of any class
+    if not issubclass(kind, KeyboardInterrupt):
         return False
     handler = signal.getsignal(signal.SIGINT)
-    return isinstance(error, Interrupted) or handler is signal.default_int_handler
+    return issubclass(kind, Interrupted) or handler is signal.default_int_handler
 
 
 def as_a_fault(error: BaseException) -> BaseException:
     """Return what those who called a hook get for what it raised: nothing that would end them."""
-    if isinstance(error, NOT_ITS_OWN) and not by_a_person(error):
-        return RuntimeError(f"it may not raise {type(error).__name__}")
+    if issubclass(type(error), NOT_ITS_OWN) and not by_a_person(error):
+        return RuntimeError(f"it may not raise {class_of(error)}")
     return error

@@ -12,7 +12,7 @@ from .kernel import WHATEVER
 from .model import Item
 from .raised import by_a_person
 from .status import Status, TripStatus
-from .words import shown
+from .words import class_of, shown
 
 if TYPE_CHECKING:
     from .airspace import Airspace
@@ -32,7 +32,7 @@ def unsound(core: Core, trip: object) -> str | None:
 
 def _unsound(core: Core, trip: object) -> str | None:
     if not issubclass(type(trip), core.app.trip):
-        return f"it must be a Trip of this app, not {type(trip).__name__}"
+        return f"it must be a Trip of this app, not {class_of(trip)}"
     found = cast("Trip", trip)
     return (
         (None if _is_usual(found) else _wrong_facts(found, _TRIP))
@@ -50,7 +50,7 @@ def unsound_mission(core: Core, mission: Mission[Any]) -> str | None:
         kind = core.app.trip
         for trip in mission.completed_trips:
             if type(trip) is not kind:
-                return f"completed_trips holds {type(trip).__name__}"
+                return f"completed_trips holds {class_of(trip)}"
         return None
     except WHATEVER as error:
         if by_a_person(error):
@@ -112,7 +112,7 @@ def _wrong_facts(of: object, facts: Mapping[str, tuple[type, ...]]) -> str | Non
     for name, types in facts.items():
         value = getattr(of, name)
         if type(value) not in types:
-            return f"its {name} must be {types[-1].__name__}, not {type(value).__name__}"
+            return f"its {name} must be {types[-1].__name__}, not {class_of(value)}"
         if isinstance(value, int) and abs(value) >= _MOST:
             return f"its {name} must be a number, not {shown(value)}"
     return None
@@ -127,7 +127,7 @@ def _wrong_action(core: Core, trip: Trip) -> str | None:
     if action is None:
         return f"there is no action {trip.action!r}"
     if not isinstance(trip.parameters, Mapping):
-        return f"its parameters must be a dict, not {type(trip.parameters).__name__}"
+        return f"its parameters must be a dict, not {class_of(trip.parameters)}"
     known = {parameter.name: parameter.default for parameter in action.parameters}
     for given, value in dict(trip.parameters).items() if trip.parameters else ():
         if type(given) is not str or given not in known:

@@ -24,7 +24,10 @@ def in_shell(text: object) -> str:
     """Write a word of a command line so that a shell takes it as it is, and runs nothing of it."""
     from shlex import quote  # only who is told what to type needs it
 
-    return quote(str(text))
+    word = str(text)
+    if word.isprintable():
+        return quote(word)
+    return "$'" + printable(word.replace("\\", "\\\\").replace("'", "\\'")) + "'"
 
 
 def number(value: float) -> str:
@@ -90,17 +93,17 @@ def bounded(text: str, longest: int) -> str:
 
 def text_of(value: object, otherwise: str = "") -> str:
     """Return what an object says of itself, or something else where it cannot be asked."""
-    if type(value) is str:
-        return value
     kind = type(value)
-    if issubclass(kind, BaseException) and kind.__str__ in (_AN_ERRORS, KeyError.__str__):
-        given = cast("BaseException", value).args  # which may be anything, and are asked alike
-        if len(given) != 1:
-            return shown(given) if given else ""
-        return text_of(given[0], otherwise) if kind.__str__ is _AN_ERRORS else shown(given[0])
-    if kind.__str__ is object.__str__:  # a list, and whatever has no words of its own
-        return shown(value)
+    if kind is str:
+        return cast("str", value)
     try:
+        if issubclass(kind, BaseException) and kind.__str__ in (_AN_ERRORS, KeyError.__str__):
+            given = cast("BaseException", value).args  # which may be anything, and are asked alike
+            if len(given) != 1:
+                return shown(given) if given else ""
+            return text_of(given[0], otherwise) if kind.__str__ is _AN_ERRORS else shown(given[0])
+        if kind.__str__ is object.__str__:  # a list, and whatever has no words of its own
+            return shown(value)
         return str.__str__(str(value))  # which may be of a class of its own
     except WHATEVER as error:  # its own, whatever it is
         unless_by_a_person(error)
@@ -118,7 +121,13 @@ def shown(value: object) -> str:
         return bounded(_ADDRESS.sub("", _Everything().repr(value)), LONGEST_VALUE)
     except WHATEVER as error:  # its own, whatever it is
         unless_by_a_person(error)
-        return f"<{type(value).__name__} that cannot be shown>"
+        return f"<{class_of(value)} that cannot be shown>"
+
+
+def class_of(value: object) -> str:
+    """Return the name of a value's class, which may be of a class of its own and refuse to say it."""
+    name: str = type.__dict__["__name__"].__get__(type(value))
+    return bounded(str.__str__(name), LONGEST)
 
 
 def unless_by_a_person(error: BaseException) -> None:

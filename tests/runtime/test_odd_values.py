@@ -64,6 +64,36 @@ class Level(IntEnum):
     HIGH = 3
 
 
+class Refusing(type):
+    """The class of a class that does not even say its name."""
+
+    def __getattribute__(cls, name: str) -> Any:
+        if name in ("__name__", "__module__", "__qualname__"):
+            raise SystemExit
+        return super().__getattribute__(name)
+
+    def __eq__(cls, other: object) -> bool:
+        raise SystemExit
+
+    __hash__ = type.__hash__
+
+
+class Nameless(metaclass=Refusing):
+    """A class that does not even say its name."""
+
+
+class Classless(Exception):
+    """An error that does not say what it is."""
+
+    @property
+    def __class__(self) -> Any:
+        raise SystemExit
+
+    @__class__.setter
+    def __class__(self, value: object) -> None:
+        raise SystemExit
+
+
 def round_list() -> list[Any]:
     value: list[Any] = []
     value.append(value)
@@ -124,6 +154,7 @@ ODD: dict[str, Callable[[], object]] = {
     "an enumeration": lambda: Level.HIGH,
     "a generator": lambda: (n for n in range(3)),
     "a set": lambda: {1, "a", frozenset()},
+    "an object whose class refuses": lambda: Nameless(),
     "a photo of nothing": lambda: Photo(position=None, width="x", height=1j),  # type: ignore[arg-type]
     "a class": lambda: int,
     "a half photo": lambda: {"photo": Photo(position=(1, 2), width=0, height=0)},  # type: ignore[arg-type]
@@ -194,6 +225,25 @@ def test_a_verdict_of_anything_fails_one_mission(make: Callable[[], Any]) -> Non
     assert {name for name, status in ends.items() if status is not Status.FAILED} <= {"ok", "adds"}
     assert all(len(mission.reason) < 4_000 for mission in outcome.missions)
     assert all(len(line) < 25_000 for line in outcome.log)
+
+
+@pytest.mark.parametrize(
+    "make", [Classless, lambda: type("Odd", (Nameless, ValueError), {})()], ids=["self", "class"]
+)
+def test_an_error_that_cannot_be_asked_fails_one_mission(make: Callable[[], Exception]) -> None:
+    def fails(trip: Any) -> None:
+        raise make()
+
+    mission = lived(fails)
+    assert mission.status is Status.FAILED
+    assert mission.reason.startswith("hook act raised ")
+
+
+def test_an_action_that_fails_without_a_word_has_a_reason() -> None:
+    def fails(trip: Any) -> None:
+        raise ActionFailed
+
+    assert lived(fails).reason == "look failed: it does not say why"
 
 
 FACTS = ("name", "status", "reason", "round", "attempts", "index", "trips", "completed_trips")

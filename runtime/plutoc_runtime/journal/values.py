@@ -117,10 +117,9 @@ def value_data(value: object) -> object:
 
 def keepable(value: object) -> object:
     """Return what a hook gave as the runtime takes it in: itself, or its text if it cannot be kept."""
-    if type(value) in _HARMLESS:
-        return value
     try:
-        _Keeping().data(value)
+        if type(value) not in _HARMLESS:
+            _Keeping().data(value)
     except WHATEVER as error:
         if by_a_person(error):
             raise
