@@ -6,6 +6,7 @@ import gc
 import os
 import sys
 from contextlib import contextmanager
+from errno import ENAMETOOLONG
 
 from plutoc.cli.endings import (
     CLEAN,
@@ -69,6 +70,11 @@ class _Ending:
                 return True
             case Unusable():
                 output.tell(f"plutoc: {error}")
+                self.code = USAGE
+            case OSError() if error.errno == ENAMETOOLONG:
+                from plutoc_runtime.words import printable
+
+                output.tell(f"plutoc: {printable(str(error.filename))}: a name is too long")
                 self.code = USAGE
             case output.ClosedPipe():
                 output.silence()

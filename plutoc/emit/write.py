@@ -184,7 +184,7 @@ def write(changes: Changes, *, save: Save = _save) -> None:
     try:
         with _undone_unless_finished(made):
             if not folder.exists():
-                made += _make_folders(folder.parent)
+                _make_folders(folder.parent, made)
             if changes.first and folder.exists() and not _is_free(folder):
                 # It came since, or `new/../there` leads to it once there is a `new`.
                 raise FileExistsError(errno.EEXIST, "it is not empty any more", str(folder))
@@ -233,12 +233,12 @@ def _undone_unless_finished(made: list[Path]) -> Iterator[None]:
         raise
 
 
-def _make_folders(folder: Path) -> list[Path]:
-    """Make a folder and those above it; return the new ones, from the top."""
+def _make_folders(folder: Path, made: list[Path]) -> None:
+    """Make a folder and those above it, and note the new ones, from the top."""
     missing = [path for path in (folder, *folder.parents) if not path.exists()]
     for path in reversed(missing):
         path.mkdir(exist_ok=True)
-    return missing[::-1]
+        made.append(path)
 
 
 def _prepare(changes: Changes, aside: Path, save: Save) -> None:
@@ -272,7 +272,7 @@ def _replace(changes: Changes, aside: Path) -> None:
                 if change.after is None:
                     (folder / change.path).unlink()
                 else:
-                    made += _make_folders((folder / change.path).parent)
+                    _make_folders((folder / change.path).parent, made)
                     os.replace(aside / "new" / change.path, folder / change.path)
         except BaseException:
             for change in begun:

@@ -56,6 +56,7 @@ def _identity(descriptor: int) -> tuple[int, int]:
 
 
 _SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+_RAISES = signal.default_int_handler
 
 
 def _wait_for_signals() -> None:
@@ -72,7 +73,7 @@ _before = threading.local()
 
 def _let_go() -> None:
     """In the child, before anything else runs in it."""
-    for call in tuple(_lets_go.values()):
+    for call in reversed(tuple(_lets_go.values())):  # what was set last is put back first
         call()
     for descriptor, which in _files.items():
         with suppress(OSError):  # it is closed already
@@ -80,6 +81,8 @@ def _let_go() -> None:
                 _put_nothing(descriptor)
     _lets_go.clear()
     _files.clear()
+    if signal.SIGINT in signal.sigpending() and signal.getsignal(signal.SIGINT) is _RAISES:
+        signal.signal(signal.SIGINT, signal.SIG_DFL)  # what is raised in here, Python drops
     _take_signals()
 
 

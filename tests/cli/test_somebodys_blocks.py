@@ -106,6 +106,7 @@ def test_a_place_that_cannot_be_is_told_in_a_sentence(name: str, plutoc: Call, a
     said = plutoc("compile", app, "-o", name)
     assert said.code == 2
     assert "File name too long" in said.err
+    assert not Path("in").exists()
 
 
 def test_a_pipe_in_the_place_of_the_hooks_is_not_waited_for(

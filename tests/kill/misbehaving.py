@@ -98,7 +98,7 @@ class Trial:
 
 def _children(flight: Flight) -> Iterator[str]:
     """Yield what is wrong with what became of a hook's own children."""
-    for name, meant in (("killed", "-15"), ("came_back", "1")):
+    for name, meant in (("killed", "[True, True, True]"), ("came_back", "1")):
         file = flight.folder / name
         code = file.read_text() if file.exists() else "nothing"
         if code != meant:
@@ -158,13 +158,30 @@ TRIALS = (
             ]
         ),
     ),
+    *(
+        Trial(name=f"{name} that is left behind", missions=_alone(hook, [name]))
+        for hook, name in (
+            ("dig", "executor"),
+            ("dig", "pool"),
+            ("act", "thread"),
+            ("act", "task"),
+            ("dig", "atexit"),
+        )
+    ),
+    Trial(name="tasks that end all", missions=_alone("act", ("ends", "stops"))),
+    Trial(
+        name="an end that is not true",
+        missions=(*_alone("act", ["exit"]), *_alone("dig", ["says all is well"])),
+        fails=frozenset(["act exit"]),
+        lives=2,
+    ),
     Trial(
         name="exits that look like an end",
         missions=tuple(
             (f"leaves {code}", ((f"leaves{code}", "act"), ("after", "act")))
-            for code in (0, 1, 2, 4, 129, 130, 143)
+            for code in (0, 1, 2, 4, 78, 129, 130, 143)
         ),
-        lives=8,
+        lives=9,
     ),
     Trial(
         name="plans at the edge of what is taken",

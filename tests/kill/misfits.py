@@ -40,6 +40,7 @@ app misfits "Do what hooks must not do" {
 HOOKS = '''"""Hooks that misbehave as the name of a trip, or of a mission, says."""
 
 import asyncio
+import atexit
 import ctypes
 import multiprocessing
 import os
@@ -47,12 +48,14 @@ import signal
 import subprocess
 import sys
 import time
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from pathlib import Path
 
 from . import ActionFailed, Verdict
 
 HERE = Path(os.environ["FLIGHT"])
 FORK = multiprocessing.get_context("fork")
+KEPT = []
 
 
 def once(name):
@@ -80,13 +83,15 @@ async def ended_child(context):
     child = subprocess.Popen([sys.executable, "-S", "-c", "import time; time.sleep(100)"])
     child.terminate()
     child.wait()
-    pid = os.fork()
-    if not pid:
-        lives_for_ever()
-    for number in (signal.SIGTERM,):
+    killed = []
+    for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
+        pid = os.fork()
+        if not pid:
+            lives_for_ever()
         os.kill(pid, number)
-    _, status = os.waitpid(pid, 0)
-    (HERE / "killed").write_text(str(os.waitstatus_to_exitcode(status)))
+        _, status = os.waitpid(pid, 0)
+        killed.append(os.waitstatus_to_exitcode(status) != 0)
+    (HERE / "killed").write_text(str(killed))
     lasting = FORK.Process(target=lives_for_ever, daemon=True)
     lasting.start()
     (HERE / "lasting").write_text(str(lasting.pid))
@@ -99,6 +104,43 @@ async def comes_back(context):
     if pid:
         _, status = os.waitpid(pid, 0)
         (HERE / "came_back").write_text(str(os.waitstatus_to_exitcode(status)))
+
+
+async def ends_its_task():
+    """Leave, in a task of its own."""
+    raise SystemExit(0)
+
+
+async def holds_on():
+    """Wait for ever, whoever cancels it."""
+    while True:
+        try:
+            await asyncio.sleep(1)
+        except BaseException:
+            pass
+
+
+def leaves_behind(name):
+    """Leave what Python would wait for behind: threads, processes, tasks, what is done at the end."""
+    if name == "executor":
+        KEPT.append(ThreadPoolExecutor())
+        KEPT[-1].submit(time.sleep, 1000)
+    elif name == "pool":
+        KEPT.append(ProcessPoolExecutor(mp_context=FORK))
+        KEPT[-1].submit(time.sleep, 1000)
+    elif name == "thread":
+        asyncio.get_running_loop().run_in_executor(None, time.sleep, 1000)
+    elif name == "task":
+        KEPT.append(asyncio.create_task(holds_on()))
+    elif name == "ends":
+        KEPT.append(asyncio.create_task(ends_its_task()))
+        KEPT[-1].add_done_callback(lambda task: task.exception())
+    elif name == "stops":
+        asyncio.get_running_loop().call_soon(asyncio.get_running_loop().stop)
+    elif name == "atexit":
+        atexit.register(time.sleep, 1000)
+    elif name == "says all is well" and once(name):
+        atexit.register(os._exit, 0)
 
 
 def round_list():
@@ -161,6 +203,7 @@ async def act(drone, trip, context):
         return VALUES[name]()
     if name in RAISED:
         raise RAISED[name]()
+    leaves_behind(name)
     if name == "children":
         await ended_child(context)
     if name == "forks":
@@ -172,6 +215,7 @@ async def act(drone, trip, context):
 
 def dig(drone, trip, context):
     """The same, in a thread."""
+    leaves_behind(trip.name)
     if trip.name in VALUES:
         return VALUES[trip.name]()
     if trip.name in RAISED:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+from errno import ENAMETOOLONG
 
 from ..errors import BadInput
 from . import output
@@ -36,14 +37,17 @@ def start(name: str, load: Callable[[], App]) -> int:
     app: App | None = None
     ending = Ending(name)
     with ending:
+        from ..forked import end_if_forked
         from .loading import bare, loaded
 
+        parent = os.getpid()
         app = bare(name) if sys.argv[1:2] in _WITHOUT_HOOKS else loaded(load)
+        end_if_forked(parent)  # as its hooks were loaded
     code = _heard(app) if app is not None else ending.code
     if code == BAD_INPUT and "--supervised" in sys.argv:
-        from .supervise import CANNOT
+        from .supervise import refuse
 
-        code = CANNOT  # for whoever started it, and may start it again
+        refuse()  # it must not be started again
     if app is not None:
         from .leaving import leave_in_time
 
@@ -83,11 +87,16 @@ class Ending:
 
     def __exit__(self, kind: object, error: BaseException | None, trace: object) -> bool:
         name = self._name
+        if error is not None:
+            from ..words import printable
         match error:
             case None:
                 return True
             case BadInput():
-                output.tell(str(error))
+                output.tell("\n".join(map(printable, str(error).split("\n"))))
+                self.code = BAD_INPUT
+            case OSError() if error.errno == ENAMETOOLONG:
+                output.tell(f"{printable(str(error.filename))}: a name is too long")
                 self.code = BAD_INPUT
             case output.ClosedPipe():
                 output.silence()

@@ -22,7 +22,7 @@ from ..journal.place import gateway_folder
 from ..journal.store import Store
 from ..setting import End, Lived, Setting, Stops
 from ..words import in_shell, place
-from . import output, stop_mark
+from . import leaving, output, stop_mark
 from .events import line_of
 from .flown import finished, has_ended, records_in, report_of, waiting_lines
 from .interrupts import Interrupts
@@ -81,7 +81,7 @@ def see_through(flight: Flight, store: Store, known: Recovered | None = None) ->
     stops = Stops()
     interrupts = Interrupts(stops, lambda: flight.journal, flight.how_to_go_on)
     with interrupts.listening():
-        lived = asyncio.run(_heard(flight, store, stops, interrupts, known))
+        lived = leaving.run(_heard(flight, store, stops, interrupts, known))
     if lived.end is End.STOPPED:
         who = "all other drones" if aloft(flight, lived.drones) else "all drones"
         output.tell(f"{who} are down; {flight.how_to_go_on}")
@@ -227,7 +227,9 @@ def _is_over(app: App, journal: Path, code: int) -> bool:
     if code in STOPS and stop_mark.found(Path(os.path.realpath(journal))):
         return True
     records = records_in(app, journal)
-    return has_ended(records) or (code in STOPS and records.stopped)
+    if has_ended(records):
+        return code in STOPS or code == report_of(app, journal, records)[0]
+    return code in STOPS and records.stopped
 
 
 def tell(event: Event) -> None:

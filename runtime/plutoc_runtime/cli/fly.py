@@ -13,6 +13,7 @@ from ..journal.errors import exists
 from ..journal.header import header
 from ..journal.store import Store
 from ..simulation.faults import Faults
+from ..words import printable
 from . import output
 from .flight_options import how_it_flies_in
 from .flights import Flight, see_through, supervised
@@ -50,7 +51,7 @@ def fly(app: App, options: Options) -> int:
         faults=options.fail,
     )
     if not options.supervised:
-        output.tell(f"journal: {journal}")
+        output.tell(f"journal: {printable(str(journal))}")
     if options.supervise:
         return supervised(app, options, journal, _words(options, journal))
     store = Store.create(journal, begun)

@@ -9,6 +9,7 @@ from types import ModuleType
 from typing import TYPE_CHECKING, NoReturn
 
 from ..errors import BadInput
+from ..hooks import said
 
 if TYPE_CHECKING:
     from ..app import App
@@ -61,7 +62,7 @@ def _explained(error: BaseException) -> str | None:
     if not frames:
         return None
     place = f"{frames[-1].filename}:{frames[-1].lineno}"
-    return f"{place}: the hooks cannot be loaded: {type(error).__name__}: {error}"
+    return f"{place}: the hooks cannot be loaded: {said(error)}"
 
 
 def _is_hooks(filename: str) -> bool:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from ..errors import BadInput
 from ..journal import place
 from ..journal.header import fingerprint
+from ..words import printable
 from . import output, stop_mark
 from .flights import reported, see_through, supervised
 from .real import check_real
@@ -33,7 +34,7 @@ def resume(app: App, options: Options) -> int:
         output.line()
         return reported(app, journal, taken.known.records)
     if not options.supervised:
-        output.tell(f"journal: {journal}")
+        output.tell(f"journal: {printable(str(journal))}")
         stop_mark.remove(store.path)
         if taken.header["app_hash"] != fingerprint(app):
             output.tell("the app has changed since: missions go on by the names of its blocks")

@@ -33,6 +33,7 @@ from . import output
 from .flight_options import how_it_flies_in
 from .flown import finished, records_in
 from .interrupts import Interrupts
+from .leaving import run
 from .plans import load_fleet
 from .real import check_real
 from .supervise import Supervised, supervise
@@ -63,7 +64,7 @@ def serve(app: App, options: Options) -> int:
         left = settings.own_folder / LEFT
         interrupts = Interrupts(leaving, leaving.journal, AGAIN, last=left.touch)
         with interrupts.listening():
-            asyncio.run(_serve(app, options, settings, station, interrupts))
+            run(_serve(app, options, settings, station, interrupts))
         left.touch()
         return interrupts.code or 0
 

@@ -24,11 +24,11 @@ PAUSES = (0.0, 0.5, 1.0, 5.0, 15.0, 30.0)
 
 INTERNAL = 70
 
-CANNOT = 78
-"""What a supervised app ends with where it refuses to go on, instead of `BAD_INPUT`.
+REFUSES = "PLUTO_REFUSES"
+"""Where a supervised app finds the number of the file in which it says that it refuses to go on.
 
-No journal can say so, for it may be the journal that cannot be written; and 2 is what a hook may
-end the process with.
+No exit code says so, for a hook can end the process with any; nor does a journal, for it may be the
+journal that cannot be written.
 """
 
 BAD_INPUT = 2
@@ -64,8 +64,8 @@ def supervise(what: Supervised) -> int:
         while True:
             began = time.monotonic()
             code = watch.run(command)
-            if code == CANNOT:
-                return BAD_INPUT
+            if code == BAD_INPUT and watch.refused:
+                return code
             if code in (*ENDS, *STOPS) and (watch.asked or what.over(code)):
                 return code
             done = what.finished()
@@ -87,6 +87,8 @@ class _Watch:
 
     asked: int = 0
     """The exit code for that; 0: nobody did."""
+    refused: bool = False
+    """Whether the process that ran last has said that it refuses to go on."""
     _child: subprocess.Popen[bytes] | None = None
     _bell: int = -1
     """A pipe's end: whoever waits at its other end is woken by a byte."""
@@ -110,14 +112,25 @@ class _Watch:
 
     def run(self, command: Sequence[str]) -> int:
         """Run a process to its end; one that a signal killed gives 128 and its number."""
-        # A group of its own: Ctrl-C at the terminal reaches it through us alone, and once.
-        self._child = subprocess.Popen(command, stdin=subprocess.DEVNULL, process_group=0)
+        hears, says = os.pipe()
+        os.set_blocking(hears, False)
         try:
+            # A group of its own: Ctrl-C at the terminal reaches it through us alone, and once.
+            self._child = subprocess.Popen(
+                command,
+                stdin=subprocess.DEVNULL,
+                process_group=0,
+                pass_fds=[says],
+                env={**os.environ, REFUSES: str(says)},
+            )
             if self.asked:  # in the moment before there was somebody to tell
                 self._pass_on(signal.SIGTERM)
             code = self._child.wait()
+            self.refused = _was_written(hears)
         finally:
             self._child = None
+            os.close(hears)
+            os.close(says)
         return 128 - code if code < 0 else code
 
     def pause(self, seconds: float) -> None:
@@ -133,6 +146,18 @@ class _Watch:
         if self._child is not None:
             with suppress(OSError):
                 self._child.send_signal(number)
+
+
+def refuse() -> None:
+    """Say to whoever supervises this process, if anybody does, that it refuses to go on."""
+    with suppress(KeyError, ValueError, OSError):
+        os.write(int(os.environ[REFUSES]), b"!")
+
+
+def _was_written(hears: int) -> bool:
+    with suppress(BlockingIOError):
+        return os.read(hears, 1) != b""
+    return False
 
 
 def _given_up(what: Supervised, code: int, crashes: int, asked: int) -> int:

@@ -43,6 +43,20 @@ def test_check_warns_of_a_speed_that_a_crazyflie_does_not_follow(
     assert command("check", missions, "--fleet", fleet, app=fast)[2] == ""
 
 
+@pytest.mark.parametrize("words", ["tell N stop", "journal N --mend", "check N", "resume N --sim"])
+def test_a_name_that_is_too_long_is_told(words: str, command: Command) -> None:
+    code, _, said = command(*words.replace("N", "n" * 300).split())
+    assert code == 2
+    assert "too long" in said and "internal" not in said
+
+
+@pytest.mark.parametrize("words", ["check", "simulate", "journal", "resume", "tell"])
+def test_no_file_name_commands_the_terminal(words: str, command: Command) -> None:
+    code, out, said = command(words, "\x1b[2J\x07", *(["stop"] if words == "tell" else []))
+    assert code == 2
+    assert "\x1b" not in out + said and "\\x1b[2J" in said
+
+
 def test_check_warns_of_names_that_look_alike(missions: Path, command: Command) -> None:
     """It is a plan that can be flown all the same."""
     text = missions.read_text()

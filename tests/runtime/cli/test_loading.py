@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Callable, Iterator
 from importlib import import_module, invalidate_caches
@@ -54,6 +55,28 @@ def test_what_is_wrong_with_the_hooks_is_told_with_its_place(
     printed = capsys.readouterr()
     assert said in printed.err
     assert "Traceback" not in printed.err
+
+
+def test_what_hooks_end_with_is_told_in_a_line_of_some_length(
+    load_with: Callable[[str], int], capsys: pytest.CaptureFixture[str]
+) -> None:
+    """And nothing in it commands a terminal, even if it cannot be asked what it is."""
+    assert load_with("raise ValueError('\\x1b[2J' * 1_000_000)\n") == 2
+    told = capsys.readouterr().err
+    assert len(told) < 5_000 and "\x1b" not in told
+    refuses = "class Odd(Exception):\n  def __str__(self):\n    raise SystemExit(0)\nraise Odd\n"
+    assert load_with(refuses) == 2
+    assert "the hooks cannot be loaded: Odd" in capsys.readouterr().err
+
+
+def test_a_process_that_hooks_fork_as_they_are_loaded_is_no_app(
+    load_with: Callable[[str], int], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("FORKED", "")
+    forks = "pid = os.fork()\nif pid:\n  os.environ['FORKED'] = str(pid)\n  raise ValueError\n"
+    assert load_with(f"import os\ndef judge():\n  pass\n{forks}") == 2
+    _, status = os.waitpid(int(os.environ["FORKED"]), 0)
+    assert os.waitstatus_to_exitcode(status) == 0
 
 
 @pytest.mark.parametrize("command", ["tell", "journal", "decide"])

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from plutoc_runtime.cli.supervise import CANNOT, GIVES_UP_AFTER, Supervised, supervise
+from plutoc_runtime.cli.supervise import GIVES_UP_AFTER, Supervised, supervise
 
 LIVES = """
 import os, signal, sys
@@ -25,6 +25,9 @@ elif end == "waits":
     os.kill(os.getppid(), signal.SIGTERM)
     signal.sigwait([signal.SIGTERM])
     sys.exit(143)
+elif end == "refuses":
+    os.write(int(os.environ["PLUTO_REFUSES"]), b"!")
+    sys.exit(2)
 else:
     os._exit(int(end))
 """
@@ -87,7 +90,12 @@ def test_an_exit_code_counts_only_if_the_flight_has_ended(code: int, lived: Live
 
 def test_an_app_that_refuses_to_go_on_is_not_asked_again(lived: Lived) -> None:
     """Its journal cannot say so: it may be what cannot be written."""
-    assert lived(str(CANNOT), over=lambda _: False) == (2, ["fly"])
+    assert lived("refuses", over=lambda _: False) == (2, ["fly"])
+
+
+@pytest.mark.parametrize("code", [2, 70, 78, 255])
+def test_no_exit_code_alone_says_so(code: int, lived: Lived) -> None:
+    assert lived(f"{code},{code},0", over=lambda end: end == 0) == (0, ["fly", "resume", "resume"])
 
 
 def test_an_app_that_crashes_again_and_again_stays_down(
