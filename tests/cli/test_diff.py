@@ -202,3 +202,9 @@ def test_no_other_command_waits_for_it() -> None:
     program = "import sys; from plutoc.cli import main; main(['explain', 'P1003']); "
     program += "print('plutoc.diff' in sys.modules, file=sys.stderr)"
     assert piped("-c", program).stderr == "False\n"
+
+
+def test_a_name_that_is_too_long_is_told(plutoc: Call) -> None:
+    said = plutoc("diff", "n" * 300, "-")
+    assert said.code == 2
+    assert "a name is too long" in said.err and "internal" not in said.err
