@@ -225,6 +225,29 @@ def test_a_drone_that_is_waited_for_hears_that_it_was_looked_after(tmp_path: Pat
     run(flight())
 
 
+@pytest.mark.parametrize("hovers", [False, True])
+def test_what_befalls_a_drone_later_nobody_has_looked_after(tmp_path: Path, hovers: bool) -> None:
+    """It was brought back when it had not crashed: that says nothing of a crash in its next flight."""
+
+    async def flight() -> None:
+        drone = Mended()
+        async with flying(tmp_path, drone) as flown:
+            team = flown.team
+            if hovers:
+                await flown.up()
+                team.mended("cf1")
+                assert await flown.do(team.reach("cf1"))
+            else:
+                team.mended("cf1")
+                await flown.up()
+            the_loop().call_later(1, drone.falls)
+            await fails(flown)
+            assert not await flown.do(team.reach("cf1"))
+            assert "looked after" not in drone.told
+
+    run(flight())
+
+
 def test_a_drone_that_says_its_link_is_gone_is_believed(tmp_path: Path) -> None:
     """Without waiting for silence."""
 

@@ -39,7 +39,7 @@ async def _take_off(member: Member, height: float) -> None:
     if reasons:
         why = f"{member.id} is not ready: {'; '.join(reasons)}"
         raise FlightFailed(Failure.REFUSED, why)
-    member.seen.rises_until = inf
+    member.seen.rises_until, member.looked_after = inf, False
     try:
         await member.go(
             "take off", height / member.climb, member.navigation.takeoff, height, member.climb

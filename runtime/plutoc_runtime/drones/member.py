@@ -157,10 +157,13 @@ class Member:
         self.must_land = self.is_cut = self.adrift = False
 
     async def hears_of_care(self) -> None:
-        """Tell it that a person has looked after it, if one has, and it wants to know."""
-        if self.looked_after and self.linked and self.seen.landed:
+        """Tell it that a person has looked after it, if one has, and it wants to know.
+
+        One that flies need not know: what befalls it later nobody has looked after.
+        """
+        if self.looked_after and self.linked:
             self.looked_after = False
-            if isinstance(self.navigation, CaredFor):
+            if self.seen.landed and isinstance(self.navigation, CaredFor):
                 try:
                     await self.calls.call("recover", RECOVER, self.navigation.looked_after)
                 except FlightFailed as error:

@@ -32,9 +32,9 @@ async def reach(member: Member, linking: Linking) -> bool:
         return False
     if not await _comes_down(member, linking):
         return False
+    await member.hears_of_care()
     if not member.seen.landed:
         return member.down is None
-    await member.hears_of_care()
     return member.needs_a_hand or await _is_ready(member)
 
 
