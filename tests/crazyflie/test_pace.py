@@ -49,6 +49,17 @@ async def one_whose_controller_was_set_to_follow_slower_is_not_ready(folder: Pat
         assert "at up to 0.5 m/s" in reason and "than 0.3 m/s (posCtlPid.zVelMax)" in reason
 
 
+async def one_that_is_still_telling_its_parameters_is_waited_for(folder: Path) -> None:
+    """Over a busy radio they take longer than it takes to be sure where it is."""
+    async with hangar(folder, speed=0.8) as one:
+        cf = one.navigation
+        await one.let("latency", 0.03)
+        await cf.connect()
+        one.drone.parameters.put("posCtlPid.yVelMax", 0.5)
+        (reason,) = await cf.preflight()
+        assert "than 0.5 m/s (posCtlPid.yVelMax)" in reason
+
+
 async def a_course_is_as_slow_as_its_controller_whoever_asks_for_more(folder: Path) -> None:
     """A drone that is met in the air must come home, however fast its category is."""
     async with hangar(folder) as one:
@@ -68,6 +79,7 @@ FLIGHTS: list[Flight] = [
     one_that_is_to_fly_faster_than_its_controller_follows_is_not_ready,
     one_whose_controller_was_set_to_follow_faster_is_ready,
     one_whose_controller_was_set_to_follow_slower_is_not_ready,
+    one_that_is_still_telling_its_parameters_is_waited_for,
     a_course_is_as_slow_as_its_controller_whoever_asks_for_more,
 ]
 

@@ -35,10 +35,12 @@ async def problems(session: Session, battery: Battery, options: Options, speed: 
         return [words.old_firmware(version)]  # what else it says need not be so
     if session.lacks:
         return [words.lacks_variables(session.lacks)]
+    began = session.loop.time()
+    lacking = await _of_parameters(session, options, speed)
     state = await session.until(_is_settled, _BETWEEN, well=False) or session.now()
-    found = [*_of_state(state), *_of_battery(state, battery, options)]
-    found += await _of_parameters(session, options, speed)
-    if not await _sure(session, options, LONG + _SETTLING if found else _PATIENCE):
+    found = [*_of_state(state), *_of_battery(state, battery, options), *lacking]
+    patience = LONG + _SETTLING if found else _PATIENCE
+    if not await _sure(session, options, began + patience):
         variance = session.certainty.variance
         by_beacons = not options.starts_at_home
         unsure = words.uncertain(variance, options.sure_within) if by_beacons else words.UNSETTLED
@@ -72,9 +74,8 @@ def _of_battery(state: State, battery: Battery, options: Options) -> Iterator[st
         yield words.little(rest, options.least_voltage, options.cells)
 
 
-async def _sure(session: Session, options: Options, patience: float) -> bool:
+async def _sure(session: Session, options: Options, end: float) -> bool:
     """Say whether it knows where it is; just after connecting, that takes a second to find out."""
-    end = session.loop.time() + patience
     while not _knows_where(session, options):
         if session.loop.time() > end:
             return False
@@ -91,8 +92,8 @@ def _knows_where(session: Session, options: Options) -> bool:
 
 
 async def _of_parameters(session: Session, options: Options, speed: float) -> list[str]:
-    asks = bool(options.decks) or speed > USUAL  # else what is not known yet is as it always is
-    if asks and not await parameters.complete(session, _READ):
+    asks = bool(options.decks) or speed > USUAL  # else what cannot be read is as it always is
+    if not await parameters.complete(session, _READ) and asks:
         return [words.UNREAD]
     there = decks(session)
     lacks = [words.no_deck(deck, there) for deck in options.decks if deck not in there]
