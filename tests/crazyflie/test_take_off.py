@@ -11,7 +11,9 @@ from pathlib import Path
 import pytest
 
 from plutoc_runtime.crtp.drone import Build
-from plutoc_runtime.drones import Rejected
+from plutoc_runtime.crtp.ports import Port, unpacked
+from plutoc_runtime.crtp.supervisor import Supervisor
+from plutoc_runtime.drones import NotReady, Rejected
 from tests.crazyflie.hangar import FAST, Flight, Hangar, as_tests, hangar
 
 pytest.importorskip("cflib")
@@ -37,6 +39,64 @@ async def one_that_arms_itself_is_waited_for_until_it_has(folder: Path) -> None:
         await cf.takeoff(0.5, FAST)
         assert one.flies and not one.did("arm")
         await cf.land(FAST)
+
+
+class OnRequest(Supervisor):
+    """It says that it arms by itself, and once it was disarmed it waits to be asked."""
+
+    def info(self, *, high_level: bool, finished: bool, planner_off: bool = False) -> int:
+        bits = super().info(high_level=high_level, finished=finished, planner_off=planner_off)
+        return bits | 1 << 2
+
+
+async def one_that_says_that_it_arms_itself_and_does_not_is_asked_to(folder: Path) -> None:
+    async with hangar(folder) as one:
+        one.drone.supervisor = OnRequest(armed=True)
+        cf = one.navigation
+        await cf.connect()
+        await cf.takeoff(0.4, FAST)
+        assert one.flies and len(one.did("arm")) == 1
+        await cf.land(FAST)
+
+
+class Slow(Supervisor):
+    """It arms, and its motors are not ready to fly for long."""
+
+    can_fly = False
+
+
+async def one_that_is_slow_to_arm_is_not_left_armed(folder: Path) -> None:
+    async with hangar(folder) as one:
+        one.drone.supervisor = Slow()
+        cf = one.navigation
+        await cf.connect()
+        with pytest.raises(NotReady, match="will not arm"):
+            await cf.takeoff(0.4, FAST)
+        assert len(one.did("arm")) == 1
+        assert not one.drone.supervisor.armed and not one.did("takeoff")
+
+
+async def one_that_is_down_is_not_told_to_land_again(folder: Path) -> None:
+    """The answers are lost: on the ground, the command would start its motors once more."""
+    async with hangar(folder) as one:
+        cf = one.navigation
+        await cf.connect()
+        await cf.takeoff(0.3, FAST)
+        _loses_answers(one, Port.HIGH_LEVEL)
+        await cf.land(FAST)
+        told = [deed.what for deed in one.deeds]
+        assert told.count("land") > 2 and told[-1] == "down" and told.count("down") == 1
+
+
+def _loses_answers(one: Hangar, port: Port) -> None:
+    """Let nothing more come from a port."""
+    send = one.drone._send
+
+    def without(raw: bytes) -> None:
+        if unpacked(raw).port != port:
+            send(raw)
+
+    one.drone._send = without
 
 
 async def a_take_off_that_a_disarming_cancels_is_commanded_once_more(folder: Path) -> None:
@@ -106,6 +166,9 @@ async def _disarmed_once(one: Hangar, times: int) -> None:
 FLIGHTS: list[Flight] = [
     one_that_has_landed_is_disarmed_and_armed_anew,
     one_that_arms_itself_is_waited_for_until_it_has,
+    one_that_says_that_it_arms_itself_and_does_not_is_asked_to,
+    one_that_is_slow_to_arm_is_not_left_armed,
+    one_that_is_down_is_not_told_to_land_again,
     a_take_off_that_a_disarming_cancels_is_commanded_once_more,
     twice_cancelled_it_is_a_refusal,
     nothing_is_above_its_commander_when_it_takes_off,

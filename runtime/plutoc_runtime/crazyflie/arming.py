@@ -40,13 +40,8 @@ async def arm_anew(session: Session) -> None:
         await forget_course(session)
     if state.armed:
         await disarm(session)
-    if state.arms_itself:
-        at = session.well()
-        if await session.until(lambda now: _is_back(at, now), _READY) is not None:
-            return
-    elif await _armed(session):
-        return
-    raise NotReady(words.not_armed(session.drone, session.now().said))
+    if not await _armed(session):
+        raise NotReady(words.not_armed(session.drone, session.now().said))
 
 
 async def disarm(session: Session) -> None:
@@ -55,11 +50,18 @@ async def disarm(session: Session) -> None:
 
 
 async def _armed(session: Session) -> bool:
-    """Arm it as soon as it can be, and see that it is so."""
-    end = session.loop.time() + _READY
+    """Arm it as soon as it can be, unless its build has done that; and see that it is so."""
+    at, end = session.well(), session.loop.time() + _READY
+
+    def ready(now: State) -> bool:
+        return _is_back(at, now) or (now.can_arm and not now.armed)
+
     while (left := end - session.loop.time()) > 0.0:
-        if await session.until(lambda now: now.can_arm and not now.armed, left) is None:
+        state = await session.until(ready, left)
+        if state is None:
             return False
+        if state.armed:
+            return True
         if await _ask(session, True):
             return await session.until(lambda now: now.armed and now.can_fly, _ARMED) is not None
         await session.fresh()  # it was not so any more
@@ -67,7 +69,8 @@ async def _armed(session: Session) -> bool:
 
 
 def _is_back(at: State, now: State) -> bool:
-    return now.since(at) > _SHOWS and now.armed and now.can_fly
+    """Whether it has armed itself, as some builds do, since it told this."""
+    return now.arms_itself and now.since(at) > _SHOWS and now.armed and now.can_fly
 
 
 async def _ask(session: Session, on: bool) -> bool:

@@ -7,6 +7,7 @@ by a drone that has begun one, which is then seen by its state.
 from __future__ import annotations
 
 from collections.abc import Callable
+from math import inf
 from typing import TYPE_CHECKING
 
 from ..drones.errors import LinkLost, Rejected
@@ -67,12 +68,17 @@ async def takeoff(session: Session, height: float, seconds: float) -> None:
 
 
 async def land(session: Session, seconds: float) -> None:
-    """Begin to come down, the nose where it points."""
+    """Begin to come down, the nose where it points.
+
+    It is not told so once more when it may be down: its motors would start again. Then it counts
+    what it tells.
+    """
+    over = session.loop.time() + seconds
 
     def begin(cf: Cf) -> None:
         cf.high_level_commander.land(0.0, seconds, yaw=None)
 
-    code = (await answered(session, (HIGH_LEVEL, _LAND), begin, "land"))[3]
+    code = (await answered(session, (HIGH_LEVEL, _LAND), begin, "land", until=over))[3]
     if code != _WRONG_STATE:  # it is that where it is landing already
         _check(session, "land", code)
 
@@ -109,14 +115,18 @@ async def answered(
     name: str,
     *,
     well: bool = True,
+    until: float = inf,
 ) -> bytes:
     """Send a command until it is answered; return the answer, four bytes at least.
 
-    Raises what `well` raises, but for what is only for one that is not well.
+    Raises what `well` raises, but for what is only for one that is not well. From `until` on it is
+    not sent again, and counts as done.
     """
     look = session.well if well else session.now
     for _ in range(_TIMES):
         look()
+        if session.loop.time() >= until:
+            return bytes(4)
         hearing = session.acknowledged.expect(key)
         try:
             await session.call(send)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from ..drones.errors import (
     NavigationError,
+    NotReady,
     OutsideArea,
     PositionLost,
     Rejected,
@@ -58,7 +59,7 @@ async def takeoff(session: Session, height: float, speed: float) -> None:
             session, height, seconds
         ):
             raise Rejected(words.disarmed(session.drone))
-    except Rejected:
+    except (NotReady, Rejected):
         with suppress(NavigationError):
             await _disarm(session)
         raise
