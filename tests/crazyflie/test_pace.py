@@ -5,6 +5,7 @@ All of them fly at once, when the first is asked how its own went: each has a dr
 
 from __future__ import annotations
 
+import asyncio
 from math import dist, hypot
 from pathlib import Path
 
@@ -60,6 +61,16 @@ async def one_that_is_still_telling_its_parameters_is_waited_for(folder: Path) -
         assert "than 0.5 m/s (posCtlPid.yVelMax)" in reason
 
 
+async def nobody_waits_for_parameters_of_one_that_is_silent(folder: Path) -> None:
+    async with hangar(folder) as one:
+        cf = one.navigation
+        await one.let("latency", 0.03)
+        await cf.connect()
+        await one.let("silent")
+        (reason,) = await asyncio.wait_for(cf.preflight(), 5.0)
+        assert "stopped answering" in reason
+
+
 async def a_course_is_as_slow_as_its_controller_whoever_asks_for_more(folder: Path) -> None:
     """A drone that is met in the air must come home, however fast its category is."""
     async with hangar(folder) as one:
@@ -80,6 +91,7 @@ FLIGHTS: list[Flight] = [
     one_whose_controller_was_set_to_follow_faster_is_ready,
     one_whose_controller_was_set_to_follow_slower_is_not_ready,
     one_that_is_still_telling_its_parameters_is_waited_for,
+    nobody_waits_for_parameters_of_one_that_is_silent,
     a_course_is_as_slow_as_its_controller_whoever_asks_for_more,
 ]
 

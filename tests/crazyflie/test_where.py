@@ -66,6 +66,24 @@ async def one_that_loses_its_place_in_the_air_arrives_nowhere_and_does_nothing_t
         assert not one.flies and [event.kind for event in one.events] == [POSITION_LOST]
 
 
+async def one_that_doubts_its_place_for_a_moment_does_there_what_it_came_for(folder: Path) -> None:
+    options = {"measure": {"temperature": "bme.temp"}, "measure_seconds": 0.2}
+    async with hangar(folder, options) as one:
+        cf = one.navigation
+        await cf.connect()
+        await cf.takeoff(0.5, FAST)
+        await one.let("unsure")
+        while not cf._linked().doubts:
+            await one.drone_tells()
+        measuring = asyncio.create_task(cf.act("measure", {}, None))
+        await asyncio.sleep(0.2)
+        assert not measuring.done()
+        await one.let("unsure", False)
+        assert await measuring == pytest.approx(20.6, abs=0.1)
+        await cf.land(FAST)
+        assert one.events == []
+
+
 async def one_that_goes_by_radio_beacons_is_sure_enough(folder: Path) -> None:
     build = Build(id="cf1", home=(1.0, 2.0, 0.0), noise=0.15)
     async with hangar(folder, build=build) as one:
@@ -113,6 +131,7 @@ FLIGHTS: list[Flight] = [
     one_that_stays_unsure_does_not_fly_and_says_how_unsure_it_is,
     how_sure_it_must_be_is_said_by_the_fleet_file,
     one_that_loses_its_place_in_the_air_arrives_nowhere_and_does_nothing_there,
+    one_that_doubts_its_place_for_a_moment_does_there_what_it_came_for,
     one_that_goes_by_radio_beacons_is_sure_enough,
     one_that_sees_its_beacons_no_more_on_its_way_does_not_arrive,
     one_that_goes_by_the_ground_alone_never_knows_its_place_and_flies,

@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from .worker import Worker
 
 MEASURE, PHOTO = "measure", "take_photo"
+_DOUBTS = 2.0
+"""Seconds after which one that still doubts where it is has lost its place, as far as it tells."""
 
 
 def why_not(
@@ -70,13 +72,13 @@ async def act(hands: Hands, action: str, parameters_: Mapping[str, Plain]) -> ob
     reason = why_not(session.drone, options, session, action, parameters_)
     if reason is not None:
         raise ActionNotDone(reason)
-    _check_place(session)
+    await _check_place(session)
     try:
         if action == MEASURE:
             name = options.variable_of(_quantity(parameters_))
             assert name is not None  # or there is a reason why not
             value = await hands.readings.mean(name, options.measure_seconds)
-            _check_place(session)
+            await _check_place(session)
             return value
         if action == PHOTO and options.camera is not None:
             return await _photo(hands, options.camera)
@@ -89,8 +91,12 @@ async def act(hands: Hands, action: str, parameters_: Mapping[str, Plain]) -> ob
     return None
 
 
-def _check_place(session: Session) -> None:
-    """Raise `PositionLost` for what would be done, or was measured, nobody knows where."""
+async def _check_place(session: Session) -> None:
+    """Raise `PositionLost` for what would be done, or was measured, nobody knows where.
+
+    Who doubts it for a moment has not lost it, and is waited for.
+    """
+    await session.until(lambda _: session.adrift or not session.doubts, _DOUBTS)
     variance = session.certainty.variance
     if session.doubts and variance is not None:
         raise PositionLost(words.lost_its_place(session.drone, variance))
@@ -110,7 +116,7 @@ async def _photo(hands: Hands, camera: tuple[str, int]) -> Photo:
         why = str(error) or "nothing came in time"
         where = f"{camera[0]}:{camera[1]}"
         raise ActionNotDone(words.no_photo(session.drone, where, why)) from error
-    _check_place(session)
+    await _check_place(session)
     after = session.now().position
     x, y, z = (round((a + b) / 2, 3) for a, b in zip(before, after, strict=True))
     across, along = (2.0 * z * tan(radians(angle) / 2.0) for angle in hands.options.camera_view)

@@ -29,10 +29,9 @@ def element_of(cf: Cf, name: str) -> Element | None:
 
 
 async def complete(session: Session, limit: float = _ALL) -> bool:
-    """Wait until all parameters have been read once; say whether that came to be."""
-    with suppress(TimeoutError):
-        async with asyncio.timeout(limit):
-            await session.complete.wait()
+    """Wait until all parameters have been read once, or can be no more; say whether they were."""
+    with suppress(LinkLost):
+        await session.until(lambda _: session.complete.is_set(), limit, well=False)
     return session.complete.is_set()
 
 
