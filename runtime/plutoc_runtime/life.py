@@ -104,7 +104,10 @@ class Life:
     async def _started(self, missions: Sequence[Mission[Any]]) -> float:
         core = self.session.core
         roll = await self._link.call()
-        _refuse_if_none_is_ready(roll, {name: one["reason"] for name, one in self._lost.items()})
+        if roll.drones.keys().isdisjoint(self._mended):  # else one of them is asked anew
+            _refuse_if_none_is_ready(
+                roll, {name: one["reason"] for name, one in self._lost.items()}
+            )
         core.trace.note("brain.began", epoch=self._epoch)
         self._retire()
         for drone in core.fleet.drones:

@@ -16,7 +16,9 @@ from tests.crazyflie.hangar import FAST, Flight, as_tests, hangar
 pytest.importorskip("cflib")
 
 TWO_CELLS = Build(id="cf1", home=(1.0, 2.0, 0.0), cells=2)
-CRASHED = "it has crashed: once it stands upright and is whole, bring it back"
+CRASHED = (
+    "it has crashed: once it stands upright and is whole, bring it back, or switch it off and on"
+)
 
 
 async def one_that_crashed_and_stands_flies_again_once_a_person_says_so(folder: Path) -> None:

@@ -7,7 +7,14 @@ from pathlib import Path
 import pytest
 
 from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.drones import BATTERY_LOW, CRASHED, LINK_LOST, LOCKED, POSITION_LOST
+from plutoc_runtime.drones import (
+    BATTERY_LOW,
+    CRASHED,
+    LINK_LOST,
+    LOCKED,
+    POSITION_LOST,
+    Rejected,
+)
 from plutoc_runtime.drones.stray import strayed
 from plutoc_runtime.errors import Failure
 from tests.drones.fakes import FakeDrone
@@ -183,6 +190,7 @@ class Mended(FakeDrone):
 
     async def looked_after(self) -> None:
         """Forget it."""
+        await self._does("looked_after")
         self.told.append("looked after")
         self.reasons = ()
 
@@ -221,6 +229,48 @@ def test_a_drone_that_is_waited_for_hears_that_it_was_looked_after(tmp_path: Pat
             the_loop().call_later(50, flown.team.mended, "cf1")
             assert await flown.until(lambda: fetched.is_set) == pytest.approx(50, abs=5)
             assert fetched.result()
+
+    run(flight())
+
+
+def test_a_drone_that_does_not_forget_its_crash_is_lost_and_can_be_brought_back_again(
+    tmp_path: Path,
+) -> None:
+    """It was not set upright: whoever has done that says so once more, and need not wait."""
+
+    async def flight() -> None:
+        drone = Mended()
+        async with flying(tmp_path, drone) as flown:
+            await flown.up()
+            team = flown.team
+            the_loop().call_later(1, drone.falls)
+            await fails(flown)
+            assert not await flown.do(team.reach("cf1"))
+            drone.raises["looked_after"] = Rejected("it lies on its back")
+            team.mended("cf1")
+            began = the_loop().time()
+            assert not await flown.do(team.reach("cf1"))
+            assert the_loop().time() - began < 3.0
+            del drone.raises["looked_after"]
+            team.mended("cf1")
+            assert await flown.do(team.reach("cf1"))
+            await flown.do(team.takeoff("cf1", 1.0))
+
+    run(flight())
+
+
+def test_a_drone_that_crashes_on_its_way_home_is_lost_at_once(tmp_path: Path) -> None:
+    """Nobody is asked to put it home: it would wait there for a word that is said of lost ones."""
+
+    async def flight() -> None:
+        drone = Mended()
+        async with flying(tmp_path, drone) as flown:
+            await flown.up()
+            the_loop().call_later(1, drone.falls)
+            await fails(flown)
+            began = the_loop().time()
+            assert not await flown.do(flown.team.fetched("cf1"))
+            assert the_loop().time() - began < 3.0
 
     run(flight())
 

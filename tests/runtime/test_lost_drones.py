@@ -189,6 +189,25 @@ def test_where_every_drone_is_lost_nothing_begins() -> None:
         fleet.life.control.whole.result()
 
 
+def test_where_one_was_brought_back_it_is_told_so_before_anybody_is_refused() -> None:
+    """It crashed in an earlier flight, and remembers that until it has heard."""
+    fleet = living("a", homes=1)
+    fleet.die()
+    begun = {"t": 0.0, "event": "journal.begun", "mended": ["cf1"]}
+    fleet.memory = Memory(begun)
+    fleet.memory.append([json.dumps([begun])])
+    heard: list[str] = []
+
+    async def roll_call(drone: str) -> Standing:
+        standing = fleet.navigation.bodies[drone].standing
+        return replace(standing, problems=() if heard else ("it has crashed",))
+
+    vars(fleet.gateway.navigation).update(mended=heard.append, roll_call=roll_call)
+    fleet.live_on()
+    assert fleet.run() == ["COMPLETED"]
+    assert heard == ["cf1"]
+
+
 def test_a_drone_that_was_not_ready_is_asked_anew_when_a_person_has_looked_after_it() -> None:
     """It crashed before anything began, say, and waits for just that."""
     fleet = living("a")

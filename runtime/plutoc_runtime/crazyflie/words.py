@@ -172,7 +172,9 @@ def locked(drone: str, deck_failed: bool) -> str:
 
 
 LIES = "it lies on its back or has crashed"
-HAS_CRASHED = "it has crashed: once it stands upright and is whole, bring it back"
+HAS_CRASHED = (
+    "it has crashed: once it stands upright and is whole, bring it back, or switch it off and on"
+)
 DECK_FAILED = "one of its decks reports a fault: see that all sit well, and switch it off and on"
 IS_LOCKED = "it has locked its motors: switch it off and on"
 LOCKED_BY_DECK = f"one of its decks reports a fault, and {IS_LOCKED}"

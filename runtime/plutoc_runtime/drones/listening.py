@@ -44,7 +44,7 @@ def hear(member: Member, event: DroneEvent) -> None:
     who, where = member.id, place(member.seen.location)
     if kind == LINK_LOST:
         member.lost(reason)
-    elif kind in (CRASHED, LOCKED) and member.flew_lately and not _is_down(member):
+    elif kind in (CRASHED, LOCKED) and member.flew_lately and not member.has_crashed:
         member.crashed(f"{who} {_BECAME[kind]} at {where}: {reason}")
     elif kind == BATTERY_LOW and not member.seen.landed and not member.must_land:
         why = f"the battery of {who} is low at {where}, where it lands: {reason}"
@@ -53,10 +53,6 @@ def hear(member: Member, event: DroneEvent) -> None:
         member.loses_its_place(reason)
     else:
         member.calls.note(f"{who}: {shortened(kind)}: {reason}")
-
-
-def _is_down(member: Member) -> bool:
-    return member.down is not None and member.down.failure is Failure.CRASH
 
 
 _BECAME = {CRASHED: "crashed", LOCKED: "was locked"}

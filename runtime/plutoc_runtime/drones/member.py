@@ -102,6 +102,11 @@ class Member:
         return self.seen.landed and docked(self.seen.location, self.drone.home)
 
     @property
+    def has_crashed(self) -> bool:
+        """Whether it takes no commands because it fell."""
+        return self.down is not None and self.down.failure is Failure.CRASH
+
+    @property
     def flew_lately(self) -> bool:
         """Whether it flies, or did a moment ago."""
         return not self.seen.landed or self.calls.clock() - self.seen.flew < RECENTLY
@@ -156,18 +161,21 @@ class Member:
         self.down, self.needs_a_hand = None, False
         self.must_land = self.is_cut = self.adrift = False
 
-    async def hears_of_care(self) -> None:
-        """Tell it that a person has looked after it, if one has, and it wants to know.
+    async def hears_of_care(self) -> bool:
+        """Tell it that a person has looked after it, if one has and it wants to know; False: in vain.
 
         One that flies need not know: what befalls it later nobody has looked after.
         """
-        if self.looked_after and self.linked:
-            self.looked_after = False
-            if self.seen.landed and isinstance(self.navigation, CaredFor):
-                try:
-                    await self.calls.call("recover", RECOVER, self.navigation.looked_after)
-                except FlightFailed as error:
-                    self.calls.say(str(error))
+        if not (self.looked_after and self.linked):
+            return True
+        self.looked_after = False
+        if self.seen.landed and isinstance(self.navigation, CaredFor):
+            try:
+                await self.calls.call("recover", RECOVER, self.navigation.looked_after)
+            except FlightFailed as error:
+                self.calls.say(str(error))
+                return False
+        return True
 
     async def preflight(self) -> tuple[str, ...]:
         """Return why it may not take off now."""

@@ -32,7 +32,8 @@ async def reach(member: Member, linking: Linking) -> bool:
         return False
     if not await _comes_down(member, linking):
         return False
-    await member.hears_of_care()
+    if not await member.hears_of_care():
+        return False
     if not member.seen.landed:
         return member.down is None
     return member.needs_a_hand or await _is_ready(member)
@@ -56,7 +57,7 @@ async def _is_ready(member: Member) -> bool:
         await asyncio.sleep(OFTEN)
     if not reasons:
         member.is_well()
-    elif member.down is not None and member.down.failure is Failure.CRASH:
+    elif member.has_crashed:
         return False
     else:
         why = f"{member.id} is not ready: {'; '.join(reasons)}"
@@ -65,12 +66,16 @@ async def _is_ready(member: Member) -> bool:
 
 
 async def fetched(member: Member) -> bool:
-    """Wait until a drone stands at home, ready; False: nobody has put it there."""
+    """Wait until a drone stands at home, ready; False: nobody has put it there, or it has crashed.
+
+    One that has crashed on its way is lost: else nobody could say that it was looked after.
+    """
     said: tuple[str, ...] = ()
     try:
         async with asyncio.timeout(FETCH):
             while missing := await _missing(member):
-                await member.hears_of_care()
+                if member.has_crashed or not await member.hears_of_care():
+                    return False
                 _lands(member)
                 if missing != said:
                     member.calls.say(f"{member.id} is waited for: {'; '.join(missing)}")
