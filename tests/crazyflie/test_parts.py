@@ -295,6 +295,8 @@ def test_a_place_is_lost_once_it_has_been_unknown_for_a_second() -> None:
         ({"decks": [1]}, "decks must be a list of texts"),
         ({"least_voltage": nan}, "least_voltage must be a number"),
         ({"sure_within": 0.0}, "sure_within must be a number of metres above 0"),
+        ({"sure_within": 10**400}, "sure_within must be a number of metres above 0"),
+        ({"lost_beyond": float("nan")}, "lost_beyond must be a number of metres above 0"),
         ({"sure_within": "7 cm"}, "sure_within must be a number of metres above 0"),
         ({"lost_beyond": 0.05}, r"lost_beyond must be at least sure_within, which is 0\.07"),
         ({"starts_at_home": 1}, "starts_at_home must be true or false"),

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
-from math import isfinite, sqrt
+from math import sqrt
+from sys import float_info
 
 from ..errors import BadInput
 from ..words import number
@@ -193,9 +194,9 @@ class _Reading:
 
 def _number(value: object) -> float | None:
     """Return a finite number as such, and None for everything else."""
-    if isinstance(value, (int, float)) and not isinstance(value, bool) and isfinite(value):
-        return float(value)
-    return None
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        return None
+    return float(value) if abs(value) <= float_info.max else None
 
 
 def _is_name(value: object) -> bool:
