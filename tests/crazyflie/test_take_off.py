@@ -76,6 +76,20 @@ async def one_that_is_slow_to_arm_is_not_left_armed(folder: Path) -> None:
         assert not one.drone.supervisor.armed and not one.did("takeoff")
 
 
+async def one_that_is_let_go_of_as_it_takes_off_is_landed_first(folder: Path) -> None:
+    """What it tells in that moment is from before."""
+    async with hangar(folder) as one:
+        cf = one.navigation
+        await cf.connect()
+        await one.let("latency", 0.1)
+        rising = asyncio.create_task(cf.takeoff(0.4, FAST))
+        while not one.did("takeoff"):
+            await asyncio.sleep(0.002)
+        rising.cancel()
+        await cf.close()
+        assert one.did("land") and not one.flies
+
+
 async def one_that_is_down_is_not_told_to_land_again(folder: Path) -> None:
     """The answers are lost: on the ground, the command would start its motors once more."""
     async with hangar(folder) as one:
@@ -168,6 +182,7 @@ FLIGHTS: list[Flight] = [
     one_that_arms_itself_is_waited_for_until_it_has,
     one_that_says_that_it_arms_itself_and_does_not_is_asked_to,
     one_that_is_slow_to_arm_is_not_left_armed,
+    one_that_is_let_go_of_as_it_takes_off_is_landed_first,
     one_that_is_down_is_not_told_to_land_again,
     a_take_off_that_a_disarming_cancels_is_commanded_once_more,
     twice_cancelled_it_is_a_refusal,

@@ -113,9 +113,7 @@ async def go_to(session: Session, target: Point, speed: float) -> None:
 
 async def hold(session: Session) -> None:
     """Stop, and return when it hovers; nothing, if it does not fly."""
-    since = session.loop.time() - session.took_off_at
-    if since < _SEEN:  # it may be about to
-        await session.until(lambda state: state.steered, _SEEN - since)
+    await _may_rise(session)
     if session.well().steered:
         target, seconds = stop(session.before, session.now())
         if not session.doubts:
@@ -125,11 +123,19 @@ async def hold(session: Session) -> None:
             await session.until(lambda state: state.finished, seconds + SLACK)
 
 
+async def _may_rise(session: Session) -> None:
+    """Wait until one that was just told to take off says that it does, or until it has not."""
+    since = session.loop.time() - session.took_off_at
+    if since < _SEEN:
+        await session.until(lambda state: state.steered, _SEEN - since)
+
+
 async def land(session: Session, speed: float) -> None:
     """Come down straight, and return when the motors are off; nothing, if it does not fly.
 
     One that has just come down would start its motors again for that: what it tells now counts.
     """
+    await _may_rise(session)
     state = await session.fresh()
     if state.steered:
         seconds = pace_of(session).seconds_down(max(0.0, state.position[2]), speed)
