@@ -13,6 +13,7 @@ from plutoc_runtime.drones import (
     LINK_LOST,
     LOCKED,
     POSITION_LOST,
+    LinkLost,
     Rejected,
 )
 from plutoc_runtime.drones.stray import strayed
@@ -255,6 +256,27 @@ def test_a_drone_that_does_not_forget_its_crash_is_lost_and_can_be_brought_back_
             team.mended("cf1")
             assert await flown.do(team.reach("cf1"))
             await flown.do(team.takeoff("cf1", 1.0))
+
+    run(flight())
+
+
+def test_a_drone_that_does_not_hear_that_it_was_looked_after_is_told_again(tmp_path: Path) -> None:
+    """It is being switched off and on, say: that its link is lost is not noticed at once."""
+
+    async def flight() -> None:
+        drone = Mended()
+        async with flying(tmp_path, drone) as flown:
+            await flown.up()
+            team = flown.team
+            the_loop().call_later(1, drone.falls)
+            await fails(flown)
+            assert not await flown.do(team.reach("cf1"))
+            drone.raises["looked_after"] = LinkLost("it stopped answering")
+            team.mended("cf1")
+            assert await flown.do(team.reach("cf1"))
+            del drone.raises["looked_after"]
+            assert await flown.do(team.fetched("cf1"))
+            assert drone.told.count("looked after") == 1
 
     run(flight())
 

@@ -174,7 +174,8 @@ class Member:
                 await self.calls.call("recover", RECOVER, self.navigation.looked_after)
             except FlightFailed as error:
                 self.calls.say(str(error))
-                return False
+                self.looked_after = error.failure is Failure.LINK  # it may not have heard
+                return self.looked_after
         return True
 
     async def preflight(self) -> tuple[str, ...]:
