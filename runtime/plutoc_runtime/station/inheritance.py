@@ -145,11 +145,21 @@ class Inheritance:
         new.mkdir(mode=0o700, parents=True, exist_ok=True)
         if self._journal is not None:
             old = place.gateway_folder(self._journal)
-            for name in (DRONES, SEEN) if self._settings.sim else (SEEN,):
+            for name in (*self._world(old), SEEN):
                 with suppress(FileNotFoundError):
                     shutil.copyfile(old / name, new / name)
         if self._settings.sim:
             at_home(new, {entry.id: entry.home for entry in self._settings.fleet.drones})
+
+    def _world(self, folder: Path) -> Sequence[str]:
+        """Return the files of the simulated world of a gateway, which nobody lives in any more."""
+        if self._settings.crtp_sim is not None:
+            from ..crtp.process import DRONES as CRAZYFLIES  # few want them
+            from ..crtp.process import end
+
+            end(folder)
+            return [CRAZYFLIES]
+        return [DRONES] if self._settings.sim else []
 
     def rows(self) -> Iterator[rows.Row]:
         """Yield what there is to see of the drones while there is no flight at all."""

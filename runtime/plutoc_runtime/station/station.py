@@ -165,7 +165,7 @@ class Station:
             if phase is Phase.FLYING:
                 await self._add(id, missions)
             else:
-                self._set_out(missions, text)
+                await self._set_out(missions, text)
         except BaseException:
             self._lock_what_flies()
             raise
@@ -212,7 +212,7 @@ class Station:
         else:
             self.plan.adopt(self.outing.names)
 
-    def _set_out(self, missions: list[Mission[Any]], text: str) -> None:
+    async def _set_out(self, missions: list[Mission[Any]], text: str) -> None:
         settings = self._settings
         for index, mission in enumerate(missions):
             mission.index = index
@@ -227,7 +227,7 @@ class Station:
             faults=settings.faults,
             inherited=self.inheritance.facts,
         )
-        self.inheritance.hand_on_the_world(journal)
+        await asyncio.to_thread(self.inheritance.hand_on_the_world, journal)
         store = Store.create(journal, begun)
         flight = Flight(
             app=self._app,

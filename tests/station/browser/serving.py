@@ -46,7 +46,8 @@ class Station:
 
     def start(self) -> None:
         """Let a life begin; the next one is found at the port of the first."""
-        words = [str(self.app.program), "serve", "--sim", "--fleet", str(self.app.fleet)]
+        sim = () if "--crtp-sim" in self.options else ("--sim",)
+        words = [str(self.app.program), "serve", *sim, "--fleet", str(self.app.fleet)]
         words += ["--folder", str(self.folder), "--port", str(self.port), *self.options]
         kept = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
         self.lives += 1

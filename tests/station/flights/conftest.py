@@ -53,7 +53,8 @@ def serve(programs: Callable[[str], App], tmp_path: Path) -> Iterator[Serve]:
     def serve(name: str = "drugs_distribution", *options: str) -> Station:
         app, folder = programs(name), tmp_path / f"station{len(stations)}"
         folder.mkdir(exist_ok=True)
-        speed = () if "--speed" in options else ("--speed", "30")
+        at_its_own = "--speed" in options or "--crtp-sim" in options
+        speed = () if at_its_own else ("--speed", "30")
         options = ("--missions", os.fspath(app.missions), *speed, *options)
         station = Station(app=app, folder=folder, options=options)
         stations.append(station)

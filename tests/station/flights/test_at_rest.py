@@ -175,6 +175,23 @@ def test_a_lost_drone_is_brought_back_by_command_while_nothing_flies(serve: Serv
     until(lambda: found(station, who)["status"] in ("FREE", "BUSY", "CHARGING"), "it is well")
 
 
+def test_simulated_crazyflies_begin_the_next_flight_where_the_last_one_has_left_them(
+    serve: Serve,
+) -> None:
+    pytest.importorskip("cflib")
+    station = serve("drugs_distribution", "--crtp-sim", "2")
+    tell(station, "start")
+    until(lambda: is_away_from_home(station), "somebody is away")
+    tell(station, "stop", how="land")
+    comes_to(station, "stopped")
+    before = {row["id"]: (row["x"], row["y"]) for row in rows(station)}
+    tell(station, "discard")
+    tell(station, "start")
+    until(lambda: station.now()["missions"] != [], "the drones have been asked where they are")
+    for row in rows(station):
+        assert (row["x"], row["y"]) == pytest.approx(before[row["id"]], abs=0.3)
+
+
 def all_again(station: Station) -> str:
     """Start every mission of the plan, what was completed included; return what is said."""
     keys = [mission["key"] for mission in station.get("/api/plan")["missions"]]
