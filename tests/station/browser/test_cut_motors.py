@@ -23,6 +23,7 @@ async () => {
   box.style.cssText = "position: fixed; z-index: 99; top: 0; left: 0";
 }
 """
+HIDDEN = "() => document.dispatchEvent(new Event('visibilitychange'))"
 STUCK = """
 () => { for (const since = performance.now(); performance.now() - since < 1100;); }
 """
@@ -149,6 +150,19 @@ def test_a_page_that_is_stuck_takes_no_click_for_a_hold(alone: tuple[Page, Locat
     page.evaluate(STUCK)
     page.mouse.up()
     assert dropped(page) == 0
+
+
+@pytest.mark.parametrize("away", [HIDDEN, "() => window.dispatchEvent(new Event('blur'))"])
+def test_whoever_goes_to_another_tab_or_window_does_not_hold_it_any_more(
+    alone: tuple[Page, Locator], away: str
+) -> None:
+    """Where the button has no focus, as in some browsers, nobody would hear of the pointer again."""
+    page, button = alone
+    page.mouse.move(*middle(button))
+    page.mouse.down()
+    until(lambda: held(button) > 0.1, "it is held")
+    page.evaluate(away)
+    assert (held(button), dropped(page)) == (0, 0)
 
 
 def test_a_finger_holds_it_and_without_holding_a_word_does_it(alone: tuple[Page, Locator]) -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 from playwright.sync_api import ViewportSize
 
@@ -9,15 +11,23 @@ from tests.station.browser.axe import violations
 from tests.station.browser.conftest import Serve, Visit
 from tests.station.browser.exercise import put_in
 from tests.station.browser.layout import covered, cut_off, too_small, wider_than_the_screen
-from tests.station.browser.scenes import scenes
+from tests.station.browser.scenes import PAGES, scenes
 from tests.station.browser.serving import Station, until
-from tests.station.browser.steps import action_called, add_mission, on_the_screen, open_page
+from tests.station.browser.steps import (
+    action_called,
+    add_mission,
+    missions_listed,
+    on_the_screen,
+    open_page,
+)
+from tests.station.browser.test_monitor import FIELD
 from tests.station.browser.test_touch import middle, slide, target
 
 PHONE = (390, 844)
 SMALL: ViewportSize = {"width": 360, "height": 640}
 INSIDE = """
-() => [...document.querySelectorAll(".page:not([hidden]) .inside, .mission-list, .trip-cards")]
+() => [...document.querySelectorAll(
+  ".page:not([hidden]) .inside, .graph-view, .mission-list, .trip-cards")]
   .filter((one) => one.checkVisibility() && one.scrollWidth > one.clientWidth + 1)
   .map((one) => `${one.scrollWidth} in ${one.clientWidth}: ${one.className}`)
 """
@@ -39,6 +49,28 @@ def test_every_page_in_every_phase_fits_on_a_phone(serve: Serve, visit: Visit) -
         wrong[scene] += [*too_wide(wider_than_the_screen(page)), *page.evaluate(INSIDE)]
         page.set_viewport_size({"width": PHONE[0], "height": PHONE[1]})
     assert {where: said for where, said in wrong.items() if said} == {}
+
+
+def test_long_names_and_large_graphs_fit_on_a_phone(serve: Serve, visit: Visit) -> None:
+    station = serve("alfalfa", "--missions", str(FIELD))
+    plan = station.get("/api/plan")
+    for mission, name in zip(plan["missions"], ("Long " * 40, "Long" * 50), strict=False):
+        mission["name"] = mission["trips"][0]["name"] = name.strip()
+    assert station.put("/api/plan", plan_of(plan))[0] == 200
+    page = visit(station, size=PHONE, touch=True)
+    for name in PAGES:
+        open_page(page, name)
+        if name == "Missions":
+            missions_listed(page).first.click()
+        for size in (SMALL, {"width": PHONE[0], "height": PHONE[1]}):
+            page.set_viewport_size(size)
+            assert wider_than_the_screen(page) == 0, name
+            assert page.evaluate(INSIDE) == [], name
+
+
+def plan_of(data: dict[str, Any]) -> dict[str, object]:
+    """Return a plan as a page would send it."""
+    return {"revision": data["revision"], "missions": data["missions"]}
 
 
 def too_wide(pixels: int) -> list[str]:

@@ -69,3 +69,26 @@ def test_one_browser_is_told_the_token_once_until_it_is_told_to_forget_it(
     last = context.new_page()
     last.goto(f"http://127.0.0.1:{station.port}/")
     expect(last.get_by_role("heading")).to_contain_text("asks for its token")
+
+
+def test_a_token_that_is_forgotten_or_replaced_elsewhere_leaves_no_page_whose_stop_fails(
+    serve: Serve, visit: Visit, watch: Watch
+) -> None:
+    """A page that is open keeps its own; if that is forgotten, it is closed, too."""
+    watch.expected += ["401"]
+    station = serve("drugs_distribution", "--name", "ward.example", "--speed", "2")
+    put_in(station)
+    one = visit(station)
+    another = one.context.new_page()
+    another.goto(f"http://127.0.0.1:{station.port}/#token=wrong")
+    expect(another.get_by_role("heading")).to_contain_text("asks for its token")
+    start(one)
+    until(lambda: station.phase == "flying", "it flies")
+    one.get_by_role("button", name="Stop: land now").click()
+    until(lambda: station.phase in ("stopping", "stopped"), "the Stop is heard")
+    another.get_by_label("Address or token").fill(station.url)
+    another.get_by_role("button", name="Open the station").click()
+    open_page(another, "Help")
+    another.get_by_role("button", name="Forget the token").click()
+    for page in (one, another):
+        expect(page.get_by_role("heading")).to_contain_text("asks for its token")

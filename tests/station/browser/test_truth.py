@@ -6,6 +6,7 @@ unknown.
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import signal
@@ -176,3 +177,23 @@ def gateway_of(station: Station) -> int:
     process = still_runs(folder_of(station))
     assert process is not None
     return process
+
+
+def test_with_every_drone_lost_no_start_is_offered(serve: Serve, visit: Visit) -> None:
+    station = serve("drugs_distribution")
+    put_in(station)
+    station.end()
+    fallen = {f"cf{n}": {"reason": "it fell", "at": None} for n in range(1, 5)}
+    known = {"lost": fallen, "mended": [], "retired": []}
+    kept = station.folder / "station" / "drones.json"
+    kept.write_text(json.dumps({"kind": [True, False], "drones": known}))
+    station.start()
+    page = visit(station)
+    button = page.get_by_role("button", name="Start 3 missions")
+    expect(button).to_have_attribute("aria-disabled", "true")
+    expect(button).to_have_accessible_description(
+        re.compile("^Every drone is lost: look after one")
+    )
+    open_page(page, "Monitor")
+    page.get_by_role("button", name="Bring back drone cf2").click()
+    expect(button).not_to_have_attribute("aria-disabled", "true")

@@ -101,6 +101,20 @@ def test_a_wrong_coordinate_is_marked_and_start_waits_for_it(
     until(lambda: target(planned, 1, 0) == [8.5, 1.5], "it is in the plan")
 
 
+def test_a_mission_with_a_wrong_coordinate_is_not_started_alone_either(
+    planned: Station, visit: Visit
+) -> None:
+    """The station knows nothing of what is no number: the page leads to it."""
+    page = visit(planned)
+    opened(page, "Mission 2", 1).get_by_label("x (m)").fill("abc")
+    open_page(page, "Missions")
+    select_mission(page, "Mission 2")
+    page.get_by_role("button", name="Start only this").click()
+    expect(card_of(page, 1).get_by_label("x (m)")).to_be_focused()
+    expect(notices(page)).to_contain_text("Mission 2, trip 1: Write metres here, such as 2.5.")
+    assert planned.journals() == []
+
+
 def test_what_keeps_a_plan_from_starting_leads_to_its_field_wherever_that_is(
     planned: Station, visit: Visit
 ) -> None:
@@ -142,6 +156,27 @@ def test_two_who_name_one_mission_at_once_are_told_and_nothing_is_lost(
     name.press("Tab")
     expect(name).to_have_value("Beta")
     expect(name).not_to_have_attribute("aria-invalid", "true")
+
+
+def test_two_who_move_one_trip_along_x_and_along_y_both_find_it_there(
+    planned: Station, visit: Visit, watch: Watch
+) -> None:
+    watch.expected.append(SOMEBODY_WAS_QUICKER)
+    one, other = visit(planned), visit(planned)
+    held = holding_the_first(other)
+    x, y = (
+        opened(one, "Mission 2", 1).get_by_label("x (m)"),
+        opened(other, "Mission 2", 1).get_by_label("y (m)"),
+    )
+    with other.expect_request(lambda request: request.method == "PUT"):
+        y.fill("2.5")
+    x.fill("8.5")
+    until(lambda: target(planned, 1, 0) == [8.5, 1.5], "it is kept")
+    go_on(other, held)
+    until(lambda: target(planned, 1, 0) == [8.5, 2.5], "both are kept")
+    expect(card_of(other, 1).get_by_label("x (m)")).to_have_value("8.5")
+    for page in (one, other):
+        expect(notices(page)).to_have_text("")
 
 
 def test_who_writes_into_a_mission_that_another_one_deletes_is_told(

@@ -8,10 +8,14 @@ const TOKEN = "pluto-token";
 
 export const wait = (time) => new Promise((done) => setTimeout(done, time));
 
-// In no cookie: that would go to every port of this machine.
-export const token = () => localStorage.getItem(TOKEN) ?? "";
-export const keepToken = (text) => localStorage.setItem(TOKEN, text.trim());
+// In no cookie: that would go to every port of this machine. Until it is forgotten, a tab keeps its
+// own, for its Stop.
+let known = localStorage.getItem(TOKEN) ?? "";
+export const token = () => known;
+export const keepToken = (text) => localStorage.setItem(TOKEN, known = text.trim());
 export const forgetToken = () => localStorage.removeItem(TOKEN);
+window.addEventListener("storage", ({ key, newValue }) =>
+  key === TOKEN && newValue === null && location.reload());
 
 // The token moves out of the page's address at once.
 export function takeToken() {
@@ -365,7 +369,7 @@ export function selection(plan) {
 const leaves = (missions) => new Map(missions.flatMap(({ key, trips, launched, ...own }) =>
   [[key, own], ...trips.map(({ key: trip, ...its }) => [`${key} ${trip}`, its])])
   .flatMap(function flat([at, value]) {
-    return value && typeof value === "object" && !Array.isArray(value)
+    return value && typeof value === "object"
       ? Object.entries(value).flatMap(([name, one]) => flat([`${at} ${name}`, one]))
       : [[at, String(value ?? "")]];
   }));

@@ -60,7 +60,11 @@ async function stop(how) {
 
 // Start, of the missions with these keys, or of what has not been completed.
 async function begun(missions = null) {
-  if (!await plan.saved()) {
+  const wrong = plan.problems.find(({ mission }) => missions?.includes(mission));
+  if (wrong) {
+    lead(wrong);
+    say(inFull(plan.missions, wrong), { bad: true });
+  } else if (!await plan.saved()) {
     say("The plan is not saved yet, so it was not started.", { bad: true });
   } else if (await tell("start", { revision: plan.revision(), missions })) go("monitor");
   plan.load().catch(() => null);
@@ -76,10 +80,10 @@ const PHASES = { // kind of chip, sign, words
   interrupted: ["warn", "warning", "Interrupted"],
 };
 
-function place(missions, { mission: key, trip }) {
+function inFull(missions, { mission: key, trip, text }) {
   const mission = missions.find((one) => one.key === key);
   const nth = mission && trip && mission.trips.findIndex((one) => one.key === trip) + 1;
-  return `${mission?.name.trim() || "The plan"}${nth ? `, trip ${nth}` : ""}`;
+  return `${mission?.name.trim() || "The plan"}${nth ? `, trip ${nth}` : ""}: ${text}`;
 }
 
 // → the button's words, whether it can be pressed, what to say beside it, the problem
@@ -92,16 +96,18 @@ function startWords({ phase, busy, how, said: trouble }, plan, drones) {
     key === null || todo.some((mission) => mission.key === key));
   const text = !todo.length || phase === "stopping" ? "Start"
     : `Start ${many(todo.length, flying ? "new mission" : "mission")}`;
+  const lost = [...drones.values()].filter(({ status }) => status === "LOST");
   const other = busy
     || (phase === "stopping" && DOWN[how])
     || (phase === "stopped" && "Resume goes on with every mission where it was.")
     || (phase === "interrupted" && (trouble || "A flight was broken off. Resume goes on with it."))
     || (!todo.length && (flying ? "All missions are started. More can be added at any time."
-      : "Nothing to start yet: add a mission first."));
+      : "Nothing to start yet: add a mission first."))
+    || (!flying && lost.length && lost.length === drones.size
+      && "Every drone is lost: look after one, and bring it back first.");
   const problem = (!other && bad[0]) || null;
-  const why = other || (problem && `${place(todo, problem)}: ${problem.text}`
+  const why = other || (problem && inFull(todo, problem)
     + (bad.length > 1 ? ` (and ${bad.length - 1} more)` : ""));
-  const lost = [...drones.values()].filter(({ status }) => status === "LOST");
   const some = open.length > 0 && open.length < plan.missions.length && !flying;
   const hint = [
     some && (open.some(({ ended }) => ended)

@@ -549,6 +549,13 @@ function tripActs({ plan, selected, say, hush }, choose, focus) {
     set: (key, name, value, typing) => inTrip(key, (trip) => withField(trip, name, value), typing),
     setIn: (key, part, name, value, typing) => inTrip(key, (trip) =>
       ({ ...trip, [part]: withField(trip[part] ?? {}, name, value) }), typing),
+    // somebody else may be writing the others
+    setAxis: (key, axis, value, typing) => inTrip(key, (trip) => {
+      const target = [...(trip.target ?? [0, 0])];
+      target[axis] = value;
+      if (value === undefined) target.pop();
+      return { ...trip, target };
+    }, typing),
     draft: (key, name, draft) => plan.draft(mission().key, key, name, draft),
     place(key, target) {
       for (const name of ["x", "y"]) plan.draft(mission().key, key, name);
@@ -667,7 +674,6 @@ function tripFields(app, { key, trip: { action } }, act, shift) {
     fields.push({ one, about, value });
     return one;
   };
-  let target = null;
   const [x, y] = ["x (m)", "y (m)", "Height (m)"].map((label, axis) => {
     const usual = axis === 2 ? app.map.cruise_height : null;
     const about = "xyz"[axis];
@@ -678,11 +684,7 @@ function tripFields(app, { key, trip: { action } }, act, shift) {
     };
     return field(spec, about, (trip) => trip.target?.[axis], (value, typing, draft) => {
       act.draft(key, about, draft && { ...draft, now: (trip) => trip.target?.[axis] ?? usual });
-      if (draft) return;
-      const now = [...(target ?? [0, 0])];
-      now[axis] = value;
-      if (axis === 2 && value === undefined) now.pop();
-      act.set(key, "target", now, typing);
+      if (!draft) act.setAxis(key, axis, value, typing);
     });
   });
   const inside = (part, spec, name) => field(spec, `${part}.${name}`, (trip) => trip[part]?.[name],
@@ -710,16 +712,16 @@ function tripFields(app, { key, trip: { action } }, act, shift) {
       fields.map(({ one }) => one.element), foot),
     focus: (where) =>
       (fields.find(({ about }) => about === where) ?? fields[0]).one.input.focus(),
-    update({ trip, number, problems, pickedIn, ...about }, locked, all) {
-      target = about.target;
-      const at = (where) => problems.filter((one) => one.field === where).map(({ text }) => text);
+    update({ trip, target, number, problems, pickedIn }, locked, all) {
       for (const { one, about: where, value } of fields) {
         const own = problems.filter(({ field }) => field === where);
         one.update(own[0]?.typed ?? value({ ...trip, target }),
           { problem: own.map(({ text }) => text).join(" "), locked });
       }
       name.input.placeholder = number;
-      if (at("target").length) for (const { input } of [x, y]) set(input, "aria-invalid", "true");
+      if (problems.some(({ field }) => field === "target")) {
+        for (const { input } of [x, y]) set(input, "aria-invalid", "true");
+      }
       fill(troubles, problems.filter((one) => !known.includes(one.field))
         .map(({ text }) => problemLine(text)));
       const mass = trip.item?.mass ? ` (${trip.item.mass})` : "";

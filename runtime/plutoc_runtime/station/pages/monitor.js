@@ -1,6 +1,4 @@
-// The page Monitor: missions, map, drones, the app's graph, console and results, side by side on a
-// laptop and below each other on a tablet. The drones are live on the floor plan, with where they
-// are going, and in a list.
+// The page Monitor: missions, map, drones, the app's graph, console and results, each a panel.
 
 import { download } from "./api.js";
 import { bell, fill, h, keyed, many, put, set, shown, since, svg } from "./dom.js";
@@ -495,7 +493,7 @@ function graphView({ live, app: { graph } }, chosen) {
   const view = h("div", { class: "graph-view" }, room);
   new ResizeObserver(([{ contentRect }]) => {
     if (!contentRect.width) return;
-    const scale = Math.max(0.55, Math.min(contentRect.width / width, 1.25));
+    const scale = Math.max(0.35, Math.min(contentRect.width / width, 1.25));
     stage.style.transform = `scale(${scale})`;
     room.style.width = `${width * scale}px`;
     room.style.height = `${height * scale}px`;

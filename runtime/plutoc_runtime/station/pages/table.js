@@ -1,5 +1,4 @@
-// The lists of the Monitor. Missions: how each stands, what opens below it, which are shown,
-// and in which order.
+// The lists of the Monitor: missions, what happens, and what it brought.
 
 import {
   clock, fill, h, icon, inWords, keyed, many, plain, put, seconds, set, shown, svg,
@@ -129,6 +128,8 @@ export function holdButton(label, word, act) {
     const mine = held = { at, time: 0 };
     let before = performance.now();
     done = false;
+    document.addEventListener("visibilitychange", end, { once: true });
+    window.addEventListener("blur", end, { once: true });
     requestAnimationFrame(function frame(now) {
       if (mine !== held) return;
       const { left, right, top, bottom } = button.getBoundingClientRect();
