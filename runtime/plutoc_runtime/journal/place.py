@@ -61,11 +61,12 @@ def newest_in(folder: Path) -> Path | None:
     with suppress(OSError):
         for path in folder.glob(f"*{ENDING}"):
             with suppress(OSError):
-                found.append((_written(path), path.name, path))
+                found.append((written(path), path.name, path))
     return max(found)[2] if found else None
 
 
-def _written(path: Path) -> int:
+def written(path: Path) -> int:
+    """Return when a journal was written last, in nanoseconds since 1970."""
     latest = path.stat().st_mtime_ns
     with suppress(OSError):
         latest = max(latest, beside(path, "-wal").stat().st_mtime_ns)

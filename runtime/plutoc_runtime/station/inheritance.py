@@ -21,6 +21,7 @@ from ..gateway.sightings import SEEN, at_home
 from ..journal import lock, place
 from ..journal.fold import Records
 from ..journal.header import Header, check
+from ..journal.reader import Reader
 from ..journal.store import Store
 from ..simulation.keeping import DRONES
 from ..words import quoted
@@ -128,9 +129,20 @@ class Inheritance:
         self._keep()
         return said
 
+    def flown_elsewhere(self) -> int | None:
+        """Return the process that commands the drones of the newest journal, if any does."""
+        journal = place.newest_in(self._settings.folder)
+        process = None if journal is None else lock.holder(journal)
+        if journal is None or process is None:
+            return None
+        with closing(Reader(journal)) as reader:  # whoever writes it has it open
+            header: dict[str, object] = next((json.loads(row.text)[0] for row in reader.rows()), {})
+        same = [header.get("sim"), header.get("crtp_sim") is not None] == self._kind
+        return process if same else None
+
     def check_free(self) -> None:
         """Raise `BadInput` where somebody commands the drones of the newest journal."""
-        if self._journal is not None and (process := lock.holder(self._journal)) is not None:
+        if (process := self.flown_elsewhere()) is not None:
             raise BadInput(
                 f"somebody has gone on with the last flight elsewhere (process {process}): end it"
                 " there first"

@@ -17,6 +17,8 @@ from ..cli.flights import Flight, Watcher, lives
 from ..cli.flown import records_in
 from ..errors import BadInput
 from ..journal.fold import Records
+from ..journal.lock import holder
+from ..journal.place import written
 from ..journal.reader import Reader
 from ..kernel import WHATEVER
 from ..setting import End, Stops
@@ -68,6 +70,8 @@ class Outing:
         self._rest = Rest(flight.fleet.drones, flight.journal)
         self._waiting = Waiting(time.monotonic)
         self._left_at = 0.0
+        self._read_at: int | None = None
+        """When its journal had been written last, as it was read."""
 
     @property
     def journal(self) -> Path:
@@ -175,7 +179,20 @@ class Outing:
 
     def look(self, number: int) -> bool:
         """Note what has changed, under this number; say whether anything has."""
+        self._look_into_the_journal()
         return any([self._see_missions(number), self._see_drones(number)])
+
+    def _look_into_the_journal(self) -> None:
+        """While nothing flies, a command may have brought a drone back."""
+        if self.lives:
+            self._read_at = None
+            return
+        with suppress(OSError):
+            if self._read_at not in (None, written(self.journal)):
+                if holder(self.journal) is not None:  # it is read when that has ended
+                    return
+                self._show_what_counts()
+            self._read_at = written(self.journal)
 
     def _see_missions(self, number: int) -> bool:
         life, put, changed = self.life, self.missions.put, False

@@ -86,7 +86,8 @@ class Station:
         self.inheritance.read()
         taken = leftover.found(self._app, self._settings, going_on)
         if taken is None:
-            self.plan.unlock()
+            if self.inheritance.flown_elsewhere() is None:
+                self.plan.unlock()
             return
         self.outing = Outing(taken.flight(self._settings.speed), self._over, self._scene.hurry)
         self.outing.read(taken.known)
@@ -143,6 +144,8 @@ class Station:
 
     async def _start(self, id: str, given: Mapping[str, object]) -> str:
         await self.plan.examined()
+        if self.outing is None:
+            self.begin()  # somebody else may have flown meanwhile
         phase = self.phase
         if phase is Phase.STOPPING:
             raise BadInput("the drones are coming down: wait until they are")

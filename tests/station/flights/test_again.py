@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
 from typing import Any
 
+from plutoc_runtime.journal.lock import holder
 from tests.station.browser.serving import Station, until
 from tests.station.flights.conftest import Serve
 from tests.station.flights.test_flights import comes_to, flies, refused, tell
@@ -42,6 +45,29 @@ def test_what_was_not_completed_flies_again_alone_also_after_a_crash_of_the_stat
     comes_to(station, "over")
     assert station.statuses() == {"Mission 2": "COMPLETED"}
     assert tell(station, "start") == "3 missions started"
+
+
+def test_no_start_flies_beside_or_again_what_somebody_goes_on_with_by_command(
+    serve: Serve,
+) -> None:
+    station = serve("drugs_distribution", "--speed", "20")
+    tell(station, "start")
+    until(flies(station), "something flies")
+    station.kill()
+    (journal,) = station.journals()
+    words = [os.fspath(station.app.program), "resume", os.fspath(journal)]
+    with subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.STDOUT) as command:
+        until(lambda: holder(journal) == command.pid, "the command goes on with it")
+        station.start()
+        told = refused(station, "start")[1]
+        assert (
+            f"somebody has gone on with the last flight elsewhere (process {command.pid})" in told
+        )
+    revision = station.get("/api/plan")["revision"]
+    assert "the plan has changed meanwhile" in refused(station, "start", revision=revision)[1]
+    assert station.phase == "over"
+    assert ends(station) == dict.fromkeys(("Mission 1", "Mission 2", "Mission 3"), "COMPLETED")
+    assert len(station.journals()) == 1
 
 
 def test_of_what_was_put_away_the_next_start_leaves_out_what_was_completed(serve: Serve) -> None:

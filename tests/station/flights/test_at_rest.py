@@ -169,6 +169,7 @@ def test_a_lost_drone_is_brought_back_by_command_while_nothing_flies(serve: Serv
     app = [str(station.app.program), "tell", str(journal), "bring-back"]
     said = subprocess.run([*app, who], capture_output=True, text=True, check=True).stdout
     assert said.startswith(f"{who} is brought back")
+    until(lambda: found(station, who)["status"] == "UNKNOWN", "everybody sees it")
     other = subprocess.run([*app, "cf9"], capture_output=True, text=True, check=True).stdout
     assert other == "cf9 is neither retired nor lost\n"
     assert all_again(station) == "3 missions started"
