@@ -34,6 +34,14 @@ def looked_after(app: App, journal: Path, drone: str, also: Sequence[Event] = ()
     return said
 
 
+def motors_cut(app: App, journal: Path, drone: str) -> None:
+    """Put on record that a drone's motors were cut while nobody was there to be told."""
+    with closing(Store.open(journal)) as store:
+        check(journal, store.header, app)
+        event = {"t": recovered(store).records.time, "event": "drone.lost", "drone": drone}
+        store.append([json.dumps([{**event, "at": None, "reason": f"{drone}'s motors were cut"}])])
+
+
 def brought_back(records: Records, drone: str) -> tuple[Event | None, str]:
     """Return what is to go on record, if anything is, and what to say."""
     lost = drone in records.lost

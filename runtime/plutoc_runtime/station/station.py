@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 from ..asking import Nobody, Silent
 from ..cli import stop_mark
 from ..cli.flights import Flight
+from ..cli.looked_after import motors_cut
 from ..cli.taken_up import take_up
 from ..errors import BadInput
 from ..gateway.starting import cut_directly, let_end, still_runs, stop_directly
@@ -319,11 +320,15 @@ class Station:
             raise BadInput("nothing flies")
         folder = place.gateway_folder(self.outing.journal)
         try:
-            return await asyncio.to_thread(cut_directly, folder, drone, STOP_WITHIN)
+            said = await asyncio.to_thread(cut_directly, folder, drone, STOP_WITHIN)
         except Nobody:
             raise BadInput("nobody commands the drones now") from None
         except Silent:
             raise BadInput("what commands the drones does not answer") from None
+        if not self.outing.lives:
+            with suppress(BadInput):  # what is on record then, whoever flies it writes
+                motors_cut(self._app, self.outing.journal, drone)
+        return said
 
     async def _of_the_flight(self, name: str, id: str, given: Mapping[str, object]) -> str:
         outing = self.outing

@@ -138,6 +138,21 @@ def test_a_lost_drone_stays_lost_over_ends_restarts_and_starts_until_it_is_broug
     comes_to(station, "over")
 
 
+def test_a_drone_that_is_dropped_while_no_app_flies_it_is_lost_as_well(serve: Serve) -> None:
+    """The gateway brings all down after a crash of the station, and somebody cuts the motors of one."""
+    station = serve("drugs_distribution", "--speed", "1")
+    tell(station, "start")
+    until(lambda: any(row["z"] > 1 for row in rows(station)), "somebody is in the air")
+    station.kill()
+    station.start()
+    who = next(row["id"] for row in rows(station) if row["z"] > 0.5)
+    tell(station, "cut-motors", drone=who)
+    until(lambda: found(station, who)["status"] == "LOST", "it is seen")
+    until(lambda: agrees(station), "page and world agree")
+    tell(station, "discard")
+    assert tell(station, "start").endswith(f"without {who}, lost until brought back")
+
+
 def test_who_is_lost_is_remembered_though_journals_are_moved_away_and_nobody_left_flies_nothing(
     serve: Serve,
 ) -> None:
