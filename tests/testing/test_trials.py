@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import given
@@ -142,8 +143,9 @@ def test_a_plan_of_many_days_does_not_go_on_for_ever() -> None:
           watch -> wait when STANDBY
         }
         """)
+    trip: Any = app.trip  # which has the field `delay`, by its graph
     trips = [
-        app.trip(name=str(x), index=x, action="measure", target=(2.0, 3.0, 1.0), delay=5 * 86_400.0)
+        trip(name=str(x), index=x, action="measure", target=(2.0, 3.0, 1.0), delay=5 * 86_400.0)
         for x in range(3)
     ]
     mission = app.mission(name="m1", index=0, trips=trips)

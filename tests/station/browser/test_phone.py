@@ -62,8 +62,8 @@ def test_long_names_and_large_graphs_fit_on_a_phone(serve: Serve, visit: Visit) 
         open_page(page, name)
         if name == "Missions":
             missions_listed(page).first.click()
-        for size in (SMALL, {"width": PHONE[0], "height": PHONE[1]}):
-            page.set_viewport_size(size)
+        for width, height in ((SMALL["width"], SMALL["height"]), PHONE):
+            page.set_viewport_size({"width": width, "height": height})
             assert wider_than_the_screen(page) == 0, name
             assert page.evaluate(INSIDE) == [], name
 
