@@ -13,6 +13,8 @@ A_FLIGHT = 120_000
 
 ADD_MISSION = re.compile("^Add (the first )?mission$")
 
+DRAWN = "() => new Promise((drawn) => requestAnimationFrame(() => setTimeout(drawn)))"
+
 PLACE_ON_THE_SCREEN = """
 ([x, y]) => {
   const world = document.querySelector(".page:not([hidden]) svg.floor-picture g.world");
@@ -20,6 +22,11 @@ PLACE_ON_THE_SCREEN = """
   return [place.x, place.y];
 }
 """
+
+
+def settled(page: Page) -> None:
+    """Wait until what has changed is laid out and drawn."""
+    page.evaluate(DRAWN)
 
 
 def open_page(page: Page, name: str) -> None:
@@ -37,6 +44,7 @@ def add_mission(page: Page, name: str) -> None:
 
 def on_the_screen(page: Page, place: Place) -> tuple[float, float]:
     """Return the pixel at which a place on the floor plan is seen."""
+    settled(page)
     x, y = page.evaluate(PLACE_ON_THE_SCREEN, list(place))
     return x, y
 

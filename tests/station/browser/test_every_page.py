@@ -16,13 +16,13 @@ from tests.station.browser.conftest import LAPTOP, TABLET, Scheme, Serve, Visit
 from tests.station.browser.layout import covered, cut_off, too_small, wider_than_the_screen
 from tests.station.browser.pictures import FOLDER, kept, picture
 from tests.station.browser.scenes import scenes
+from tests.station.browser.steps import settled
 
 SHOWN = ("empty-missions", "missions", "trips", "monitor", "help")
 """What the docs have pictures of."""
 
 SIZES = {"laptop": LAPTOP, "tablet": TABLET}
 SCHEMES: tuple[Scheme, ...] = ("light", "dark")
-DRAWN = "() => new Promise((drawn) => requestAnimationFrame(() => setTimeout(drawn)))"
 SMALL = 100_000
 """Bytes of a picture."""
 
@@ -39,7 +39,7 @@ def test_every_page_in_every_phase_can_be_seen_and_pressed_and_read_aloud(
         for scheme in SCHEMES:
             # nothing is caught half-way
             page.emulate_media(color_scheme=scheme, reduced_motion="reduce")
-            page.evaluate(DRAWN)
+            settled(page)
             wrong[scene, scheme] = [*violations(page), *laid_out_badly(page, device)]
             if scene in SHOWN:
                 taken = picture(page)

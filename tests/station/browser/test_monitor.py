@@ -12,11 +12,10 @@ from playwright.sync_api import Locator, Page, expect
 from tests.kill.lives import eventually
 from tests.station.browser.conftest import Serve, Visit
 from tests.station.browser.serving import Station, until
-from tests.station.browser.steps import open_page, row_of, start
+from tests.station.browser.steps import open_page, row_of, settled, start
 from tests.station.browser.test_cut_motors import HELD
 
 FIELD = Path(__file__).parents[3] / "examples" / "alfalfa" / "missions.toml"
-A_FRAME = "() => new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn)))"
 MISSIONS = ("North arc", "South-west arc", "South-east arc")
 
 
@@ -60,7 +59,7 @@ def dropped(station: Station, page: Page, buttons: Locator) -> str:
         name = button.inner_text().split()[-1].rstrip("?")
         button.hover()
         page.mouse.down()
-        button.evaluate(A_FRAME)
+        settled(page)
         until(lambda: button.evaluate(HELD) == 0, "its second is over, or its line has moved away")
         page.mouse.up()
         if is_lost := eventually(lambda: row(station, "drones", "id", name)["status"] == "LOST", 3):

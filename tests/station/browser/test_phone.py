@@ -19,6 +19,7 @@ from tests.station.browser.steps import (
     missions_listed,
     on_the_screen,
     open_page,
+    settled,
 )
 from tests.station.browser.test_monitor import FIELD
 from tests.station.browser.test_touch import middle, slide, target
@@ -39,6 +40,7 @@ def test_every_page_in_every_phase_fits_on_a_phone(serve: Serve, visit: Visit) -
     page = visit(station, size=PHONE, touch=True)
     wrong: dict[str, list[str]] = {}
     for scene in scenes(page, station):
+        settled(page)
         inside: list[str] = page.evaluate(INSIDE)
         small = [
             one for one in too_small(page, 24) if "block" not in one
@@ -46,6 +48,7 @@ def test_every_page_in_every_phase_fits_on_a_phone(serve: Serve, visit: Visit) -
         found = [*violations(page), *covered(page), *cut_off(page), *inside, *small]
         wrong[scene] = [*found, *too_wide(wider_than_the_screen(page))]
         page.set_viewport_size(SMALL)
+        settled(page)
         wrong[scene] += [*too_wide(wider_than_the_screen(page)), *page.evaluate(INSIDE)]
         page.set_viewport_size({"width": PHONE[0], "height": PHONE[1]})
     assert {where: said for where, said in wrong.items() if said} == {}
@@ -64,6 +67,7 @@ def test_long_names_and_large_graphs_fit_on_a_phone(serve: Serve, visit: Visit) 
             missions_listed(page).first.click()
         for width, height in ((SMALL["width"], SMALL["height"]), PHONE):
             page.set_viewport_size({"width": width, "height": height})
+            settled(page)
             assert wider_than_the_screen(page) == 0, name
             assert page.evaluate(INSIDE) == [], name
 
