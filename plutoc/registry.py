@@ -129,7 +129,7 @@ def _loaded(package: str, value: str, load: Callable[[], object]) -> Mapping[str
 
 def _look_at(block: Block, package: str) -> None:
     """Raise `RegistryError` if a declaration is not what it must be."""
-    from plutoc.declared import is_name, mistakes_in
+    from plutoc.declarations import is_name, mistakes_in
 
     try:
         mistakes = list(mistakes_in(block))

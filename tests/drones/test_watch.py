@@ -29,6 +29,12 @@ async def fails(flown: Flown, drone: str = "cf1") -> tuple[Failure | None, str]:
     return failed.failure, str(failed)
 
 
+async def falls(flown: Flown, drone: FakeDrone) -> tuple[Failure | None, str]:
+    """Let a drone fall as it hovers, and return what goes wrong."""
+    the_loop().call_later(1, drone.falls)
+    return await fails(flown)
+
+
 @pytest.mark.parametrize(
     ("wind", "where"),
     [
@@ -203,9 +209,8 @@ def test_only_a_person_lets_a_drone_forget_its_crash(tmp_path: Path) -> None:
         drone = Mended()
         async with flying(tmp_path, drone) as flown:
             await flown.up()
+            await falls(flown, drone)
             team = flown.team
-            the_loop().call_later(1, drone.falls)
-            await fails(flown)
             for _ in range(2):
                 assert not await flown.do(team.reach("cf1"))
             assert "looked after" not in drone.told
@@ -243,9 +248,8 @@ def test_a_drone_that_does_not_forget_its_crash_is_lost_and_can_be_brought_back_
         drone = Mended()
         async with flying(tmp_path, drone) as flown:
             await flown.up()
+            await falls(flown, drone)
             team = flown.team
-            the_loop().call_later(1, drone.falls)
-            await fails(flown)
             assert not await flown.do(team.reach("cf1"))
             drone.raises["looked_after"] = Rejected("it lies on its back")
             team.mended("cf1")
@@ -267,9 +271,8 @@ def test_a_drone_that_does_not_hear_that_it_was_looked_after_is_told_again(tmp_p
         drone = Mended()
         async with flying(tmp_path, drone) as flown:
             await flown.up()
+            await falls(flown, drone)
             team = flown.team
-            the_loop().call_later(1, drone.falls)
-            await fails(flown)
             assert not await flown.do(team.reach("cf1"))
             drone.raises["looked_after"] = LinkLost("it stopped answering")
             team.mended("cf1")
@@ -288,8 +291,7 @@ def test_a_drone_that_crashes_on_its_way_home_is_lost_at_once(tmp_path: Path) ->
         drone = Mended()
         async with flying(tmp_path, drone) as flown:
             await flown.up()
-            the_loop().call_later(1, drone.falls)
-            await fails(flown)
+            await falls(flown, drone)
             began = the_loop().time()
             assert not await flown.do(flown.team.fetched("cf1"))
             assert the_loop().time() - began < 3.0
@@ -312,8 +314,7 @@ def test_what_befalls_a_drone_later_nobody_has_looked_after(tmp_path: Path, hove
             else:
                 team.mended("cf1")
                 await flown.up()
-            the_loop().call_later(1, drone.falls)
-            await fails(flown)
+            await falls(flown, drone)
             assert not await flown.do(team.reach("cf1"))
             assert "looked after" not in drone.told
 

@@ -41,6 +41,21 @@ def example(name: str, overrides: Overrides | None = None, *, plain: bool = Fals
     return package.app(hooks, patient=True)
 
 
+WAITING = """
+    pluto 1
+    app patient {
+      create = MissionCreator
+      wait = Clock
+      allocate = DroneAllocator
+      launch = TripLauncher
+      watch = TripMonitor
+      start -> create -> wait -> allocate -> launch -> watch -> end
+      watch -> wait when STANDBY
+    }
+    """
+"""An app whose trips wait for their delays."""
+
+
 def app_of(text: str, hooks: Overrides | None = None) -> App:
     """Return the app of a source, with the hooks that it needs."""
     package = packaged(planned(analyse(Source("app.pluto", text))[0]))

@@ -21,7 +21,7 @@ from plutoc_runtime.testing.explore import Tally, drawn_case, explored, small_ca
 from plutoc_runtime.testing.plan_text import missions_text
 from plutoc_runtime.testing.rig import Rig, tried
 from plutoc_runtime.testing.shrink import shrunk
-from tests.testing.examples import app_of, example, fleet_of
+from tests.testing.examples import WAITING, app_of, example, fleet_of
 
 APP = example("drugs_distribution_retry")
 FLEET = fleet_of("drugs_distribution_retry", APP)
@@ -131,18 +131,7 @@ def test_small_cases_have_fair_weather_every_other_time() -> None:
 
 def test_a_plan_of_many_days_does_not_go_on_for_ever() -> None:
     """What waits as its trips say is in time, however long that takes."""
-    app = app_of("""
-        pluto 1
-        app patient {
-          create = MissionCreator
-          wait = Clock
-          allocate = DroneAllocator
-          launch = TripLauncher
-          watch = TripMonitor
-          start -> create -> wait -> allocate -> launch -> watch -> end
-          watch -> wait when STANDBY
-        }
-        """)
+    app = app_of(WAITING)
     trip: Any = app.trip  # which has the field `delay`, by its graph
     trips = [
         trip(name=str(x), index=x, action="measure", target=(2.0, 3.0, 1.0), delay=5 * 86_400.0)

@@ -21,7 +21,7 @@ from plutoc_runtime.run import Run
 from plutoc_runtime.status import Status
 from tests.runtime.cli.conftest import Command
 from tests.runtime.files.an_app import APP, FieldMission
-from tests.testing.examples import app_of
+from tests.testing.examples import WAITING, app_of
 
 WHY = 'mission "South" has set out 100 times for 1 trip, and nothing ends that; to fly on, say how'
 
@@ -143,18 +143,7 @@ def test_crashed_drones_are_counted(missions: Path, command: Command) -> None:
     assert "crashed" not in command("simulate", missions)[1]
 
 
-WAITS = app_of("""
-    pluto 1
-    app patient {
-      create = MissionCreator
-      wait = Clock
-      allocate = DroneAllocator
-      launch = TripLauncher
-      watch = TripMonitor
-      start -> create -> wait -> allocate -> launch -> watch -> end
-      watch -> wait when STANDBY
-    }
-    """)
+WAITS = app_of(WAITING)
 
 
 def test_who_is_to_wait_for_years_does_so(tmp_path: Path, command: Command) -> None:
