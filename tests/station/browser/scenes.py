@@ -23,6 +23,7 @@ PAGES = ("Missions", "Trips", "Monitor", "Help")
 
 def scenes(page: Page, station: Station) -> Iterator[str]:
     """Lead a page through everything there is to see; yields the name of what is on the screen."""
+    expect(page.get_by_role("button", name="Add the first mission")).to_be_visible()
     yield "empty-missions"
     open_page(page, "Trips")
     yield "empty-trips"

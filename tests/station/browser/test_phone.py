@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from playwright.sync_api import ViewportSize
+from playwright.sync_api import Page, ViewportSize, expect
 
 from tests.station.browser.axe import violations
 from tests.station.browser.conftest import Serve, Visit
@@ -33,6 +33,12 @@ INSIDE = """
   .map((one) => `${one.scrollWidth} in ${one.clientWidth}: ${one.className}`)
 """
 
+NAMELESS = """
+() => [...document.querySelectorAll("button")]
+  .filter((one) => one.checkVisibility() && !one.textContent.trim())
+  .map((one) => one.outerHTML)
+"""
+
 
 def test_every_page_in_every_phase_fits_on_a_phone(serve: Serve, visit: Visit) -> None:
     """Nobody scrolls to the side, neither the page nor a list in it; 24 pixels can be hit."""
@@ -52,6 +58,21 @@ def test_every_page_in_every_phase_fits_on_a_phone(serve: Serve, visit: Visit) -
         wrong[scene] += [*too_wide(wider_than_the_screen(page)), *page.evaluate(INSIDE)]
         page.set_viewport_size({"width": PHONE[0], "height": PHONE[1]})
     assert {where: said for where, said in wrong.items() if said} == {}
+
+
+def test_before_the_station_has_answered_no_button_is_shown_that_says_nothing(
+    ward: Station, visit: Visit
+) -> None:
+    def never_answered(page: Page) -> None:
+        page.route("**/api/app", lambda route: None)
+        page.add_init_script("window.setInterval = () => 0")  # as it is first drawn
+
+    page = visit(ward, size=PHONE, touch=True, prepare=never_answered)
+    expect(page.get_by_role("heading", name="Ground station")).to_be_visible()
+    settled(page)
+    assert too_small(page, 24) == []
+    assert page.evaluate(NAMELESS) == []
+    expect(page.get_by_role("button", name="Resume")).to_have_count(0)
 
 
 def test_long_names_and_large_graphs_fit_on_a_phone(serve: Serve, visit: Visit) -> None:

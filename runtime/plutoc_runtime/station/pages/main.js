@@ -205,6 +205,7 @@ function head({ live, plan, go, lead, app }, bar) {
     h("div", { class: "row strip" }, phase, time, simulated, why, all,
       h("span", { class: "row spread" }, unsaved, age)),
     lost);
+  update();
   return { element, update };
 }
 
