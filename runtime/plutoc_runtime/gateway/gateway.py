@@ -7,6 +7,7 @@ old link is cut: it commands nothing any more, and hears nothing.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from contextlib import nullcontext
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -17,7 +18,7 @@ from .descent import Craft, Descent
 from .envelope import Envelope
 from .jobs import Jobs
 from .link import Link
-from .pilots import Pilots
+from .pilots import Leaving, Pilots
 from .traffic.traffic import Traffic
 
 if TYPE_CHECKING:
@@ -46,6 +47,7 @@ class Gateway:
         slack: float = 0.0,
         max_airborne: int | None = None,
         patience: float | None = None,
+        leaving: Leaving = nullcontext,
     ) -> None:
         self.kernel = kernel
         self.traffic: Traffic | None = None
@@ -60,7 +62,7 @@ class Gateway:
                 slack=slack,
                 max_airborne=max_airborne,
             )
-        self.navigation = Pilots(kernel, controls, drones, airspace, self.traffic, ledger)
+        self.navigation = Pilots(kernel, controls, drones, airspace, self.traffic, ledger, leaving)
         self.envelope = Envelope(airspace)
         self.drones, self._airspace, self._apart = tuple(drones), airspace, apart
         self._keys = {drone.id: FLEET + 1 + drone.index for drone in drones}

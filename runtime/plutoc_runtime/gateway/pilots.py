@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Coroutine, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -25,8 +26,10 @@ if TYPE_CHECKING:
     from .ledger import Ledger
     from .traffic.traffic import Traffic, Ways
 
-
 T = TypeVar("T")
+
+Leaving = Callable[[str], AbstractContextManager[object]]
+"""Says that a drone takes off: asked before it is told to, left once it has."""
 
 _HOVERS_ON = (Failure.REFUSED, Failure.ACTION)
 """What goes wrong with a drone that hovers as before."""
@@ -47,8 +50,10 @@ class Pilots:
         airspace: Airspace,
         traffic: Traffic | None = None,
         ledger: Ledger | None = None,
+        leaving: Leaving = nullcontext,
     ) -> None:
         self._kernel, self._controls, self._airspace = kernel, controls, airspace
+        self._leaving = leaving
         self._traffic = traffic
         """Keeps them apart from each other; None: nobody does."""
         self._envelope = Envelope(airspace)
@@ -306,7 +311,8 @@ class Pilots:
         controls, traffic, drone = self._controls, self._traffic, section.drone
         points = section.points[1:-1] if section.lands else section.points[1:]
         if section.stands:
-            await controls.takeoff(drone, points[0][2])
+            with self._leaving(drone):
+                await controls.takeoff(drone, points[0][2])
             points = points[1:]
             if traffic is not None:
                 traffic.passed(drone)

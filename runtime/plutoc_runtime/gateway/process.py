@@ -145,6 +145,7 @@ async def _command(
         slack=0.0 if settings.real is None else SLACK,
         max_airborne=settings.max_airborne,
         patience=settings.patience * settings.speed,
+        leaving=seen.leaving,
     )
     over: Signal[None] = Signal()
     ending = Ending(gateway, over, settings)

@@ -9,8 +9,8 @@ from __future__ import annotations
 import asyncio
 import json
 import time
-from collections.abc import Callable, Mapping, Sequence
-from contextlib import suppress
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from math import isfinite
 from pathlib import Path
@@ -55,6 +55,18 @@ class Sightings:
         self._path, self._drones, self._telemetry = path, tuple(drones), telemetry
         self._clock, self._quiet, self._kept = clock, 0, dict[str, list[object]]()
         self._before, self._each = _told(path), max(SHORTEST, EACH / speed)
+        self._leaving: set[str] = set()
+        """The drones that take off: what they said of themselves before is not so any more."""
+
+    @contextmanager
+    def leaving(self, drone: str) -> Iterator[None]:
+        """Write down that a drone is in the air before it leaves the ground, in case we are killed next."""
+        self._leaving.add(drone)
+        self.keep()
+        try:
+            yield
+        finally:
+            self._leaving.discard(drone)
 
     async def watch(self) -> None:
         """Look again and again, until nobody wants that any longer."""
@@ -87,7 +99,8 @@ class Sightings:
             one = self._telemetry(drone)
             if isfinite(one.silence):
                 place = [round(metres, 3) for metres in one.location]
-                found[drone] = [place, round(one.battery_level, 3), one.landed]
+                landed = one.landed and drone not in self._leaving
+                found[drone] = [place, round(one.battery_level, 3), landed]
         return found
 
 

@@ -26,9 +26,11 @@ PATIENCE = 60.0
 SAID = re.compile(r"^station: (http://\S+)", re.MULTILINE)
 
 
-def until(holds: Callable[[], bool], what: str) -> None:
-    """Wait until something holds."""
-    assert eventually(holds, PATIENCE), f"it never came about that {what}"
+def until(holds: Callable[[], bool], what: str | Callable[[], str]) -> None:
+    """Wait until something holds; what that is may be said by how things are at the end."""
+    if not eventually(holds, PATIENCE):
+        said = what if isinstance(what, str) else what()
+        raise AssertionError(f"it never came about that {said}")
 
 
 @dataclass(slots=True, kw_only=True)

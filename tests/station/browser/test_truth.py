@@ -71,7 +71,7 @@ def agree(page: Page, station: Station, *words: str) -> list[dict[str, Any]]:
             and not disagreements(rows, truth(station, scratch), PIXEL)
         )
 
-    until(holds, f"page and world agree: {seen(page)} {truth(station, scratch)}")
+    until(holds, lambda: f"page and world agree: {seen(page)} {truth(station, scratch)}")
     return seen(page)
 
 

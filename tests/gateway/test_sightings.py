@@ -1,0 +1,51 @@
+"""What the gateway writes down of its drones, for who looks after it was killed."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from plutoc_runtime.gateway.gateway import Gateway
+from plutoc_runtime.gateway.sightings import SEEN, Sightings, sightings_in
+from tests.gateway.flights import Field
+
+
+def watched(folder: Path) -> tuple[Field, Sightings]:
+    """Return drones at home, and who writes down how they are; no look is taken by itself."""
+    field = Field()
+    drones = [drone.id for drone in field.drones]
+    seen = Sightings(folder / SEEN, drones, field.navigation.telemetry)
+    field.gateway = Gateway(
+        field.kernel,
+        field.navigation,
+        field.drones,
+        field.airspace,
+        leaving=seen.leaving,
+    )
+    return field, seen
+
+
+def test_a_drone_is_said_to_be_in_the_air_before_it_leaves_the_ground(tmp_path: Path) -> None:
+    field, seen = watched(tmp_path)
+    seen.keep()
+    assert sightings_in(tmp_path)["cf1"].landed
+    link = field.gateway.link(1)
+    field.advance(0)
+    field.kernel.spawn(link.takeoff("cf1", 1.0), 0, "cf1 rises")
+    field.advance(0)
+    assert field.navigation.telemetry("cf1").location[2] == 0
+    for _ in range(2):
+        assert not sightings_in(tmp_path)["cf1"].landed
+        assert sightings_in(tmp_path)["cf2"].landed
+        seen.look()
+    field.advance(5)
+    assert field.navigation.telemetry("cf1").location[2] > 0.9
+    seen.look()
+    assert not sightings_in(tmp_path)["cf1"].landed
+
+
+def test_a_take_off_that_fails_leaves_the_drone_on_the_ground(tmp_path: Path) -> None:
+    _field, seen = watched(tmp_path)
+    with seen.leaving("cf1"):
+        assert not sightings_in(tmp_path)["cf1"].landed
+    seen.look()
+    assert sightings_in(tmp_path)["cf1"].landed
