@@ -7,7 +7,6 @@ old link is cut: it commands nothing any more, and hears nothing.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from contextlib import nullcontext
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -47,7 +46,7 @@ class Gateway:
         slack: float = 0.0,
         max_airborne: int | None = None,
         patience: float | None = None,
-        leaving: Leaving = nullcontext,
+        leaving: Leaving | None = None,
     ) -> None:
         self.kernel = kernel
         self.traffic: Traffic | None = None

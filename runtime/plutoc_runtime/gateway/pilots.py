@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Coroutine, Sequence
-from contextlib import AbstractContextManager, nullcontext
+from contextlib import AbstractContextManager
 from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -50,7 +50,7 @@ class Pilots:
         airspace: Airspace,
         traffic: Traffic | None = None,
         ledger: Ledger | None = None,
-        leaving: Leaving = nullcontext,
+        leaving: Leaving | None = None,
     ) -> None:
         self._kernel, self._controls, self._airspace = kernel, controls, airspace
         self._leaving = leaving
@@ -311,8 +311,11 @@ class Pilots:
         controls, traffic, drone = self._controls, self._traffic, section.drone
         points = section.points[1:-1] if section.lands else section.points[1:]
         if section.stands:
-            with self._leaving(drone):
+            if self._leaving is None:
                 await controls.takeoff(drone, points[0][2])
+            else:
+                with self._leaving(drone):
+                    await controls.takeoff(drone, points[0][2])
             points = points[1:]
             if traffic is not None:
                 traffic.passed(drone)
