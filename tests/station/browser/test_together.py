@@ -64,7 +64,8 @@ def test_what_two_draw_in_one_moment_is_kept_of_both(
         open_page(page, "Missions")
         expect(missions_listed(page)).to_have_text(["From there", "From here"])
     until(lambda: _names(station) == ["From there", "From here"], "both are kept")
-    assert [SOMEBODY_WAS_QUICKER in one for one in watch.complaints] == [True]
+    # once, or more often on a machine so slow that the page has asked anew meanwhile
+    assert {SOMEBODY_WAS_QUICKER in one for one in watch.complaints} == {True}
 
 
 def _names(station: Station) -> list[str]:
