@@ -258,7 +258,8 @@ def test_motors_are_cut_while_the_brain_hangs(tmp_path: Path) -> None:
 
     async def play(brain: Brain) -> None:
         link, heard = await brain.linked(), list[object]()
-        brain.kernel.post(link.fly, Task(), heard.append)
+        to_and_fro = Task(stops=(THERE, (1.0, 1.0, 1.2)) * 10)  # until long after they are cut
+        brain.kernel.post(link.fly, to_and_fro, heard.append)
         await brain.until(lambda: link.telemetry("cf1").location[0] > 2)
         said = await asyncio.to_thread(cut_directly, tmp_path, "cf1", 5)
         assert said == "the motors of cf1 are cut"
