@@ -10,6 +10,7 @@ from plutoc_runtime.airspace import Airspace
 from plutoc_runtime.gateway.file_ledger import FileLedger
 from plutoc_runtime.gateway.gateway import Gateway
 from plutoc_runtime.gateway.ledger import MemoryLedger
+from plutoc_runtime.gateway.pilots import Leaving
 from plutoc_runtime.kernel import FLEET, Kernel
 from plutoc_runtime.model import Category, Item, Point
 from plutoc_runtime.simulation.drones import SimulatedDrone, SimulatedNavigation
@@ -70,6 +71,7 @@ class Field:
         )
         self.ledger = ledger or MemoryLedger()
         self.patience = patience
+        self.leaving: Leaving | None = None
         self.gateway = self.another()
 
     def another(self) -> Gateway:
@@ -81,6 +83,7 @@ class Field:
             self.airspace,
             ledger=self.ledger,
             patience=self.patience,
+            leaving=self.leaving,
         )
         return self.gateway
 

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from plutoc_runtime.gateway.gateway import Gateway
+import pytest
+
+from plutoc_runtime.errors import Failure, FlightFailed
 from plutoc_runtime.gateway.sightings import SEEN, Sightings, sightings_in
 from tests.gateway.flights import Field
 
@@ -14,13 +16,8 @@ def watched(folder: Path) -> tuple[Field, Sightings]:
     field = Field()
     drones = [drone.id for drone in field.drones]
     seen = Sightings(folder / SEEN, drones, field.navigation.telemetry)
-    field.gateway = Gateway(
-        field.kernel,
-        field.navigation,
-        field.drones,
-        field.airspace,
-        leaving=seen.leaving,
-    )
+    field.leaving = seen.leaving
+    field.another()
     return field, seen
 
 
@@ -44,8 +41,9 @@ def test_a_drone_is_said_to_be_in_the_air_before_it_leaves_the_ground(tmp_path: 
 
 
 def test_a_take_off_that_fails_leaves_the_drone_on_the_ground(tmp_path: Path) -> None:
-    _field, seen = watched(tmp_path)
-    with seen.leaving("cf1"):
+    _, seen = watched(tmp_path)
+    with pytest.raises(FlightFailed), seen.leaving("cf1"):
         assert not sightings_in(tmp_path)["cf1"].landed
+        raise FlightFailed(Failure.REFUSED, "cf1 is not ready")
     seen.look()
     assert sightings_in(tmp_path)["cf1"].landed

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from .ledger import Ledger
     from .traffic.traffic import Traffic, Ways
 
+
 T = TypeVar("T")
 
 Leaving = Callable[[str], AbstractContextManager[object]]
@@ -54,6 +55,7 @@ class Pilots:
     ) -> None:
         self._kernel, self._controls, self._airspace = kernel, controls, airspace
         self._leaving = leaving
+        """Writes down who takes off; None, as in a simulation: nobody looks after a crash."""
         self._traffic = traffic
         """Keeps them apart from each other; None: nobody does."""
         self._envelope = Envelope(airspace)

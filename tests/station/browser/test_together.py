@@ -64,7 +64,7 @@ def test_what_two_draw_in_one_moment_is_kept_of_both(
         open_page(page, "Missions")
         expect(missions_listed(page)).to_have_text(["From there", "From here"])
     until(lambda: _names(station) == ["From there", "From here"], "both are kept")
-    # once, or more often on a machine so slow that the page has asked anew meanwhile
+    # at least once: on a slow machine a page saves what is drawn there in more than one go
     assert {SOMEBODY_WAS_QUICKER in one for one in watch.complaints} == {True}
 
 
