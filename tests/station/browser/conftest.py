@@ -14,6 +14,7 @@ from playwright.sync_api import (
     BrowserType,
     Page,
     Playwright,
+    expect,
     sync_playwright,
 )
 
@@ -26,6 +27,11 @@ LAPTOP = (1280, 800)
 TABLET = (820, 1180)
 
 Scheme = Literal["light", "dark"]
+
+A_STEP = 30_000
+"""Milliseconds until what a page does not do is called a failure: machines may be busy."""
+
+expect.set_options(timeout=A_STEP)
 
 APPS = ("drugs_distribution", "alfalfa", "drugs_distribution_retry")
 
@@ -148,7 +154,7 @@ def visit(browser: Browser, watch: Watch) -> Iterator[Visit]:
             has_touch=touch,
             reduced_motion="no-preference",
         )
-        context.set_default_timeout(30_000)
+        context.set_default_timeout(A_STEP)
         watch.over(context)
         contexts.append(context)
         page = context.new_page()

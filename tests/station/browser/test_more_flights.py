@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from playwright.sync_api import expect
+from playwright.sync_api import Route, expect
 
 from tests.station.browser.conftest import Serve, Visit
 from tests.station.browser.exercise import COMPLETED, put_in
@@ -14,6 +14,7 @@ from tests.station.browser.steps import (
     open_page,
     row_of,
     sees_all,
+    settled,
     start,
 )
 
@@ -33,6 +34,23 @@ def test_a_mission_that_is_drawn_while_others_fly_is_started_beside_them(
     sees_all(page, "Completed", (*COMPLETED, "Late"))
     assert station.statuses() == {**COMPLETED, "Late": "COMPLETED"}
     assert len(station.journals()) == 1
+
+
+def test_a_start_that_is_answered_late_takes_nobody_away_from_where_they_have_gone(
+    serve: Serve, visit: Visit
+) -> None:
+    station = serve("drugs_distribution")
+    put_in(station)
+    page = visit(station)
+    held: list[Route] = []
+    page.route("**/api/start", lambda route: held.append(route))
+    with page.expect_request("**/api/start"):
+        start(page)
+    open_page(page, "Trips")
+    held[0].continue_()
+    expect(page.get_by_role("status").get_by_text("missions started")).to_be_visible()
+    settled(page)
+    expect(page.get_by_role("tab", name="Trips")).to_have_attribute("aria-selected", "true")
 
 
 def test_the_whole_plan_flies_again_when_all_has_ended_and_nothing_old_is_shown(

@@ -110,8 +110,6 @@ const ICONS = {
   wait: "M12 3a9 9 0 110 18 9 9 0 010-18zM12 7v5l3 2",
   pause: "M9 5v14M15 5v14",
   grip: "M9 6v.1M15 6v.1M9 12v.1M15 12v.1M9 18v.1M15 18v.1",
-  import: "M12 4v11M7 10l5 5 5-5M4 16v4h16v-4",
-  export: "M12 15V4M7 9l5-5 5 5M4 16v4h16v-4",
   close: "M6 6l12 12M18 6L6 18",
 };
 

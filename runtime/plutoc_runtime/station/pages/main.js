@@ -58,15 +58,19 @@ async function stop(how) {
   clearTimeout(alarm);
 }
 
-// Start, of the missions with these keys, or of what has not been completed.
+// Start, of the missions with these keys, or of what has not been completed; then to the Monitor,
+// unless the page is left before the answer comes.
 async function begun(missions = null) {
+  const there = now;
   const wrong = plan.problems.find(({ mission }) => missions?.includes(mission));
   if (wrong) {
     lead(wrong);
     say(inFull(plan.missions, wrong), { bad: true });
   } else if (!await plan.saved()) {
     say("The plan is not saved yet, so it was not started.", { bad: true });
-  } else if (await tell("start", { revision: plan.revision(), missions })) go("monitor");
+  } else if (await tell("start", { revision: plan.revision(), missions }) && now === there) {
+    go("monitor");
+  }
   plan.load().catch(() => null);
 }
 
@@ -144,8 +148,10 @@ function head({ live, plan, go, lead, app }, bar) {
     else if (why.textContent) say(why.textContent);
   }, "primary", "start");
   const all = button("", () => begun(plan.missions.map(({ key }) => key)), "small");
-  const resume = button("Resume", async () => await tell("resume") && go("monitor"), "primary",
-    "start");
+  const resume = button("Resume", async () => {
+    const there = now;
+    if (await tell("resume") && now === there) go("monitor");
+  }, "primary", "start");
   const away = button("Put away", () => tell("discard"));
   const home = button("Stop: fly home", () => stop("rtl"), "danger", "home");
   const land = button("Stop: land now", () => stop("land"), "danger", "land");
@@ -209,14 +215,7 @@ function head({ live, plan, go, lead, app }, bar) {
   return { element, update };
 }
 
-const LOAD = {
-  missions: () => import("./missions.js"),
-  trips: () => import("./missions.js"),
-  monitor: () => import("./monitor.js"),
-  help: () => import("./missions.js"),
-};
-const IDS = Object.keys(LOAD);
-const capital = (id) => id[0].toUpperCase() + id.slice(1);
+const IDS = ["missions", "trips", "monitor", "help"];
 
 takeToken();
 const live = liveFeed();
@@ -231,7 +230,7 @@ let said = "";
 // A tab and its page for each; which one is open stands in the address after #.
 const buttons = IDS.map((id) => h("button", {
   class: "tab", role: "tab", id: `tab-${id}`, "aria-controls": `page-${id}`, onclick: () => go(id),
-}, capital(id)));
+}, id[0].toUpperCase() + id.slice(1)));
 const panels = IDS.map((id) => h("section", {
   class: "page", role: "tabpanel", id: `page-${id}`, "aria-labelledby": `tab-${id}`,
 }));
@@ -271,7 +270,8 @@ const top = head(context, bar);
 
 async function make(id, i) {
   try {
-    const page = (await LOAD[id]())[id](context);
+    const module = await import(id === "monitor" ? "./monitor.js" : "./missions.js");
+    const page = module[id](context);
     pages.set(id, page);
     panels[i].append(page.element);
     if (now === id) page.show?.();
