@@ -150,7 +150,7 @@ class Flight:
         self.lives.append(self._printed.read_text(errors="replace"))
 
 
-def eventually(holds: Callable[[], bool], seconds: float = 20.0) -> bool:
+def eventually(holds: Callable[[], bool], seconds: float = 60.0) -> bool:
     """Wait until something holds; False: it does not in that time."""
     end = time.monotonic() + seconds
     while not holds():
