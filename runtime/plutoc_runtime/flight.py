@@ -153,7 +153,7 @@ class Flight(Signal[Status]):
         if fact:
             raise changed(hook, "trip", fact)
         if core.recorder is not None:
-            look(hook, core.recorder, state.mission)
+            look(hook, core.recorder.look, state.mission)
         return value
 
     def break_off(self) -> None:

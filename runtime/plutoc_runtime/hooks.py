@@ -11,7 +11,6 @@ from .raised import by_a_person
 from .words import bounded, class_of, text_of
 
 if TYPE_CHECKING:
-    from .journal.recorder import Recorder
     from .model import Mission
 
 Hook = Callable[..., object]
@@ -48,10 +47,10 @@ def changed(hook: Hook, what: str, fact: str) -> HookFault:
     return HookFault(f"hook {hook_name(hook)} changed the {what}'s {fact}, by which it is known")
 
 
-def look(hook: Hook, recorder: Recorder, mission: Mission[Any]) -> None:
-    """Put on record what a hook has changed; what cannot be kept is a fault of the hook."""
+def look(hook: Hook, note: Callable[[Mission[Any]], object], mission: Mission[Any]) -> None:
+    """Let it be noted what a hook has changed; what cannot be kept is a fault of the hook."""
     try:
-        recorder.look(mission)
+        note(mission)
     except WHATEVER as error:
         if by_a_person(error):
             raise

@@ -2,19 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from .calling_off import abort
 from .errors import HookFault
-from .hooks import hook_name
+from .hooks import hook_name, look
+from .journal.values import change_data
 from .soundness import unsound, unsound_mission
 from .status import Status, TripStatus
 from .words import bounded, class_of, shown
 
 if TYPE_CHECKING:
+    from .core import Core
+    from .model import Mission, Trip
     from .run import Run
     from .state import State
+
+Standing = tuple[Sequence[tuple["Trip", str, int]], int]
+
+
+def standing(mission: Mission[Any]) -> Standing:
+    """Return the trips still to do, with what they are known by, and how many the mission has in all."""
+    to_do = [(trip, trip.name, trip.attempt) for trip in mission.trips]
+    return to_do, len(to_do) + len(mission.completed_trips)
 
 
 async def settle(
@@ -23,6 +35,7 @@ async def settle(
     status: Status,
     emits: tuple[Status, ...],
     returned: object,
+    before: Standing,
 ) -> Status:
     """Return the status with which the mission goes on; one that cannot be is a fault."""
     name = hook_name(hook)
@@ -30,6 +43,8 @@ async def settle(
     if wrong is not None:
         raise HookFault(f"modifier {name} left a mission that cannot go on: {wrong}")
     _check_trips(run, name)
+    if run.core.recorder is None:  # else it has looked already
+        look(hook, partial(_note_change, run.core, before), run.mission)
     if not emits:
         if returned is not None:
             raise HookFault(
@@ -74,6 +89,14 @@ def _check_trips(run: Run[Any], name: str) -> None:
             raise HookFault(
                 f"modifier {name} left a trip that cannot be flown, {called}: {problem}"
             )
+
+
+def _note_change(core: Core, before: Standing, mission: Mission[Any]) -> None:
+    """Note it if the hook has changed the trips; that some have flown meanwhile is no such change."""
+    to_do, trips = before
+    left = [known for known in to_do if known[0].status is not TripStatus.COMPLETED]
+    if core.trace.live and standing(mission) != (left, trips):
+        core.trace.note("mission.changed", **change_data(core.app, mission))
 
 
 def _contradiction(state: State, status: Status) -> str | None:

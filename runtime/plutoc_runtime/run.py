@@ -72,7 +72,7 @@ class Run(Generic[M]):
         if fact:
             raise changed(hook, "trip", fact)
         if self.core.recorder is not None:
-            look(hook, self.core.recorder, self.mission)
+            look(hook, self.core.recorder.look, self.mission)
         return answer
 
     @property

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import pytest
@@ -11,7 +12,9 @@ from plutoc_runtime import state
 from plutoc_runtime.context import Context
 from plutoc_runtime.model import Mission
 from plutoc_runtime.run import Run
+from plutoc_runtime.simulation.faults import Faults
 from plutoc_runtime.status import Status, TripStatus
+from plutoc_runtime.testing.invariants import violations
 from tests.runtime import apps
 
 ANY_END = (Status.STANDBY, Status.COMPLETED, Status.FAILED)
@@ -166,3 +169,55 @@ def test_hooks_calls_are_counted_from_launch_to_launch(monkeypatch: pytest.Monke
     monkeypatch.setattr(state, "MOST_CALLS", 1)
     trips = [apps.trip(f"{number}", 1.0 + number) for number in range(4)]
     assert apps.fly(apps.app(apps.flow(prepare=look)), apps.mission("m", *trips)).completed
+
+
+def more(mission: Mission[apps.Trip], context: Context) -> Status:
+    """Ask for another trip, which belongs to the mission from now on."""
+    if mission.status is Status.COMPLETED and mission.round == 0 and mission.attempts == 2:
+        mission.trips.append(apps.trip("more", 3.0))
+        return Status.STANDBY
+    return mission.status
+
+
+def forget(mission: Mission[apps.Trip], context: Context) -> Status:
+    """Let nobody repeat what was done first."""
+    if mission.round == 0 and mission.status is Status.COMPLETED:
+        del mission.completed_trips[0]
+    return mission.status
+
+
+def call_otherwise(mission: Mission[apps.Trip], context: Context) -> Status:
+    """Put a trip that failed back, by another name."""
+    if mission.status is Status.FAILED:
+        mission.current.name += "'"
+        mission.current.reset()
+        return Status.STANDBY
+    return mission.status
+
+
+def leave_out(mission: Mission[apps.Trip], context: Context) -> Status:
+    """Do not try a trip again that failed."""
+    if mission.status is Status.FAILED:
+        del mission.trips[0]
+        return Status.STANDBY if mission.trips else Status.COMPLETED
+    return mission.status
+
+
+@pytest.mark.parametrize("hook", [more, forget, call_otherwise, leave_out])
+def test_what_a_modifier_makes_of_a_mission_is_told_in_simulations_too(
+    hook: Callable[..., object],
+) -> None:
+    """Otherwise it looks as if trips had been flown too often, or not at all."""
+
+    async def watch(run: Run[Any], status: Status) -> Status:
+        status = await apps.watched(run, status)
+        return await modify_mission(run, status, hook=hook, emits=ANY_END)
+
+    for seed in range(6):
+        outcome = apps.fly(
+            apps.app(apps.flow(watch=watch, repeater=True)),
+            apps.mission("m", apps.trip("A", 2.0), apps.trip("B", 2.0), repeat=2),
+            faults=Faults(action=0.2),
+            seed=seed,
+        )
+        assert violations(outcome.events, {}) == []

@@ -16,7 +16,7 @@ from ..fields import Entity
 from ..journal_line import exact
 from ..signals import Signal
 from .fold import Record, Records
-from .values import fields_of, mission_data, trip_data, value_data
+from .values import change_data, fields_of, mission_data, trip_data, value_data
 
 if TYPE_CHECKING:
     from ..app import App
@@ -89,12 +89,11 @@ class Recorder:
         app, record = self._app, self.records.missions[mission.name]
         todo = [trip_data(app, trip) for trip in mission.trips]
         fields = fields_of(app, Entity.MISSION, mission)
-        if todo != [_as_new(trip) for trip in record["todo"]] or fields != record["fields"]:
-            done = [trip_data(app, trip) for trip in mission.completed_trips]
+        forgotten = len(mission.completed_trips) != len(record["done"])
+        same = not forgotten and todo == [_as_new(trip) for trip in record["todo"]]
+        if not same or fields != record["fields"]:
             assert self.trace is not None
-            self.trace.note(
-                "mission.changed", mission=mission.name, todo=todo, done=done, fields=fields
-            )
+            self.trace.note("mission.changed", **change_data(app, mission))
 
     def _settle(self) -> None:
         """The instant is over: its row goes to the journal, and then what waits for it."""

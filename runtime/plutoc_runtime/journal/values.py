@@ -36,6 +36,16 @@ def mission_data(app: App, mission: Mission[Any]) -> Data:
     }
 
 
+def change_data(app: App, mission: Mission[Any]) -> Data:
+    """Return how a mission is now that a hook has changed it."""
+    return {
+        "mission": mission.name,
+        "todo": [trip_data(app, trip) for trip in mission.trips],
+        "done": [trip_data(app, trip) for trip in mission.completed_trips],
+        "fields": fields_of(app, Entity.MISSION, mission),
+    }
+
+
 def trip_data(app: App, trip: Trip) -> Data:
     """Return a trip as it stands; what is as with every new trip is left out."""
     data: Data = {

@@ -114,9 +114,12 @@ class CompletedDidEverything:
         self._to_do[event["mission"]] = Counter(self._own[event["mission"]])
 
     def _change(self, event: Event) -> None:
-        trips = event["todo"]
-        assert isinstance(trips, list)
-        self._to_do[event["mission"]] = Counter(trip["name"] for trip in trips)
+        todo, done = event["todo"], event["done"]
+        assert isinstance(todo, list)
+        assert isinstance(done, list)
+        own = [str(trip["name"]) for trip in (*done, *todo) if not trip.get("added")]
+        self._own[event["mission"]] = own
+        self._to_do[event["mission"]] = Counter(trip["name"] for trip in todo)
 
     def _complete(self, event: Event) -> None:
         self._to_do[event["mission"]][event["trip"]] -= 1

@@ -66,7 +66,23 @@ class AttemptsCountUp:
         self._last: dict[tuple[object, object, object], int] = {}
         self._newest: dict[object, tuple[object, object, object]] = {}
         """By mission, what it flew last."""
-        self.hears = {"trip.launched": self._launch, "trip.interrupted": self._interrupt}
+        self._round: dict[object, object] = {}
+        self.hears = {
+            "trip.launched": self._launch,
+            "trip.interrupted": self._interrupt,
+            "mission.repeated": self._repeat,
+            "mission.changed": self._change,
+        }
+
+    def _repeat(self, event: Event) -> None:
+        self._round[event["mission"]] = event["round"]
+
+    def _change(self, event: Event) -> None:
+        trips, mission = event["todo"], event["mission"]
+        assert isinstance(trips, list)
+        for trip in trips:  # one that waits has its next attempt before it
+            flown = trip.get("attempt", 1) - ("status" not in trip)
+            self._last[mission, trip["name"], self._round.get(mission, 0)] = flown
 
     def _launch(self, event: Event) -> None:
         trip = event["mission"], event["trip"], event["round"]

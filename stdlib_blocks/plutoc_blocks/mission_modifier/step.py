@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.modification import settle
+from plutoc_runtime.modification import settle, standing
 
 if TYPE_CHECKING:
     from plutoc_runtime.run import Run
@@ -20,5 +20,6 @@ async def modify_mission(
     emits: tuple[Status, ...] = (),
 ) -> Status:
     """Call the hook, and go on with the status that it returns."""
+    before = standing(run.mission)
     returned = await run.hook(hook, run.mission, run.context)
-    return await settle(run, hook, status, emits, returned)
+    return await settle(run, hook, status, emits, returned, before)
