@@ -179,6 +179,14 @@ def more(mission: Mission[apps.Trip], context: Context) -> Status:
     return mission.status
 
 
+def more_alike(mission: Mission[apps.Trip], context: Context) -> Status:
+    """Ask for another trip, by the name of one that there is."""
+    if mission.status is Status.COMPLETED and mission.round == 0 and mission.attempts == 2:
+        mission.trips.append(apps.trip("A", 3.0))
+        return Status.STANDBY
+    return mission.status
+
+
 def forget(mission: Mission[apps.Trip], context: Context) -> Status:
     """Let nobody repeat what was done first."""
     if mission.round == 0 and mission.status is Status.COMPLETED:
@@ -203,7 +211,7 @@ def leave_out(mission: Mission[apps.Trip], context: Context) -> Status:
     return mission.status
 
 
-@pytest.mark.parametrize("hook", [more, forget, call_otherwise, leave_out])
+@pytest.mark.parametrize("hook", [more, more_alike, forget, call_otherwise, leave_out])
 def test_what_a_modifier_makes_of_a_mission_is_told_in_simulations_too(
     hook: Callable[..., object],
 ) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from typing import TYPE_CHECKING
 
 from .rule import Say, at, flight, named
@@ -67,6 +68,8 @@ class AttemptsCountUp:
         self._newest: dict[object, tuple[object, object, object]] = {}
         """By mission, what it flew last."""
         self._round: dict[object, object] = {}
+        self._shared: set[tuple[object, object]] = set()
+        """Names that a hook has given to several trips of a mission: whose flight it is nobody can tell."""
         self.hears = {
             "trip.launched": self._launch,
             "trip.interrupted": self._interrupt,
@@ -78,9 +81,12 @@ class AttemptsCountUp:
         self._round[event["mission"]] = event["round"]
 
     def _change(self, event: Event) -> None:
-        trips, mission = event["todo"], event["mission"]
-        assert isinstance(trips, list)
-        for trip in trips:  # one that waits has its next attempt before it
+        todo, done, mission = event["todo"], event["done"], event["mission"]
+        assert isinstance(todo, list)
+        assert isinstance(done, list)
+        names = Counter(trip["name"] for trip in (*todo, *done))
+        self._shared.update((mission, name) for name, trips in names.items() if trips > 1)
+        for trip in todo:  # one that waits has its next attempt before it
             flown = trip.get("attempt", 1) - ("status" not in trip)
             self._last[mission, trip["name"], self._round.get(mission, 0)] = flown
 
@@ -88,7 +94,7 @@ class AttemptsCountUp:
         trip = event["mission"], event["trip"], event["round"]
         self._newest[event["mission"]] = trip
         last = self._last[trip] = self._last.get(trip, 0) + 1
-        if event["attempt"] != last:
+        if event["attempt"] != last and trip[:2] not in self._shared:
             self._say(
                 f"{at(event)}: flight {last} of {event['trip']} of {event['mission']} "
                 f"calls itself attempt {event['attempt']}"
