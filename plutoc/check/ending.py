@@ -6,13 +6,13 @@ from collections.abc import Collection, Mapping
 
 from plutoc.check import errors
 from plutoc.check.components import round_of
-from plutoc.check.facts import is_over, puts_trips
+from plutoc.check.facts import elsewhere, is_over, puts_trips
 from plutoc.check.flow import Flow, Place, Split, blocks_of
 from plutoc.check.rounds import Round, rounds
 from plutoc.check.statuses import explore
 from plutoc.check.unflown import unflown
 from plutoc.diagnostic import Diagnostic
-from plutoc.graph.model import Node
+from plutoc.graph.model import END, Edge, Node
 from plutoc_runtime.status import Status
 
 
@@ -25,23 +25,39 @@ def endless(flow: Flow, astray: Collection[str]) -> list[Diagnostic]:
     never = [part for part in rounds(flow) if not (_is_idle(part) and _meets(part, astray))]
     blocks = {*astray, *(place.node for part in never for place in part)}
     found = [_endless(flow, part) for part in never if any(place.frame is None for place in part)]
-    idle = _idle(flow)
-    if idle is not None:
-        found += [_spins(flow, idle, part) for part in rounds(idle) if not _meets(part, blocks)]
+    # a way round within a branch may lie on another one, which leads through the branch's gate
+    for edges in (flow.edges, _within_branches(flow)):
+        idle = _idle(flow, edges)
+        if idle is not None:
+            parts = [part for part in rounds(idle) if not _meets(part, blocks)]
+            found += [_spins(flow, idle, part) for part in parts]
+            blocks.update(place.node for part in parts for place in part)
     return found
 
 
-def _idle(flow: Flow) -> Flow | None:
+def _within_branches(flow: Flow) -> tuple[Edge, ...]:
+    """Return the edges that lead to no gate."""
+    return tuple(
+        edge
+        for edge in flow.edges
+        if edge.target == END or flow.graph.node[edge.target].block.gate is None
+    )
+
+
+def _idle(flow: Flow, edges: tuple[Edge, ...]) -> Flow | None:
     """Follow missions that have nothing left to fly, as long as no hook fails them.
 
     Only on ways round where nothing is flown, and only where a hook could fail them.
     """
-    turns = unflown(flow.graph, flow.edges)
+    turns = unflown(flow.graph, edges)
     failing = {turns[name] for name in turns if _may_fail(flow.graph.node[name])}
     blocks = {name for name, number in turns.items() if number in failing}
     if not blocks:
         return None
-    return explore(flow.graph, flow.edges, _beginnings(flow, blocks, turns), idle=blocks)
+    beginnings = _beginnings(flow, blocks, turns)
+    if len(edges) < len(flow.edges):  # what was said is known by other numbers there
+        beginnings = {p._replace(facts=elsewhere(p.facts)): None for p in beginnings}
+    return explore(flow.graph, edges, beginnings, idle=blocks)
 
 
 def _beginnings(flow: Flow, blocks: Collection[str], turns: Mapping[str, int]) -> dict[Place, None]:

@@ -178,3 +178,36 @@ def test_each_way_round_is_looked_at_alone() -> None:
     """A clone that leaves one for a gate on another one does not pass it without the others."""
     assert not judge(read(ALONE)).sound
     assert "P2009" in refused(ALONE)
+
+
+def test_a_way_round_within_a_branch_may_lie_on_one_through_its_gate() -> None:
+    """Who retries is behind the gate, so that the fork itself is come to again."""
+    text = """pluto 1
+app within {
+  modifier mends emits COMPLETED, FAILED
+  modifier chooses emits STANDBY, COMPLETED, FAILED
+  modifier note
+  create = MissionCreator
+  allocate = DroneAllocator
+  launch = TripLauncher
+  watch = TripMonitor
+  retry = PriorityManager
+  fork = MissionModifier(hook: note)
+  mend = MissionModifier(hook: mends)
+  again = MissionRepeater
+  beside = MissionModifier(hook: chooses)
+  first = GateFIFO
+  start -> create -> allocate -> launch -> watch
+  [watch, retry, first] -> allocate when STANDBY
+  watch -> end when COMPLETED
+  [watch, first] -> retry when FAILED
+  retry -> fork when FAILED
+  fork -> [mend, beside]
+  mend -> again when COMPLETED
+  again -> mend when COMPLETED, STANDBY
+  mend -> first when FAILED
+  beside -> first
+  first -> end when COMPLETED
+}
+"""
+    assert refused(text) == ("P2025",)
