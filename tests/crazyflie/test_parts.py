@@ -5,8 +5,9 @@ from __future__ import annotations
 import asyncio
 import subprocess
 import sys
-from math import inf, isclose, nan
+from math import dist, inf, isclose, nan
 from pathlib import Path
+from random import Random
 from threading import Event
 
 import pytest
@@ -22,10 +23,12 @@ from plutoc_runtime.crazyflie.pace import Pace
 from plutoc_runtime.crazyflie.state import State, state_of
 from plutoc_runtime.crazyflie.tables import kept_in
 from plutoc_runtime.crazyflie.worker import Worker
+from plutoc_runtime.crtp.body import Body
 from plutoc_runtime.crtp.profile import State as Start
 from plutoc_runtime.crtp.profile import profile
 from plutoc_runtime.drones import BATTERY_LOW, CRASHED, LOCKED, LinkLost
 from plutoc_runtime.errors import BadInput
+from plutoc_runtime.model import Point
 
 FLYING, TUMBLED, LOCKED_BIT = 1 << 4 | 1 << 8, 1 << 5, 1 << 6
 
@@ -37,12 +40,13 @@ def state(
     bits: int = 0,
     power: int = 0,
     x: float = 0.0,
+    at: Point | None = None,
     sent: float | None = None,
 ) -> State:
     return State(
         time=time,
         sent=time if sent is None else sent,
-        position=(x, 0.0, 1.0),
+        position=at or (x, 0.0, 1.0),
         yaw=0.0,
         volts=volts,
         power=power,
@@ -140,14 +144,52 @@ def test_the_clock_of_the_log_begins_anew_in_flight() -> None:
     assert courses.stop(before, now)[0][0] == pytest.approx(0.3, abs=0.001)
 
 
+def near(_: State) -> float:
+    return 0.0
+
+
 def test_a_drone_hovers_once_it_has_not_moved_for_a_moment() -> None:
     """The end of its course says nothing: its commander waits there for the drone."""
     comes = [state(tick / 10, x=0.04 * tick) for tick in range(6)]
     sways = [state(tick / 10, x=0.02 * (tick % 2)) for tick in range(6)]
-    assert not courses.at_rest(comes) and courses.at_rest(sways)
-    assert not courses.at_rest(sways[:3])  # nobody knows yet
-    assert not courses.at_rest([*comes, *(state(0.5 + tick / 10, x=0.2) for tick in (1, 2))])
-    assert courses.at_rest([*comes, *(state(0.5 + tick / 10, x=0.2) for tick in (1, 2, 3))])
+    assert not courses.hovers(comes, near) and courses.hovers(sways, near)
+    assert not courses.hovers(sways[:3], near)  # nobody knows yet
+    stands = [state(0.5 + tick / 10, x=0.2) for tick in (1, 2, 3)]
+    assert not courses.hovers([*comes, *stands[:2]], near)
+    assert courses.hovers([*comes, *stands], near)
+
+
+def test_a_drone_that_shoots_over_arrives_once_it_stays_near() -> None:
+    """Where it turns it is at rest, too."""
+    metres = (0.0, 0.05, 0.08, 0.1, 0.11, 0.11, 0.1, 0.09, 0.07, 0.06, 0.05, 0.05)
+    flown = [state(tick / 10, x=off) for tick, off in enumerate(metres)]
+    told = [flown[: last + 1] for last in range(len(flown))]
+    arrived = [courses.hovers(states, lambda one: one.position[0]) for states in told]
+    assert arrived.index(True) == len(flown) - 1
+
+
+# A drone that comes down fast from a detour shoots over by more than a decimetre, and creeps back.
+@pytest.mark.parametrize("metres", [0.8, 1.3, 1.9, -1.1])
+@pytest.mark.parametrize("seed", range(10))
+def test_what_is_done_at_the_end_of_a_fast_climb_or_descent_is_done_within_a_decimetre(
+    metres: float, seed: int
+) -> None:
+    body = Body((0.0, 0.0, 1.0 + max(0.0, metres)), Random(seed))
+    target = (0.0, 0.0, body.position[2] - metres)
+    seconds = Pace((1.0, 1.0, 1.0)).seconds(body.position, target, 1.0)
+    body.fly(target, 0.0, seconds, 0.0, landing=False)
+    told: list[State] = []
+    arrived, ticks = inf, 0
+    while (now := ticks / 100) < arrived + 1.0:
+        body.step(now, 0.01)
+        if ticks % 10 == seed:  # it tells where it is ten times a second
+            told.append(state(now, at=body.position))
+            there = courses.hovers(told[-10:], lambda one: one.distance(target))
+            arrived = min(arrived, now) if there and now >= seconds else arrived
+        if now >= arrived:
+            assert dist(body.position, target) <= 0.1
+        ticks += 1
+    assert arrived < seconds + courses.SLACK
 
 
 def test_a_course_is_followed_on_each_axis() -> None:

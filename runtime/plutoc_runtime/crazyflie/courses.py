@@ -6,7 +6,7 @@ its peak speed is 35/16 of its mean one, and over a short way it is the accelera
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from math import isfinite, sqrt
 from typing import TYPE_CHECKING
 
@@ -20,8 +20,8 @@ _PUSH, _MOST = 7.52, 4.0
 """Peak acceleration over distance and squared time; metres per second squared that it may be."""
 SHORTEST = 1.0
 """Seconds: three metres in half of one have thrown a drone over."""
-NEAR = 0.1
-"""Metres from its target at which it has arrived."""
+NEAR = 0.08
+"""Metres from its target at which it has arrived: it sways, and is to stay within ten centimetres."""
 SLACK = 5.0
 """Seconds that a course may take longer: the drone is a little behind it, and settles at its end."""
 REST = 0.15
@@ -33,7 +33,7 @@ and is flown back less. What it then brakes with, at one metre per second and in
 _SOON, _RECENT = 0.05, 0.5
 """Seconds between two states, by the drone's clock, from which a speed can be told."""
 _LOOK = 0.3
-"""Seconds over which its rest is told: an estimate sways from one word to the next."""
+"""Seconds for which it must hover: an estimate sways from one word to the next."""
 _FASTEST = 5.0
 """Metres per second; what seems faster is a position that has jumped, or a clock."""
 _FARTHEST = 1.0
@@ -57,13 +57,17 @@ def is_target(target: Point) -> bool:
     return all(isfinite(value) for value in target) and target[2] > 0.0
 
 
-def at_rest(states: Sequence[State]) -> bool:
-    """Say whether a drone hovers that has told these, the last one just now.
+def hovers(states: Sequence[State], off: Callable[[State], float]) -> bool:
+    """Say whether a drone has been near its target and at rest for a moment, by what it told.
 
-    At the end of a course its commander waits for it: that says nothing of how fast it still comes.
+    The last of the states is from just now; `off`: how many metres it was away. At the end of a
+    course its commander waits for it: that says nothing of how fast it still comes. One that shoots
+    over is near on its way past, too.
     """
     now = states[-1]
     for then in reversed(states):
+        if off(then) >= NEAR:
+            return False
         passed = now.since(then)
         if passed >= _LOOK:
             return now.distance(then.position) <= REST * passed

@@ -15,7 +15,7 @@ from ..drones.errors import (
     TargetTimeout,
 )
 from . import arming, commander, words
-from .courses import NEAR, SLACK, at_rest, is_speed, is_target, stop
+from .courses import NEAR, SLACK, hovers, is_speed, is_target, stop
 from .pace import pace_of
 
 if TYPE_CHECKING:
@@ -66,12 +66,13 @@ async def takeoff(session: Session, height: float, speed: float) -> None:
 
     def risen(state: State) -> bool:
         knows_its_place(session)
-        off = abs(state.position[2] - height)
-        return _hovers(session, state) and off < NEAR
+        return _hovers(session, state, off)
+
+    def off(state: State) -> float:
+        return abs(state.position[2] - height)
 
     if await session.until(risen, seconds + SLACK) is None:
-        off = abs(session.now().position[2] - height)
-        raise TargetTimeout(words.not_arrived(session.drone, "risen", off))
+        raise TargetTimeout(words.not_arrived(session.drone, "risen", off(session.now())))
 
 
 async def _begun(session: Session, height: float, seconds: float) -> bool:
@@ -154,16 +155,18 @@ async def _course(session: Session, target: Point, seconds: float, what: str) ->
 
     def there(state: State) -> bool:
         knows_its_place(session)
-        return _hovers(session, state) and state.distance(target) < NEAR
+        return _hovers(session, state, off)
+
+    def off(state: State) -> float:
+        return state.distance(target)
 
     if await session.until(there, seconds + SLACK) is None:
-        off = session.now().distance(target)
-        raise TargetTimeout(words.not_arrived(session.drone, what, off))
+        raise TargetTimeout(words.not_arrived(session.drone, what, off(session.now())))
 
 
-def _hovers(session: Session, state: State) -> bool:
-    """Whether it is at the end of its course and at rest, and knows where that is."""
-    return state.finished and at_rest(session.recent) and not session.doubts
+def _hovers(session: Session, state: State, off: Callable[[State], float]) -> bool:
+    """Whether it is at the end of its course, near and at rest, and knows where that is."""
+    return state.finished and not session.doubts and hovers(session.recent, off)
 
 
 async def _down(session: Session, ready: Callable[[State], bool], limit: float) -> None:
