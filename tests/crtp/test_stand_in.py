@@ -35,6 +35,7 @@ def test_what_the_file_names_and_it_lacks_it_has_otherwise() -> None:
         fitted(
             {
                 "camera": "192.168.4.1:5000",
+                "cells": 2,
                 "decks": ["bcFlow2", "myDeck"],
                 "grip": {"parameter": "magnet.on", "pick": 1, "release": 0, "seconds": 3},
                 "measure": {"pm10": "sps.pm10", "temperature": "my.temp"},
@@ -43,6 +44,7 @@ def test_what_the_file_names_and_it_lacks_it_has_otherwise() -> None:
         )
     )
     assert options.camera == ("127.0.0.1", 5000)
+    assert options.cells == 1
     assert options.decks == ()
     assert options.grip is not None
     assert (options.grip.parameter, options.grip.seconds) == ("gripper.closed", 3.0)

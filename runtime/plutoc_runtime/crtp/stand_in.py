@@ -23,6 +23,7 @@ def fitted(given: Mapping[str, object], camera: str) -> dict[str, object]:
     return {
         **given,
         "camera": camera,
+        "cells": 1,
         "decks": [],
         "grip": _grip(given.get("grip")),
         "measure": {**_SENSORS, **_sensors(given.get("measure")), **_ANY},
