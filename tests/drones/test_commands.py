@@ -61,6 +61,20 @@ def test_all_drones_are_connected_at_once_and_a_silent_one_delays_nobody(tmp_pat
     run(flight())
 
 
+def test_a_drone_that_is_slower_than_its_category_is_waited_for(tmp_path: Path) -> None:
+    """One that is met in the air flies home as slowly as it can follow."""
+
+    async def flight() -> None:
+        category = Category(name="quick", speed=3.0)
+        async with flying(tmp_path, category=category) as flown:
+            drone = await flown.up()
+            drone.slow = {"go_to": 17.0}  # 20 s for 9 m: at 1 m/s at most, 0.46 on average
+            await flown.do(flown.team.go_to("cf1", (9.5, 1.0, 1.0)))
+            assert drone.place == pytest.approx((9.5, 1, 1), abs=0.1)
+
+    run(flight())
+
+
 def test_a_roll_call_says_what_keeps_a_drone_from_flying(tmp_path: Path) -> None:
     """Its preflight, and the actions of the plan that its category has and its hardware has not."""
 

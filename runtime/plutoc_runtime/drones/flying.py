@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from ..errors import Failure, FlightFailed
 from ..words import percent, place
-from .member import LAND, LOOK, RISE
+from .member import LAND, LOOK, RISE, SLOW
 from .seen import RISING
 
 if TYPE_CHECKING:
@@ -62,7 +62,7 @@ async def _fly_to(member: Member, target: Point) -> None:
 
 async def fly(member: Member, target: Point) -> None:
     """Fly straight to a point, whatever it takes no commands for."""
-    seconds = dist(member.seen.location, target) / member.speed
+    seconds = dist(member.seen.location, target) / min(member.speed, SLOW)
     what = f"arrive at {place(target)}"
     await member.go(what, seconds, member.navigation.go_to, target, member.speed)
 

@@ -31,6 +31,8 @@ CLIMB_LIMIT = 2 * CLIMB_SPEED
 """Metres per second, up and down, at most: the mean is about what plans count with."""
 AMPLE, SPARE = 3.0, 10.0
 """A flight may take so many times what it takes at full speed, and so many seconds more."""
+SLOW = 1.0
+"""Metres per second at which a flight is waited for, where a category is faster: a drone may not be."""
 MANY = 20
 """Reasons of one preflight that are heard."""
 STALE = 0.5
