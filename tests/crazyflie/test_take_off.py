@@ -154,6 +154,20 @@ async def one_that_somebody_else_has_steered_takes_off(folder: Path) -> None:
         await cf.land(FAST)
 
 
+async def one_that_somebody_else_steers_while_it_is_armed_takes_off(folder: Path) -> None:
+    """Arming takes its time, some seconds after a landing."""
+    async with hangar(folder) as one:
+        cf = one.navigation
+        await cf.connect()
+        taking_off = asyncio.create_task(cf.takeoff(0.5, FAST))
+        while not one.did("arm"):
+            await asyncio.sleep(0.002)
+        await one.let("setpoint")
+        await taking_off
+        assert one.position[2] > 0.4
+        await cf.land(FAST)
+
+
 async def one_that_disarms_itself_just_now_is_waited_for(folder: Path) -> None:
     """Some three seconds after a landing it is neither armed nor can be, for a tenth of a second."""
     async with hangar(folder) as one:
@@ -188,6 +202,7 @@ FLIGHTS: list[Flight] = [
     twice_cancelled_it_is_a_refusal,
     nothing_is_above_its_commander_when_it_takes_off,
     one_that_somebody_else_has_steered_takes_off,
+    one_that_somebody_else_steers_while_it_is_armed_takes_off,
     one_that_disarms_itself_just_now_is_waited_for,
 ]
 
