@@ -84,6 +84,15 @@ async def one_with_more_cells_than_the_fleet_file_says_does_not_fly(folder: Path
             await cf.takeoff(0.5, FAST)
 
 
+async def how_many_cells_it_may_have_is_said_from_its_volts(folder: Path) -> None:
+    build = Build(id="cf1", home=(1.0, 2.0, 0.0), cells=3)
+    async with hangar(folder, {"cells": 2}, build) as one:
+        cf = one.navigation
+        await cf.connect()
+        (reason,) = await cf.preflight()
+        assert "has 12.60 V, more than 2 cells have" in reason and "such as cells = 3" in reason
+
+
 async def one_with_two_cells_is_as_full_as_each_of_them(folder: Path) -> None:
     async with hangar(folder, {"cells": 2, "least_voltage": 3.0}, TWO_CELLS) as one:
         cf = one.navigation
@@ -105,6 +114,7 @@ FLIGHTS: list[Flight] = [
     a_deck_that_fails_is_said_by_name,
     a_deck_that_fails_in_the_air_is_why_it_locked,
     one_with_more_cells_than_the_fleet_file_says_does_not_fly,
+    how_many_cells_it_may_have_is_said_from_its_volts,
     one_with_two_cells_is_as_full_as_each_of_them,
 ]
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator
+from math import ceil
 from typing import TYPE_CHECKING
 
 from . import parameters, words
@@ -69,7 +70,8 @@ def _of_state(state: State) -> Iterator[str]:
 def _of_battery(state: State, battery: Battery, options: Options) -> Iterator[str]:
     rest = battery.cell(state) if battery.rest is None else battery.rest
     if rest > FULLEST:
-        yield words.more_cells(rest * options.cells, options.cells)
+        volts = rest * options.cells
+        yield words.more_cells(volts, options.cells, ceil(volts / FULLEST))
     elif not state.flies and rest < options.least_voltage:
         yield words.little(rest, options.least_voltage, options.cells)
 

@@ -201,11 +201,11 @@ def little(volts: float, least: float, cells: int) -> str:
     return f"its battery has {volts:.2f} V{each} at rest, {least:.2f} V are needed: charge it"
 
 
-def more_cells(volts: float, cells: int) -> str:
+def more_cells(volts: float, cells: int, least: int) -> str:
     have = "one cell has" if cells == 1 else f"{cells} cells have"
     return (
         f"its battery has {volts:.2f} V, more than {have}: say in the fleet file how many"
-        " it has, such as cells = 2"
+        f" it has, such as cells = {least}"
     )
 
 
