@@ -157,6 +157,7 @@ def test_a_drone_hovers_once_it_has_not_moved_for_a_moment() -> None:
     stands = [state(0.5 + tick / 10, x=0.2) for tick in (1, 2, 3)]
     assert not courses.hovers([*comes, *stands[:2]], near)
     assert courses.hovers([*comes, *stands], near)
+    assert not courses.hovers(sways, lambda _: nan)
 
 
 def test_a_drone_that_shoots_over_arrives_once_it_stays_near() -> None:

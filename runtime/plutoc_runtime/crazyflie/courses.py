@@ -66,7 +66,7 @@ def hovers(states: Sequence[State], off: Callable[[State], float]) -> bool:
     """
     now = states[-1]
     for then in reversed(states):
-        if off(then) >= NEAR:
+        if not off(then) < NEAR:
             return False
         passed = now.since(then)
         if passed >= _LOOK:
