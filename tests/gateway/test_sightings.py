@@ -15,7 +15,7 @@ def watched(folder: Path) -> tuple[Field, Sightings]:
     """Return drones at home, and who writes down how they are; no look is taken by itself."""
     field = Field()
     drones = [drone.id for drone in field.drones]
-    seen = Sightings(folder / SEEN, drones, field.navigation.telemetry)
+    seen = Sightings(folder / SEEN, drones, field.navigation.telemetry, down=field.navigation.down)
     field.leaving = seen.leaving
     field.another()
     return field, seen
@@ -47,3 +47,20 @@ def test_a_take_off_that_fails_leaves_the_drone_on_the_ground(tmp_path: Path) ->
         raise FlightFailed(Failure.REFUSED, "cf1 is not ready")
     seen.look()
     assert sightings_in(tmp_path)["cf1"].landed
+
+
+def test_why_a_drone_takes_no_commands_is_written_down_and_forgotten_once_it_takes_them(
+    tmp_path: Path,
+) -> None:
+    field, seen = watched(tmp_path)
+    field.navigation.strike("cf1", Failure.CRASH)
+    field.navigation.strike("cf2", Failure.LINK, "cf2 lost its link")
+    seen.look()
+    found = sightings_in(tmp_path)
+    assert found["cf1"].why.startswith("cf1 crashed at")
+    assert found["cf1"].has_fallen
+    assert (found["cf2"].why, found["cf2"].has_fallen) == ("cf2 lost its link", False)
+    field.navigation.mended("cf1")
+    seen.look()
+    mended = sightings_in(tmp_path)["cf1"]
+    assert (mended.why, mended.has_fallen) == ("", False)

@@ -1,4 +1,4 @@
-"""`bring-back` while nothing flies: a person has looked after a drone, and the journal remembers it."""
+"""What befalls drones while nothing flies: one is lost, or was looked after, and the journal says so."""
 
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
     from ..app import App
     from ..journal.fold import Records
+    from ..model import Point
 
 Event = Mapping[str, object]
 
@@ -34,12 +35,12 @@ def looked_after(app: App, journal: Path, drone: str, also: Sequence[Event] = ()
     return said
 
 
-def motors_cut(app: App, journal: Path, drone: str) -> None:
-    """Put on record that a drone's motors were cut while nobody was there to be told."""
+def lost_meanwhile(app: App, journal: Path, drone: str, reason: str, at: Point | None) -> None:
+    """Put on record that a drone was lost while nobody was there to be told."""
     with closing(Store.open(journal)) as store:
         check(journal, store.header, app)
         event = {"t": recovered(store).records.time, "event": "drone.lost", "drone": drone}
-        store.append([json.dumps([{**event, "at": None, "reason": f"{drone}'s motors were cut"}])])
+        store.append([json.dumps([{**event, "at": at, "reason": reason}])])
 
 
 def brought_back(records: Records, drone: str) -> tuple[Event | None, str]:

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from ..airspace import Airspace
+    from ..errors import FlightFailed
     from ..kernel import Kernel
     from ..model import Item, Point, Telemetry
     from ..navigation import Job
@@ -94,6 +95,10 @@ class Team:
     def telemetry(self, drone: str) -> Telemetry:
         """Return what is known of a drone; the value stays current."""
         return self._members[drone].seen
+
+    def down(self, drone: str) -> FlightFailed | None:
+        """Return why a drone takes no commands though it can be reached; None: it takes them."""
+        return self._members[drone].down
 
     def why_not(self, drone: str, action: str, parameters: Mapping[str, Plain]) -> str | None:
         """Return why a drone's hardware cannot do a built-in action, or None."""

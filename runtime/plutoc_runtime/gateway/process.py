@@ -97,7 +97,9 @@ async def run(folder: Path, settings: Settings) -> None:
     drones = [drone.id for drone in settings.drones]
     if settings.real is None:
         simulated = _simulated(folder, settings, kernel)
-        seen = Sightings(folder / SEEN, drones, simulated.telemetry, speed=settings.speed)
+        seen = Sightings(
+            folder / SEEN, drones, simulated.telemetry, down=simulated.down, speed=settings.speed
+        )
         await _command(folder, settings, kernel, simulated, seen)
         return
     from ..drones.making import make_team  # a simulation does without
@@ -106,7 +108,7 @@ async def run(folder: Path, settings: Settings) -> None:
     with holding(uris, patience=LEAVING):
         team = make_team(kernel, settings.drones, settings.real, settings.airspace, folder, _say)
         team.begin()
-        seen = Sightings(folder / SEEN, drones, team.telemetry)
+        seen = Sightings(folder / SEEN, drones, team.telemetry, down=team.down)
         try:
             await _command(folder, settings, kernel, team, seen)
         finally:
@@ -114,7 +116,7 @@ async def run(folder: Path, settings: Settings) -> None:
             seen.keep()
 
 
-def _simulated(folder: Path, settings: Settings, kernel: RealTime) -> Controls:
+def _simulated(folder: Path, settings: Settings, kernel: RealTime) -> SimulatedNavigation:
     """Return the simulated drones, in the world as it was left."""
     keeper = Keeper(folder, kernel.time, settings.speed, this_moment)
     navigation = SimulatedNavigation(

@@ -16,9 +16,11 @@ from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..errors import Failure
 from ..journal.values import point_of
 
 if TYPE_CHECKING:
+    from ..errors import FlightFailed
     from ..model import Point, Telemetry
 
 SEEN = "seen.json"
@@ -38,6 +40,18 @@ class Sighting:
     landed: bool
     when: float
     """Seconds since 1970."""
+    why: str = ""
+    """Why it took no commands; empty: it did."""
+    crashed: bool = False
+
+    @property
+    def has_fallen(self) -> bool:
+        """Whether it lies where only a person can help it."""
+        return self.crashed and self.landed
+
+
+def _well(drone: str) -> None:
+    """It takes commands, for all that anybody says."""
 
 
 class Sightings:
@@ -49,11 +63,14 @@ class Sightings:
         drones: Sequence[str],
         telemetry: Callable[[str], Telemetry],
         *,
+        down: Callable[[str], FlightFailed | None] = _well,
         speed: float = 1.0,
         clock: Callable[[], float] = time.time,
     ) -> None:
+        """Begin; `down` says why a drone takes no commands, if it takes none."""
         self._path, self._drones, self._telemetry = path, tuple(drones), telemetry
-        self._clock, self._quiet, self._kept = clock, 0, dict[str, list[object]]()
+        self._down = down
+        self._clock, self._quiet, self._kept = clock, 0, dict[str, list[Any]]()
         self._before, self._each = _told(path), max(SHORTEST, EACH / speed)
         self._leaving: set[str] = set()
         """The drones that take off: what they said of themselves before is not so any more."""
@@ -84,8 +101,8 @@ class Sightings:
         """Write down how all drones are; of one that is not heard of, what was known before."""
         now, clock = self._now(), self._clock()
         drones = self._before | {
-            drone: [*known, round(clock - self._telemetry(drone).silence, 1)]
-            for drone, known in now.items()
+            drone: [*how, round(clock - self._telemetry(drone).silence, 1), *down]
+            for drone, (*how, down) in now.items()
         }
         part = self._path.with_name(f".{self._path.name}.part")
         with suppress(OSError):  # on a full disk drones fly on; the next look is another chance
@@ -93,27 +110,37 @@ class Sightings:
             part.replace(self._path)
             self._kept, self._quiet = now, 0
 
-    def _now(self) -> dict[str, list[object]]:
-        found: dict[str, list[object]] = {}
+    def _now(self) -> dict[str, list[Any]]:
+        found: dict[str, list[Any]] = {}
         for drone in self._drones:
             one = self._telemetry(drone)
             if isfinite(one.silence):
                 place = [round(metres, 3) for metres in one.location]
                 landed = one.landed and drone not in self._leaving
-                found[drone] = [place, round(one.battery_level, 3), landed]
+                down = self._down(drone)
+                why = [] if down is None else [down.failure.value, str(down)]
+                found[drone] = [place, round(one.battery_level, 3), landed, why]
         return found
 
 
 def sightings_in(folder: Path) -> dict[str, Sighting]:
     """Return how the drones of a gateway's folder were last heard of; what is unknown is not in it."""
     with suppress(ValueError, TypeError):  # then it is none of ours, and nothing is known
-        return {
-            drone: Sighting(
-                at=point_of(at), battery=float(battery), landed=bool(landed), when=float(when)
-            )
-            for drone, (at, battery, landed, when) in _told(folder / SEEN).items()
-        }
+        return {drone: _sighting(*told) for drone, told in _told(folder / SEEN).items()}
     return {}
+
+
+def _sighting(
+    at: Any, battery: Any, landed: Any, when: Any, failure: str = "", why: str = ""
+) -> Sighting:
+    return Sighting(
+        at=point_of(at),
+        battery=float(battery),
+        landed=bool(landed),
+        when=float(when),
+        why=why,
+        crashed=failure == Failure.CRASH.value,
+    )
 
 
 def at_home(folder: Path, homes: Mapping[str, Point]) -> None:

@@ -56,6 +56,12 @@ class SimulatedNavigation:
         """Return what is known of a drone; the value stays current."""
         return self.bodies[drone]
 
+    def down(self, drone: str) -> FlightFailed | None:
+        """Return why a drone takes no commands; None: it takes them."""
+        body = self.bodies[drone]
+        body.settle(self._kernel.now)
+        return body.down
+
     def carrying(self, drone: str) -> Item | None:
         """Return what a drone has aboard."""
         body = self.bodies[drone]

@@ -175,6 +175,9 @@ class Inheritance:
 
     def rows(self) -> Iterator[rows.Row]:
         """Yield what there is to see of the drones while there is no flight at all."""
+        if self._rest.write_down(self._app, self.records):
+            self.read()
+            self._keep()
         known = self.records
         if self._journal is not None or known.lost or known.mended or known.retired:
             yield from self._rest.rows(known)

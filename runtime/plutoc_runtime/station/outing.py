@@ -192,6 +192,8 @@ class Outing:
                 if holder(self.journal) is not None:  # it is read when that has ended
                     return
                 self._show_what_counts()
+            if self._rest.write_down(self.flight.app, self.records):
+                self._show_what_counts()
             self._read_at = written(self.journal)
 
     def _see_missions(self, number: int) -> bool:

@@ -7,6 +7,8 @@ from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
+from ..cli.looked_after import lost_meanwhile
+from ..errors import BadInput
 from ..gateway.sightings import SEEN, Sighting, sightings_in
 from ..journal.place import gateway_folder
 from . import rows
@@ -14,6 +16,7 @@ from . import rows
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from ..app import App
     from ..files.fleet import DroneEntry
     from ..journal.fold import Records
 
@@ -30,7 +33,7 @@ class Rest:
     """The drones of a fleet, as the last gateway that flew them has left them."""
 
     def __init__(self, fleet: Sequence[DroneEntry], journal: Path | None) -> None:
-        self._fleet = fleet
+        self._fleet, self._journal = fleet, journal
         self._folder = None if journal is None else gateway_folder(journal)
         self._read_at: object = None
         self._sightings: dict[str, Sighting] = {}
@@ -40,6 +43,22 @@ class Rest:
         sightings, now = self._newest(), time.time()
         for entry in self._fleet:
             yield _row(entry.id, sightings.get(entry.id), known, now)
+
+    def write_down(self, app: App, known: Records | None) -> bool:
+        """Put on record who has crashed with no app there to be told; say whether anybody has.
+
+        Each news of the drones is looked at once.
+        """
+        before, sightings = self._read_at, self._newest()
+        if known is None or self._journal is None or self._read_at == before:
+            return False
+        told = {*known.lost, *known.mended}
+        new = [one for one in sightings if sightings[one].has_fallen and one not in told]
+        for drone in new:
+            with suppress(BadInput, OSError):  # whoever flies them now is told when asking them
+                seen = sightings[drone]
+                lost_meanwhile(app, self._journal, drone, seen.why, seen.at)
+        return bool(new)
 
     def _newest(self) -> dict[str, Sighting]:
         """Read the gateway's file, if it is another than before."""
@@ -65,6 +84,8 @@ def _row(id: str, seen: Sighting | None, known: Records | None, now: float) -> r
             seen = Sighting(at=tuple(lost["at"]), battery=0.0, landed=True, when=0.0)
     elif seen is None:
         status, why = "UNKNOWN", NEVER
+    elif seen.why:
+        status, why = "LOST" if seen.has_fallen else "UNKNOWN", seen.why
     elif seen.landed:
         status, why = "LANDED", ""
     else:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from ..asking import Nobody, Silent
 from ..cli import stop_mark
 from ..cli.flights import Flight
-from ..cli.looked_after import motors_cut
+from ..cli.looked_after import lost_meanwhile
 from ..cli.taken_up import take_up
 from ..errors import BadInput
 from ..gateway.starting import cut_directly, let_end, still_runs, stop_directly
@@ -327,7 +327,8 @@ class Station:
             raise BadInput("what commands the drones does not answer") from None
         if not self.outing.lives:
             with suppress(BadInput):  # what is on record then, whoever flies it writes
-                motors_cut(self._app, self.outing.journal, drone)
+                reason = f"{drone}'s motors were cut"
+                lost_meanwhile(self._app, self.outing.journal, drone, reason, None)
         return said
 
     async def _of_the_flight(self, name: str, id: str, given: Mapping[str, object]) -> str:

@@ -12,10 +12,10 @@ from typing import Any
 
 import pytest
 
-from plutoc_runtime.gateway.starting import still_runs
+from plutoc_runtime.gateway.starting import cut_directly, still_runs
 from plutoc_runtime.journal.place import gateway_folder
 from plutoc_runtime.journal.reader import Reader
-from tests.station.browser.serving import Station, until
+from tests.station.browser.serving import PATIENCE, Station, until
 from tests.station.flights.conftest import Serve
 from tests.station.flights.test_flights import comes_to, events, flies, refused, tell
 from tests.station.world import disagreements, truth
@@ -151,6 +151,49 @@ def test_a_drone_that_is_dropped_while_no_app_flies_it_is_lost_as_well(serve: Se
     until(lambda: agrees(station), "page and world agree")
     tell(station, "discard")
     assert tell(station, "start").endswith(f"without {who}, lost until brought back")
+
+
+def test_a_drone_that_falls_with_nobody_but_the_gateway_there_is_lost_with_its_reason_and_place(
+    serve: Serve,
+) -> None:
+    """While no station runs, and after the flight was put away."""
+    station = serve("drugs_distribution", "--speed", "1")
+    tell(station, "start")
+    until(lambda: any(row["z"] > 1 for row in rows(station)), "somebody is in the air")
+    first, second = (row["id"] for row in rows(station)[:2])
+    station.kill()
+    folder = gateway_folder(station.journals()[-1])
+    cut_directly(folder, first, PATIENCE)
+    station.start()
+    until(lambda: found(station, first)["status"] == "LOST", "it is seen")
+    until(lambda: agrees(station), "page and world agree")
+    assert found(station, first)["why"] == f"{first}'s motors were cut"
+    cut_directly(folder, second, PATIENCE)
+    tell(station, "discard")
+    until(lambda: found(station, second)["status"] == "LOST", "it is seen")
+    until(lambda: agrees(station), "page and world agree")
+    station.end()
+    station.start()
+    assert [row["id"] for row in rows(station) if row["status"] == "LOST"] == [first, second]
+    assert tell(station, "bring-back", drone=second).startswith(f"{second} is brought back")
+    assert tell(station, "start").endswith(f"without {first}, lost until brought back")
+
+
+def test_a_drone_that_has_lost_its_link_when_the_app_dies_is_said_to_be_unknown_and_why(
+    serve: Serve,
+) -> None:
+    station = serve("drugs_distribution", "--speed", "10", "--fail", "link=1.0")
+    tell(station, "start")
+    until(
+        lambda: any(row["status"] == "RECOVERING" for row in rows(station)), "one has lost its link"
+    )
+    who = next(row["id"] for row in rows(station) if row["status"] == "RECOVERING")
+    station.kill()
+    station.start()
+    until(lambda: agrees(station), "page and world agree")
+    row = found(station, who)
+    assert (row["status"], row["why"][:17]) == ("UNKNOWN", f"{who} lost its link")
+    assert row["x"] is not None
 
 
 def test_who_is_lost_is_remembered_though_journals_are_moved_away_and_nobody_left_flies_nothing(
