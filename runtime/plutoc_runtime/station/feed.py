@@ -7,8 +7,9 @@ from collections import deque
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
-from ..actions import MEASURE
+from ..actions import MEASURE, PICK, RELEASE
 from ..cli.events import line_of, sentence_of
+from ..words import bounded
 
 if TYPE_CHECKING:
     from ..app import App
@@ -19,6 +20,9 @@ KEPT = 20_000
 
 AT_ONCE = 500
 """Lines that a page gets in one message: the newest."""
+
+VALUE = 1_000
+"""Characters of what an action returned that pages get; all of it is among the results."""
 
 
 class Tail:
@@ -50,6 +54,8 @@ class Feed:
         self._app, self._units = app, units
         self.log, self.results = Tail(), Tail()
         self._lines: deque[str] = deque(maxlen=KEPT)
+        self._whole: deque[object] = deque(maxlen=KEPT)
+        """What each of the results is, where pages get it in words."""
 
     def take(self, event: Event) -> None:
         """Something happened, and is on record."""
@@ -74,7 +80,10 @@ class Feed:
 
     def brought(self) -> list[object]:
         """Return the results that are kept, each with names for its facts."""
-        return [dict(zip(FACTS, json.loads(text), strict=False)) for text in self.results]
+        return [
+            dict(zip(FACTS, json.loads(text), strict=False)) | {"value": value}
+            for text, value in zip(self.results, self._whole, strict=True)
+        ]
 
     def _completed(self, event: Event) -> None:
         """A trip's action was done: tell what it gave, of what, and where."""
@@ -89,9 +98,13 @@ class Feed:
         unit = self._units.get(str(quantity))
         self._result(event, kind, value, action.name, trip["target"], given, quantity, unit)
 
-    def _result(self, event: Event, kind: str, value: object, *more: object) -> None:
+    def _result(
+        self, event: Event, kind: str, value: object, action: str | None = None, *more: object
+    ) -> None:
         facts = (event.get(fact) for fact in ("t", "mission", "trip", "round", "attempt", "drone"))
-        self.results.add(*facts, kind, value, *more)
+        said = value if kind == "photo" or action in (PICK, RELEASE) else _in_words(value)
+        self.results.add(*facts, kind, said, *([action, *more] if action is not None else []))
+        self._whole.append(value)
 
 
 FACTS = (
@@ -102,16 +115,31 @@ FACTS = (
 
 
 def _value(data: Any) -> tuple[str, object]:
-    """Return what kind of result a page must show, and what it needs for that."""
+    """Return what kind of result a page must show, and what it is."""
+    return "photo" if isinstance(data, dict) and "$photo" in data else "result", _plain(data)
+
+
+def _plain(data: Any) -> object:
+    """Return what is in the journal without the journal's own words."""
     match data:
-        case {"$photo": photo}:
-            return "photo", photo
-        case {"$text": str(text)} | {"$number": str(text)}:
-            return "result", text
-        case None | bool() | int() | float() | str():
-            return "result", data
+        case {"$photo": inside} | {"$text": inside} | {"$number": inside}:
+            return inside
+        case {"$tuple": list(parts)} | list(parts):
+            return [_plain(part) for part in parts]
+        case dict():
+            return {name: _plain(part) for name, part in data.items()}
         case _:
-            return "result", json.dumps(data)
+            return data
+
+
+def _in_words(value: object) -> object:
+    """Return what came of an action as a page shows it."""
+    match value:
+        case None:
+            return "nothing"
+        case list() | dict():
+            value = json.dumps(value, ensure_ascii=False)
+    return bounded(value, VALUE) if isinstance(value, str) else value
 
 
 _VERDICTS = {"mission.judged": "not accepted", "mission.extended": "more to do"}

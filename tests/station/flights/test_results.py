@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import json
 from typing import Any
 
 from plutoc_runtime.actions import BUILT_IN, Action, Parameter
+from plutoc_runtime.journal.values import value_data
+from plutoc_runtime.model import Photo
 from plutoc_runtime.quantities import Type
 from plutoc_runtime.simulation.world import UNITS
-from plutoc_runtime.station.feed import Feed
+from plutoc_runtime.station.feed import FACTS, Feed
 from tests.station.browser.serving import Station, until
 from tests.station.flights.conftest import Serve
 from tests.station.flights.test_flights import comes_to, tell
@@ -75,6 +78,42 @@ def test_what_an_action_of_the_apps_own_returns_is_no_measurement_and_its_dose_a
     assert (found["quantity"], found["unit"]) == (None, None)
     assert told("spray", True, {}, dose=1e-05)["parameters"] == {"dose": 1e-05}
     assert told("release_item", None, {})["kind"] == "result"
+
+
+def shown(value: object, action: str = "spray") -> tuple[object, object]:
+    """Return what pages get of a result, and what there is to download."""
+    feed = Feed(Sprays(), {})  # type: ignore[arg-type]
+    did = {"action": action, "target": [3.0, 4.5, 1.2], "parameters": {}}
+    event = {"t": 1.0, "event": "trip.completed", "mission": "Field", "trip": "A", "drone": "cf1"}
+    feed.take({**event, "result": value_data(value), "did": did})
+    [page], [found] = feed.results.since(0), feed.brought()
+    assert isinstance(found, dict)
+    return json.loads(page)[FACTS.index("value")], found["value"]
+
+
+def test_what_an_action_returned_is_downloaded_as_it_is_and_shown_in_words() -> None:
+    photo = Photo(position=(1.0, 2.0, 1.0), width=1.0, height=1.0, sees=("bloom",))
+    value = {"Blüte": (1, 2.5, float("nan")), "seen": [photo, {1}], "none": None}
+    page, downloaded = shown(value)
+    assert isinstance(downloaded, dict)
+    [seen, text] = downloaded["seen"]
+    assert downloaded == {"Blüte": [1, 2.5, "nan"], "seen": [seen, text], "none": None}
+    assert (seen["sees"], text) == (["bloom"], "{1}")
+    assert str(page).startswith('{"Blüte": [1, 2.5, "nan"], "seen": [{"position": [1.0, 2.0, 1.0],')
+    assert shown(()) == ("[]", [])
+    assert shown("yes") == ("yes", "yes")
+    assert shown(3) == (3, 3)
+
+
+def test_an_action_that_returned_nothing_was_done_all_the_same() -> None:
+    assert shown(None) == ("nothing", None)
+    assert shown(None, "release_item") == (None, None)
+
+
+def test_a_long_text_is_downloaded_whole_and_shown_in_part() -> None:
+    page, downloaded = shown("x" * 100_000)
+    assert downloaded == "x" * 100_000
+    assert len(str(page)) < 2_000
 
 
 def test_the_same_is_told_of_a_flight_as_it_flies_and_by_the_next_station(serve: Serve) -> None:
