@@ -24,6 +24,9 @@ AT_ONCE = 500
 VALUE = 1_000
 """Characters of what an action returned that pages get; all of it is among the results."""
 
+EXACT = 1_000_000
+"""Pages show six digits of a number: of a whole number that has more, they get all."""
+
 
 class Tail:
     """The newest entries of a list that only grows; each has a number, from 1 on."""
@@ -137,6 +140,8 @@ def _in_words(value: object) -> object:
     match value:
         case None:
             return "nothing"
+        case int() if abs(value) >= EXACT:
+            return str(value)
         case list() | dict():
             value = json.dumps(value, ensure_ascii=False)
     return bounded(value, VALUE) if isinstance(value, str) else value

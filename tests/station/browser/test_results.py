@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 
 from playwright.sync_api import expect
 
@@ -42,3 +43,19 @@ def test_what_the_apps_own_actions_return_is_listed_as_such_with_their_parameter
         re.compile(r"trip .+: pollinate, dose 20 mg, at [\d., ]+ m; it returned 0\.00002")
     )
     expect(results.get_by_role("button", name="Measurements 0")).to_be_visible()
+
+
+def test_a_number_of_many_digits_is_shown_as_it_is(serve: Serve, visit: Visit) -> None:
+    station = serve("drugs_distribution")
+    station.end()
+    fleet = station.folder / "fleet.toml"
+    text = station.app.fleet.read_text().replace("temperature = 21.5", "temperature = 12345.0")
+    fleet.write_text(text.replace("image =", "# image ="))
+    station.app = replace(station.app, fleet=fleet)
+    station.start()
+    put_in(station)
+    page = visit(station)
+    start(page)
+    panel(page, "Results").get_by_role("button", name="Measurements").click()
+    line = panel(page, "Results").get_by_role("row").nth(1)
+    expect(line).to_have_text(re.compile(r"^temperature1234\d\.\d °C"), timeout=A_FLIGHT)

@@ -103,6 +103,7 @@ def test_what_an_action_returned_is_downloaded_as_it_is_and_shown_in_words() -> 
     assert shown(()) == ("[]", [])
     assert shown("yes") == ("yes", "yes")
     assert shown(3) == (3, 3)
+    assert shown(123_456_789) == ("123456789", 123_456_789)
 
 
 def test_an_action_that_returned_nothing_was_done_all_the_same() -> None:

@@ -574,7 +574,7 @@ export function consoleView(context, save) {
 const LINES = 300;
 const PHOTOS = 60;
 const VALUES = 60; // in a sparkline
-const written = (value) => (typeof value === "number" ? Number(value.toPrecision(4)) : value);
+const written = (value) => (typeof value === "number" ? Number(value.toPrecision(6)) : value);
 const place = ([x, y]) => `${round(x)}, ${round(y)} m`;
 
 const link = (chosen, mission) =>
