@@ -70,6 +70,10 @@ def test_a_mission_says_what_it_lacks(given: Json, field: str | None, sentence: 
 @pytest.mark.parametrize(
     ("given", "field", "sentence"),
     [
+        ({"target": [2, 3, 99]}, "z",
+         "The place (2, 3) at a height of 99 m is above the ceiling of 10 m"),
+        ({"target": [2, 3, -1]}, "z",
+         "The place (2, 3) at a height of -1 m is below the ground"),
         ({"target": None}, "target",
          "Has no place yet: drag it onto the floor plan, or type x and y"),
         ({"target": [2, 30]}, "target",

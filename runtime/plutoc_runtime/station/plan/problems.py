@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from ...files.missions import read_missions
@@ -41,10 +41,11 @@ def read(
     """Return the missions to fly, as far as they can be read, and what is wrong with them."""
     document, names = _document(app, missions), own_names(app)
     found = read_missions(document, app, airspace) if missions else []
-    return found, [
+    problems = [
         _problem(missions, one.place, sentence(one.text, names), sentence(one.sentence, names))
         for one in document.problems
     ]
+    return found, [_of_its_height(one, missions, airspace) for one in problems]
 
 
 def nobody_can_fly(
@@ -77,6 +78,21 @@ def as_in_a_file(mission: Mapping[str, object]) -> dict[str, object]:
     """Return a mission as a missions file would have it: no keys, and nothing that is not given."""
     trips = [_bare(trip) for trip in trips_of(mission)]
     return {**_bare(mission), "trip": trips}
+
+
+def _of_its_height(
+    problem: PlanProblem, missions: Sequence[Shape], airspace: Airspace
+) -> PlanProblem:
+    """Tell it of the field of the height, where a place is wrong for that alone."""
+    if problem.field != "target":
+        return problem
+    trips = [one for mission in missions for one in trips_of(mission) if one["key"] == problem.trip]
+    match trips[0]["target"]:
+        case [int() | float() as x, int() | float() as y, _] if (
+            airspace.problem((x, y, 0.0)) is None
+        ):
+            return replace(problem, field="z")
+    return problem
 
 
 def _bare(given: Mapping[str, object]) -> dict[str, object]:
