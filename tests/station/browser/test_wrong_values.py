@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from playwright.sync_api import Locator, Page, Route, expect
 
-from tests.station.browser.conftest import Visit
+from tests.station.browser.conftest import Serve, Visit
 from tests.station.browser.exercise import put_in
 from tests.station.browser.serving import Station, until
 from tests.station.browser.steps import card_of, open_page, select_mission
@@ -210,6 +210,28 @@ def test_who_writes_into_a_mission_that_another_one_deletes_is_told(
     until(lambda: len(planned.get("/api/plan")["missions"]) == 2, "it is gone")
     go_on(other, held)
     expect(notices(other)).to_contain_text("You wrote “Beta”, but somebody else has")
+
+
+def test_who_types_into_a_mission_that_another_one_starts_is_told(
+    serve: Serve, visit: Visit, watch: Watch
+) -> None:
+    """All that is drawn is there already, but what was typed is not."""
+    watch.expected.append(SOMEBODY_WAS_QUICKER)
+    station = serve("drugs_distribution")
+    put_in(station)
+    page = visit(station)
+    held = holding_the_first(page)
+    select_mission(page, "Mission 2")
+    name = page.get_by_role("textbox", name="Name")
+    with page.expect_request(lambda request: request.method == "PUT"):
+        name.fill("Beta")
+    assert station.post("/api/start", {"id": "of another one"})[0] == 200
+    expect(page.get_by_role("button", name="Stop: fly home")).to_be_enabled()
+    go_on(page, held)
+    expect(notices(page)).to_contain_text(
+        "You wrote “Beta”, but somebody else has removed or started that meanwhile."
+    )
+    expect(name).to_have_value("Mission 2")
 
 
 def test_one_who_changes_another_field_hears_nothing(

@@ -55,6 +55,18 @@ def test_what_flies_stays_as_it_is() -> None:
     assert missions[0] == {**before[1], "launched": True}
 
 
+def test_who_has_drawn_a_mission_otherwise_that_was_launched_meanwhile_is_told() -> None:
+    """Though the plan stays as it is; who has changed nothing of it is refused nothing."""
+    plan = drawn(*map(mission, KEYS))
+    old = plan.revision
+    plan.launched(KEYS)
+    new = plan.revision
+    with pytest.raises(Stale):
+        plan.replace(old, [mission(KEYS[0], name="other"), mission(KEYS[1])])
+    plan.replace(old, list(map(mission, KEYS)))
+    assert plan.revision == new
+
+
 def test_a_key_of_what_flies_is_nobody_elses() -> None:
     """A trip of a mission that was left out counts, too."""
     plan = drawn(mission("mission-one"))

@@ -77,9 +77,11 @@ class Plan:
 
     def replace(self, revision: object, missions: object) -> None:
         """Take the plan that somebody has drawn; raise `Stale` if it was drawn on an old one."""
-        drawn = self._with_launched(missions_from(missions, self._app))
-        if drawn != self._missions:  # what is there already, somebody may say twice
+        given = missions_from(missions, self._app)
+        drawn = self._with_launched(given)
+        if drawn != self._missions or self._overrules(given):
             self._check_current(revision)
+        if drawn != self._missions:  # what is there already, somebody may say twice
             self._change(drawn)
 
     def import_toml(self, text: str, revision: object, file: str = NAME) -> None:
@@ -193,6 +195,11 @@ class Plan:
             raise errors.not_a_number(revision)
         if revision != self.revision:
             raise errors.stale(revision, self.revision)
+
+    def _overrules(self, given: Sequence[Shape]) -> bool:
+        """Say whether somebody has drawn a mission otherwise that has been launched meanwhile."""
+        fixed = {one["key"]: as_in_a_file(one) for one in self._missions if one["launched"]}
+        return any(one["key"] in fixed and as_in_a_file(one) != fixed[one["key"]] for one in given)
 
     def _with_launched(self, drawn: Sequence[Shape]) -> list[Shape]:
         """Put those that were launched back as they are; those that are missing come first."""
