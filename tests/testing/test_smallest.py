@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 from collections import Counter
+from collections.abc import Callable
 from pathlib import Path
 from random import Random
 
@@ -79,17 +80,19 @@ def test_two_sentences_are_of_one_kind_if_only_names_and_numbers_differ() -> Non
     assert alike.kind("waiting: m1, m2, cf1") == alike.kind("waiting: m1")
     assert alike.kind("cf1 at (1.2, -3)") == alike.kind("cf2 at (0.5, 4)")
     assert alike.kind("hook do1 raised") != alike.kind("hook do2 raised")
+    assert alike.kind("no <Bed at 0x7f9dcfc01610>") == alike.kind("no <Bed at 0x5e0>")
+    assert alike.kind("57percent at 1.5s") == alike.kind("8percent at 22.25s")
     assert alike.kind("1 s: cf1 is free in the air") != alike.kind("1 s: cf1 was lost before free")
 
 
-def failing(calls: range) -> App:
+def failing(calls: range, why: Callable[[], str] = lambda: "nothing there") -> App:
     """Return an app whose action fails in these of its calls."""
     called = iter(range(1_000_000))
 
     async def spray(drone: object, trip: object, context: Context) -> None:
         await context.sleep(2.0)
         if next(called) in calls:
-            raise LookupError("nothing there")
+            raise LookupError(why())
 
     return app_of(
         """
@@ -109,6 +112,30 @@ def failing(calls: range) -> App:
     )
 
 
+def test_what_names_an_object_by_its_address_is_made_smaller(capfd: Said) -> None:
+    """It is another one in each run: that is neither chance nor another mistake."""
+    objects: list[object] = []
+
+    def why() -> str:
+        objects.append(object())  # all are kept: no address is there twice
+        return f"no {objects[-1]}"
+
+    app = failing(range(1_000_000), why)
+    assert trial(app, ["--file", "app.pluto", "--seeds", "1"]) == 1
+    rest = capfd.readouterr().out.partition("What was found first:")[2]
+    assert "The smallest case that shows the same:" in rest
+    assert "Found later" not in rest
+
+
+@pytest.mark.parametrize(("seeds", "too_few"), [(1, True), (100, False)])
+def test_what_few_seeds_never_try_is_not_blamed_on_the_app(seeds: int, too_few: bool) -> None:
+    """Who looks once and quickly is told that longer would be more."""
+    said = list(report(failing(range(0)), Options(seeds=seeds), Tally(runs=1), None))
+    (never,) = (line for line in said if line.startswith("Never happened"))
+    assert never.startswith("Never happened, for want of an occasion")
+    assert ("or of more seeds" in never) == too_few
+
+
 def test_one_mission_was_completed_and_two_were() -> None:
     """As people say it."""
     tally = Tally(runs=3, lives=3, missions=Counter({"COMPLETED": 1, "CANCELLED": 2}))
@@ -123,6 +150,7 @@ def test_what_does_not_show_again_is_told_as_that(capfd: Said) -> None:
     assert "LookupError: nothing there" in rest
     assert "flown once more by itself, the case did not show it" in rest
     assert "The smallest case" not in rest
+    assert "See it again" not in rest
 
 
 def test_actions_that_no_drone_can_do_are_told(capfd: Said, tmp_path: Path) -> None:

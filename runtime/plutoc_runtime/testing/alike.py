@@ -16,7 +16,8 @@ if TYPE_CHECKING:
     from .explore import Finding
 
 _SOME = "·"
-_NUMBER = re.compile(r"(?<![\w.])-?\d+(?:\.\d+)?(?:e[+-]?\d+)?(?![\w.]*\w)")
+_NUMBER = re.compile(r"(?<![\w.])-?\d+(?:\.\d+)?(?:e[+-]?\d+)?\w*")
+"""With its unit; or the address of an object."""
 _SEVERAL = re.compile(rf"{_SOME}(?:, {_SOME})+")
 
 

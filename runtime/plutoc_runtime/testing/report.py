@@ -15,6 +15,7 @@ from .alike import Alike
 from .blows import blows_text
 from .case import weather_text
 from .explore import FAULTS
+from .options import SEEDS
 from .plan_text import missions_text
 from .wording import ENDS, WORDS, WRITTEN
 
@@ -51,7 +52,8 @@ def report(
     )
     never = [WORDS[what] for what in FAULTS if not tally.fired[what]]
     if never and not tally.findings:  # else it was over too soon for most
-        yield f"Never happened, for want of an occasion: {'; '.join(never)}."
+        few = " or of more seeds" if options.seeds < SEEDS else ""
+        yield f"Never happened, for want of an occasion{few}: {'; '.join(never)}."
     yield ""
     yield from _tried(tally)
     if not tally.findings:
@@ -63,12 +65,13 @@ def report(
     yield ""
     yield from _said(first)
     yield ""
-    yield "See it again:"
+    vanished = smallest is None and not interrupted
+    yield "It was found in this case:" if vanished else "See it again:"
     yield "  " + _again(options, first)
     yield from _others(tally.findings)
     yield ""
     if smallest is None:
-        yield _WAS_INTERRUPTED if interrupted else _VANISHED
+        yield _VANISHED if vanished else _WAS_INTERRUPTED
         return
     yield "The smallest case that shows the same:"
     yield ""
