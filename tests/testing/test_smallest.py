@@ -14,6 +14,8 @@ import pytest
 from plutoc_runtime.app import App
 from plutoc_runtime.context import Context
 from plutoc_runtime.files.fleet import default_fleet
+from plutoc_runtime.fleet import Fleet
+from plutoc_runtime.model import Drone
 from plutoc_runtime.testing import command as trials
 from plutoc_runtime.testing import invariants
 from plutoc_runtime.testing.alike import Alike
@@ -110,6 +112,25 @@ def failing(calls: range, why: Callable[[], str] = lambda: "nothing there") -> A
         """,
         {"spray": spray},
     )
+
+
+@pytest.mark.parametrize("method", ["recover", "engage"])
+def test_an_error_of_the_runtime_itself_is_found_as_any_other(
+    method: str, capfd: Said, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Wherever it is raised: what was tried until then is not lost, and the case is made smaller."""
+    really = getattr(Fleet, method)
+
+    def wrong(self: Fleet, drone: Drone, *given: object) -> object:
+        if drone.trips > 0:
+            raise KeyError(drone.id)
+        return really(self, drone, *given)
+
+    monkeypatch.setattr(Fleet, method, wrong)
+    assert trial(random_app(Random("0/app")), ["--file", "app.pluto", "--seeds", "1"]) == 1
+    rest = capfd.readouterr().out.partition("What was found first:")[2]
+    assert "s: the app ended with an internal error: KeyError: 'cf" in rest
+    assert "The smallest case that shows the same:" in rest
 
 
 def test_what_names_an_object_by_its_address_is_made_smaller(capfd: Said) -> None:

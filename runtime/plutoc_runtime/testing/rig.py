@@ -13,8 +13,9 @@ from typing import TYPE_CHECKING
 from ..gateway.gateway import Gateway
 from ..gateway.ledger import MemoryLedger
 from ..gateway.line import LOST, Line
-from ..kernel import FLEET
+from ..kernel import FLEET, WHATEVER
 from ..kernel import Kind as When
+from ..raised import by_a_person
 from ..simulation.drones import SimulatedDrone, SimulatedNavigation
 from ..simulation.faults import Faults
 from ..simulation.radio import Radio
@@ -104,10 +105,15 @@ class Rig:
 
     def run(self) -> Trial:
         """Go on until everything has ended, or never will."""
-        self.be_born()
-        while not self.over:
-            if not self.turn():
-                break
+        try:
+            self.be_born()
+            while not self.over:
+                if not self.turn():
+                    break
+        except WHATEVER as error:  # in what no task has called, such as the end of a flight
+            if by_a_person(error):
+                raise
+            self.blame(error)
         trial = self.book.closed(self.lives)
         for brain in self.brains:
             brain.die()
@@ -158,7 +164,9 @@ class Rig:
 
     def blame(self, error: BaseException) -> None:
         """Nobody has caught it."""
-        self.found.append(f"{self.world.now:g} s: {type(error).__name__}: {error}")
+        where = "".join(f", {note}" for note in getattr(error, "__notes__", ()))
+        what = f"the app ended with an internal error: {type(error).__name__}: {error}{where}"
+        self.found.append(f"{self.world.now:g} s: {what}")
         self.over = True
 
     def later(self, seconds: float, call: Callable[[], object]) -> None:
