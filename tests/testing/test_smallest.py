@@ -203,6 +203,24 @@ def test_what_was_found_is_told_when_somebody_interrupts(
     assert rest.endswith("It was interrupted before that was made smaller.\n")
 
 
+def test_who_interrupts_before_anything_is_found_is_told_how_much_was_tried(
+    capfd: Said, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """An hour in which nothing was wrong is worth knowing, too."""
+
+    def interrupted(app: App, cases: object, tally: Tally, *_: object) -> None:
+        tally.runs, tally.lives = 30, 40
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(trials, "explored", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        trial(failing(range(0)), ["--file", "app.pluto"])
+    said = capfd.readouterr().out
+    assert "30 runs, in which the app was started anew 10 times" in said
+    assert said.endswith("No run did what no run may do until it was interrupted.\n")
+    assert "Never happened" not in said
+
+
 def test_a_smallest_case_of_drones_that_are_flown_differently_can_be_read(
     capfd: Said, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:

@@ -87,9 +87,9 @@ def _tried(app: App, options: Options, by_itself: ByItself | None) -> int:
             if smallest and by_itself and not _shows(app, smallest, by_itself):
                 smallest = None
     except KeyboardInterrupt:
-        if not tally.findings:
+        if not tally.runs:
             raise
-        interrupted = True  # what was found is told all the same
+        interrupted = True  # what was tried and found is told all the same
     finally:
         waiting.over()
     if not tally.runs:

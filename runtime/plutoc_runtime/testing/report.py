@@ -51,13 +51,15 @@ def report(
         right=(1,),
     )
     never = [WORDS[what] for what in FAULTS if not tally.fired[what]]
-    if never and not tally.findings:  # else it was over too soon for most
+    if never and not tally.findings and not interrupted:  # else it was over too soon for most
         few = " or of more seeds" if options.seeds < SEEDS else ""
         yield f"Never happened, for want of an occasion{few}: {'; '.join(never)}."
     yield ""
     yield from _tried(tally)
     if not tally.findings:
-        yield "No run did what no run may do."
+        yield "No run did what no run may do" + (
+            " until it was interrupted." if interrupted else "."
+        )
         return
     first = tally.findings[0]
     found = counted(len(tally.findings), "run")
