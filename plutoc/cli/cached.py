@@ -58,8 +58,9 @@ def _with(package: Package, modules: Sequence[str]) -> Package:
 
 
 def beside(file: Path, name: str, given: Path | None) -> Path | None:
+    """Return what is named, else what is there: a link that leads nowhere, too, as it is told then."""
     beside = file.parent / name
-    return given or (beside if beside.exists() else None)
+    return given or (beside if os.path.lexists(beside) else None)
 
 
 def fleet_for(options: Options) -> Path | None:

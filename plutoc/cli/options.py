@@ -44,7 +44,7 @@ class Options:
     fleet: Path | None = None
     seed: int | None = None
     seeds: int | None = None
-    runs: int | None = None
+    runs: str | None = None
     fail: str | None = None
     until: str | None = None
     strike: str | None = None
@@ -206,13 +206,20 @@ def _run(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--fail",
         metavar="WHAT=SHARE,…",
+        type=_as_simulate_reads("faults"),
         help="let flights go wrong: crash, link, action, battery; such as crash=10%%,link=1%%",
     )
     parser.add_argument(
-        "--runs", metavar="N", type=_whole, help="simulate N times, with N seeds from --seed on"
+        "--runs",
+        metavar="N",
+        type=_as_simulate_reads("count"),
+        help="simulate N times, with N seeds from --seed on",
     )
     parser.add_argument(
-        "--until", metavar="TIME", help='stop at this simulated time, such as "2 h"'
+        "--until",
+        metavar="TIME",
+        type=_as_simulate_reads("time"),
+        help='stop at this simulated time, such as "2 h"',
     )
     parser.add_argument("--json", action="store_true", help="print one JSON object instead")
 
@@ -310,6 +317,18 @@ def _shown(text: str) -> str:
     if text not in ("graph", "plan") and not text.startswith("plan="):
         raise ArgumentTypeError(f"{text!r} is neither graph nor plan nor plan=PASS")
     return text
+
+
+def _as_simulate_reads(kind: str) -> Callable[[str], str]:
+    """Refuse what the app's own `simulate` would refuse; hand on the rest as it was typed."""
+
+    def read(text: str) -> str:
+        from plutoc_runtime.cli import options
+
+        getattr(options, kind)(text)
+        return text
+
+    return read
 
 
 def _whole(text: str) -> int:

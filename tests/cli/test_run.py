@@ -49,6 +49,36 @@ def test_mishaps_and_many_runs_are_passed_on(plutoc: Call, app: Path) -> None:
     assert '"rain" cannot go wrong' in said.err
 
 
+@pytest.mark.parametrize(
+    ("words", "why"),
+    [
+        (["--fail", "rain=10%"], '--fail: "rain" cannot go wrong'),
+        (["--fail", "crash=200%"], "--fail: crash=200% is not between 0% and 100%"),
+        (["--runs", "0"], '--runs: "0" is less than 1'),
+        (["--runs", "x"], '--runs: "x" is not a whole number'),
+        (["--until", "0"], '--until: "0" is not more than 0'),
+        (["--until", "soon"], '--until: "soon" is not a time'),
+    ],
+)
+def test_what_simulate_would_refuse_is_refused_in_the_words_of_who_has_typed_it(
+    plutoc: Call, app: Path, words: list[str], why: str
+) -> None:
+    """With the usage of `plutoc run`, and before anything is compiled."""
+    app.write_text("this is no app")
+    said = plutoc("run", app, *words)
+    assert said.code == 2
+    assert f"plutoc run: error: argument {why}" in said.err
+    assert "simulate" not in said.err
+
+
+def test_a_fleet_that_is_a_link_to_nowhere_is_not_passed_over(plutoc: Call, app: Path) -> None:
+    """Somebody meant other drones to fly than those that would then."""
+    Path("fleet.toml").symlink_to("nowhere.toml")
+    for words in (["run"], ["test", "--seeds", "1"]):
+        said = plutoc(words[0], app, *words[1:])
+        assert (said.code, said.err) == (2, "fleet.toml: there is no such file\n")
+
+
 def test_bad_missions_end_with_2(plutoc: Call, app: Path) -> None:
     """The app's own exit code is passed on, and its message."""
     Path("missions.toml").write_text(MISSIONS.replace("take_photo", "take_foto"))
