@@ -11,6 +11,7 @@ from random import Random
 
 import pytest
 
+from plutoc_runtime import enough
 from plutoc_runtime.app import App
 from plutoc_runtime.context import Context
 from plutoc_runtime.files.fleet import default_fleet
@@ -257,3 +258,36 @@ category = "sprayer"
 home = [2, 1]
 uri = "radio://0/80/2M/E7E7E7E7E2"
 """
+
+
+def test_an_app_that_tries_for_ever_is_told_after_so_many_flights(
+    capfd: Said, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As `simulate` gives it up, and not after a week of simulated flights for each run."""
+    monkeypatch.setattr(enough, "FLIGHTS", 20)
+    app = app_of("""
+        pluto 1
+        app hasty {
+          category scout can measure
+          create = MissionCreator
+          allocate = DroneAllocator
+          launch = TripLauncher
+          watch = TripMonitor
+          limit = TimerMonitor(default: 2 s)
+          first = GateFIFO
+          retry = PriorityManager(max_attempts: 0)
+          start -> create -> allocate -> launch -> [watch, limit] -> first
+          first -> allocate when STANDBY
+          first -> retry when FAILED
+          first -> end when COMPLETED
+          retry -> allocate
+        }
+        """)
+    assert trial(app, ["--file", "app.pluto", "--seeds", "1"]) == 1
+    rest = capfd.readouterr().out.partition("What was found first:")[2]
+    found, _, smallest = rest.partition("The smallest case that shows the same:")
+    for said in (found, smallest):
+        assert re.search(
+            r"^  \S+ s: m\d sets out again and again, and nothing ends", said, re.MULTILINE
+        )
+    assert smallest.count("[[mission.trip]]") == 1

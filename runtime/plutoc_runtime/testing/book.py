@@ -9,6 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from ..enough import Bound
 from ..journal.fold import Records
 from .acts import Act, Once
 from .brain import BrokenHook
@@ -80,6 +81,9 @@ class Book:
         """Seconds that trips were to wait."""
         self.once = Once({name: action.repeat for name, action in app.actions.items()})
         self.fired: Counter[str] = Counter()
+        self.endless = ""
+        """The mission that sets out again and again, if one does."""
+        self._bound = Bound(case.missions)
         self.found: list[str] = []
         self.faults: list[str] = []
         self._invariants = Invariants(items_of(case.missions))
@@ -96,6 +100,8 @@ class Book:
             self.events.append(event)
             self._invariants.take(event)
             self.once.take(event)
+            if self._bound.look(event) is not None:
+                self.endless = str(event["mission"])
             if event["event"] == "mission.ended":
                 self._end(event)
             elif event["event"] == "trip.delayed":

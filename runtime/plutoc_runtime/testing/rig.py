@@ -145,6 +145,10 @@ class Rig:
 
     def has_time(self) -> bool:
         """Whether a mission that has not ended may still do so."""
+        if self.book.endless and not self.over:
+            why = f"{self.book.endless} sets out again and again, and nothing ends that"
+            self.found.append(f"{self.world.now:g} s: {why}")
+            return False
         if self.world.now > LONGEST + self.book.delays and not self.over:
             self.found.append(f"it goes on for ever; waiting: {self.waiting()}")
             return False
