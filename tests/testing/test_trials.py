@@ -123,6 +123,19 @@ def test_trials_leave_nothing_behind(monkeypatch: pytest.MonkeyPatch) -> None:
     assert [one for one in gc.get_objects() if isinstance(one, Rig)] == []
 
 
+@pytest.mark.filterwarnings("error")
+def test_a_trial_that_is_interrupted_leaves_nothing_behind(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Else Python complains, below what was found, of what never came to be done."""
+
+    def interrupted(_: Rig) -> bool:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(Rig, "turn", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        tried(APP, small_case(APP, FLEET, 0))
+    gc.collect()
+
+
 def test_small_cases_have_fair_weather_every_other_time() -> None:
     """So a mistake that needs none shows without it."""
     weathers = [small_case(APP, FLEET, seed).weather == FAIR for seed in range(6)]
