@@ -78,4 +78,4 @@ def blows_text(blows: Sequence[Blow]) -> str:
     return ",".join(map(str, blows))
 
 
-_BLOW = re.compile(r"([a-z-]+)@(\d{1,9})(?:\+(\d{1,6}(?:\.\d{1,6})?))?")
+_BLOW = re.compile(r"([a-z-]+)@([1-9]\d{0,8})(?:\+(\d{1,6}(?:\.\d{1,6})?))?")
