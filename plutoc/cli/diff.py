@@ -32,7 +32,10 @@ def diff(options: Options) -> int:
 
 def _read(path: Path) -> Source:
     if path == STANDARD_INPUT:
-        return read_standard_input()
+        source = read_standard_input()
+        if not source.text:  # as of a `git show` outside a repository
+            raise Unusable("standard input is empty: the command before the `|` gave no app")
+        return source
     return read_app(_app_in(path) if path.is_dir() else path)
 
 

@@ -154,11 +154,23 @@ def test_what_git_knows_comes_by_standard_input(app: Path, changed: Path) -> Non
     assert "can be one of the two apps, not both" in both.stderr
 
 
-def piped(*arguments: str) -> subprocess.CompletedProcess[str]:
+@pytest.mark.parametrize("words", [("-", "new.pluto"), ("new.pluto", "-")])
+def test_a_git_that_has_nothing_to_show_is_told_as_that(
+    app: Path, changed: Path, words: tuple[str, str]
+) -> None:
+    """As outside a repository: that is no mistake in an app, and no code explains it."""
+    done = piped("-m", "plutoc", "diff", *words, given="")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr == (
+        "plutoc: standard input is empty: the command before the `|` gave no app\n"
+    )
+
+
+def piped(*arguments: str, given: str = APP) -> subprocess.CompletedProcess[str]:
     """Run a program of Python's, with the app on its standard input."""
     return subprocess.run(
         [sys.executable, *arguments],
-        input=APP,
+        input=given,
         capture_output=True,
         text=True,
         check=False,
