@@ -14,6 +14,7 @@ from types import MappingProxyType
 from plutoc.block import Block
 from plutoc.frozen import frozen
 from plutoc.terminated import Terminated
+from plutoc_runtime.hard_exit import refused
 
 GROUP = "plutoc.blocks"
 STD = "std"
@@ -92,9 +93,10 @@ def _ours() -> object:
 
 def _loaded(package: str, value: str, load: Callable[[], object]) -> Mapping[str, Block]:
     try:
-        declared = load()
-        if isinstance(declared, Iterable):
-            declared = tuple(declared)
+        with refused():
+            declared = load()
+            if isinstance(declared, Iterable):
+                declared = tuple(declared)
     except (KeyboardInterrupt, Terminated):
         raise
     except BaseException as error:  # somebody else's code, which may even call sys.exit

@@ -16,6 +16,7 @@ from functools import partial
 from types import coroutine
 from typing import Any, TypeVar
 
+from .hard_exit import leave
 from .kernel import WHATEVER
 
 T = TypeVar("T")
@@ -108,7 +109,7 @@ def end_if_forked(parent: int, error: BaseException | None = None) -> None:
         with suppress(OSError):
             print(f"a process that a hook has forked ends: {type(code).__name__}", file=sys.stderr)
         code = 1
-    os._exit((code or 0) & 0xFF)
+    leave((code or 0) & 0xFF)
 
 
 @coroutine

@@ -127,12 +127,14 @@ class RealTime(Kernel):
             parent = os.getpid()
             try:
                 answer = await cast("Coroutine[Any, Any, object]", hook(*args, **named))
-                if os.getpid() != parent:
-                    end_if_forked(parent)
-                return answer
-            except NOT_ITS_OWN as error:
+            except BaseException as error:
                 end_if_forked(parent, error)
-                raise as_a_fault(error) from error.__cause__
+                if issubclass(type(error), NOT_ITS_OWN):
+                    raise as_a_fault(error) from error.__cause__
+                raise
+            if os.getpid() != parent:
+                end_if_forked(parent)
+            return answer
         result: Signal[object] = Signal()
         running = asyncio.ensure_future(self._answer(hook, partial(hook, *args, **named), result))
         try:

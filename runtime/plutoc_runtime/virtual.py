@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Coroutine, Generator
 from functools import partial
 from types import coroutine
 from typing import Any, TypeVar
 
+from .forked import end_if_forked
 from .kernel import WHATEVER, ForeignAwait, Kernel
 from .raised import NOT_ITS_OWN, as_a_fault, by_a_person
 from .signals import Signal
@@ -54,16 +56,26 @@ class VirtualTime(Kernel):
         self, hook: Callable[..., object], /, *args: object, **named: object
     ) -> object:
         """Run a hook here and now; an `async def` may await only what its context offers."""
+        parent = os.getpid()
+        waiting: Coroutine[Any, Any, object] | None = None
         try:
             result = hook(*args, **named)
-            if not is_coroutine(result):
-                return result
-            if never_waits(hook):
-                return await result
-        except NOT_ITS_OWN as error:
-            raise as_a_fault(error) from error.__cause__
+            if is_coroutine(result):
+                if never_waits(hook):
+                    result = await result
+                else:
+                    waiting = result
+        except BaseException as error:
+            end_if_forked(parent, error)
+            if issubclass(type(error), NOT_ITS_OWN):
+                raise as_a_fault(error) from error.__cause__
+            raise
+        if os.getpid() != parent:
+            end_if_forked(parent)
+        if waiting is None:
+            return result
         try:
-            return await _called_off_for_good(result)
+            return await _called_off_for_good(waiting)
         except RuntimeError as error:
             if isinstance(error, ForeignAwait) or "no running event loop" in str(error):
                 raise RuntimeError(
@@ -80,15 +92,21 @@ class VirtualTime(Kernel):
 @coroutine
 def _called_off_for_good(hook: Coroutine[Any, Any, T]) -> Generator[Any, Any, T]:
     """Let a hook run inside this coroutine; one that is called off cannot hold on, or go on."""
+    parent = os.getpid()
     step: Callable[[], object] = partial(hook.send, None)
     while True:
         try:
             waits_for = step()
         except StopIteration as end:
+            end_if_forked(parent)
             returned: T = end.value
             return returned
-        except NOT_ITS_OWN as error:
-            raise as_a_fault(error) from error.__cause__
+        except BaseException as error:
+            end_if_forked(parent, error)
+            if issubclass(type(error), NOT_ITS_OWN):
+                raise as_a_fault(error) from error.__cause__
+            raise
+        end_if_forked(parent)
         try:
             yield waits_for
             step = partial(hook.send, None)

@@ -16,6 +16,7 @@ SIMPLE = "def chime(run, status):\n    {}\n"
     "code",
     [
         "import sys; sys.exit(0)",
+        "import os; os._exit(0)",
         "raise GeneratorExit",
         "class Odd(BaseException): pass\nraise Odd('gone')",
         "def blocks():\n    raise SystemExit(0)\n    yield\nBLOCKS = blocks()",
@@ -34,7 +35,13 @@ def test_a_package_that_ends_python_as_it_is_imported_is_named(
 
 
 @pytest.mark.parametrize(
-    "error", ["SystemExit(0)", "GeneratorExit()", "__import__('asyncio').CancelledError()"]
+    "error",
+    [
+        "SystemExit(0)",
+        "GeneratorExit()",
+        "__import__('asyncio').CancelledError()",
+        "__import__('os')._exit(0)",
+    ],
 )
 def test_a_step_that_ends_python_is_its_blocks_fault(
     plutoc: Call, app: Path, installed: Path, error: str

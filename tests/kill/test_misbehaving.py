@@ -10,8 +10,10 @@ from pathlib import Path
 
 import pytest
 
+from tests.kill.lives import Flight
 from tests.kill.misbehaving import TRIALS, Trial
-from tests.kill.misfits import misfits_in
+from tests.kill.misfits import misfits_in, plan_of
+from tests.kill.trial import end_gateway
 
 
 @pytest.fixture(scope="session")
@@ -29,3 +31,23 @@ def share(trial: Trial) -> Trial:
 def test_all_other_missions_fly_on(trial: Trial, misfits: Path, tmp_path: Path) -> None:
     """The exit code is right, reasons are given, and no process is left running."""
     assert trial.fly(misfits, tmp_path / "flight") == []
+
+
+def test_a_hook_that_ends_the_process_ends_no_flight_as_if_it_were_over(
+    misfits: Path, tmp_path: Path
+) -> None:
+    """Nobody supervises it: the exit code is that of a crash. In a simulation one mission fails."""
+    files = plan_of(("leaves", [("leaves0", "act")])).write(tmp_path)
+    flight = Flight(app="misfits", source=misfits, folder=tmp_path, speed=20.0)
+    try:
+        flight.start()
+        assert flight.see_through() == 70
+        assert "ends it by os._exit(0)" in flight.lives[-1]
+    finally:
+        flight.end()
+        end_gateway(flight.journal)
+    (tmp_path / "leaves0.done").unlink()
+    simulated = flight.run("simulate", str(files["missions"]), "--fleet", str(files["fleet"]))
+    assert simulated.returncode == 1
+    assert "hook act raised SystemExit: os._exit(0)" in simulated.stdout
+    assert "1 of 2 missions completed, 1 failed" in simulated.stdout

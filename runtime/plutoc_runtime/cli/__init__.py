@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from errno import ENAMETOOLONG
+from functools import partial
 
 from ..errors import BadInput
 from . import output
@@ -12,6 +13,7 @@ from . import output
 TYPE_CHECKING = False  # `typing` itself is slow to import, and plutoc's `--version` does without
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
+    from typing import NoReturn
 
     from ..app import App
 
@@ -19,9 +21,6 @@ BAD_INPUT, INTERNAL, INTERRUPTED, CLOSED_PIPE = 2, 70, 130, 141
 
 _WITHOUT_HOOKS = (["tell"], ["journal"])
 """Commands that need nothing of an app but its name: a Stop must work whatever is in hooks.py."""
-
-_CALLS_HOOKS_ITSELF = (["simulate"], ["fly"])
-"""Commands that call hooks in the main thread, where interrupts arrive."""
 
 
 def start(name: str, load: Callable[[], App]) -> int:
@@ -56,13 +55,28 @@ def start(name: str, load: Callable[[], App]) -> int:
 
 
 def _heard(app: App) -> int:
-    """Run the program's command; a person who interrupts a simulation is told from a hook."""
-    if sys.argv[1:2] not in _CALLS_HOOKS_ITSELF:
-        return main(app)
+    """Run the program's command; hooks neither interrupt it for a person nor end it as if it were over."""
+    from ..hard_exit import instead_of, refused
     from ..raised import interrupted_by_a_person
 
-    with interrupted_by_a_person():
-        return main(app)
+    command = sys.argv[1:2]
+    if command == ["simulate"]:
+        with interrupted_by_a_person(), refused():
+            return main(app)
+    if command in (["fly"], ["resume"], ["serve"]):
+        instead_of(partial(_ended_by_hooks, app.name))
+    if command == ["fly"]:  # it calls hooks in the main thread, where interrupts arrive
+        with interrupted_by_a_person():
+            return main(app)
+    return main(app)
+
+
+def _ended_by_hooks(name: str, status: int) -> NoReturn:
+    """End as after a crash: drones may fly, and `--supervise` starts the app again."""
+    from ..hard_exit import leave
+
+    output.tell(f"{name}: something in the app's own code ends it by os._exit({status})")
+    leave(INTERNAL)
 
 
 def main(app: App, argv: Sequence[str] | None = None) -> int:

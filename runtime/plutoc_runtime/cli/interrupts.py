@@ -19,6 +19,7 @@ from typing import Protocol
 from ..errors import BadInput
 from ..forked import in_children
 from ..gateway.starting import stop_directly
+from ..hard_exit import leave
 from ..journal.place import gateway_folder
 from ..standing import Down
 from . import output, stop_mark
@@ -90,7 +91,7 @@ class Interrupts:
                 stop_mark.leave(journal, Down.LAND)  # for whoever starts crashed apps again
                 output.tell(f"leaving at once: the gateway lands the drones; {self._how}")
             self._last()
-            os._exit(128 + number)
+            leave(128 + number)
         self.code = 128 + number
         if self._journal() is not None:
             output.tell("stopping: the drones land where they are (once more to leave at once)")

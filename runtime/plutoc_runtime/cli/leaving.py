@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import asyncio
 import atexit
-import os
 import sys
 import threading
 import time
 from collections.abc import Coroutine
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
+from ..hard_exit import leave
 from ..hooks import said
 from ..kernel import WHATEVER
 from ..raised import by_a_person
@@ -97,7 +97,7 @@ def _end(name: str, code: int) -> NoReturn:
     for child in children:
         child.join(max(0.0, until - time.monotonic()))
         child.kill()
-    os._exit(code)
+    leave(code)
 
 
 def _children() -> list[BaseProcess]:

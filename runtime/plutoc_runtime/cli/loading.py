@@ -9,7 +9,9 @@ from types import ModuleType
 from typing import TYPE_CHECKING, NoReturn
 
 from ..errors import BadInput
+from ..hard_exit import refused
 from ..hooks import said
+from ..raised import by_a_person, interrupted_by_a_person
 
 if TYPE_CHECKING:
     from ..app import App
@@ -39,15 +41,14 @@ def bare(name: str) -> App:
 
 def loaded(load: Callable[[], App]) -> App:
     """Return the app; raise `BadInput` with the place where its hooks cannot be loaded."""
-    try:
-        return load()
-    except KeyboardInterrupt:
-        raise
-    except BaseException as error:  # even a SystemExit: it would pass for a proper end
-        said = _explained(error)
-        if said is None:
-            raise
-        raise BadInput(said) from error
+    with interrupted_by_a_person(), refused():
+        try:
+            return load()
+        except BaseException as error:  # even a SystemExit: it would pass for a proper end
+            said = None if by_a_person(error) else _explained(error)
+            if said is None:
+                raise
+            raise BadInput(said) from error
 
 
 def _explained(error: BaseException) -> str | None:

@@ -20,7 +20,9 @@ def prepare() -> None:
     """Let no character stop the output: a terminal may not know all letters of a name."""
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, TextIOWrapper):
-            with suppress(OSError):  # what is wrong with it will show when it is written to
+            with suppress(
+                OSError, ValueError
+            ):  # what is wrong with it will show when it is written to
                 stream.reconfigure(errors="backslashreplace")
 
 
@@ -32,6 +34,8 @@ def line(text: str = "") -> None:
         raise ClosedPipe from error
     except OSError as error:
         raise CannotWrite(error.strerror or str(error)) from error
+    except ValueError as error:  # something in this process has closed it
+        raise CannotWrite(str(error)) from error
 
 
 def flush() -> None:
@@ -43,11 +47,13 @@ def flush() -> None:
         raise ClosedPipe from error
     except OSError as error:
         raise CannotWrite(error.strerror or str(error)) from error
+    except ValueError as error:  # something in this process has closed it
+        raise CannotWrite(str(error)) from error
 
 
 def tell(text: str) -> None:
     """Write a message for a person on standard error; if nobody hears it, so be it."""
-    with suppress(OSError):
+    with suppress(OSError, ValueError):
         print(text, file=sys.stderr, flush=True)
 
 

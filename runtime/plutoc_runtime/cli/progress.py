@@ -48,6 +48,6 @@ class Progress:
 def on_terminal(*, quiet: bool) -> Progress:
     """Return a bar on standard error; none if nobody sits there, or reads lines there already."""
     error, out = sys.stderr, sys.stdout
-    seen = error is not None and error.isatty()
-    busy = not quiet and out is not None and out.isatty()
+    seen = error is not None and not error.closed and error.isatty()
+    busy = not quiet and out is not None and not out.closed and out.isatty()
     return Progress(error, time.monotonic, shown=seen and not busy)

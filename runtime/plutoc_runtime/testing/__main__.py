@@ -8,6 +8,7 @@ from importlib import import_module
 
 from ..cli import Ending, output
 from ..cli.loading import loaded
+from ..hard_exit import refused
 from ..raised import interrupted_by_a_person
 from .command import test
 
@@ -24,7 +25,10 @@ if __name__ == "__main__":
     ending = Ending(home)
     with ending:
         app = loaded(lambda: import_module(f"{home}.flow").APP)
-        with interrupted_by_a_person():  # a hook may raise a KeyboardInterrupt, and is found then
+        with (
+            interrupted_by_a_person(),
+            refused(),
+        ):  # a hook may raise a KeyboardInterrupt, and is found then
             ending.code = test(app, sys.argv[1:], by_itself)
         output.flush()
     sys.exit(ending.code)

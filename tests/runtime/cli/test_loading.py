@@ -44,6 +44,11 @@ def load_with(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Calla
         ("def judge():\n  return 1 +\n", "hooks.py:2: invalid syntax"),
         ("raise SystemExit(0)\n", "hooks.py:1: the hooks cannot be loaded: SystemExit: 0"),
         ("raise GeneratorExit\n", "hooks.py:1: the hooks cannot be loaded: GeneratorExit"),
+        ("raise KeyboardInterrupt\n", "hooks.py:1: the hooks cannot be loaded: KeyboardInterrupt"),
+        (
+            "import os\nos._exit(0)\n",
+            "hooks.py:2: the hooks cannot be loaded: SystemExit: os._exit(0)",
+        ),
         ("\n\nundefined\n", "hooks.py:3: the hooks cannot be loaded: NameError"),
         ("def judges():\n  pass\n", "hooks.py has no judge: write it"),
     ],
