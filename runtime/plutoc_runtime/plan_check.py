@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
+from math import dist
 from typing import TYPE_CHECKING, Any
 
 from .actions import BUILT_IN
-from .capability import Miss, chain_of, miss_of
+from .capability import Lacks, Miss, chain_of, miss_of
 from .fields import Entity, FieldType
 from .words import quoted
 
@@ -47,15 +49,25 @@ def unflyable(
     """Return the trips that no drone of the fleet could ever do, each with the reason."""
     categories = {category.name: category for category in app.categories}
     drones = [(categories[drone.category], drone.home) for drone in fleet.drones]
+    homes: dict[str, list[Point]] = {}
+    for category, home in drones:
+        homes.setdefault(category.name, []).append(home)
     found = []
     for mission in missions:
         rest: Sequence[Trip] = mission.trips
         while rest:
             chain = chain_of(rest)
             rest = rest[len(chain) :]
-            misses = _misses(app, airspace, drones, chain)
+            asked = [
+                (categories[name], min(points, key=partial(dist, chain[0].target)))
+                for name, points in homes.items()
+            ]
+            misses = _misses(app, airspace, asked, chain)
+            if misses is not None and any(miss.lacks > Lacks.PAYLOAD for miss in misses):
+                asked = drones  # another home may be better placed after all
+                misses = _misses(app, airspace, asked, chain)
             if misses is not None:
-                reason = _nobody(_nearest(misses, drones))
+                reason = _nobody(_nearest(misses, asked))
                 found.append(Unflyable(mission=mission, trips=chain, reason=reason))
     return found
 

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 
 from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.capability import chain_of, why_not
+from plutoc_runtime.capability import Miss, chain_of, miss_of, why_not
 from plutoc_runtime.files.fleet import DroneEntry, FleetFile
 from plutoc_runtime.model import Category, Item, Point
 from plutoc_runtime.plan_check import endless, problems
@@ -133,3 +135,27 @@ def test_what_repeats_until_stopped_has_no_end() -> None:
             "such as --until 2h"
         )
     ]
+
+
+def test_few_drones_are_asked_however_many_there_are(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The nearest of each category first: it is the others' way that costs, for each mission anew."""
+    asked = 0
+    real = miss_of
+
+    def counted(*given: Any) -> Miss | None:
+        nonlocal asked
+        asked += 1
+        return real(*given)
+
+    monkeypatch.setattr("plutoc_runtime.plan_check.miss_of", counted)
+    wide = Airspace(size=(9000.0, 9000.0))
+    far = [(SCOUT, (1.0 + place, 1.0, 0.0)) for place in range(500)]
+    near = [(SCOUT, (8000.0, 8000.0, 0.0))]
+    targets = [(8000.0 + place, 8000.0, 1.2) for place in range(5)]
+    trips = [FieldTrip(name=str(x), action="take_photo", target=(x, y, z)) for x, y, z in targets]
+    assert said(fleet(*far, *near, airspace=wide), *trips) == []
+    assert asked == len(trips)
+    assert len(said(fleet(*far, airspace=wide), trip("pollinate"))) == 1
+    assert asked == len(trips) + 1
+    far_away = said(fleet(*far, airspace=wide), trips[0])
+    assert "from its home (500, 1) and back" in far_away[0]
