@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Iterator, Mapping
+from keyword import iskeyword
+from sys import float_info
 from typing import Any
 
 from plutoc.block import Block, Choice, Gate, HookKind, HookParam, Narrowed, Param
@@ -57,7 +59,7 @@ def mistakes_in(block: Block) -> Iterator[str]:
 
 def is_name(text: object) -> bool:
     """Say whether this can be a name in a source, and in Python."""
-    return type(text) is str and text.isascii() and text.isidentifier()
+    return type(text) is str and text.isascii() and text.isidentifier() and not iskeyword(text)
 
 
 def is_text(text: object) -> bool:
@@ -113,25 +115,39 @@ def _name(one: str) -> str | None:
 
 
 def _param(one: Param | HookParam | Choice) -> str | None:
-    if not is_name(one.name):
+    if not is_name(one.name) or one.name in _GIVEN:
         return f"holds a parameter whose name is {_called(one.name)}"
     if not is_text(one.doc):
         return f"has no text that can be shown as the `doc` of {one.name}"
     if isinstance(one, Param):
-        default = one.default is None or type(one.default) in (bool, int, float, str)
-        least = one.least is None or type(one.least) in (int, float)
-        right = type(one.type) is Type and default and least
+        right = type(one.type) is Type and _is_plain(one.default) and _is_plain(one.least)
     elif isinstance(one, HookParam):
         right = type(one.kind) is HookKind
     else:
-        options = isinstance(one.options, Mapping) and all(
-            is_name(name) and callable(option) for name, option in one.options.items()
-        )
+        options = isinstance(one.options, Mapping) and all(map(is_name, one.options))
         right = options and one.default in one.options and type(one.hook) in _HOOKS
+        functions = (*one.options.values(), one.adapt or one.options[one.default]) if right else ()
+        if any(True for given in functions for _ in _function("options", given)):
+            return (
+                f"has a parameter {one.name} with a function that its module has not under its name"
+            )
     return None if right else f"has a parameter {one.name} whose facts are not of their types"
 
 
+_GIVEN = ("run", "status")
+"""What each step gets besides, by these names."""
+
 _HOOKS = (type(None), HookKind)
+
+
+def _is_plain(value: object) -> bool:
+    """Say whether this can be written into a package: a number that is one, or a text."""
+    match value:
+        case str():
+            return is_text(value)
+        case int() | float():
+            return type(value) in (int, float, bool) and abs(value) <= float_info.max
+    return value is None
 
 
 def _narrowed(one: Narrowed) -> str | None:
@@ -142,11 +158,10 @@ def _narrowed(one: Narrowed) -> str | None:
 
 
 def _field(one: Field) -> str | None:
-    if not is_name(one.name):
+    if not is_name(one.name) or one.name in _GIVEN:
         return f"holds a field whose name is {_called(one.name)}"
     texts = is_text(one.label) and is_text(one.doc)
     kinds = type(one.on) is Entity and type(one.type) is FieldType
-    default = type(one.default) in (type(None), int, float, bool)
-    if texts and kinds and default:
+    if texts and kinds and _is_plain(one.default):
         return None
     return f"has a field {one.name} whose facts are not of their types"

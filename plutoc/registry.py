@@ -14,7 +14,6 @@ from types import MappingProxyType
 from plutoc.block import Block
 from plutoc.frozen import frozen
 from plutoc.terminated import Terminated
-from plutoc_runtime.hard_exit import refused
 
 GROUP = "plutoc.blocks"
 STD = "std"
@@ -91,20 +90,28 @@ def _ours() -> object:
     return declared
 
 
-def _loaded(package: str, value: str, load: Callable[[], object]) -> Mapping[str, Block]:
-    try:
-        with refused():
-            declared = load()
-            if isinstance(declared, Iterable):
-                declared = tuple(declared)
-    except (KeyboardInterrupt, Terminated):
-        raise
-    except BaseException as error:  # somebody else's code, which may even call sys.exit
-        from plutoc_runtime.hooks import said  # only where something has gone wrong
+def _theirs(package: str, value: str, load: Callable[[], object]) -> object:
+    """Load somebody else's code, which may raise anything, or end Python: neither passes for ours."""
+    from plutoc_runtime.hard_exit import refused
+    from plutoc_runtime.hooks import said
+    from plutoc_runtime.raised import by_a_person, interrupted_by_a_person
 
-        raise RegistryError(
-            f"the blocks of {package} cannot be loaded from {value}: {said(error)}"
-        ) from error
+    with interrupted_by_a_person(), refused():
+        try:
+            declared = load()
+            return tuple(declared) if isinstance(declared, Iterable) else declared
+        except Terminated:
+            raise
+        except BaseException as error:
+            if by_a_person(error):
+                raise
+            raise RegistryError(
+                f"the blocks of {package} cannot be loaded from {value}: {said(error)}"
+            ) from error
+
+
+def _loaded(package: str, value: str, load: Callable[[], object]) -> Mapping[str, Block]:
+    declared = load() if package == STD else _theirs(package, value, load)
     if not isinstance(declared, tuple):
         raise RegistryError(
             f"{value} of {package} is of type {type(declared).__name__}, not a tuple of blocks"
@@ -135,8 +142,11 @@ def _look_at(block: Block, package: str) -> None:
 
     try:
         mistakes = list(mistakes_in(block))
-    except Exception as error:  # noqa: BLE001 - a value of some class of theirs, which raises this
+    except (KeyboardInterrupt, Terminated):
+        raise
+    except BaseException as error:  # noqa: BLE001 - of a value of some class of theirs
         mistakes = [f"it cannot be looked at: {type(error).__name__}"]
     if mistakes:
-        name = block.name if is_name(block.name) else "one of its blocks"
+        given = getattr(block, "name", None)
+        name = given if is_name(given) else "one of its blocks"
         raise RegistryError(f"{name} of {package} is not declared as a block is: {mistakes[0]}")

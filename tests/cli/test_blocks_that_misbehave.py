@@ -18,6 +18,7 @@ SIMPLE = "def chime(run, status):\n    {}\n"
         "import sys; sys.exit(0)",
         "import os; os._exit(0)",
         "raise GeneratorExit",
+        "raise KeyboardInterrupt",
         "class Odd(BaseException): pass\nraise Odd('gone')",
         "def blocks():\n    raise SystemExit(0)\n    yield\nBLOCKS = blocks()",
     ],

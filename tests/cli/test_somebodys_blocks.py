@@ -34,13 +34,15 @@ def test_a_block_that_cannot_be_carried_along_ends_with_1(
 
 DECLARED = """
 import sys
-from plutoc.block import ANY_SAME, Block, Choice, HookParam, Narrowed, Param
+from plutoc.block import ANY_SAME, Block, Choice, HookParam, Narrowed, Param, Type
 def chime(run, status): return status
 def odd(run, status): return status
 odd.__name__ = "not a name\\x1b[31m"
 class Odd:
     def __eq__(self, other): raise ValueError
     def __getattribute__(self, name): raise ValueError
+class Exits(dict):
+    def items(self): raise SystemExit
 BLOCKS = [Block(**{{"name": "Chime", "doc": "Chimes.", "step": chime, "transitions": ANY_SAME, {}}})]
 """
 
@@ -72,6 +74,27 @@ BLOCKS = [Block(**{{"name": "Chime", "doc": "Chimes.", "step": chime, "transitio
             '"narrowed": (Narrowed(param="a", value=1, emits=None),)',
             "its `narrowed` holds Narrowed",
         ),
+        (
+            '"params": (Choice(name="a", options={"b": lambda: 1}, default="b", doc=""),)',
+            "a parameter a with a function that its module has not under its name",
+        ),
+        (
+            '"params": (Param(name="a", type=Type.INT, doc="", default=10**5000),)',
+            "a parameter a whose",
+        ),
+        (
+            '"params": (Param(name="a", type=Type.TEXT, doc="", default="\\x1b"),)',
+            "a parameter a whose",
+        ),
+        (
+            '"params": (Param(name="class", type=Type.INT, doc=""),)',
+            "a parameter whose name is 'class'",
+        ),
+        (
+            '"params": (Param(name="run", type=Type.INT, doc=""),)',
+            "a parameter whose name is 'run'",
+        ),
+        ('"transitions": Exits()', "it cannot be looked at: SystemExit"),
         ('"needs": None', "its `needs` must be a tuple, not None"),
         ('"reads": ("a", 5)', "its `reads` holds 5, which is no str"),
         ('"named": "yes"', "its `named` must be True or False, not 'yes'"),
@@ -99,6 +122,17 @@ def test_a_block_is_declared_as_blocks_are(
         assert says in said.err
         assert "field_kit" in said.err
         assert all(char.isprintable() or char == "\n" for char in said.err + said.out)
+
+
+def test_a_block_that_was_never_made_is_none(plutoc: Call, app: Path, installed: Path) -> None:
+    """It has not even a name."""
+    (installed / "field_kit.py").write_text(
+        "from plutoc.block import Block\nBLOCKS = [object.__new__(Block)]\n"
+    )
+    app.write_text(FIELD_APP)
+    said = plutoc("check", app)
+    assert said.code == 1
+    assert "one of its blocks of field_kit is not declared as a block is" in said.err
 
 
 @pytest.mark.parametrize("name", ["a" * 300, "/".join(["a" * 300] * 20), "in/" + "b" * 300])
