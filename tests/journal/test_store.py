@@ -162,6 +162,19 @@ def test_a_journal_that_was_deleted_takes_nothing_more(
         store.append([row(2)])
 
 
+@pytest.mark.parametrize("text", ["", "something else"])
+def test_a_journal_that_was_emptied_or_written_over_takes_nothing_more(
+    text: str, store: Store, place: Path
+) -> None:
+    """It is the same file still, and the database goes on writing beside it."""
+    store.append([row(1)])
+    place.write_text(text)
+    with pytest.raises(JournalError, match=f"{place}: it was cut short or written over"):
+        store.look()
+    with pytest.raises(JournalError, match="cut short"):
+        store.append([row(2)])
+
+
 def test_a_journal_that_was_renamed_is_called_by_its_new_name(store: Store, place: Path) -> None:
     moved = place.rename(place.with_name("elsewhere"))
     with pytest.raises(JournalError, match=f"^{moved}: .* moved away from {place}: move it back"):

@@ -117,6 +117,14 @@ def gone(file: Path, now: Path | None, journal: Path) -> JournalError:
     )
 
 
+def cut_short(file: Path) -> JournalError:
+    """Somebody has emptied it, or written another file over it, while it was written."""
+    return JournalError(
+        f"{file}: it was cut short or written over while the flight was being written into it: nothing of"
+        " that flight can be gone on with"
+    )
+
+
 def full(seq: int) -> JournalError:
     """A journal in memory has no room left: as on a full disk."""
     return cannot_write(Path("the journal in memory"), OSError(ENOSPC, ""), seq)

@@ -25,6 +25,14 @@ def identity(path: Path) -> Identity | None:
     return found.st_dev, found.st_ino
 
 
+def size(path: Path) -> int:
+    """Return how many bytes the file of this name has; 0: none that can be seen."""
+    try:
+        return os.stat(path).st_size
+    except OSError:
+        return 0
+
+
 def moved_to(which: Identity) -> Path | None:
     """Return the name that an open file has now; None: it has none, or the system does not say."""
     with suppress(OSError):

@@ -15,7 +15,7 @@ from ..trace import Event
 from . import errors
 from .database import connect, found, look_at, sync_folder
 from .errors import TROUBLE, JournalError
-from .following import Identity, identity, moved_to
+from .following import Identity, identity, moved_to, size
 from .format import row_checksum, snapshot_checksum, tip_checksum
 from .lock import Lock
 from .making import made
@@ -50,7 +50,7 @@ class Store:
         self._lock, self._database, self._clock = lock, database, clock
         self._files: dict[Path, Identity | None] = {}
         """The files that are written, and which they were when it was opened."""
-        self._closed, self._process = False, os.getpid()
+        self._closed, self._process, self._least = False, os.getpid(), 0
         most = database.getlimit(sqlite3.SQLITE_LIMIT_VARIABLE_NUMBER)
         self._at_once = min(_AT_ONCE, most // _COLUMNS)
 
@@ -119,6 +119,7 @@ class Store:
         database.execute("COMMIT")
         database.execute("PRAGMA wal_checkpoint(TRUNCATE)")
         self._files = {file: identity(file) for file in (self.path, beside(self.path, "-wal"))}
+        self._least = size(self.path)
 
     def look(self) -> None:
         """Raise a `JournalError` if what is written is in no place any more where it would be found."""
@@ -129,6 +130,10 @@ class Store:
                 self.failure = errors.gone(file, moved_to(which), self.path)
                 give_back(self.path)
                 raise self.failure
+        if size(self.path) < self._least:  # it only grows by itself
+            self.failure = errors.cut_short(self.path)
+            give_back(self.path)
+            raise self.failure
 
     def append(self, rows: Sequence[str]) -> None:
         """Write rows, each the events of one instant; when this returns they are durable."""
