@@ -40,7 +40,9 @@ def test_what_strikes_can_be_written_and_read(blows: tuple[Blow, ...]) -> None:
     assert blows_of(blows_text(blows)) == blows
 
 
-@pytest.mark.parametrize("text", ["crash", "crash@", "crash@x", "fire@3", "crash@1+", "crash@-1", "crash@0"])
+@pytest.mark.parametrize(
+    "text", ["crash", "crash@", "crash@x", "fire@3", "crash@1+", "crash@-1", "crash@0"]
+)
 def test_what_cannot_strike_is_refused(text: str) -> None:
     """It says how it is written."""
     with pytest.raises(ValueError, match=r"is not written like|nothing that can strike"):

@@ -20,9 +20,8 @@ def prepare() -> None:
     """Let no character stop the output: a terminal may not know all letters of a name."""
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, TextIOWrapper):
-            with suppress(
-                OSError, ValueError
-            ):  # what is wrong with it will show when it is written to
+            # what is wrong with it will show when it is written to
+            with suppress(OSError, ValueError):
                 stream.reconfigure(errors="backslashreplace")
 
 

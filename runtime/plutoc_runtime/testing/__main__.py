@@ -25,10 +25,8 @@ if __name__ == "__main__":
     ending = Ending(home)
     with ending:
         app = loaded(lambda: import_module(f"{home}.flow").APP)
-        with (
-            interrupted_by_a_person(),
-            refused(),
-        ):  # a hook may raise a KeyboardInterrupt, and is found then
+        # a hook may raise a KeyboardInterrupt, or end the process, and is found then
+        with interrupted_by_a_person(), refused():
             ending.code = test(app, sys.argv[1:], by_itself)
         output.flush()
     sys.exit(ending.code)
