@@ -49,8 +49,9 @@ class State(NamedTuple):
     """RUNNING, or how the last flight ended; None before the first launch."""
     said: tuple[tuple[str, Status], ...] = ()
     """What repeaters and evaluators have said since the last launch: asked again, they say the same."""
-    given_up: tuple[str, ...] = ()
-    """Retries that gave the first trip up, since the last launch: asked again, they do so again."""
+    given_up: int = 0
+    """The most flights after which a retry gave the first trip up, since the last launch: asked now,
+    each retry that gives up after as many, or fewer, does so."""
     spent: bool = False
     """An evaluator has failed it, so that no trip is left; a modifier's hook may have put one back."""
 

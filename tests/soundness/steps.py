@@ -49,8 +49,8 @@ def outcomes(
                     yield status, with_trips(after, trips) if trips else after
         case "PriorityManager":
             for status in retried(state, block, by_count=strict):
-                names = {*state.given_up, block.name} if status == F else state.given_up
-                yield status, state._replace(given_up=tuple(sorted(names)))
+                bound = max(state.given_up, block.limit) if status == F else state.given_up
+                yield status, state._replace(given_up=bound)
         case "MissionModifier" if block.emits:
             for status, after in modified(state, token, block, strict):
                 # of a mission that another branch has failed it knows nothing
@@ -86,7 +86,7 @@ def launched(state: State, block: Block, most_flights: int) -> State:
         flight=R,
         trips=max(state.trips, 1),
         said=(),
-        given_up=(),
+        given_up=0,
         spent=False,
         flown=tried(state, most_flights),
     )
@@ -105,7 +105,7 @@ def landed(state: State) -> Iterator[State]:
 
 
 def with_trips(state: State, trips: int) -> State:
-    return state._replace(trips=trips, flown=0, given_up=())
+    return state._replace(trips=trips, flown=0, given_up=0)
 
 
 def retried(state: State, block: Block, *, by_count: bool) -> tuple[Status, ...]:
@@ -114,7 +114,7 @@ def retried(state: State, block: Block, *, by_count: bool) -> tuple[Status, ...]
     """
     if not block.limit:
         return (S,)
-    if block.name in state.given_up or (state.flight == F and state.flown >= block.limit):
+    if state.given_up >= block.limit or (state.flight == F and state.flown >= block.limit):
         return (F,)
     judged = state.flight != F  # it did not fail in flight: a hook said so
     return (S, F) if judged or not by_count else (S,)
