@@ -91,7 +91,7 @@ def _ours() -> object:
 
 
 def _theirs(package: str, value: str, load: Callable[[], object]) -> object:
-    """Load somebody else's code, which may raise anything, or end Python: neither passes for ours."""
+    """Load a package's own code, which may raise anything, or end Python: neither passes for ours."""
     from plutoc_runtime.hard_exit import refused
     from plutoc_runtime.hooks import said
     from plutoc_runtime.raised import by_a_person, interrupted_by_a_person

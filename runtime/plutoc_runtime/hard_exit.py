@@ -1,4 +1,4 @@
-"""`os._exit` in somebody else's code ends the process without a word: it must not pass for our own end.
+"""`os._exit` in hooks and blocks ends the process without a word: it must not pass for our own end.
 
 What ends a copy of this process is its own affair.
 """

@@ -72,7 +72,7 @@ def test_what_simulate_would_refuse_is_refused_in_the_words_of_who_has_typed_it(
 
 
 def test_a_fleet_that_is_a_link_to_nowhere_is_not_passed_over(plutoc: Call, app: Path) -> None:
-    """Somebody meant other drones to fly than those that would then."""
+    """Other drones were meant than those that would fly then."""
     Path("fleet.toml").symlink_to("nowhere.toml")
     for words in (["run"], ["test", "--seeds", "1"]):
         said = plutoc(words[0], app, *words[1:])

@@ -1,4 +1,4 @@
-"""A hook that forks: whatever its copy of the app does there, it is ended and flies nothing."""
+"""A hook that forks: its copy of the app is ended, and flies nothing."""
 
 from __future__ import annotations
 

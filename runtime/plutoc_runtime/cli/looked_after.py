@@ -36,7 +36,7 @@ def looked_after(app: App, journal: Path, drone: str, also: Sequence[Event] = ()
 
 
 def lost_meanwhile(app: App, journal: Path, drone: str, reason: str, at: Point | None) -> None:
-    """Put on record that a drone was lost while nobody was there to be told."""
+    """Put on record that a drone was lost while no app was there to be told."""
     with closing(Store.open(journal)) as store:
         check(journal, store.header, app)
         event = {"t": recovered(store).records.time, "event": "drone.lost", "drone": drone}

@@ -58,7 +58,7 @@ async def takeoff(session: Session, height: float, seconds: float) -> None:
 
     key = (HIGH_LEVEL, _TAKEOFF)
     for _ in range(3):
-        await let_commander_rule(session)  # somebody may have sent one while it was armed
+        await let_commander_rule(session)  # a setpoint may have been sent while it was armed
         code = (await answered(session, key, begin, "takeoff"))[3]
         if code == _WRONG_STATE and await session.until(begun, _SEEN) is not None:
             return  # it was the answer to the same command, sent twice

@@ -118,7 +118,7 @@ def gone(file: Path, now: Path | None, journal: Path) -> JournalError:
 
 
 def cut_short(file: Path) -> JournalError:
-    """Somebody has emptied it, or written another file over it, while it was written."""
+    """It was emptied, or another file was written over it, while it was written."""
     return JournalError(
         f"{file}: it was cut short or written over while the flight was being written into it: nothing of"
         " that flight can be gone on with"

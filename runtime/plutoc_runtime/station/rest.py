@@ -55,7 +55,7 @@ class Rest:
         told = {*known.lost, *known.mended}
         new = [one for one in sightings if sightings[one].has_fallen and one not in told]
         for drone in new:
-            with suppress(BadInput, OSError):  # whoever flies them now is told when asking them
+            with suppress(BadInput, OSError):  # an app that flies them now hears it from them
                 seen = sightings[drone]
                 lost_meanwhile(app, self._journal, drone, seen.why, seen.at)
         return bool(new)

@@ -114,7 +114,7 @@ class Rig:
             self.world.close()
 
     def go_through(self) -> None:
-        """Let lives come and go; whatever nobody has caught is found."""
+        """Let lives come and go; an error that is not caught is a finding."""
         try:
             self.be_born()
             while not self.over:
@@ -172,7 +172,7 @@ class Rig:
             self.blame(error)
 
     def blame(self, error: BaseException) -> None:
-        """Nobody has caught it."""
+        """Make a finding of an error that was not caught."""
         where = "".join(f", {note}" for note in getattr(error, "__notes__", ()))
         what = f"the app ended with an internal error: {type(error).__name__}: {error}{where}"
         self.found.append(f"{self.world.now:g} s: {what}")

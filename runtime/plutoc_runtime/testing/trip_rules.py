@@ -69,7 +69,7 @@ class AttemptsCountUp:
         """By mission, what it flew last."""
         self._round: dict[object, object] = {}
         self._shared: set[tuple[object, object]] = set()
-        """Names that a hook has given to several trips of a mission: whose flight it is nobody can tell."""
+        """Names that a hook has given to several trips of a mission: which of them flies cannot be told."""
         self.hears = {
             "trip.launched": self._launch,
             "trip.interrupted": self._interrupt,

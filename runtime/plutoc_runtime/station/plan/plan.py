@@ -81,7 +81,7 @@ class Plan:
         drawn = self._with_launched(given)
         if drawn != self._missions or self._overrules(given):
             self._check_current(revision)
-        if drawn != self._missions:  # what is there already, somebody may say twice
+        if drawn != self._missions:  # to say once more what is there already is no conflict
             self._change(drawn)
 
     def import_toml(self, text: str, revision: object, file: str = NAME) -> None:
@@ -197,7 +197,7 @@ class Plan:
             raise errors.stale(revision, self.revision)
 
     def _overrules(self, given: Sequence[Shape]) -> bool:
-        """Say whether somebody has drawn a mission otherwise that has been launched meanwhile."""
+        """Say whether a mission is drawn otherwise that has been launched meanwhile."""
         fixed = {one["key"]: as_in_a_file(one) for one in self._missions if one["launched"]}
         return any(one["key"] in fixed and as_in_a_file(one) != fixed[one["key"]] for one in given)
 
