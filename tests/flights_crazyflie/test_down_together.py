@@ -1,4 +1,9 @@
-"""Ten Crazyflies in the air at once, crossing each other's ways home: Stop brings all of them down."""
+"""Ten Crazyflies in the air at once, crossing each other's ways home: Stop brings all of them down.
+
+How long it takes is printed and not judged here, where a busy machine would be judged with it:
+`tests/gateway/traffic/test_real_descents.py` does it in virtual time, with real drones' profiles,
+and `python -m tests.flights_crazyflie.together` on a quiet machine.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from tests.flights_crazyflie.plans import DISTRIBUTION, quick_package
-from tests.flights_crazyflie.together import LATER, Figures, stopped
+from tests.flights_crazyflie.together import Figures, stopped
 
 pytest.importorskip("cflib")
 
@@ -33,11 +38,10 @@ def landed(how: str, source: Path, folder: Path) -> Figures:
 
 
 @pytest.mark.parametrize("how", ["land", "rtl"])
-def test_all_are_down_soon_after_the_slowest_alone_and_never_too_near(
+def test_all_come_down_where_they_should_and_never_too_near(
     how: str, source: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     figures = landed(how, source, tmp_path)
     with capsys.disabled():
         print(f"\n{figures}")
     assert figures.problems == ()
-    assert figures.last < figures.slowest + LATER

@@ -25,6 +25,16 @@ WALL = (6.0, 8.0)
 """In the first no-fly area of the ward."""
 
 
+FIRST_FRAME = """
+() => new Promise((seen) => {
+  const world = document.querySelector("#page-trips svg.floor-picture g.world");
+  document.querySelector("#tab-trips").click();
+  requestAnimationFrame(() => setTimeout(() => seen(world.getScreenCTM().a)));
+})
+"""
+"""Goes to the trips, and says how many pixels a metre takes when that has been painted once."""
+
+
 def trips(station: Station) -> list[dict[str, Any]]:
     """Return the trips of the only mission, as the station has them."""
     return list(station.get("/api/plan")["missions"][0]["trips"])
@@ -164,6 +174,14 @@ def test_the_map_is_zoomed_about_the_pointer_and_goes_with_the_hand(
     until(lambda: on_the_screen(page, (9.0, 5.0))[0] - now[0] > 55, "it went along")
     page.get_by_role("button", name="Whole map").first.click()
     until(lambda: scale(page) < 60, "all is seen again")
+
+
+def test_the_map_fills_its_box_in_the_first_frame_that_shows_it(
+    ward: Station, visit: Visit
+) -> None:
+    page = visit(ward)
+    page.locator("#page-trips svg.floor-picture").wait_for(state="attached")
+    assert page.evaluate(FIRST_FRAME) > 20, "pixels that a metre takes"
 
 
 def test_trips_of_a_mission_that_was_started_can_be_read_and_not_changed(

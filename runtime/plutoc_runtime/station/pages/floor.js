@@ -88,10 +88,11 @@ export function floorPlan(map, drones = []) {
   new ResizeObserver(() => {
     const before = box;
     const now = { width: picture.clientWidth, height: picture.clientHeight };
-    if (!now.width || !now.height) return; // it is hidden
+    if (!now.width || !now.height) return; // hidden
     box = now;
     if (isWhole) whole();
     else move((now.width - before.width) / 2, (now.height - before.height) / 2);
+    draw(); // in this frame
   }).observe(picture);
 
   const floor = {
