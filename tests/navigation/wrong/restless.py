@@ -1,20 +1,29 @@
-"""Goes on when a command is cancelled, and does not stop when it is told to hold."""
+"""Flies on when it has said that it holds."""
 
 from __future__ import annotations
 
 import asyncio
 
-from plutoc_runtime.model import Point
-from tests.navigation.simulated import Simulated
+from tests.navigation.simulated import SPEED, Simulated
 
 FOUND_BY = "test_hold_stops_the_drone_here"
 SAYS = "hold returned, and it moved"
+
+_FAR = (1000.0, 2.0, 1.0)
+"""So far that it still flies there, however late somebody looks."""
 
 
 class Wrong(Simulated):
     """Whoever gives the next command gives it to a drone that moves."""
 
-    async def go_to(self, target: Point, speed: float) -> None:
-        self.check(target, speed)
-        self._going = asyncio.create_task(super().go_to(target, speed))
-        await asyncio.shield(self._going)
+    _going: asyncio.Task[None] | None = None
+
+    async def hold(self) -> None:
+        if self.telemetry.flying:
+            self._going = asyncio.create_task(self.go_to(_FAR, SPEED))
+
+    async def land(self, speed: float) -> None:
+        if self._going is not None:
+            self._going.cancel()
+            await asyncio.wait([self._going])
+        await super().land(speed)
