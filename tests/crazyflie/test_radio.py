@@ -14,6 +14,7 @@ from plutoc_runtime.crtp.record import InMemory
 from plutoc_runtime.drones import LINK_LOST, DroneSetup, LinkLost
 from tests.crazyflie.hangar import PATIENCE
 from tests.crtp.radio import Ether, plugged_in
+from tests.kill.lives import eventually
 
 pytest.importorskip("cflib")
 pytestmark = pytest.mark.filterwarnings(
@@ -98,6 +99,7 @@ def test_who_is_there_is_looked_for_at_all_addresses(tmp_path: Path) -> None:
         options = {"addresses": ["E7E7E7E701", "E7E7E7E703", "E7E7E7E7E7"]}
         found = asyncio.run(Crazyflie.scan(options))
         assert found == [air.uris["cf1"], air.uris["cf3"]]
+        assert eventually(lambda: not air.is_open, PATIENCE)  # a thread of cflib's closes it
         air.unplugged = True
         with pytest.raises(LinkLost, match="no Crazyradio is plugged in"):
             asyncio.run(Crazyflie.scan(options))

@@ -89,6 +89,8 @@ class Ether:
         self._by_id: Mapping[str, OnTheAir] = {one.drone.build.id: one for one in made}
         self._by_place = {one.where: one for one in self._by_id.values()}
         self.unplugged = self.stalled = False
+        self.is_open = False
+        """Whether cflib has the dongle open."""
         self._over = Event()
         self._thread = Thread(target=self._pass, name="simulated drones", daemon=True)
 
@@ -148,6 +150,7 @@ class Dongle:
         self.version = 0.54
         self._retries = 3
         self._set: dict[str, object] = {}
+        self.ether.is_open = True
 
     def _setup(self, what: str, value: object) -> None:
         """Tell the dongle something, over USB: only what it has not been told already."""
@@ -175,6 +178,7 @@ class Dongle:
 
     def close(self) -> None:
         """Close the device."""
+        self.ether.is_open = False
 
     def send_packet(self, data: Sequence[int]) -> Ack | None:
         """Send a packet; None: there is no dongle any more."""

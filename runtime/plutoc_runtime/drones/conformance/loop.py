@@ -1,7 +1,8 @@
 """Finds out where an event loop is held up, and how long, by looking on from another thread.
 
 A busy machine holds up a loop as well, and is nobody's fault: so it is not the clock that counts, but
-how often in a row the loop was seen in the very same turn, doing something.
+how often in a row the loop was seen in the very same turn, doing something. A loop that starts a
+thread waits for the machine, too: until that thread runs.
 """
 
 from __future__ import annotations
@@ -53,7 +54,7 @@ class LoopWatch:
         looks, turns, where = 0, -1, ""
         while not self._over.wait(LOOK):
             frame = sys._current_frames().get(self._watched)
-            if frame is not None and frame.f_code.co_name not in _IDLE and self._turns == turns:
+            if frame is not None and not _waits(frame) and self._turns == turns:
                 looks, where = looks + 1, _place(frame)
                 continue
             if looks >= LOOKS:
@@ -61,6 +62,16 @@ class LoopWatch:
             looks, turns = 0, self._turns
         if looks >= LOOKS:
             self.found.append(f"{looks * LOOK:.2f} s {where}")
+
+
+def _waits(frame: FrameType) -> bool:
+    """Whether the thread waits for something to happen, or for a new thread to run at last."""
+    at: FrameType | None = frame
+    while at is not None and at.f_code.co_filename == threading.__file__:
+        if at.f_code is threading.Thread.start.__code__:
+            return True
+        at = at.f_back
+    return frame.f_code.co_name in _IDLE
 
 
 def _place(frame: FrameType) -> str:

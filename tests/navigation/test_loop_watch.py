@@ -1,0 +1,45 @@
+"""The watch over the event loop says what holds it up, and does not blame it for a busy machine."""
+
+from __future__ import annotations
+
+import asyncio
+import threading
+import time
+from collections.abc import Callable
+
+from plutoc_runtime.drones.conformance.loop import LoopWatch
+
+LONG = 0.2
+"""Seconds: four times what is found."""
+
+
+class LateThread(threading.Thread):
+    """One that the machine lets run only after a while."""
+
+    def _bootstrap(self) -> None:
+        time.sleep(LONG)
+        super()._bootstrap()  # type: ignore[misc]  # as `threading` calls it
+
+
+def found(held_up_by: Callable[[], object]) -> list[str]:
+    """Return what the watch has found when a turn of the loop does this."""
+
+    async def watched() -> list[str]:
+        with LoopWatch() as watch:
+            await asyncio.sleep(0.05)
+            held_up_by()
+            await asyncio.sleep(0.05)
+        return watch.found
+
+    return asyncio.run(watched())
+
+
+def test_a_turn_that_sleeps_is_found_with_its_place() -> None:
+    [sentence] = found(lambda: time.sleep(LONG))
+    assert "test_loop_watch.py:" in sentence
+
+
+def test_a_thread_that_the_machine_starts_late_is_nobodys_fault() -> None:
+    thread = LateThread(target=time.sleep, args=(0,))
+    assert found(thread.start) == []
+    thread.join()
