@@ -39,7 +39,7 @@ def test_a_turn_that_sleeps_is_found_with_its_place() -> None:
     assert "test_loop_watch.py:" in sentence
 
 
-def test_a_thread_that_the_machine_starts_late_is_nobodys_fault() -> None:
+def test_a_thread_that_the_machine_starts_late_is_not_blamed() -> None:
     thread = LateThread(target=time.sleep, args=(0,))
     assert found(thread.start) == []
     thread.join()

@@ -10,11 +10,11 @@ FOUND_BY = "test_hold_stops_the_drone_here"
 SAYS = "hold returned, and it moved"
 
 _FAR = (1000.0, 2.0, 1.0)
-"""So far that it still flies there, however late somebody looks."""
+"""So far that it still flies when the check looks, however busy the machine is."""
 
 
 class Wrong(Simulated):
-    """Whoever gives the next command gives it to a drone that moves."""
+    """The next command reaches a drone that moves."""
 
     _going: asyncio.Task[None] | None = None
 

@@ -65,7 +65,7 @@ class LoopWatch:
 
 
 def _waits(frame: FrameType) -> bool:
-    """Whether the thread waits for something to happen, or for a new thread to run at last."""
+    """Whether a thread is idle, or waits until a thread that it has started runs."""
     at: FrameType | None = frame
     while at is not None and at.f_code.co_filename == threading.__file__:
         if at.f_code is threading.Thread.start.__code__:
