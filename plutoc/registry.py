@@ -144,7 +144,7 @@ def _look_at(block: Block, package: str) -> None:
         mistakes = list(mistakes_in(block))
     except (KeyboardInterrupt, Terminated):
         raise
-    except BaseException as error:  # noqa: BLE001 - of a value of some class of theirs
+    except BaseException as error:  # noqa: BLE001 - their classes may raise anything
         mistakes = [f"it cannot be looked at: {type(error).__name__}"]
     if mistakes:
         given = getattr(block, "name", None)

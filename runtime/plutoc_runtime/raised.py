@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from types import FrameType
 
-from .forked import in_children
+from .forked import end_if_forked, in_children
 from .kernel import Cancelled
 from .words import class_of
 
@@ -57,3 +57,13 @@ def as_a_fault(error: BaseException) -> BaseException:
     if issubclass(type(error), NOT_ITS_OWN) and not by_a_person(error):
         return RuntimeError(f"it may not raise {class_of(error)}")
     return error
+
+
+def refuse_if_not_its_own(error: BaseException, parent: int) -> None:
+    """Raise a fault instead of an error that would end more than the hook that raised it.
+
+    `parent`: the process that called the hook; a copy of it ends here.
+    """
+    end_if_forked(parent, error)
+    if issubclass(type(error), NOT_ITS_OWN):
+        raise as_a_fault(error) from error.__cause__

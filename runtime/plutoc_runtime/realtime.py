@@ -15,7 +15,7 @@ from typing import Any, NoReturn, TypeVar, cast
 
 from .forked import alone, end_if_forked
 from .kernel import WHATEVER, Call, Kernel, Key, Kind
-from .raised import NOT_ITS_OWN, as_a_fault, by_a_person
+from .raised import as_a_fault, by_a_person, refuse_if_not_its_own
 from .signals import Signal
 from .straight import is_coroutine, never_waits
 
@@ -128,9 +128,7 @@ class RealTime(Kernel):
             try:
                 answer = await cast("Coroutine[Any, Any, object]", hook(*args, **named))
             except BaseException as error:
-                end_if_forked(parent, error)
-                if issubclass(type(error), NOT_ITS_OWN):
-                    raise as_a_fault(error) from error.__cause__
+                refuse_if_not_its_own(error, parent)
                 raise
             if os.getpid() != parent:
                 end_if_forked(parent)

@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 
 from .forked import end_if_forked
 from .kernel import WHATEVER, ForeignAwait, Kernel
-from .raised import NOT_ITS_OWN, as_a_fault, by_a_person
+from .raised import by_a_person, refuse_if_not_its_own
 from .signals import Signal
 from .straight import is_coroutine, never_waits
 
@@ -66,9 +66,7 @@ class VirtualTime(Kernel):
                 else:
                     waiting = result
         except BaseException as error:
-            end_if_forked(parent, error)
-            if issubclass(type(error), NOT_ITS_OWN):
-                raise as_a_fault(error) from error.__cause__
+            refuse_if_not_its_own(error, parent)
             raise
         if os.getpid() != parent:
             end_if_forked(parent)
@@ -102,9 +100,7 @@ def _called_off_for_good(hook: Coroutine[Any, Any, T]) -> Generator[Any, Any, T]
             returned: T = end.value
             return returned
         except BaseException as error:
-            end_if_forked(parent, error)
-            if issubclass(type(error), NOT_ITS_OWN):
-                raise as_a_fault(error) from error.__cause__
+            refuse_if_not_its_own(error, parent)
             raise
         end_if_forked(parent)
         try:
