@@ -1,0 +1,108 @@
+"""Simulates every example with many seeds, and holds what is printed against what was kept.
+
+    python -m tests.as_before --seeds 100           # compare
+    python -m tests.as_before --seeds 100 --write   # keep what is printed now
+
+`tests/as_before.json` was written by the second command at the last commit whose packages carried the
+whole runtime (0984158): one hash for each seed, of what `simulate --json --trace` printed, without
+mishaps and with them. What a mission does, and when, is the same since.
+"""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from argparse import ArgumentParser
+from collections.abc import Sequence
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from plutoc.__main__ import main as plutoc
+
+HERE = Path(__file__).parent
+EXAMPLES = HERE.parent / "examples"
+KEPT = HERE / "as_before.json"
+MISHAPS = {"nothing goes wrong": "", "mishaps": "crash=10%,link=5%,action=5%,battery=5%"}
+
+_MANY_RUNS = """
+import contextlib, hashlib, importlib, io, os, sys
+name, seeds, mishaps, trace = sys.argv[1:]
+app = importlib.import_module(f"{name}.flow").APP
+try:
+    main = importlib.import_module(f"{name}._runtime.command").main
+except ModuleNotFoundError:  # so it was before
+    main = importlib.import_module(f"{name}._runtime.cli").main
+for seed in range(int(seeds)):
+    command = ["simulate", "missions.toml", "--fleet", "fleet.toml", "--seed", str(seed)]
+    command += ["--json", "--trace", trace, *(["--fail", mishaps] if mishaps else [])]
+    printed = io.StringIO()
+    with contextlib.redirect_stdout(printed):
+        code = main(app, command)
+    assert code in (0, 1), code
+    hashed = hashlib.sha256(printed.getvalue().encode())
+    with open(trace, "rb") as file:
+        hashed.update(file.read())
+    os.remove(trace)
+    print(hashed.hexdigest()[:16])
+"""
+
+
+def hashes(example: Path, package: Path, mishaps: str, seeds: int) -> list[str]:
+    """Return a hash of what each of the first seeds printed, flown by a compiled package."""
+    command = [sys.executable, "-c", _MANY_RUNS, example.name, str(seeds), mishaps]
+    done = subprocess.run(
+        [*command, str(package / "trace.jsonl")],
+        cwd=example,
+        env={"PYTHONPATH": str(package / "src"), "PYTHONHASHSEED": "0"},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    if done.returncode:
+        raise RuntimeError(f"{example.name}: {done.stderr}")
+    return done.stdout.split()
+
+
+def compiled(example: Path, folder: Path) -> Path:
+    """Compile an example into a folder, and return its package."""
+    package = folder / example.name
+    if plutoc(["compile", str(example / "app.pluto"), "-o", str(package)]):
+        raise RuntimeError(f"{example.name} does not compile")
+    return package
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Fly, and compare or keep."""
+    parser = ArgumentParser(prog="python -m tests.as_before", allow_abbrev=False)
+    parser.add_argument("--seeds", type=int, default=100)
+    parser.add_argument("--write", action="store_true")
+    options = parser.parse_args(argv)
+    kept = {} if options.write else json.loads(KEPT.read_text("utf-8"))
+    different = 0
+    with TemporaryDirectory() as folder:
+        for example in sorted(path.parent for path in EXAMPLES.glob("*/app.pluto")):
+            package = compiled(example, Path(folder))
+            for name, mishaps in MISHAPS.items():
+                found = hashes(example, package, mishaps, options.seeds)
+                if options.write:
+                    kept.setdefault(example.name, {})[name] = found
+                    continue
+                before = kept[example.name][name][: options.seeds]
+                wrong = [
+                    seed
+                    for seed, pair in enumerate(zip(before, found, strict=True))
+                    if len(set(pair)) > 1
+                ]
+                print(
+                    f"{example.name}, {name}: {len(found) - len(wrong)} of {len(found)} as before",
+                    *wrong,
+                )
+                different += len(wrong)
+    if options.write:
+        KEPT.write_text(json.dumps(kept, indent=1) + "\n", "utf-8")
+    return 1 if different else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
