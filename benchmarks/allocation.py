@@ -239,7 +239,7 @@ def flown(package: str, missions: int) -> None:
         plan,
         ground,
         seed=0,
-        faults=part("_runtime.simulation.faults").Faults(),
+        faults=part("_runtime.faults").Faults(),
         until=None,
         on_event=None,
     )

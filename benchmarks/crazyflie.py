@@ -23,11 +23,11 @@ from statistics import quantiles
 from typing import IO
 
 from measuring.options import at_least_one
-from plutoc_runtime.crazyflie.navigation import Crazyflie
-from plutoc_runtime.crtp.drone import Build
-from plutoc_runtime.crtp.record import InMemory
-from plutoc_runtime.crtp.server import Server
-from plutoc_runtime.drones import DroneSetup, NavigationError
+from pluto_fleet.crazyflie.navigation import Crazyflie
+from pluto_fleet.crtp.drone import Build
+from pluto_fleet.crtp.record import InMemory
+from pluto_fleet.crtp.server import Server
+from pluto_fleet.drones import DroneSetup, NavigationError
 
 TICK = 0.002
 LIMIT = 0.050

@@ -21,16 +21,16 @@ from random import Random
 
 sys.path[:0] = [str(Path(__file__).parents[1])]
 
+from pluto_fleet.files.fleet import DroneEntry, FleetFile
+from pluto_fleet.journal_line import line
+from pluto_fleet.testing.blows import blows_of
+from pluto_fleet.testing.book import Trial
+from pluto_fleet.testing.case import Case, Weather
+from pluto_fleet.testing.rig import tried
 from plutoc_runtime.airspace import Airspace
 from plutoc_runtime.app import App
-from plutoc_runtime.files.fleet import DroneEntry, FleetFile
-from plutoc_runtime.journal_line import line
 from plutoc_runtime.model import AfterTrip
-from plutoc_runtime.simulation.world import WorldData
-from plutoc_runtime.testing.blows import blows_of
-from plutoc_runtime.testing.book import Trial
-from plutoc_runtime.testing.case import Case, Weather
-from plutoc_runtime.testing.rig import tried
+from plutoc_runtime.world import WorldData
 from tests.testing.examples import app_of
 
 APP = """pluto 1

@@ -21,13 +21,13 @@ from pathlib import Path
 
 from measuring.instant import APP, Instant, ground, plan
 from measuring.options import at_least_one
-from plutoc_runtime.journal.fold import Records
-from plutoc_runtime.journal.replay import replayed
-from plutoc_runtime.journal.store import Store
-from plutoc_runtime.journal.writer import Writer
+from pluto_fleet.journal.fold import Records
+from pluto_fleet.journal.replay import replayed
+from pluto_fleet.journal.store import Store
+from pluto_fleet.journal.writer import Writer
+from pluto_fleet.life import Life
+from pluto_fleet.realtime import RealTime
 from plutoc_runtime.kernel import FLEET, Kind
-from plutoc_runtime.life import Life
-from plutoc_runtime.realtime import RealTime
 from plutoc_runtime.virtual import VirtualTime
 
 HEADER = {"event": "journal.begun", "app": APP.name}

@@ -18,7 +18,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from plutoc.__main__ import main as plutoc
+from plutoc.cli import main as plutoc
 
 HERE = Path(__file__).parent
 EXAMPLES = HERE.parent / "examples"

@@ -12,8 +12,8 @@ from io import StringIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from pluto_fleet.testing.invariants import Items, items_of
 from plutoc.cli import main
-from plutoc_runtime.testing.invariants import Items, items_of
 from plutoc_runtime.trace import Event
 
 if TYPE_CHECKING:
@@ -56,7 +56,7 @@ class Example:
     def fly(self, seed: int, mishaps: Mapping[str, float] | None = None) -> Flown:
         """Simulate the missions to their end."""
         session = self._module("session")
-        faults = self._module("simulation.faults").Faults(**(mishaps or {}))
+        faults = self._module("faults").Faults(**(mishaps or {}))
         trace: list[Mapping[str, object]] = []
         outcome = session.simulate(
             import_module(f"{self.name}.flow").APP,
@@ -101,7 +101,7 @@ def built(name: str, into: Path) -> Example:
         fleet = files.load_fleet(EXAMPLES / name / "fleet.toml", app)
         files = import_module(f"{name}._runtime.files.missions")
         missions = files.load_missions(EXAMPLES / name / "missions.toml", app, fleet.airspace)
-        for module in ("session", "simulation.faults"):
+        for module in ("session", "faults"):
             import_module(f"{name}._runtime.{module}")
     finally:
         sys.path.remove(str(package / "src"))

@@ -8,7 +8,7 @@ from math import dist, radians
 
 from wrenlib import Radio, State
 
-from plutoc_runtime.drones import DroneEvent, DroneSetup, DroneTelemetry, Reports
+from pluto_fleet.drones import DroneEvent, DroneSetup, DroneTelemetry, Reports
 from plutoc_runtime.model import Point
 
 

@@ -8,6 +8,7 @@ import sys
 from contextlib import contextmanager
 from errno import ENAMETOOLONG
 
+from pluto_fleet.cli import output
 from plutoc.cli.endings import (
     CLEAN,
     CLOSED_PIPE,
@@ -19,7 +20,6 @@ from plutoc.cli.endings import (
     Unusable,
 )
 from plutoc.terminated import Terminated
-from plutoc_runtime.cli import output
 
 TYPE_CHECKING = False  # `typing` itself is slow to import, and `--version` does without
 if TYPE_CHECKING:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from pluto_fleet.cli import output
 from plutoc.block import Block
 from plutoc.cli.endings import CLEAN, ERRORS, Unusable
 from plutoc.cli.options import Options
 from plutoc.graph.names import near
 from plutoc.registry import STD, RegistryError, blocks_of, installed_packages
 from plutoc.report.block_page import first_line, page
-from plutoc_runtime.cli import output
 
 
 def blocks(options: Options) -> int:

@@ -12,6 +12,7 @@ from hashlib import sha256
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from pluto_fleet.cli import output
 from plutoc.cache import cache_folder
 from plutoc.check.model import Checked
 from plutoc.cli.endings import Unusable
@@ -26,7 +27,6 @@ from plutoc.emit.package import Package
 from plutoc.emit.write import CannotWrite, compare, write
 from plutoc.source import Source
 from plutoc.terminated import Terminated
-from plutoc_runtime.cli import output
 from plutoc_runtime.words import printable
 
 FLEET = "fleet.toml"

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from pathlib import Path
 
+from pluto_fleet.cli import output
 from plutoc.cli.endings import CLEAN, ERRORS, USAGE, Unusable
 from plutoc.cli.files import (
     STANDARD_INPUT,
@@ -19,7 +20,6 @@ from plutoc.compile import analyse, check_hooks
 from plutoc.diagnostic import Diagnostic, Rejected, Severity
 from plutoc.frozen import frozen
 from plutoc.source import Source
-from plutoc_runtime.cli import output
 
 
 def check(options: Options) -> int:

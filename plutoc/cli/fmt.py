@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
+from pluto_fleet.cli import output
 from plutoc.cli.endings import CLEAN, ERRORS, USAGE, Unusable
 from plutoc.cli.files import STANDARD_INPUT, read_app, read_standard_input, shown
 from plutoc.cli.options import Options
@@ -16,7 +17,6 @@ from plutoc.emit.write import Change, Changes
 from plutoc.format.run import Outgrown, format_source
 from plutoc.source import Source
 from plutoc.syntax.parse import LARGEST
-from plutoc_runtime.cli import output
 
 
 def fmt(options: Options) -> int:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pluto_fleet.cli import output
 from plutoc.check.model import Checked
 from plutoc.cli.endings import CLEAN, Unusable
 from plutoc.cli.files import read_app
@@ -9,7 +10,6 @@ from plutoc.cli.options import Options
 from plutoc.cli.say import say
 from plutoc.compile import analyse
 from plutoc.report.graph import NoGraphviz, dot, dot_to_svg, json, mermaid
-from plutoc_runtime.cli import output
 
 
 def graph(options: Options) -> int:

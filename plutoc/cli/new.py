@@ -6,6 +6,7 @@ import os
 from importlib.resources import files
 from pathlib import Path
 
+from pluto_fleet.cli import output
 from plutoc.cli.endings import CLEAN, Unusable
 from plutoc.cli.options import Options
 from plutoc.diagnostic import Diagnostic
@@ -13,7 +14,6 @@ from plutoc.emit.write import CannotWrite, create
 from plutoc.graph.scope import check_app_name
 from plutoc.source import Source, Span
 from plutoc.syntax.tree import Name
-from plutoc_runtime.cli import output
 from plutoc_runtime.words import printable
 
 _IN_STARTER = "my_app"

@@ -323,7 +323,7 @@ def _as_simulate_reads(kind: str) -> Callable[[str], str]:
     """Refuse what the app's own `simulate` would refuse; hand on the rest as it was typed."""
 
     def read(text: str) -> str:
-        from plutoc_runtime.cli import options
+        from pluto_fleet.cli import options
 
         getattr(options, kind)(text)
         return text

@@ -13,7 +13,7 @@ from .interruption import Fate, doubt, fate, hear_end
 from .kernel import mission_key
 
 if TYPE_CHECKING:
-    from .gateway.commanding import Commanding
+    from .navigation import Commanding
     from .state import State
 
 

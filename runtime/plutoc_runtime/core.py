@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Protocol
 
 from .hooks import LONGEST_LOG
 from .words import bounded
@@ -13,14 +13,30 @@ if TYPE_CHECKING:
     from .allocation import Queue
     from .app import App
     from .fleet import Fleet
-    from .gateway.commanding import Commanding
-    from .journal.recorder import Recorder
     from .kernel import Kernel
-    from .navigation import Navigation
+    from .model import Mission
+    from .navigation import Commanding, Navigation
     from .results import ResultStore
     from .trace import Trace
     from .transitions import Transitions
     from .watching import Deadlines
+
+
+class Recorder(Protocol):
+    """Writes down what happens, for a later life of the app."""
+
+    missions: dict[str, Mission[Any]]
+    """The missions by name, as soon as they exist."""
+    trace: Trace | None
+    results: ResultStore | None
+
+    async def on_record(self) -> None:
+        """Wait until all that has happened up to now is durable."""
+        ...
+
+    def look(self, mission: Mission[Any]) -> None:
+        """A hook has had this mission in its hands: if it changed its trips, that is an event."""
+        ...
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -11,8 +11,8 @@ from .context import Context
 from .errors import ActionFailed, Failure, FlightFailed, HookFault
 from .handle import LiveDrone, can_wait
 from .hooks import LONGEST_REASON, Held, Hook, call_action, changed, look
-from .journal.values import keepable
 from .kernel import Task, mission_key
+from .plain import keepable
 from .signals import Signal
 from .status import FAILED, Status, TripStatus
 from .words import bounded, text_of

@@ -13,10 +13,9 @@ from typing import TYPE_CHECKING, Any
 
 from .actions import PICK, RELEASE
 from .flight import Flight, keep_carrier, record_done
-from .gateway.given import outcome
 from .hooks import trace_of
 from .kernel import WHATEVER, Cancelled
-from .standing import Entry, JobState
+from .standing import Entry, JobState, outcome
 from .status import STANDBY, UNEXECUTED, Status
 
 if TYPE_CHECKING:
@@ -24,7 +23,7 @@ if TYPE_CHECKING:
     from .app import App
     from .core import Core
     from .engine import Engine
-    from .gateway.commanding import Commanding
+    from .navigation import Commanding
     from .state import State
 
 

@@ -7,9 +7,9 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from .calling_off import abort
+from .changes import change_data
 from .errors import HookFault
 from .hooks import hook_name, look
-from .journal.values import change_data
 from .soundness import unsound, unsound_mission
 from .status import Status, TripStatus
 from .words import bounded, class_of, shown

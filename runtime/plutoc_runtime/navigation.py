@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from .actions import Plain
     from .airspace import Airspace
     from .model import Item, Point, Telemetry
-    from .standing import Standing
+    from .standing import Down, RollCall, Standing
 
 
 class Job(Protocol):
@@ -125,6 +125,26 @@ class Navigation(Protocol):
 
     async def roll_call(self, drone: str) -> Standing:
         """Ask a drone where it is and what it has done; say so if it does not answer."""
+        ...
+
+
+class Commanding(Navigation, Protocol):
+    """A navigation that remembers every job, for as long as it listens to this brain."""
+
+    async def call(self) -> RollCall:
+        """Ask all drones and the ledger how everything stands; from now on the brain is heard."""
+        ...
+
+    def attach(self, id: str, report: Callable[[object], None]) -> None:
+        """Hear of a job that was given before: when it ends, or now if it has."""
+        ...
+
+    def forget(self, id: str) -> None:
+        """Nobody will ask for a job any more: its id may be given again."""
+        ...
+
+    async def bring_down(self, how: Down) -> None:
+        """Break off everything and bring all drones down; return when all that can are down."""
         ...
 
 

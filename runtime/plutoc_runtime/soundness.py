@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any, cast
 
 from .fields import number_of
 from .hooks import said
-from .journal.values import keepable
 from .kernel import WHATEVER
 from .model import Item
+from .plain import keepable
 from .raised import by_a_person
 from .status import Status, TripStatus
 from .words import class_of, shown

@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import Enum
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
+
+from .errors import Failure, FlightFailed
 
 if TYPE_CHECKING:
     from .model import Point
@@ -60,6 +62,37 @@ class Entry:
     failure: str = ""
     """The name of the `Failure`, once it has FAILED."""
     reason: str = ""
+
+
+class Over(Protocol):
+    """A job that is over, as whoever keeps it has it."""
+
+    @property
+    def state(self) -> JobState:
+        """How it ended."""
+        ...
+
+    @property
+    def value(self) -> object:
+        """What its action gave."""
+        ...
+
+    @property
+    def failure(self) -> str:
+        """The name of the `Failure`."""
+        ...
+
+    @property
+    def reason(self) -> str:
+        """Why it failed."""
+        ...
+
+
+def outcome(job: Over) -> object:
+    """Return what was reported of a job that is over."""
+    if job.state is JobState.FAILED:
+        return FlightFailed(Failure[job.failure], job.reason)
+    return job.value
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

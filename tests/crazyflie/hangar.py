@@ -11,11 +11,11 @@ from pathlib import Path
 
 import pytest
 
-from plutoc_runtime.crazyflie.navigation import Crazyflie
-from plutoc_runtime.crtp.drone import Build, SimulatedCrazyflie
-from plutoc_runtime.crtp.record import Deed, InMemory
-from plutoc_runtime.crtp.server import Server
-from plutoc_runtime.drones import DroneEvent, DroneSetup, LinkLost
+from pluto_fleet.crazyflie.navigation import Crazyflie
+from pluto_fleet.crtp.drone import Build, SimulatedCrazyflie
+from pluto_fleet.crtp.record import Deed, InMemory
+from pluto_fleet.crtp.server import Server
+from pluto_fleet.drones import DroneEvent, DroneSetup, LinkLost
 from plutoc_runtime.model import Point
 from tests.kill.lives import eventually
 

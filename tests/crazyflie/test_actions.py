@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from plutoc_runtime.crtp.camera import camera, picture, port_of
-from plutoc_runtime.drones import ActionNotDone, Rejected
+from pluto_fleet.crtp.camera import camera, picture, port_of
+from pluto_fleet.drones import ActionNotDone, Rejected
 from plutoc_runtime.model import Item, Photo
 from tests.crazyflie.hangar import FAST, Flight, as_tests, hangar
 

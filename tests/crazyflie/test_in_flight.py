@@ -11,8 +11,8 @@ from pathlib import Path
 
 import pytest
 
-from plutoc_runtime.crtp.drone import Build
-from plutoc_runtime.drones import (
+from pluto_fleet.crtp.drone import Build
+from pluto_fleet.drones import (
     BATTERY_LOW,
     CRASHED,
     LOCKED,

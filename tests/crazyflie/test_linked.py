@@ -12,14 +12,9 @@ from pathlib import Path
 
 import pytest
 
-from plutoc_runtime.crazyflie.navigation import Crazyflie
-from plutoc_runtime.crtp.drone import Build
-from plutoc_runtime.drones import (
-    LINK_LOST,
-    DroneSetup,
-    LinkLost,
-    NotReady,
-)
+from pluto_fleet.crazyflie.navigation import Crazyflie
+from pluto_fleet.crtp.drone import Build
+from pluto_fleet.drones import LINK_LOST, DroneSetup, LinkLost, NotReady
 from tests.crazyflie.hangar import FAST, Flight, as_tests, hangar
 
 pytest.importorskip("cflib")

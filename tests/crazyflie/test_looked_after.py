@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from plutoc_runtime.crtp.drone import Build
-from plutoc_runtime.drones import BATTERY_LOW, LOCKED, Locked, NotReady
+from pluto_fleet.crtp.drone import Build
+from pluto_fleet.drones import BATTERY_LOW, LOCKED, Locked, NotReady
 from tests.crazyflie.hangar import FAST, Flight, as_tests, hangar
 
 pytest.importorskip("cflib")

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from plutoc_runtime.drones import NotReady
+from pluto_fleet.drones import NotReady
 from tests.crazyflie.hangar import Flight, as_tests, hangar
 
 pytest.importorskip("cflib")

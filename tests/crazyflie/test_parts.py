@@ -14,19 +14,19 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from plutoc_runtime.crazyflie import borrowed, courses, words
-from plutoc_runtime.crazyflie.alarms import Alarms
-from plutoc_runtime.crazyflie.battery import Battery, level_at_rest
-from plutoc_runtime.crazyflie.certainty import Certainty
-from plutoc_runtime.crazyflie.options import LOST_BEYOND, SURE_WITHIN, options_of
-from plutoc_runtime.crazyflie.pace import Pace
-from plutoc_runtime.crazyflie.state import State, state_of
-from plutoc_runtime.crazyflie.tables import kept_in
-from plutoc_runtime.crazyflie.worker import Worker
-from plutoc_runtime.crtp.body import Body
-from plutoc_runtime.crtp.profile import State as Start
-from plutoc_runtime.crtp.profile import profile
-from plutoc_runtime.drones import BATTERY_LOW, CRASHED, LOCKED, LinkLost
+from pluto_fleet.crazyflie import borrowed, courses, words
+from pluto_fleet.crazyflie.alarms import Alarms
+from pluto_fleet.crazyflie.battery import Battery, level_at_rest
+from pluto_fleet.crazyflie.certainty import Certainty
+from pluto_fleet.crazyflie.options import LOST_BEYOND, SURE_WITHIN, options_of
+from pluto_fleet.crazyflie.pace import Pace
+from pluto_fleet.crazyflie.state import State, state_of
+from pluto_fleet.crazyflie.tables import kept_in
+from pluto_fleet.crazyflie.worker import Worker
+from pluto_fleet.crtp.body import Body
+from pluto_fleet.crtp.profile import State as Start
+from pluto_fleet.crtp.profile import profile
+from pluto_fleet.drones import BATTERY_LOW, CRASHED, LOCKED, LinkLost
 from plutoc_runtime.errors import BadInput
 from plutoc_runtime.model import Point
 
@@ -412,7 +412,7 @@ def test_without_cflib_it_is_said_what_to_install(monkeypatch: pytest.MonkeyPatc
 
 def test_importing_the_navigation_imports_no_cflib() -> None:
     code = (
-        "import sys; import plutoc_runtime.crazyflie.navigation;"
+        "import sys; import pluto_fleet.crazyflie.navigation;"
         "print([name for name in sys.modules if name.partition('.')[0] in ('cflib', 'numpy')])"
     )
     runtime = str(Path(borrowed.__file__).parents[2])

@@ -8,10 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from plutoc_runtime.crazyflie.navigation import Crazyflie
-from plutoc_runtime.crtp.drone import Build
-from plutoc_runtime.crtp.record import InMemory
-from plutoc_runtime.drones import LINK_LOST, DroneSetup, LinkLost
+from pluto_fleet.crazyflie.navigation import Crazyflie
+from pluto_fleet.crtp.drone import Build
+from pluto_fleet.crtp.record import InMemory
+from pluto_fleet.drones import LINK_LOST, DroneSetup, LinkLost
 from tests.crazyflie.hangar import PATIENCE
 from tests.crtp.radio import Ether, plugged_in
 from tests.kill.lives import eventually

@@ -10,10 +10,10 @@ from pathlib import Path
 
 import pytest
 
-from plutoc_runtime.crtp.drone import Build
-from plutoc_runtime.crtp.ports import Port, unpacked
-from plutoc_runtime.crtp.supervisor import Supervisor
-from plutoc_runtime.drones import NotReady, Rejected
+from pluto_fleet.crtp.drone import Build
+from pluto_fleet.crtp.ports import Port, unpacked
+from pluto_fleet.crtp.supervisor import Supervisor
+from pluto_fleet.drones import NotReady, Rejected
 from tests.crazyflie.hangar import FAST, Flight, Hangar, as_tests, hangar
 
 pytest.importorskip("cflib")

@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from plutoc_runtime.crtp.drone import Build
-from plutoc_runtime.drones import POSITION_LOST, NotReady, PositionLost
+from pluto_fleet.crtp.drone import Build
+from pluto_fleet.drones import POSITION_LOST, NotReady, PositionLost
 from tests.crazyflie.hangar import FAST, Flight, as_tests, hangar
 
 pytest.importorskip("cflib")

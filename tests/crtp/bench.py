@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import struct
 
-from plutoc_runtime.crtp.drone import Build, SimulatedCrazyflie
-from plutoc_runtime.crtp.ports import Packet, Port, packed, unpacked
-from plutoc_runtime.crtp.record import Deed, InMemory
+from pluto_fleet.crtp.drone import Build, SimulatedCrazyflie
+from pluto_fleet.crtp.ports import Packet, Port, packed, unpacked
+from pluto_fleet.crtp.record import Deed, InMemory
 
 CF1 = Build(id="cf1", home=(1.0, 2.0, 0.0))
 _TICK = 0.01

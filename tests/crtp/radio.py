@@ -16,10 +16,10 @@ from threading import Event, Lock, Thread
 
 import pytest
 
-from plutoc_runtime.crtp.air import Air
-from plutoc_runtime.crtp.drone import Build, SimulatedCrazyflie
-from plutoc_runtime.crtp.faults import Value, let
-from plutoc_runtime.crtp.record import Record
+from pluto_fleet.crtp.air import Air
+from pluto_fleet.crtp.drone import Build, SimulatedCrazyflie
+from pluto_fleet.crtp.faults import Value, let
+from pluto_fleet.crtp.record import Record
 
 _PACKET, _NO_ANSWER = 0.0008, 0.002
 """Seconds that a packet takes: with an answer, and until the radio gives up."""
@@ -105,7 +105,7 @@ class Ether:
         return {id: one.drone for id, one in self._by_id.items()}
 
     def let(self, id: str, name: str, value: Value = True) -> None:
-        """Let something go wrong with one of them, as in `plutoc_runtime.crtp.faults`."""
+        """Let something go wrong with one of them, as in `pluto_fleet.crtp.faults`."""
         one = self._by_id[id]
         with one.lock:
             let(one.drone, one.air, name, value)

@@ -11,7 +11,7 @@ _RUNTIME = Path(plutoc_runtime.__file__).parents[1]
 _PROGRAM = f"""
 import sys
 sys.path.insert(0, {str(_RUNTIME)!r})
-from plutoc_runtime.crtp.process import main
+from pluto_fleet.crtp.process import main
 sys.exit(main(sys.argv[1:]))
 """
 

@@ -10,10 +10,10 @@ from statistics import median
 
 import pytest
 
-from plutoc_runtime.crtp.air import Air
-from plutoc_runtime.crtp.drone import Build
-from plutoc_runtime.crtp.faults import let
-from plutoc_runtime.crtp.ports import Port
+from pluto_fleet.crtp.air import Air
+from pluto_fleet.crtp.drone import Build
+from pluto_fleet.crtp.faults import let
+from pluto_fleet.crtp.ports import Port
 from tests.crtp.bench import CF1, Bench
 
 PEAK = 2.19

@@ -7,9 +7,9 @@ import struct
 from hypothesis import given
 from hypothesis import strategies as st
 
-from plutoc_runtime.crtp.logs import MOST_BLOCKS, Logs
-from plutoc_runtime.crtp.ports import Errno, Port, packed
-from plutoc_runtime.crtp.variables import parameters, temperature, variables
+from pluto_fleet.crtp.logs import MOST_BLOCKS, Logs
+from pluto_fleet.crtp.ports import Errno, Port, packed
+from pluto_fleet.crtp.variables import parameters, temperature, variables
 from tests.crtp.bench import Bench
 
 CREATE, APPEND, START, STOP, DELETE, RESET = 6, 7, 3, 4, 2, 5

@@ -6,10 +6,10 @@ from dataclasses import replace
 
 import pytest
 
-from plutoc_runtime.crtp.air import Air
-from plutoc_runtime.crtp.faults import let
-from plutoc_runtime.crtp.ports import NULL, Port
-from plutoc_runtime.crtp.server import collide
+from pluto_fleet.crtp.air import Air
+from pluto_fleet.crtp.faults import let
+from pluto_fleet.crtp.ports import NULL, Port
+from pluto_fleet.crtp.server import collide
 from tests.crtp.bench import CF1, Bench
 
 ARMED, CAN_FLY, FLYING, TUMBLED, LOCKED, CRASHED, ACTIVE, DONE = 1, 3, 4, 5, 6, 7, 8, 9

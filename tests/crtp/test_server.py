@@ -10,13 +10,13 @@ from pathlib import Path
 
 import pytest
 
-from plutoc_runtime.crtp import process
-from plutoc_runtime.crtp.camera import HEIGHT, WIDTH, frames
-from plutoc_runtime.crtp.drone import Build
-from plutoc_runtime.crtp.ports import NULL
-from plutoc_runtime.crtp.profile import State, profile
-from plutoc_runtime.crtp.record import InMemory
-from plutoc_runtime.crtp.server import HOST, Server
+from pluto_fleet.crtp import process
+from pluto_fleet.crtp.camera import HEIGHT, WIDTH, frames
+from pluto_fleet.crtp.drone import Build
+from pluto_fleet.crtp.ports import NULL
+from pluto_fleet.crtp.profile import State, profile
+from pluto_fleet.crtp.record import InMemory
+from pluto_fleet.crtp.server import HOST, Server
 from plutoc_runtime.errors import BadInput
 from tests.crtp.starting import COMMAND
 

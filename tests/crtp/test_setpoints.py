@@ -7,9 +7,9 @@ from random import Random
 
 import pytest
 
-from plutoc_runtime.crtp.air import Air
-from plutoc_runtime.crtp.faults import let
-from plutoc_runtime.crtp.ports import Port
+from pluto_fleet.crtp.air import Air
+from pluto_fleet.crtp.faults import let
+from pluto_fleet.crtp.ports import Port
 from tests.crtp.bench import Bench
 
 LOCKED, ACTIVE, PLANNER_OFF = 6, 8, 10

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from plutoc_runtime.crazyflie.options import options_of
-from plutoc_runtime.crtp.stand_in import fitted
+from pluto_fleet.crazyflie.options import options_of
+from pluto_fleet.crtp.stand_in import fitted
 
 CAMERA = "127.0.0.1:5000"
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from plutoc_runtime.crtp.process import is_flown
-from plutoc_runtime.gateway.process import taken
+from pluto_fleet.crtp.process import is_flown
+from pluto_fleet.gateway.process import taken
 
 
 def test_they_stay_while_a_gateway_runs_that_has_nothing_to_tell_them(tmp_path: Path) -> None:

@@ -12,9 +12,9 @@ from typing import Any
 
 import pytest
 
-from plutoc_runtime.crtp.drone import Build
-from plutoc_runtime.crtp.record import InMemory
-from plutoc_runtime.crtp.server import Server
+from pluto_fleet.crtp.drone import Build
+from pluto_fleet.crtp.record import InMemory
+from pluto_fleet.crtp.server import Server
 from tests.crtp.radio import Ether, plugged_in
 
 pytest.importorskip("cflib")

@@ -6,15 +6,8 @@ import asyncio
 from collections.abc import AsyncIterator, Mapping, Sequence
 from math import dist, inf
 
+from pluto_fleet.drones import CRASHED, Crashed, DroneEvent, DroneTelemetry, LinkLost, Rejected
 from plutoc_runtime.actions import Plain
-from plutoc_runtime.drones import (
-    CRASHED,
-    Crashed,
-    DroneEvent,
-    DroneTelemetry,
-    LinkLost,
-    Rejected,
-)
 from plutoc_runtime.model import Item, Point
 from tests.drones.jumping import the_loop
 

@@ -11,14 +11,14 @@ from typing import Any, TypeVar
 
 import pytest
 
+from pluto_fleet.drones.feeding import Feeding
+from pluto_fleet.drones.real_fleet import Wanted
+from pluto_fleet.drones.team import Team, TeamDrone
+from pluto_fleet.realtime import RealTime
 from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.drones.feeding import Feeding
-from plutoc_runtime.drones.real_fleet import Wanted
-from plutoc_runtime.drones.team import Team, TeamDrone
 from plutoc_runtime.errors import FlightFailed
 from plutoc_runtime.kernel import FLEET, Task
 from plutoc_runtime.model import Category
-from plutoc_runtime.realtime import RealTime
 from tests.drones.fakes import FakeDrone
 from tests.drones.jumping import the_loop
 

@@ -9,8 +9,8 @@ from random import Random
 
 import pytest
 
-from plutoc_runtime.drones import BATTERY_LOW, LINK_LOST, LOCKED, NavigationError
-from plutoc_runtime.gateway.gateway import Gateway
+from pluto_fleet.drones import BATTERY_LOW, LINK_LOST, LOCKED, NavigationError
+from pluto_fleet.gateway.gateway import Gateway
 from plutoc_runtime.standing import Down
 from tests.drones.fakes import FakeDrone
 from tests.drones.jumping import run, the_loop

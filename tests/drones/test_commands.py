@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from plutoc_runtime.drones import Rejected
-from plutoc_runtime.drones.real_fleet import Wanted
+from pluto_fleet.drones import Rejected
+from pluto_fleet.drones.real_fleet import Wanted
 from plutoc_runtime.errors import Failure, FlightFailed
 from plutoc_runtime.model import Category, Item
 from tests.drones.fakes import FakeDrone

@@ -8,14 +8,14 @@ from pathlib import Path
 
 import pytest
 
+from pluto_fleet.drones.feeding import Feeding
+from pluto_fleet.drones.making import make_team
+from pluto_fleet.drones.real_fleet import RealDrone, RealFleet
+from pluto_fleet.drones.team import TeamDrone
+from pluto_fleet.realtime import RealTime
 from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.drones.feeding import Feeding
-from plutoc_runtime.drones.making import make_team
-from plutoc_runtime.drones.real_fleet import RealDrone, RealFleet
-from plutoc_runtime.drones.team import TeamDrone
 from plutoc_runtime.errors import BadInput, Failure
 from plutoc_runtime.model import Point
-from plutoc_runtime.realtime import RealTime
 from tests.drones.fakes import FakeDrone
 from tests.drones.jumping import run, the_loop
 from tests.drones.teams import SCOUT, flying

@@ -9,7 +9,7 @@ from typing import cast
 
 import pytest
 
-from plutoc_runtime.drones import BATTERY_LOW, DroneEvent, NavigationError
+from pluto_fleet.drones import BATTERY_LOW, DroneEvent, NavigationError
 from plutoc_runtime.errors import Failure, FlightFailed
 from tests.drones.fakes import FakeDrone
 from tests.drones.jumping import run, the_loop

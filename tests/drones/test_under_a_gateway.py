@@ -10,14 +10,14 @@ from pathlib import Path
 
 import pytest
 
-from plutoc_runtime.drones import BATTERY_LOW
-from plutoc_runtime.drones.real_fleet import RealFleet
+from pluto_fleet.drones import BATTERY_LOW
+from pluto_fleet.drones.real_fleet import RealFleet
+from pluto_fleet.gateway.ending import LINGERS, Ending
+from pluto_fleet.gateway.file_ledger import FileLedger
+from pluto_fleet.gateway.gateway import Gateway
+from pluto_fleet.gateway.server import Server
+from pluto_fleet.gateway.wire import line
 from plutoc_runtime.errors import Failure, FlightFailed
-from plutoc_runtime.gateway.ending import LINGERS, Ending
-from plutoc_runtime.gateway.file_ledger import FileLedger
-from plutoc_runtime.gateway.gateway import Gateway
-from plutoc_runtime.gateway.server import Server
-from plutoc_runtime.gateway.wire import line
 from plutoc_runtime.model import Point
 from plutoc_runtime.signals import Signal
 from tests.drones.fakes import FakeDrone

@@ -6,8 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.drones import (
+from pluto_fleet.drones import (
     BATTERY_LOW,
     CRASHED,
     LINK_LOST,
@@ -16,7 +15,8 @@ from plutoc_runtime.drones import (
     LinkLost,
     Rejected,
 )
-from plutoc_runtime.drones.stray import strayed
+from pluto_fleet.drones.stray import strayed
+from plutoc_runtime.airspace import Airspace
 from plutoc_runtime.errors import Failure
 from tests.drones.fakes import FakeDrone
 from tests.drones.jumping import run, the_loop

@@ -50,14 +50,14 @@ def carried(function: Callable[..., Any], package: str = STD) -> Carried:
 
 def test_modules_of_the_runtime_are_copied_byte_for_byte() -> None:
     """What is embedded is what is installed."""
-    for path, text in embed([carried(wait_for_time)], ["plutoc_runtime.cli"]).items():
+    for path, text in embed([carried(wait_for_time)], ["pluto_fleet.cli"]).items():
         if not path.startswith("_runtime/blocks/"):
             assert (RUNTIME / path.removeprefix("_runtime/")).read_bytes() == text.encode()
 
 
 def test_only_what_is_needed_is_carried() -> None:
     """A block that nobody uses, and a policy that nobody chose, stay behind."""
-    files = embed([carried(wait_for_time), carried(nearest)], ["plutoc_runtime.cli"])
+    files = embed([carried(wait_for_time), carried(nearest)], ["pluto_fleet.cli"])
     blocks = [path for path in files if path.startswith("_runtime/blocks/")]
     policies = [path for path in files if path.startswith("_runtime/policies/")]
     assert blocks == ["_runtime/blocks/__init__.py", "_runtime/blocks/clock.py"]
@@ -67,12 +67,12 @@ def test_only_what_is_needed_is_carried() -> None:
 
 def test_imports_inside_functions_count() -> None:
     """The command line loads its commands when they are asked for: they are carried all the same."""
-    assert "_runtime/cli/simulate.py" in embed([], ["plutoc_runtime.cli"])
+    assert "_runtime/cli/simulate.py" in embed([], ["pluto_fleet.cli"])
 
 
 def test_packages_are_whole() -> None:
     """Every folder has its `__init__.py`, and paths are in order."""
-    files = embed([carried(pass_first)], ["plutoc_runtime.cli"])
+    files = embed([carried(pass_first)], ["pluto_fleet.cli"])
     folders = {path.rpartition("/")[0] for path in files if path.endswith(".py")}
     assert all(f"{folder}/__init__.py" in files for folder in folders)
     assert list(files) == sorted(files)

@@ -9,15 +9,16 @@ from heapq import heappop, heappush
 from selectors import DefaultSelector, SelectorKey
 from typing import TYPE_CHECKING, Any, TypeVarTuple
 
+from pluto_fleet.realtime import RealTime
+from pluto_fleet.simulate import Simulation
 from plutoc_runtime.errors import BadInput
-from plutoc_runtime.realtime import RealTime
-from plutoc_runtime.session import Outcome, Simulation
+from plutoc_runtime.session import Outcome
 
 if TYPE_CHECKING:
+    from pluto_fleet.files.fleet import FleetFile
     from plutoc_runtime.app import App
-    from plutoc_runtime.files.fleet import FleetFile
+    from plutoc_runtime.faults import Faults
     from plutoc_runtime.model import Mission
-    from plutoc_runtime.simulation.faults import Faults
     from plutoc_runtime.trace import Event
 
 Arguments = TypeVarTuple("Arguments")

@@ -7,9 +7,10 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, Protocol
 
+from pluto_fleet.simulate import simulate
 from plutoc_runtime.errors import BadInput
 from plutoc_runtime.model import Drone, Mission
-from plutoc_runtime.session import Outcome, simulate
+from plutoc_runtime.session import Outcome
 from plutoc_runtime.trace import Event
 from tests.equivalence.behaviour import Behaviour
 from tests.equivalence.flows import Package
@@ -17,10 +18,10 @@ from tests.equivalence.patience import Spins
 from tests.equivalence.worlds import World
 
 if TYPE_CHECKING:
+    from pluto_fleet.files.fleet import FleetFile
     from plutoc_runtime.app import App, Flow
-    from plutoc_runtime.files.fleet import FleetFile
+    from plutoc_runtime.faults import Faults
     from plutoc_runtime.run import Run
-    from plutoc_runtime.simulation.faults import Faults
     from plutoc_runtime.status import Status
 
 ANY: tuple[type[Exception], ...] = (Exception,)

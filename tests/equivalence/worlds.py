@@ -11,15 +11,15 @@ from dataclasses import dataclass, field
 from random import Random
 from typing import Any
 
+from pluto_fleet.files.fleet import DroneEntry, FleetFile
 from plutoc.emit.fields import fields_of
 from plutoc.graph.model import Graph
 from plutoc_runtime.airspace import Airspace
 from plutoc_runtime.app import App
+from plutoc_runtime.faults import Faults
 from plutoc_runtime.fields import Entity, Field, FieldType
-from plutoc_runtime.files.fleet import DroneEntry, FleetFile
 from plutoc_runtime.model import AfterTrip, Item, Mission, Point, Trip
 from plutoc_runtime.quantities import Type
-from plutoc_runtime.simulation.faults import Faults
 from plutoc_runtime.status import Status
 
 Plain = bool | int | float | str | None

@@ -120,7 +120,7 @@ def test_a_trip_is_put_back_as_the_reference_says(
             [app.mission(name="m", trips=[app.trip(name="A", action="measure", target=(2, 2, 1))])],
             import_module("trips_again._runtime.files.fleet").default_fleet(app),
             seed=0,
-            faults=import_module("trips_again._runtime.simulation.faults").Faults(action=1.0),
+            faults=import_module("trips_again._runtime.faults").Faults(action=1.0),
             until=None,
             on_event=None,
         )

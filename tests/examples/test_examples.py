@@ -13,8 +13,8 @@ from xml.etree import ElementTree
 
 import pytest
 
+from pluto_fleet.testing.invariants import violations
 from plutoc.cli import main
-from plutoc_runtime.testing.invariants import violations
 from tests.flying import EXAMPLES, MISHAPS, NAMES, Example, compiled
 
 SEEDS = range(10)

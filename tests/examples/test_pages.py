@@ -10,8 +10,8 @@ from types import ModuleType
 
 import pytest
 
+from pluto_fleet.cli.options import parse
 from plutoc.cli import main
-from plutoc_runtime.cli.options import parse
 from tests.runtime.files.an_app import APP
 
 ROOT = Path(__file__).parents[2]

@@ -19,7 +19,7 @@ from itertools import repeat
 from pathlib import Path
 from tempfile import mkdtemp
 
-from plutoc_runtime.crtp import process
+from pluto_fleet.crtp import process
 from tests.apart import apart
 from tests.crtp.starting import COMMAND
 from tests.flights_crazyflie.flight import Flight

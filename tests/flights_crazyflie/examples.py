@@ -21,8 +21,8 @@ from pathlib import Path
 from tempfile import mkdtemp
 from typing import Any
 
-from plutoc_runtime.crtp.record import Point
-from plutoc_runtime.journal.values import point_of
+from pluto_fleet.crtp.record import Point
+from pluto_fleet.journal.values import point_of
 from tests.apart import apart
 from tests.flights_crazyflie.campaign import gateway_left
 from tests.flights_crazyflie.flight import Event, Flight

@@ -13,11 +13,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from plutoc_runtime.crtp import process
-from plutoc_runtime.crtp.record import Deed, Place, deeds_in, trace_in
+from pluto_fleet.crtp import process
+from pluto_fleet.crtp.record import Deed, Place, deeds_in, trace_in
+from pluto_fleet.journal.place import gateway_folder
+from pluto_fleet.journal.reader import Reader
 from plutoc_runtime.errors import BadInput
-from plutoc_runtime.journal.place import gateway_folder
-from plutoc_runtime.journal.reader import Reader
 from tests.kill.lives import eventually
 from tests.kill.trial import end_gateway, gateway_of
 

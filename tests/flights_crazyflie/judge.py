@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import combinations
 from math import dist, inf
 
-from plutoc_runtime.crtp.record import Deed, Place, Point
+from pluto_fleet.crtp.record import Deed, Place, Point
 from tests.flights_crazyflie.flight import Event
 
 NEAR = 0.1

@@ -20,11 +20,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from plutoc_runtime.crazyflie.navigation import Crazyflie
-from plutoc_runtime.crtp.drone import Build
-from plutoc_runtime.crtp.record import InMemory
-from plutoc_runtime.crtp.server import Server
-from plutoc_runtime.drones import DroneSetup, NavigationError
+from pluto_fleet.crazyflie.navigation import Crazyflie
+from pluto_fleet.crtp.drone import Build
+from pluto_fleet.crtp.record import InMemory
+from pluto_fleet.crtp.server import Server
+from pluto_fleet.drones import DroneSetup, NavigationError
 from tests.flights_crazyflie.judge import dropped
 
 FIRST, LAST, STEP, DRONES = 0.0, 6.0, 0.02, 24

@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from plutoc_runtime.crtp.battery import LOW
+from pluto_fleet.crtp.battery import LOW
 from tests.flights_crazyflie.flight import Flight
 from tests.kill.lives import eventually
 from tests.kill.trial import gateway_of

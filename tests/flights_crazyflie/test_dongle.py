@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from plutoc_runtime.crtp.drone import Build
-from plutoc_runtime.crtp.record import InMemory
+from pluto_fleet.crtp.drone import Build
+from pluto_fleet.crtp.record import InMemory
 from plutoc_runtime.errors import Failure, FlightFailed
 from plutoc_runtime.model import Point
 from tests.crtp.radio import Ether, plugged_in

@@ -11,10 +11,10 @@ from time import monotonic
 
 import pytest
 
-from plutoc_runtime.crtp.drone import Build
-from plutoc_runtime.crtp.faults import Value
-from plutoc_runtime.crtp.record import InMemory
-from plutoc_runtime.crtp.server import Server
+from pluto_fleet.crtp.drone import Build
+from pluto_fleet.crtp.faults import Value
+from pluto_fleet.crtp.record import InMemory
+from pluto_fleet.crtp.server import Server
 from plutoc_runtime.errors import Failure
 from plutoc_runtime.model import Point
 from tests.flights_crazyflie.judge import dropped

@@ -18,12 +18,12 @@ from math import dist
 from pathlib import Path
 from tempfile import mkdtemp
 
-from plutoc_runtime.asking import ask, note_of
-from plutoc_runtime.crazyflie.courses import SHORTEST, seconds_for
-from plutoc_runtime.crazyflie.pace import AS_IT_COMES
-from plutoc_runtime.crtp.record import Deed, Point
-from plutoc_runtime.drones.member import CLIMB_LIMIT
-from plutoc_runtime.journal.values import point_of
+from pluto_fleet.asking import ask, note_of
+from pluto_fleet.crazyflie.courses import SHORTEST, seconds_for
+from pluto_fleet.crazyflie.pace import AS_IT_COMES
+from pluto_fleet.crtp.record import Deed, Point
+from pluto_fleet.drones.member import CLIMB_LIMIT
+from pluto_fleet.journal.values import point_of
 from tests.apart import apart
 from tests.flights_crazyflie.flight import Flight
 from tests.flights_crazyflie.judge import astray, dropped, left_in_the_air, nearest

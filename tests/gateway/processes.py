@@ -11,17 +11,17 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 import plutoc_runtime
+from pluto_fleet.gateway.process import LOCK
+from pluto_fleet.gateway.remote import RemoteLink
+from pluto_fleet.gateway.settings import Settings
+from pluto_fleet.gateway.starting import connect
+from pluto_fleet.realtime import RealTime
+from pluto_fleet.simulation.body import SimulatedDrone
+from pluto_fleet.simulation.keeping import DEEDS
 from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.gateway.process import LOCK
-from plutoc_runtime.gateway.remote import RemoteLink
-from plutoc_runtime.gateway.settings import Settings
-from plutoc_runtime.gateway.starting import connect
+from plutoc_runtime.faults import Faults
 from plutoc_runtime.kernel import FLEET
-from plutoc_runtime.realtime import RealTime
 from plutoc_runtime.signals import Signal
-from plutoc_runtime.simulation.body import SimulatedDrone
-from plutoc_runtime.simulation.faults import Faults
-from plutoc_runtime.simulation.keeping import DEEDS
 from tests.gateway.flights import SCOUT, Task
 
 T = TypeVar("T")
@@ -30,7 +30,7 @@ SPEED = 100.0
 
 PROGRAM = (
     f"import sys; sys.path.insert(0, {str(Path(plutoc_runtime.__path__[0]).parent)!r}); "
-    "from plutoc_runtime.gateway.process import main; sys.exit(main(sys.argv[1:]))"
+    "from pluto_fleet.gateway.process import main; sys.exit(main(sys.argv[1:]))"
 )
 COMMAND = (sys.executable, "-c", PROGRAM)
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from plutoc_runtime.gateway.process import main
+from pluto_fleet.gateway.process import main
 
 
 @pytest.mark.parametrize("arguments", [[], ["--help"], ["a", "b"]])

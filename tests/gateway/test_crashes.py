@@ -9,14 +9,14 @@ from tempfile import TemporaryDirectory
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from pluto_fleet.gateway.file_ledger import FileLedger
+from pluto_fleet.gateway.gateway import Gateway
+from pluto_fleet.gateway.line import LOST, Line
+from pluto_fleet.gateway.link import Link
+from pluto_fleet.simulation.deeds import Deed
+from pluto_fleet.simulation.radio import Radio
 from plutoc_runtime.errors import Failure, FlightFailed
-from plutoc_runtime.gateway.file_ledger import FileLedger
-from plutoc_runtime.gateway.gateway import Gateway
-from plutoc_runtime.gateway.line import LOST, Line
-from plutoc_runtime.gateway.link import Link
 from plutoc_runtime.kernel import FLEET
-from plutoc_runtime.simulation.deeds import Deed
-from plutoc_runtime.simulation.radio import Radio
 from plutoc_runtime.standing import Down, JobState
 from plutoc_runtime.virtual import VirtualTime
 from tests.gateway.flights import Field, Task

@@ -9,12 +9,12 @@ from pathlib import Path
 
 import pytest
 
+from pluto_fleet.gateway.file_ledger import FileLedger
+from pluto_fleet.gateway.process import LEDGER
+from pluto_fleet.gateway.starting import cut_directly
+from pluto_fleet.simulation.keeping import DRONES
 from plutoc_runtime.errors import BadInput, Failure, FlightFailed
-from plutoc_runtime.gateway.file_ledger import FileLedger
-from plutoc_runtime.gateway.process import LEDGER
-from plutoc_runtime.gateway.starting import cut_directly
 from plutoc_runtime.kernel import FLEET
-from plutoc_runtime.simulation.keeping import DRONES
 from plutoc_runtime.standing import Down
 from tests.gateway.flights import THERE, Field, Task
 from tests.gateway.processes import Brain, pid, played

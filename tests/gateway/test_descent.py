@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 
 from plutoc_runtime.airspace import Airspace
 from plutoc_runtime.errors import Failure
+from plutoc_runtime.faults import Faults
 from plutoc_runtime.kernel import FLEET
-from plutoc_runtime.simulation.faults import Faults
-from plutoc_runtime.simulation.motion import Charge
+from plutoc_runtime.motion import Charge
 from plutoc_runtime.standing import Down, JobState
 from plutoc_runtime.virtual import VirtualTime
 from tests.gateway.flights import Field, Task

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import pytest
 
+from pluto_fleet.gateway.line import LOST, Line
+from pluto_fleet.simulation.radio import ANSWER, COMMAND, Radio
 from plutoc_runtime.errors import Failure, FlightFailed
-from plutoc_runtime.gateway.line import LOST, Line
 from plutoc_runtime.kernel import FLEET
-from plutoc_runtime.simulation.radio import ANSWER, COMMAND, Radio
 from plutoc_runtime.standing import Down, JobState
 from plutoc_runtime.virtual import VirtualTime
 from tests.gateway.flights import Field, Task

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import pytest
 
+from pluto_fleet.gateway.link import Busy
 from plutoc_runtime.errors import BadInput, Failure, FlightFailed
-from plutoc_runtime.gateway.link import Busy
+from plutoc_runtime.faults import Faults
 from plutoc_runtime.kernel import FLEET
-from plutoc_runtime.simulation.faults import Faults
 from plutoc_runtime.standing import Down, JobState, RollCall
 from plutoc_runtime.virtual import VirtualTime
 from tests.gateway.flights import PILLS, THERE, Field, Task

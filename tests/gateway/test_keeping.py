@@ -8,11 +8,11 @@ from pathlib import Path
 
 import pytest
 
+from pluto_fleet.simulation.keeping import DEEDS, DRONES, Keeper
+from pluto_fleet.simulation.moments import Moment, this_moment
 from plutoc_runtime.errors import Failure, FlightFailed
+from plutoc_runtime.faults import Faults
 from plutoc_runtime.kernel import FLEET
-from plutoc_runtime.simulation.faults import Faults
-from plutoc_runtime.simulation.keeping import DEEDS, DRONES, Keeper
-from plutoc_runtime.simulation.moments import Moment, this_moment
 from tests.gateway.flights import PILLS, THERE, Field, Task
 from tests.runtime.simulation.flights import failure, fly
 

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from pluto_fleet.gateway.sightings import SEEN, Sightings, sightings_in
 from plutoc_runtime.errors import Failure, FlightFailed
-from plutoc_runtime.gateway.sightings import SEEN, Sightings, sightings_in
 from tests.gateway.flights import Field
 
 

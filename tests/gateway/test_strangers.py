@@ -15,11 +15,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from plutoc_runtime.asking import Nobody
-from plutoc_runtime.gateway.process import LOG, NOTE
-from plutoc_runtime.gateway.starting import start, stop_directly
-from plutoc_runtime.gateway.wire import LONGEST_TOLD
-from plutoc_runtime.private import address_in
+from pluto_fleet.asking import Nobody
+from pluto_fleet.gateway.process import LOG, NOTE
+from pluto_fleet.gateway.starting import start, stop_directly
+from pluto_fleet.gateway.wire import LONGEST_TOLD
+from pluto_fleet.private import address_in
 from plutoc_runtime.standing import Down
 from tests.gateway.processes import COMMAND, pid
 from tests.gateway.processes import settings as gateway_settings

@@ -7,10 +7,8 @@ import json
 from hypothesis import given
 from hypothesis import strategies as st
 
-from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.errors import Failure, FlightFailed
-from plutoc_runtime.gateway.settings import data_of, settings_of
-from plutoc_runtime.gateway.wire import (
+from pluto_fleet.gateway.settings import data_of, settings_of
+from pluto_fleet.gateway.wire import (
     job_data,
     job_of,
     line,
@@ -20,11 +18,13 @@ from plutoc_runtime.gateway.wire import (
     roll_data,
     roll_of,
 )
+from pluto_fleet.simulation.body import SimulatedDrone
+from plutoc_runtime.airspace import Airspace
+from plutoc_runtime.errors import Failure, FlightFailed
+from plutoc_runtime.faults import Faults
 from plutoc_runtime.model import Category, Photo
-from plutoc_runtime.simulation.body import SimulatedDrone
-from plutoc_runtime.simulation.faults import Faults
-from plutoc_runtime.simulation.world import Feature, Source, WorldData
 from plutoc_runtime.standing import Entry, JobState, RollCall, Standing
+from plutoc_runtime.world import Feature, Source, WorldData
 from tests.gateway.flights import Task
 from tests.gateway.processes import settings
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from plutoc_runtime.cli import main
+from pluto_fleet.cli import main
 from tests.runtime.files.an_app import APP
 
 MISSIONS = """

@@ -11,9 +11,9 @@ import sys
 from itertools import count
 from pathlib import Path
 
-from plutoc_runtime.journal.errors import JournalError
-from plutoc_runtime.journal.store import Store
-from plutoc_runtime.journal.writer import Writer
+from pluto_fleet.journal.errors import JournalError
+from pluto_fleet.journal.store import Store
+from pluto_fleet.journal.writer import Writer
 
 WHY = json.dumps([{"t": 0.0, "event": "log", "text": "no room"}])
 

@@ -6,9 +6,9 @@ import json
 import shutil
 from pathlib import Path
 
-from plutoc_runtime.journal.errors import JournalError
-from plutoc_runtime.journal.reader import Reader
-from plutoc_runtime.journal.store import Store
+from pluto_fleet.journal.errors import JournalError
+from pluto_fleet.journal.reader import Reader
+from pluto_fleet.journal.store import Store
 
 HEADER = {"event": "journal.begun", "app": "alfalfa"}
 LAST_COMMIT = 4

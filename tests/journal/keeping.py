@@ -14,10 +14,10 @@ import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 
+from pluto_fleet.journal.header import LANGUAGE
+from pluto_fleet.journal.replay import replayed
+from pluto_fleet.journal.store import Store
 from plutoc import __version__
-from plutoc_runtime.journal.header import LANGUAGE
-from plutoc_runtime.journal.replay import replayed
-from plutoc_runtime.journal.store import Store
 from tests.flying import compiled_file
 
 GOLDEN = Path(__file__).parent / "golden"

@@ -14,9 +14,9 @@ from pathlib import Path
 
 import pytest
 
-from plutoc_runtime.cli import events, main, told
-from plutoc_runtime.journal import place
-from plutoc_runtime.journal.store import Store
+from pluto_fleet.cli import events, main, told
+from pluto_fleet.journal import place
+from pluto_fleet.journal.store import Store
 from plutoc_runtime.status import DroneStatus
 from tests.runtime.files.an_app import APP
 
@@ -170,7 +170,7 @@ def test_every_event_has_a_sentence_of_its_own() -> None:
 
 FOLLOW = (
     "import sys\n"
-    "from plutoc_runtime.cli import main\n"
+    "from pluto_fleet.cli import main\n"
     "from tests.runtime.files.an_app import APP\n"
     "sys.exit(main(APP, ['journal', sys.argv[1], '--follow']))\n"
 )

@@ -10,10 +10,10 @@ from tempfile import TemporaryDirectory
 
 import pytest
 
-from plutoc_runtime.journal.errors import JournalError
-from plutoc_runtime.journal.format import VERSION
-from plutoc_runtime.journal.reader import Reader
-from plutoc_runtime.journal.store import Store
+from pluto_fleet.journal.errors import JournalError
+from pluto_fleet.journal.format import VERSION
+from pluto_fleet.journal.reader import Reader
+from pluto_fleet.journal.store import Store
 from tests.journal.damage import HEADER, ROWS, closed, holds, killed
 
 PAGE, LOG_HEADER, FRAME = 4096, 32, 4096 + 24

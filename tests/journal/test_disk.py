@@ -10,10 +10,10 @@ from pathlib import Path
 
 import pytest
 
-from plutoc_runtime.journal import place
-from plutoc_runtime.journal.errors import JournalError
-from plutoc_runtime.journal.reader import Reader
-from plutoc_runtime.journal.store import Store
+from pluto_fleet.journal import place
+from pluto_fleet.journal.errors import JournalError
+from pluto_fleet.journal.reader import Reader
+from pluto_fleet.journal.store import Store
 from tests.journal.appender import WHY, text
 
 ROOT = Path(__file__).parents[2]

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from pluto_fleet.journal.header import LANGUAGE
 from plutoc import __version__
-from plutoc_runtime.journal.header import LANGUAGE
 from tests.flying import compiled_file
 from tests.journal.keeping import APP, GOLDEN, JOURNAL, RECORDS, SOURCE, records_of, said, written
 

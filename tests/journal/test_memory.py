@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from plutoc_runtime.journal.errors import JournalError
-from plutoc_runtime.journal.memory import Memory
+from pluto_fleet.journal.errors import JournalError
+from pluto_fleet.journal.memory import Memory
 
 
 def texts(memory: Memory) -> list[str]:

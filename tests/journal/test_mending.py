@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from plutoc_runtime.cli import main
-from plutoc_runtime.journal.errors import JournalError
-from plutoc_runtime.journal.mending import mend
-from plutoc_runtime.journal.store import Store
+from pluto_fleet.cli import main
+from pluto_fleet.journal.errors import JournalError
+from pluto_fleet.journal.mending import mend
+from pluto_fleet.journal.store import Store
 from tests.journal.damage import HEADER, ROWS, closed, killed
 from tests.runtime.files.an_app import APP
 

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from plutoc_runtime.journal import place
-from plutoc_runtime.journal.errors import JournalError
+from pluto_fleet.journal import place
+from pluto_fleet.journal.errors import JournalError
 
 NOON = 1_800_000_000.0
 

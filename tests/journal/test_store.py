@@ -10,11 +10,11 @@ from pathlib import Path
 
 import pytest
 
-from plutoc_runtime.journal.errors import JournalError
-from plutoc_runtime.journal.lock import holder
-from plutoc_runtime.journal.reader import Reader
-from plutoc_runtime.journal.replay import replayed
-from plutoc_runtime.journal.store import Store
+from pluto_fleet.journal.errors import JournalError
+from pluto_fleet.journal.lock import holder
+from pluto_fleet.journal.reader import Reader
+from pluto_fleet.journal.replay import replayed
+from pluto_fleet.journal.store import Store
 
 HEADER = {"event": "journal.begun", "app": "alfalfa", "missions": '[[mission]]\nname = "Ä"'}
 

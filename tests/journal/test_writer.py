@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from plutoc_runtime.journal.errors import JournalError
-from plutoc_runtime.journal.store import Store
-from plutoc_runtime.journal.writer import Writer
+from pluto_fleet.journal.errors import JournalError
+from pluto_fleet.journal.store import Store
+from pluto_fleet.journal.writer import Writer
 
 
 def row(number: int) -> str:

@@ -18,7 +18,7 @@ from pathlib import Path
 from tempfile import mkdtemp
 from time import monotonic
 
-from plutoc_runtime.journal.reader import Reader
+from pluto_fleet.journal.reader import Reader
 from tests.kill.judge import folded
 from tests.kill.lives import Flight, alive, eventually
 from tests.kill.misfits import RAISED, VALUES, misfits_in, plan_of

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from plutoc_runtime.journal.reader import Reader
+from pluto_fleet.journal.reader import Reader
 from tests.kill.judge import folded
 from tests.kill.lives import Flight, eventually
 from tests.kill.painter import painted

@@ -11,8 +11,8 @@ from typing import Any
 
 import pytest
 
-from plutoc_runtime.journal.place import gateway_folder
-from plutoc_runtime.journal.reader import Reader
+from pluto_fleet.journal.place import gateway_folder
+from pluto_fleet.journal.reader import Reader
 from tests.kill.conftest import NewFlight
 from tests.kill.judge import done_by_the_world, events_of, folded
 from tests.kill.lives import Flight, alive, eventually

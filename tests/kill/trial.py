@@ -10,8 +10,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from random import Random
 
-from plutoc_runtime.journal.place import gateway_folder
-from plutoc_runtime.journal.reader import Reader
+from pluto_fleet.journal.place import gateway_folder
+from pluto_fleet.journal.reader import Reader
 from tests.kill.judge import done_by_the_world, folded, lost, phase, unkept, wrong
 from tests.kill.lives import Flight, alive, eventually
 from tests.kill.plans import Plan

@@ -6,7 +6,7 @@ from collections.abc import AsyncIterator, Callable, Coroutine, Mapping
 from functools import wraps
 from typing import Any
 
-from plutoc_runtime.drones import DroneEvent, DroneSetup, DroneTelemetry
+from pluto_fleet.drones import DroneEvent, DroneSetup, DroneTelemetry
 from plutoc_runtime.model import Point
 from tests.navigation.simulated import Simulated
 

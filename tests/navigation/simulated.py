@@ -9,8 +9,7 @@ from functools import partial
 from math import inf, isfinite
 from pathlib import Path
 
-from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.drones import (
+from pluto_fleet.drones import (
     CRASHED,
     BatteryLow,
     Crashed,
@@ -22,14 +21,15 @@ from plutoc_runtime.drones import (
     OutsideArea,
     Rejected,
 )
-from plutoc_runtime.drones.conformance import NavigationContract, Truth
+from pluto_fleet.drones.conformance import NavigationContract, Truth
+from pluto_fleet.realtime import RealTime
+from pluto_fleet.simulation.drones import SimulatedDrone, SimulatedNavigation
+from plutoc_runtime.airspace import Airspace
 from plutoc_runtime.errors import Failure, FlightFailed
+from plutoc_runtime.faults import Faults
 from plutoc_runtime.kernel import Task
 from plutoc_runtime.model import Category, Point
-from plutoc_runtime.realtime import RealTime
-from plutoc_runtime.simulation.drones import SimulatedDrone, SimulatedNavigation
-from plutoc_runtime.simulation.faults import Faults
-from plutoc_runtime.simulation.world import World
+from plutoc_runtime.world import World
 
 PACE = 10.0
 """How fast time passes for the simulated drone: one of 0.5 m/s flies at 5."""

@@ -10,12 +10,12 @@ from typing import ClassVar
 
 import pytest
 
-from plutoc_runtime.crazyflie.navigation import Crazyflie
-from plutoc_runtime.crtp.drone import Build, SimulatedCrazyflie
-from plutoc_runtime.crtp.record import InMemory
-from plutoc_runtime.crtp.server import Server
-from plutoc_runtime.drones import DroneNavigation, DroneSetup
-from plutoc_runtime.drones.conformance import NavigationContract, Truth
+from pluto_fleet.crazyflie.navigation import Crazyflie
+from pluto_fleet.crtp.drone import Build, SimulatedCrazyflie
+from pluto_fleet.crtp.record import InMemory
+from pluto_fleet.crtp.server import Server
+from pluto_fleet.drones import DroneNavigation, DroneSetup
+from pluto_fleet.drones.conformance import NavigationContract, Truth
 
 pytest.importorskip("cflib")
 

@@ -7,8 +7,8 @@ from pathlib import Path
 
 from wren import Wren
 
-from plutoc_runtime.drones import DroneNavigation, DroneSetup
-from plutoc_runtime.drones.conformance import NavigationContract, Truth
+from pluto_fleet.drones import DroneNavigation, DroneSetup
+from pluto_fleet.drones.conformance import NavigationContract, Truth
 
 HERE = Path(__file__).parents[2] / "docs/navigation"
 

@@ -8,8 +8,8 @@ from typing import cast
 
 import pytest
 
-from plutoc_runtime.drones import feeding
-from plutoc_runtime.drones.feeding import Feeding
+from pluto_fleet.drones import feeding
+from pluto_fleet.drones.feeding import Feeding
 from plutoc_runtime.model import Point
 
 

@@ -7,8 +7,8 @@ import socket
 
 from lines import Lines
 
-from plutoc_runtime.drones.feeding import Feeding
-from plutoc_runtime.drones.loading import make_localization
+from pluto_fleet.drones.feeding import Feeding
+from pluto_fleet.drones.loading import make_localization
 from plutoc_runtime.model import Point
 
 

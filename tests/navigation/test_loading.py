@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from plutoc_runtime.drones import trial
-from plutoc_runtime.drones.loading import (
+from pluto_fleet.drones import trial
+from pluto_fleet.drones.loading import (
     load_localization,
     load_navigation,
     make_localization,

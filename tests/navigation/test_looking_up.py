@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from plutoc_runtime.drones import loading
-from plutoc_runtime.drones.loading import load_localization, load_navigation
+from pluto_fleet.drones import loading
+from pluto_fleet.drones.loading import load_localization, load_navigation
 from plutoc_runtime.errors import BadInput
 from tests.navigation import classes
 

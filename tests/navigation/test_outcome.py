@@ -8,7 +8,7 @@ from math import inf, nan
 
 import pytest
 
-from plutoc_runtime.drones.outcome import outcome_of
+from pluto_fleet.drones.outcome import outcome_of
 from plutoc_runtime.errors import FlightFailed
 from plutoc_runtime.model import Photo, Point
 

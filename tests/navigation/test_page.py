@@ -11,8 +11,8 @@ from pathlib import Path
 import pytest
 
 import plutoc_runtime
-from plutoc_runtime.drones import errors, kinds
-from plutoc_runtime.drones.conformance import NavigationContract
+from pluto_fleet.drones import errors, kinds
+from pluto_fleet.drones.conformance import NavigationContract
 
 DOCS = Path(__file__).parents[2] / "docs"
 PAGE = (DOCS / "navigation.md").read_text()

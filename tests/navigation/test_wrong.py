@@ -8,8 +8,8 @@ from unittest import SkipTest
 
 import pytest
 
-from plutoc_runtime.drones import DroneNavigation
-from plutoc_runtime.drones.conformance import NavigationContract
+from pluto_fleet.drones import DroneNavigation
+from pluto_fleet.drones.conformance import NavigationContract
 from tests.navigation import wrong
 from tests.navigation.simulated import SPEED, Simulated, SimulatedContract, setup
 

@@ -15,7 +15,7 @@ from tests.release.environments import ROOT, compile_app, fresh, run, succeed
 
 EXAMPLE = ROOT / "examples/drugs_distribution"
 FLEET = EXAMPLE / "fleet.toml"
-PAGES = ROOT / "runtime/plutoc_runtime/station/pages"
+PAGES = ROOT / "runtime/pluto_fleet/station/pages"
 
 
 @pytest.fixture(scope="module")

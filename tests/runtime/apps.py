@@ -6,6 +6,8 @@ from collections.abc import Callable, Coroutine, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from pluto_fleet.files.fleet import DroneEntry, FleetFile
+from pluto_fleet.simulate import simulate
 from plutoc_blocks.clock.step import wait_for_time
 from plutoc_blocks.drone_allocator.step import allocate_drone
 from plutoc_blocks.gap_monitor.step import watch_gap
@@ -22,13 +24,12 @@ from plutoc_runtime import model
 from plutoc_runtime.actions import BUILT_IN, Action
 from plutoc_runtime.airspace import Airspace
 from plutoc_runtime.app import App
-from plutoc_runtime.files.fleet import DroneEntry, FleetFile
+from plutoc_runtime.faults import Faults
 from plutoc_runtime.model import AfterTrip, Category, Item, Point
 from plutoc_runtime.policies.nearest import nearest
 from plutoc_runtime.policy import Policy
 from plutoc_runtime.run import Run
-from plutoc_runtime.session import Outcome, simulate
-from plutoc_runtime.simulation.faults import Faults
+from plutoc_runtime.session import Outcome
 from plutoc_runtime.status import Status
 from plutoc_runtime.trace import Event
 

@@ -5,11 +5,12 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Callable, Sequence
 
+from pluto_fleet.files.fleet import FleetFile
+from pluto_fleet.realtime import RealTime
+from pluto_fleet.simulate import Simulation
 from plutoc_runtime.app import App
-from plutoc_runtime.files.fleet import FleetFile
-from plutoc_runtime.realtime import RealTime
-from plutoc_runtime.session import Outcome, Simulation
-from plutoc_runtime.simulation.faults import Faults
+from plutoc_runtime.faults import Faults
+from plutoc_runtime.session import Outcome
 from plutoc_runtime.trace import Event
 from tests.runtime import apps
 

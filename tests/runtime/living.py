@@ -7,24 +7,24 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
+from pluto_fleet.files.fleet import FleetFile
+from pluto_fleet.gateway.gateway import Gateway
+from pluto_fleet.gateway.ledger import MemoryLedger
+from pluto_fleet.journal.fold import Records
+from pluto_fleet.journal.memory import Memory
+from pluto_fleet.life import Life
+from pluto_fleet.simulation.deeds import Deed
+from pluto_fleet.simulation.drones import SimulatedDrone, SimulatedNavigation
 from plutoc_runtime.app import App
+from plutoc_runtime.faults import Faults
 from plutoc_runtime.fields import Entity, Field, FieldType
-from plutoc_runtime.files.fleet import FleetFile
-from plutoc_runtime.gateway.gateway import Gateway
-from plutoc_runtime.gateway.ledger import MemoryLedger
-from plutoc_runtime.journal.fold import Records
-from plutoc_runtime.journal.memory import Memory
 from plutoc_runtime.kernel import FLEET, Kind
-from plutoc_runtime.life import Life
 from plutoc_runtime.model import Mission
 from plutoc_runtime.signals import Signal
-from plutoc_runtime.simulation.deeds import Deed
-from plutoc_runtime.simulation.drones import SimulatedDrone, SimulatedNavigation
-from plutoc_runtime.simulation.faults import Faults
-from plutoc_runtime.simulation.world import World
 from plutoc_runtime.standing import Down
 from plutoc_runtime.trace import Event
 from plutoc_runtime.virtual import VirtualTime
+from plutoc_runtime.world import World
 
 from . import apps
 from .mortal import Mortal

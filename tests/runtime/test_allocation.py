@@ -8,13 +8,13 @@ from typing import Any
 import pytest
 
 from plutoc_runtime.errors import BadInput
+from plutoc_runtime.faults import Faults
 from plutoc_runtime.model import AfterTrip, Category, Drone, Trip
 from plutoc_runtime.policies.batch_optimal import batch_optimal
 from plutoc_runtime.policies.first import first
 from plutoc_runtime.policies.least_used import least_used
 from plutoc_runtime.policies.nearest import nearest
 from plutoc_runtime.policy import Policy, own_policy
-from plutoc_runtime.simulation.faults import Faults
 from plutoc_runtime.status import Status
 from tests.runtime import apps
 

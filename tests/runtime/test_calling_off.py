@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from pluto_fleet.gateway.line import Line
 from plutoc_runtime.context import Context
-from plutoc_runtime.gateway.line import Line
 from plutoc_runtime.status import Status
 
 from . import apps

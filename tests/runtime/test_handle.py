@@ -8,6 +8,7 @@ from functools import partial, wraps
 
 import pytest
 
+from pluto_fleet.simulation.drones import SimulatedNavigation
 from plutoc_runtime.actions import Action
 from plutoc_runtime.airspace import Airspace
 from plutoc_runtime.context import Context
@@ -15,9 +16,8 @@ from plutoc_runtime.errors import ActionFailed, Failure, FlightFailed
 from plutoc_runtime.handle import LiveDrone, can_wait
 from plutoc_runtime.model import Category, Drone
 from plutoc_runtime.signals import Signal
-from plutoc_runtime.simulation.drones import SimulatedNavigation
-from plutoc_runtime.simulation.world import WorldData
 from plutoc_runtime.status import Status
+from plutoc_runtime.world import WorldData
 from tests.runtime import apps, in_real_time
 
 Hook = Callable[..., object]

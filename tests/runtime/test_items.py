@@ -5,8 +5,8 @@ from __future__ import annotations
 from plutoc_runtime.actions import Action
 from plutoc_runtime.context import Context
 from plutoc_runtime.errors import ActionFailed
+from plutoc_runtime.faults import Faults
 from plutoc_runtime.model import Drone
-from plutoc_runtime.simulation.faults import Faults
 from plutoc_runtime.status import Status
 from tests.runtime import apps
 

@@ -7,7 +7,7 @@ import json
 from hypothesis import given
 from hypothesis import strategies as st
 
-from plutoc_runtime.journal_line import dumped, exact, line
+from pluto_fleet.journal_line import dumped, exact, line
 
 FACTS = (
     st.none()

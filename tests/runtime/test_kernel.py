@@ -7,8 +7,8 @@ from functools import partial
 
 import pytest
 
+from pluto_fleet.realtime import RealTime
 from plutoc_runtime.kernel import Cancelled, Kind
-from plutoc_runtime.realtime import RealTime
 from plutoc_runtime.signals import Signal
 from plutoc_runtime.virtual import Stuck, VirtualTime
 

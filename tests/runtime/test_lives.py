@@ -12,25 +12,25 @@ from typing import Any
 
 import pytest
 
+from pluto_fleet.asking import Nobody, ask, note_of
+from pluto_fleet.fly import live
+from pluto_fleet.gateway.gateway import Gateway
+from pluto_fleet.gateway.ledger import MemoryLedger
+from pluto_fleet.gateway.link import Link
+from pluto_fleet.journal import header
+from pluto_fleet.journal.errors import JournalError
+from pluto_fleet.journal.store import Store
+from pluto_fleet.realtime import RealTime
+from pluto_fleet.setting import End, Lived, Setting, Stops
+from pluto_fleet.simulation.drones import SimulatedDrone, SimulatedNavigation
 from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.asking import Nobody, ask, note_of
 from plutoc_runtime.errors import BadInput
-from plutoc_runtime.fly import live
-from plutoc_runtime.gateway.gateway import Gateway
-from plutoc_runtime.gateway.ledger import MemoryLedger
-from plutoc_runtime.gateway.link import Link
-from plutoc_runtime.journal import header
-from plutoc_runtime.journal.errors import JournalError
-from plutoc_runtime.journal.store import Store
+from plutoc_runtime.faults import Faults
 from plutoc_runtime.model import Category
-from plutoc_runtime.realtime import RealTime
-from plutoc_runtime.setting import End, Lived, Setting, Stops
-from plutoc_runtime.simulation.drones import SimulatedDrone, SimulatedNavigation
-from plutoc_runtime.simulation.faults import Faults
-from plutoc_runtime.simulation.world import World
 from plutoc_runtime.standing import Down
 from plutoc_runtime.status import Status
 from plutoc_runtime.trace import Event
+from plutoc_runtime.world import World
 from tests.runtime import apps
 
 SCOUT = Category(name="scout", speed=1.0)
@@ -279,8 +279,8 @@ def test_on_a_full_disk_all_drones_land_and_nothing_more_is_told(
 
 def test_a_snapshot_is_taken_now_and_then(tried: Tried, monkeypatch: pytest.MonkeyPatch) -> None:
     """And the next life goes on from there."""
-    monkeypatch.setattr("plutoc_runtime.one_life.SNAPSHOT_EVERY", 5)  # within a life
-    monkeypatch.setattr("plutoc_runtime.one_life.SNAPSHOT_AT_END", 0)
+    monkeypatch.setattr("pluto_fleet.one_life.SNAPSHOT_EVERY", 5)  # within a life
+    monkeypatch.setattr("pluto_fleet.one_life.SNAPSHOT_AT_END", 0)
     stops = Stops()
     tried.on("trip.completed", lambda: stops.stop(Down.LAND))
     asyncio.run(tried.live(stops))

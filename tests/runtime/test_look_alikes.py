@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from plutoc_runtime.files.drones import DroneEntry
-from plutoc_runtime.look_alikes import look_alikes
+from pluto_fleet.files.drones import DroneEntry
+from pluto_fleet.look_alikes import look_alikes
 from tests.runtime import apps
 
 

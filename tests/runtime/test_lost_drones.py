@@ -8,11 +8,11 @@ from typing import Any
 
 import pytest
 
-from plutoc_runtime.cli.events import line_of
+from pluto_fleet.cli.events import line_of
+from pluto_fleet.gateway.pilots import Pilots
+from pluto_fleet.journal.fold import Records
+from pluto_fleet.journal.memory import Memory
 from plutoc_runtime.errors import BadInput, Failure
-from plutoc_runtime.gateway.pilots import Pilots
-from plutoc_runtime.journal.fold import Records
-from plutoc_runtime.journal.memory import Memory
 from plutoc_runtime.kernel import FLEET
 from plutoc_runtime.model import Drone
 from plutoc_runtime.signals import Signal

@@ -12,6 +12,7 @@ from typing import Any
 
 import pytest
 
+from pluto_fleet.realtime import RealTime
 from plutoc_blocks.mission_modifier.step import modify_mission
 from plutoc_runtime import state
 from plutoc_runtime.actions import Action
@@ -19,7 +20,6 @@ from plutoc_runtime.airspace import Airspace
 from plutoc_runtime.context import Context
 from plutoc_runtime.kernel import FLEET
 from plutoc_runtime.model import Category, Drone, Mission
-from plutoc_runtime.realtime import RealTime
 from plutoc_runtime.run import Run
 from plutoc_runtime.status import Status
 from plutoc_runtime.trace import Event
@@ -134,7 +134,7 @@ def test_a_hook_behind_a_plain_function_is_awaited_as_in_a_simulation() -> None:
 
 STUCK = """
 import asyncio, threading
-from plutoc_runtime.realtime import RealTime
+from pluto_fleet.realtime import RealTime
 
 async def main():
     kernel = RealTime()

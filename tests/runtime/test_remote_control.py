@@ -12,10 +12,10 @@ from pathlib import Path
 
 import pytest
 
-from plutoc_runtime.asking import LONGEST, Ended, Nobody, Silent, ask, note_of
+from pluto_fleet.asking import LONGEST, Ended, Nobody, Silent, ask, note_of
+from pluto_fleet.private import address_in, new_address, publish, withdraw
+from pluto_fleet.remote_control import listening, perform
 from plutoc_runtime.errors import BadInput
-from plutoc_runtime.private import address_in, new_address, publish, withdraw
-from plutoc_runtime.remote_control import listening, perform
 from plutoc_runtime.standing import Down
 
 

@@ -15,6 +15,9 @@ from random import Random
 from types import SimpleNamespace
 from typing import Any
 
+from pluto_fleet.files.fleet import DroneEntry, FleetFile
+from pluto_fleet.realtime import RealTime
+from pluto_fleet.simulate import Simulation, simulate
 from plutoc.block import HookKind
 from plutoc.check.model import Checked
 from plutoc.compile import planned
@@ -24,12 +27,9 @@ from plutoc_runtime.airspace import Airspace
 from plutoc_runtime.app import App
 from plutoc_runtime.context import Context
 from plutoc_runtime.errors import BadInput
-from plutoc_runtime.files.fleet import DroneEntry, FleetFile
+from plutoc_runtime.faults import Faults
 from plutoc_runtime.model import AfterTrip, Category, Mission, Point
-from plutoc_runtime.realtime import RealTime
 from plutoc_runtime.results import Results
-from plutoc_runtime.session import Simulation, simulate
-from plutoc_runtime.simulation.faults import Faults
 from plutoc_runtime.status import Status
 from plutoc_runtime.trace import Event
 from plutoc_runtime.verdict import Verdict

@@ -10,12 +10,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from plutoc_runtime.gateway.process import SETTINGS
-from plutoc_runtime.gateway.settings import settings_of
-from plutoc_runtime.journal.place import gateway_folder
-from plutoc_runtime.simulation.body import Body
-from plutoc_runtime.simulation.keeping import DRONES, Keeper
-from plutoc_runtime.simulation.moments import this_moment
+from pluto_fleet.gateway.process import SETTINGS
+from pluto_fleet.gateway.settings import settings_of
+from pluto_fleet.journal.place import gateway_folder
+from pluto_fleet.simulation.body import Body
+from pluto_fleet.simulation.keeping import DRONES, Keeper
+from pluto_fleet.simulation.moments import this_moment
 from tests.station.browser.serving import Station
 
 NEAR = 0.06

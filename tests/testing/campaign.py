@@ -23,13 +23,11 @@ from random import Random
 from time import perf_counter, process_time
 from typing import Any
 
-from plutoc_runtime.app import App
-from plutoc_runtime.cli.report import table
-from plutoc_runtime.files.fleet import FleetFile
-from plutoc_runtime.model import AfterTrip, Mission
-from plutoc_runtime.testing.alike import first_the_same, shows_the_same
-from plutoc_runtime.testing.case import Case
-from plutoc_runtime.testing.explore import (
+from pluto_fleet.cli.report import table
+from pluto_fleet.files.fleet import FleetFile
+from pluto_fleet.testing.alike import first_the_same, shows_the_same
+from pluto_fleet.testing.case import Case
+from pluto_fleet.testing.explore import (
     FAULTS,
     Finding,
     Tally,
@@ -38,10 +36,12 @@ from plutoc_runtime.testing.explore import (
     explored,
     small_case,
 )
-from plutoc_runtime.testing.options import Options
-from plutoc_runtime.testing.report import smallest_case
-from plutoc_runtime.testing.rig import tried
-from plutoc_runtime.testing.shrink import shrunk
+from pluto_fleet.testing.options import Options
+from pluto_fleet.testing.report import smallest_case
+from pluto_fleet.testing.rig import tried
+from pluto_fleet.testing.shrink import shrunk
+from plutoc_runtime.app import App
+from plutoc_runtime.model import AfterTrip, Mission
 from tests.flying import NAMES
 from tests.testing.examples import example, fleet_of, missions_of
 

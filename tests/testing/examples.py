@@ -9,13 +9,13 @@ from importlib import import_module
 from types import ModuleType, SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
+from pluto_fleet.files.fleet import FleetFile, load_fleet
+from pluto_fleet.files.missions import load_missions
 from plutoc.check.model import Checked
 from plutoc.compile import analyse, planned
 from plutoc.emit.exports import EXPORTS
 from plutoc.plan.build import build
 from plutoc.source import Source
-from plutoc_runtime.files.fleet import FleetFile, load_fleet
-from plutoc_runtime.files.missions import load_missions
 from plutoc_runtime.model import Mission
 from tests.equivalence.flows import InMemory, Package, packaged
 from tests.flying import EXAMPLES

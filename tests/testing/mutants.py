@@ -8,19 +8,20 @@ from typing import Any
 
 import pytest
 
-from plutoc_runtime import interruption, rebuilding, recovery
+from pluto_fleet import rebuilding, recovery
+from pluto_fleet.gateway.gateway import Gateway
+from pluto_fleet.gateway.given import Given
+from pluto_fleet.gateway.link import Link
+from pluto_fleet.journal import values
+from pluto_fleet.journal.careful import Careful
+from pluto_fleet.journal.fold import Records
+from pluto_fleet.testing.book import Book
+from plutoc_runtime import interruption
 from plutoc_runtime.engine import Engine
 from plutoc_runtime.fleet import Fleet
-from plutoc_runtime.gateway.gateway import Gateway
-from plutoc_runtime.gateway.given import Given
-from plutoc_runtime.gateway.link import Link
 from plutoc_runtime.interruption import Fate
-from plutoc_runtime.journal import values
-from plutoc_runtime.journal.careful import Careful
-from plutoc_runtime.journal.fold import Records
 from plutoc_runtime.standing import JobState
 from plutoc_runtime.status import DroneStatus
-from plutoc_runtime.testing.book import Book
 from tests.equivalence import mistakes
 
 Plant = Callable[[pytest.MonkeyPatch], None]
@@ -159,7 +160,7 @@ def flies_before_it_is_on_record(patch: pytest.MonkeyPatch) -> None:
 
 def delays_go_on_while_stopped(patch: pytest.MonkeyPatch) -> None:
     """A Stop eats up what is left of a delay."""
-    patch.setattr("plutoc_runtime.journal.fold.shift_delays", lambda *_: None)
+    patch.setattr("pluto_fleet.journal.fold.shift_delays", lambda *_: None)
 
 
 def ends_are_forgotten(patch: pytest.MonkeyPatch) -> None:

@@ -10,11 +10,11 @@ from random import Random
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
+from pluto_fleet.files.drones import DroneEntry
+from pluto_fleet.files.fleet import FleetFile
 from plutoc.compile import analyse, planned
 from plutoc.source import Source
 from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.files.drones import DroneEntry
-from plutoc_runtime.files.fleet import FleetFile
 from plutoc_runtime.model import AfterTrip
 from plutoc_runtime.verdict import Verdict
 from tests.equivalence.flows import packaged

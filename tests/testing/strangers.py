@@ -22,25 +22,18 @@ from random import Random
 from time import perf_counter
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.testing.alike import first_the_same, shows_the_same
-from plutoc_runtime.testing.case import Case, Weather
-from plutoc_runtime.testing.explore import (
-    Finding,
-    Tally,
-    drawn_case,
-    everywhere,
-    explored,
-    small_case,
-)
-from plutoc_runtime.testing.options import Options
-from plutoc_runtime.testing.report import smallest_case
-from plutoc_runtime.testing.rig import tried
-from plutoc_runtime.testing.shrink import shrunk
+from pluto_fleet.testing.alike import first_the_same, shows_the_same
+from pluto_fleet.testing.case import Case, Weather
+from pluto_fleet.testing.explore import Finding, Tally, drawn_case, everywhere, explored, small_case
+from pluto_fleet.testing.options import Options
+from pluto_fleet.testing.report import smallest_case
+from pluto_fleet.testing.rig import tried
+from pluto_fleet.testing.shrink import shrunk
 from tests.testing.random_apps import random_app, random_fleet, random_source
 
 if TYPE_CHECKING:
+    from pluto_fleet.files.fleet import FleetFile
     from plutoc_runtime.app import App
-    from plutoc_runtime.files.fleet import FleetFile
 
 CASES = 10
 """Of either kind that is drawn, for each app."""

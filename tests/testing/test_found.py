@@ -7,15 +7,15 @@ from typing import Any
 
 import pytest
 
+from pluto_fleet.files.drones import DroneEntry
+from pluto_fleet.files.fleet import FleetFile, default_fleet
+from pluto_fleet.testing.blows import Blow, Kind
+from pluto_fleet.testing.case import Case, Weather
+from pluto_fleet.testing.rig import tried
 from plutoc_runtime.airspace import Airspace
 from plutoc_runtime.app import App
 from plutoc_runtime.context import Context
-from plutoc_runtime.files.drones import DroneEntry
-from plutoc_runtime.files.fleet import FleetFile, default_fleet
 from plutoc_runtime.model import AfterTrip, Item, Mission, Point
-from plutoc_runtime.testing.blows import Blow, Kind
-from plutoc_runtime.testing.case import Case, Weather
-from plutoc_runtime.testing.rig import tried
 from tests.testing.examples import app_of
 
 CARRIER = app_of("""

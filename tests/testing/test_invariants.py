@@ -7,16 +7,12 @@ from functools import partial
 
 import pytest
 
-from plutoc_runtime.testing.delay_rule import DelaysAreWaited
-from plutoc_runtime.testing.drone_rules import ItemsStayAboard, ServesOneMission, StaysDown
-from plutoc_runtime.testing.invariants import RULES, Invariants, violations
-from plutoc_runtime.testing.mission_rules import (
-    CompletedDidEverything,
-    EndsOnce,
-    NothingAfterTheEnd,
-)
-from plutoc_runtime.testing.rule import Rule, Say
-from plutoc_runtime.testing.trip_rules import AttemptsCountUp, LimitsAreKept, TripsDoNotOverlap
+from pluto_fleet.testing.delay_rule import DelaysAreWaited
+from pluto_fleet.testing.drone_rules import ItemsStayAboard, ServesOneMission, StaysDown
+from pluto_fleet.testing.invariants import RULES, Invariants, violations
+from pluto_fleet.testing.mission_rules import CompletedDidEverything, EndsOnce, NothingAfterTheEnd
+from pluto_fleet.testing.rule import Rule, Say
+from pluto_fleet.testing.trip_rules import AttemptsCountUp, LimitsAreKept, TripsDoNotOverlap
 from plutoc_runtime.trace import Event
 
 Trace = Sequence[Event]

@@ -6,10 +6,10 @@ from typing import Any
 
 import pytest
 
+from pluto_fleet.testing.explore import drawn_case
+from pluto_fleet.testing.rig import tried
 from plutoc_runtime.context import Context
 from plutoc_runtime.model import Drone
-from plutoc_runtime.testing.explore import drawn_case
-from plutoc_runtime.testing.rig import tried
 from tests.testing.examples import example, fleet_of
 
 

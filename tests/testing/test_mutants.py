@@ -8,12 +8,12 @@ from itertools import chain
 
 import pytest
 
+from pluto_fleet.files.fleet import FleetFile
+from pluto_fleet.testing.case import FAIR, Case
+from pluto_fleet.testing.drawing import drawn_missions
+from pluto_fleet.testing.explore import drawn_case, everywhere
+from pluto_fleet.testing.rig import tried
 from plutoc_runtime.app import App
-from plutoc_runtime.files.fleet import FleetFile
-from plutoc_runtime.testing.case import FAIR, Case
-from plutoc_runtime.testing.drawing import drawn_missions
-from plutoc_runtime.testing.explore import drawn_case, everywhere
-from plutoc_runtime.testing.rig import tried
 from tests.testing.examples import example, fleet_of
 from tests.testing.mutants import MUTANTS
 

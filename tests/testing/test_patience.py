@@ -6,9 +6,9 @@ from io import StringIO
 
 import pytest
 
-from plutoc_runtime.cli.progress import Progress
-from plutoc_runtime.testing import command
-from plutoc_runtime.testing.patience import EVERY, Patience
+from pluto_fleet.cli.progress import Progress
+from pluto_fleet.testing import command
+from pluto_fleet.testing.patience import EVERY, Patience
 from tests.testing.examples import example
 
 

@@ -11,20 +11,20 @@ from random import Random
 
 import pytest
 
+from pluto_fleet.files.fleet import default_fleet
+from pluto_fleet.testing import command as trials
+from pluto_fleet.testing import invariants
+from pluto_fleet.testing.alike import Alike
+from pluto_fleet.testing.command import test as trial
+from pluto_fleet.testing.explore import Tally, small_case
+from pluto_fleet.testing.options import Options
+from pluto_fleet.testing.report import report
+from pluto_fleet.testing.rule import Say, at
 from plutoc_runtime import enough
 from plutoc_runtime.app import App
 from plutoc_runtime.context import Context
-from plutoc_runtime.files.fleet import default_fleet
 from plutoc_runtime.fleet import Fleet
 from plutoc_runtime.model import Drone
-from plutoc_runtime.testing import command as trials
-from plutoc_runtime.testing import invariants
-from plutoc_runtime.testing.alike import Alike
-from plutoc_runtime.testing.command import test as trial
-from plutoc_runtime.testing.explore import Tally, small_case
-from plutoc_runtime.testing.options import Options
-from plutoc_runtime.testing.report import report
-from plutoc_runtime.testing.rule import Say, at
 from plutoc_runtime.trace import Event
 from tests.testing.examples import app_of
 from tests.testing.mutants import free_in_flight

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
+from pluto_fleet.simulation.body import Body
+from pluto_fleet.simulation.drones import SimulatedNavigation
 from plutoc_runtime.energy import CLIMB_SPEED
-from plutoc_runtime.simulation.body import Body
-from plutoc_runtime.simulation.drones import SimulatedNavigation
 from tests.testing import strangers
 
 

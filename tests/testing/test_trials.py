@@ -10,17 +10,17 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from plutoc_runtime.files.fleet import default_fleet, load_fleet
-from plutoc_runtime.files.fleet_text import fleet_text
-from plutoc_runtime.files.missions import load_missions
-from plutoc_runtime.testing import explore
-from plutoc_runtime.testing.blows import Blow, Kind, blows_of, blows_text
-from plutoc_runtime.testing.case import FAIR, Case, Weather, weather_of, weather_text
-from plutoc_runtime.testing.drawing import drawn_missions
-from plutoc_runtime.testing.explore import Tally, drawn_case, explored, small_case
-from plutoc_runtime.testing.plan_text import missions_text
-from plutoc_runtime.testing.rig import Rig, tried
-from plutoc_runtime.testing.shrink import shrunk
+from pluto_fleet.files.fleet import default_fleet, load_fleet
+from pluto_fleet.files.fleet_text import fleet_text
+from pluto_fleet.files.missions import load_missions
+from pluto_fleet.testing import explore
+from pluto_fleet.testing.blows import Blow, Kind, blows_of, blows_text
+from pluto_fleet.testing.case import FAIR, Case, Weather, weather_of, weather_text
+from pluto_fleet.testing.drawing import drawn_missions
+from pluto_fleet.testing.explore import Tally, drawn_case, explored, small_case
+from pluto_fleet.testing.plan_text import missions_text
+from pluto_fleet.testing.rig import Rig, tried
+from pluto_fleet.testing.shrink import shrunk
 from tests.testing.examples import WAITING, app_of, example, fleet_of
 
 APP = example("drugs_distribution_retry")

@@ -6,16 +6,16 @@ from dataclasses import replace
 from itertools import combinations
 from math import dist, inf, sqrt
 
+from pluto_fleet.files.real import PACE
+from pluto_fleet.simulation.body import Body
+from pluto_fleet.simulation.drones import SimulatedDrone, SimulatedNavigation
 from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.files.real import PACE
+from plutoc_runtime.faults import Faults
 from plutoc_runtime.kernel import Kernel
 from plutoc_runtime.model import Point
-from plutoc_runtime.simulation.body import Body
-from plutoc_runtime.simulation.drones import SimulatedDrone, SimulatedNavigation
-from plutoc_runtime.simulation.faults import Faults
-from plutoc_runtime.simulation.motion import Leg
-from plutoc_runtime.simulation.world import World
+from plutoc_runtime.motion import Leg
 from plutoc_runtime.standing import Down
+from plutoc_runtime.world import World
 from tests.gateway.traffic.skies import ENDURING, Sky
 
 SLACK = 0.15

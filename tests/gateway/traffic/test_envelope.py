@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from pluto_fleet.gateway.envelope import Envelope
 from plutoc_runtime.airspace import Airspace
 from plutoc_runtime.errors import FlightFailed
-from plutoc_runtime.gateway.envelope import Envelope
 from plutoc_runtime.kernel import FLEET
 from tests.gateway.traffic.skies import Sky
 

@@ -10,9 +10,9 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from pluto_fleet.gateway.traffic.claims import Claim, meets
+from pluto_fleet.gateway.traffic.obstacles import Obstacle
 from plutoc_runtime.energy import CLIMB_SPEED
-from plutoc_runtime.gateway.traffic.claims import Claim, meets
-from plutoc_runtime.gateway.traffic.obstacles import Obstacle
 from plutoc_runtime.model import Category, Point
 
 LIMIT = 0.5

@@ -7,13 +7,13 @@ from random import Random
 
 import pytest
 
+from pluto_fleet.gateway.traffic.choosing import Goer
+from pluto_fleet.gateway.traffic.courses import course
+from pluto_fleet.gateway.traffic.timetable import Timetable, timetable
+from pluto_fleet.gateway.traffic.ways_home import ways_home
+from pluto_fleet.simulation.drones import SimulatedDrone
 from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.gateway.traffic.choosing import Goer
-from plutoc_runtime.gateway.traffic.courses import course
-from plutoc_runtime.gateway.traffic.timetable import Timetable, timetable
-from plutoc_runtime.gateway.traffic.ways_home import ways_home
 from plutoc_runtime.model import Point
-from plutoc_runtime.simulation.drones import SimulatedDrone
 from plutoc_runtime.standing import Down
 from tests.gateway.traffic.real_skies import FLIES_ON, late
 from tests.gateway.traffic.skies import ENDURING, Sky, is_home

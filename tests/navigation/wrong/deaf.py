@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from contextlib import suppress
 
-from plutoc_runtime.drones import LinkLost
+from pluto_fleet.drones import LinkLost
 from plutoc_runtime.model import Point
 from tests.navigation.simulated import Simulated
 

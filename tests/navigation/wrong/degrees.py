@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from math import degrees
 
-from plutoc_runtime.drones import DroneTelemetry
+from pluto_fleet.drones import DroneTelemetry
 from tests.navigation.simulated import Simulated
 
 FOUND_BY = "test_it_counts_in_metres_and_radians_in_the_maps_frame"

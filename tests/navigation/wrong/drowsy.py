@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 
-from plutoc_runtime.drones import DroneTelemetry
+from pluto_fleet.drones import DroneTelemetry
 from tests.navigation.simulated import Simulated
 
 FOUND_BY = "test_telemetry_is_fresh"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from plutoc_runtime.drones import DroneTelemetry
+from pluto_fleet.drones import DroneTelemetry
 from plutoc_runtime.model import Point
 from tests.navigation.simulated import Simulated
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from plutoc_runtime.drones import Rejected
+from pluto_fleet.drones import Rejected
 from plutoc_runtime.model import Point
 from tests.navigation.simulated import Simulated
 

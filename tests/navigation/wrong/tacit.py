@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import AsyncIterator
 
-from plutoc_runtime.drones import DroneEvent
+from pluto_fleet.drones import DroneEvent
 from tests.navigation.simulated import Simulated
 
 FOUND_BY = "test_a_drone_that_crashes_is_a_crash"

@@ -6,7 +6,7 @@ import time
 from dataclasses import replace
 from math import isfinite
 
-from plutoc_runtime.drones import DroneTelemetry
+from pluto_fleet.drones import DroneTelemetry
 from tests.navigation.simulated import Simulated
 
 FOUND_BY = "test_a_drone_that_falls_silent_is_a_lost_link"

@@ -7,8 +7,8 @@ from collections.abc import AsyncIterator, Mapping, Sequence
 from math import inf
 from pathlib import Path
 
+from pluto_fleet.drones import DroneEvent, DroneSetup, DroneTelemetry, LinkLost
 from plutoc_runtime.actions import Plain
-from plutoc_runtime.drones import DroneEvent, DroneSetup, DroneTelemetry, LinkLost
 from plutoc_runtime.model import Item, Point
 
 RECORD: list[tuple[str, str]] = []

@@ -148,7 +148,7 @@ def test_help_is_exit_0(command: Command) -> None:
         assert name in out
 
 
-SCRIPT = "import sys; from tests.runtime.files.an_app import APP; import plutoc_runtime.cli as c; "
+SCRIPT = "import sys; from tests.runtime.files.an_app import APP; import pluto_fleet.cli as c; "
 
 
 def in_a_process(code: str, missions: Path, stdout: int) -> subprocess.CompletedProcess[str]:

@@ -8,10 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from plutoc_runtime.cli import drone_answers
-from plutoc_runtime.drones import feeding
-from plutoc_runtime.files.fleet import load_fleet
-from plutoc_runtime.gateway.holding import holding
+from pluto_fleet.cli import drone_answers
+from pluto_fleet.drones import feeding
+from pluto_fleet.files.fleet import load_fleet
+from pluto_fleet.gateway.holding import holding
 from tests.runtime.cli import fake_drones
 from tests.runtime.cli.conftest import Command
 from tests.runtime.cli.fake_drones import ASKED, RECORD, THERE, at

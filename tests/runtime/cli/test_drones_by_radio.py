@@ -13,10 +13,10 @@ from threading import Thread
 
 import pytest
 
-from plutoc_runtime.crtp.drone import Build
-from plutoc_runtime.crtp.record import InMemory
-from plutoc_runtime.crtp.server import Server
-from plutoc_runtime.files.fleet import load_fleet
+from pluto_fleet.crtp.drone import Build
+from pluto_fleet.crtp.record import InMemory
+from pluto_fleet.crtp.server import Server
+from pluto_fleet.files.fleet import load_fleet
 from tests.crtp.radio import Ether, plugged_in
 from tests.runtime.cli.conftest import Command
 from tests.runtime.files.an_app import APP

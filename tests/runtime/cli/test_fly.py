@@ -11,8 +11,8 @@ from typing import Any
 
 import pytest
 
-from plutoc_runtime.journal.header import header
-from plutoc_runtime.journal.store import Store
+from pluto_fleet.journal.header import header
+from pluto_fleet.journal.store import Store
 from tests.runtime.cli.conftest import MISSIONS, Command
 from tests.runtime.files.an_app import APP
 

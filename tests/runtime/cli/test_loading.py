@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 
+from pluto_fleet.cli import start
 from plutoc_runtime.app import App
-from plutoc_runtime.cli import start
 
 
 @pytest.fixture

@@ -12,10 +12,10 @@ from typing import Any
 
 import pytest
 
-from plutoc_runtime.cli import often
-from plutoc_runtime.cli.summary import percentile, run_of
+from pluto_fleet.cli import often
+from pluto_fleet.cli.summary import percentile, run_of
+from pluto_fleet.testing.invariants import Items
 from plutoc_runtime.session import Outcome
-from plutoc_runtime.testing.invariants import Items
 from plutoc_runtime.trace import Event
 from tests.runtime.cli.conftest import Command
 

@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from plutoc_runtime.cli.flight_options import ACTIONS, ANSWERS
-from plutoc_runtime.cli.options import parse
-from plutoc_runtime.cli.supervise import GIVES_UP_AFTER
+from pluto_fleet.cli.flight_options import ACTIONS, ANSWERS
+from pluto_fleet.cli.options import parse
+from pluto_fleet.cli.supervise import GIVES_UP_AFTER
 from tests.runtime.files.an_app import APP
 
 PAGE = (Path(__file__).parents[3] / "docs" / "operations.md").read_text(encoding="utf-8")

@@ -9,12 +9,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from plutoc_runtime.cli.events import line_of
-from plutoc_runtime.cli.options import faults
-from plutoc_runtime.cli.progress import Progress
-from plutoc_runtime.cli.report import table
-from plutoc_runtime.cli.summary import Run, spread, summary
-from plutoc_runtime.journal_line import dumped
+from pluto_fleet.cli.events import line_of
+from pluto_fleet.cli.options import faults
+from pluto_fleet.cli.progress import Progress
+from pluto_fleet.cli.report import table
+from pluto_fleet.cli.summary import Run, spread, summary
+from pluto_fleet.journal_line import dumped
 from plutoc_runtime.words import duration, mass, number, quoted
 
 

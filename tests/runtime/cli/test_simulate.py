@@ -9,9 +9,9 @@ from typing import Any
 
 import pytest
 
+from pluto_fleet.cli.options import FAULTS
 from plutoc_runtime.app import App
-from plutoc_runtime.cli.options import FAULTS
-from plutoc_runtime.simulation.faults import Faults
+from plutoc_runtime.faults import Faults
 from tests.runtime.cli.conftest import Command
 from tests.runtime.files.an_app import APP, POLLINATE
 

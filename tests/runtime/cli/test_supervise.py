@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from plutoc_runtime.cli.supervise import GIVES_UP_AFTER, Supervised, supervise
+from pluto_fleet.cli.supervise import GIVES_UP_AFTER, Supervised, supervise
 
 LIVES = """
 import os, signal, sys

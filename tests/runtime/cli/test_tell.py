@@ -10,13 +10,13 @@ from threading import Event, Thread
 
 import pytest
 
-from plutoc_runtime.asking import note_of
-from plutoc_runtime.cli import stop_mark
+from pluto_fleet.asking import note_of
+from pluto_fleet.cli import stop_mark
+from pluto_fleet.gateway.process import NOTE
+from pluto_fleet.journal.lock import Lock
+from pluto_fleet.journal.place import gateway_folder
+from pluto_fleet.remote_control import listening
 from plutoc_runtime.errors import BadInput
-from plutoc_runtime.gateway.process import NOTE
-from plutoc_runtime.journal.lock import Lock
-from plutoc_runtime.journal.place import gateway_folder
-from plutoc_runtime.remote_control import listening
 from plutoc_runtime.standing import Down
 from tests.runtime.cli.conftest import Command
 

@@ -10,15 +10,15 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from pluto_fleet.files.fleet import FleetFile, load_fleet
+from pluto_fleet.files.limits import APART, RADIUS, SIDE
+from pluto_fleet.files.missions import load_missions
+from pluto_fleet.plan_check import problems
+from pluto_fleet.testing.blows import Blow, Kind
+from pluto_fleet.testing.case import Case, Weather
+from pluto_fleet.testing.rig import Rig
 from plutoc_runtime.errors import BadInput
-from plutoc_runtime.files.fleet import FleetFile, load_fleet
-from plutoc_runtime.files.limits import APART, RADIUS, SIDE
-from plutoc_runtime.files.missions import load_missions
 from plutoc_runtime.model import Mission
-from plutoc_runtime.plan_check import problems
-from plutoc_runtime.testing.blows import Blow, Kind
-from plutoc_runtime.testing.case import Case, Weather
-from plutoc_runtime.testing.rig import Rig
 from tests.runtime.files.extremes import CATEGORIES, Extremes, extreme_app
 
 DRONE = '[[drone]]\nid = "a"\ncategory = "scout"\nhome = [1, 1]\n'

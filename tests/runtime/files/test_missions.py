@@ -10,10 +10,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from pluto_fleet.files.missions import load_missions
+from pluto_fleet.files.reading import LARGEST, read
 from plutoc_runtime.airspace import Airspace
 from plutoc_runtime.errors import BadInput
-from plutoc_runtime.files.missions import load_missions
-from plutoc_runtime.files.reading import LARGEST, read
 from plutoc_runtime.model import Item, Mission
 from plutoc_runtime.status import Status
 from tests.runtime.files.an_app import APP, PLAIN, FieldMission, FieldTrip

@@ -9,14 +9,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from pluto_fleet.realtime import RealTime
+from pluto_fleet.simulation.drones import SimulatedNavigation
 from plutoc_runtime.airspace import Airspace
 from plutoc_runtime.energy import docked
 from plutoc_runtime.errors import Failure, FlightFailed
+from plutoc_runtime.faults import Faults, draw
 from plutoc_runtime.kernel import FLEET
 from plutoc_runtime.model import Item, Point
-from plutoc_runtime.realtime import RealTime
-from plutoc_runtime.simulation.drones import SimulatedNavigation
-from plutoc_runtime.simulation.faults import Faults, draw
 from plutoc_runtime.virtual import VirtualTime
 from tests.runtime.simulation.flights import CLIMB, HOME, SCOUT, Team, failure, fly, order, team
 

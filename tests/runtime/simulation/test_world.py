@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.simulation.world import Feature, Source, World, WorldData, invented
+from plutoc_runtime.world import Feature, Source, World, WorldData, invented
 
 MAP = Airspace(size=(20.0, 10.0))
 DUST = Source(quantity="pm10", at=(5.0, 5.0), peak=80.0, radius=2.0)

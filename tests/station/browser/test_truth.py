@@ -15,8 +15,8 @@ from typing import Any
 
 from playwright.sync_api import Page, expect
 
-from plutoc_runtime.gateway.starting import still_runs
-from plutoc_runtime.journal.place import gateway_folder
+from pluto_fleet.gateway.starting import still_runs
+from pluto_fleet.journal.place import gateway_folder
 from tests.station.browser.conftest import Serve, Visit
 from tests.station.browser.exercise import put_in
 from tests.station.browser.serving import Station, until

@@ -6,7 +6,7 @@ import os
 import subprocess
 from typing import Any
 
-from plutoc_runtime.journal.lock import holder
+from pluto_fleet.journal.lock import holder
 from tests.station.browser.serving import Station, until
 from tests.station.flights.conftest import Serve
 from tests.station.flights.test_flights import comes_to, flies, refused, tell

@@ -12,9 +12,9 @@ from typing import Any
 
 import pytest
 
-from plutoc_runtime.gateway.starting import cut_directly, still_runs
-from plutoc_runtime.journal.place import gateway_folder
-from plutoc_runtime.journal.reader import Reader
+from pluto_fleet.gateway.starting import cut_directly, still_runs
+from pluto_fleet.journal.place import gateway_folder
+from pluto_fleet.journal.reader import Reader
 from tests.station.browser.serving import PATIENCE, Station, until
 from tests.station.flights.conftest import Serve
 from tests.station.flights.test_flights import comes_to, events, flies, refused, tell

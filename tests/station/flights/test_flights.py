@@ -15,8 +15,8 @@ from typing import Any
 
 import pytest
 
-from plutoc_runtime.journal.lock import Lock
-from plutoc_runtime.journal.reader import Reader
+from pluto_fleet.journal.lock import Lock
+from pluto_fleet.journal.reader import Reader
 from tests.station.browser.serving import Station, until
 from tests.station.flights.conftest import Serve
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 import json
 from typing import Any
 
+from pluto_fleet.station.feed import FACTS, Feed
 from plutoc_runtime.actions import BUILT_IN, Action, Parameter
-from plutoc_runtime.journal.values import value_data
 from plutoc_runtime.model import Photo
+from plutoc_runtime.plain import value_data
 from plutoc_runtime.quantities import Type
-from plutoc_runtime.simulation.world import UNITS
-from plutoc_runtime.station.feed import FACTS, Feed
+from plutoc_runtime.world import UNITS
 from tests.station.browser.serving import Station, until
 from tests.station.flights.conftest import Serve
 from tests.station.flights.test_flights import comes_to, tell

@@ -6,8 +6,8 @@ import asyncio
 import json
 from typing import Any
 
-from plutoc_runtime.station.plan.plan import Plan
-from plutoc_runtime.station.scene import Scene
+from pluto_fleet.station.plan.plan import Plan
+from pluto_fleet.station.scene import Scene
 from tests.runtime.files.an_app import APP
 from tests.station.plan.drawing import FLEET
 

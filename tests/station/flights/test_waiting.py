@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
+from pluto_fleet.station.waiting import AT_ONCE, Waiting, why_nobody
 from plutoc_runtime.model import Category, Item
-from plutoc_runtime.simulation.motion import Charge
-from plutoc_runtime.station.waiting import AT_ONCE, Waiting, why_nobody
+from plutoc_runtime.motion import Charge
 from plutoc_runtime.status import DroneStatus
 from tests.runtime import apps
 from tests.runtime.living import Living, enterable

@@ -8,9 +8,9 @@ from typing import Any
 
 import pytest
 
+from pluto_fleet.station.whereabouts import _named
 from plutoc.compile import analyse
 from plutoc.source import Source
-from plutoc_runtime.station.whereabouts import _named
 from tests.flying import EXAMPLES, built
 
 DECLARATIONS = {
@@ -32,8 +32,7 @@ def blocks_met(name: str, tmp_path: Any) -> Mapping[str, Sequence[tuple[str, ...
     """Fly an example, and return at which blocks each mission was after each event, in order."""
     example = built(name, tmp_path)
     virtual, session, faults = (
-        import_module(f"{name}._runtime.{module}")
-        for module in ("virtual", "session", "simulation.faults")
+        import_module(f"{name}._runtime.{module}") for module in ("virtual", "session", "faults")
     )
     where = import_module(f"{name}._runtime.station.whereabouts")
     met: dict[str, list[tuple[str, ...]]] = {m.name: [] for m in example.missions}

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from itertools import combinations, pairwise
 from typing import Any
 
-from plutoc_runtime.station.graph.grid import Point
-from plutoc_runtime.station.graph.layout import Laid
-from plutoc_runtime.station.graph.routes import Piece
-from plutoc_runtime.station.graph.words import Area
+from pluto_fleet.station.graph.grid import Point
+from pluto_fleet.station.graph.layout import Laid
+from pluto_fleet.station.graph.routes import Piece
+from pluto_fleet.station.graph.words import Area
 
 STAND = 13.0
 LETTER = 5.4

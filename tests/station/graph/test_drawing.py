@@ -8,12 +8,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from pluto_fleet.station.graph.layout import drawn
+from pluto_fleet.station.graph.picture import laid_out
+from pluto_fleet.station.graph.read import Arrow, Box, Graph, graph_in
 from plutoc.check.model import Checked
 from plutoc.emit.readme_file import readme
 from plutoc.report.graph import mermaid
-from plutoc_runtime.station.graph.layout import drawn
-from plutoc_runtime.station.graph.picture import laid_out
-from plutoc_runtime.station.graph.read import Arrow, Box, Graph, graph_in
 from tests.station.graph.looking import Pictured, lying_together, mistakes, overlap, pictured
 from tests.station.graph.sources import examples, random_graphs
 

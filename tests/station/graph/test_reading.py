@@ -6,13 +6,13 @@ from dataclasses import replace
 
 import pytest
 
+from pluto_fleet.station.graph.read import graph_in
 from plutoc.block import ANY_SAME, Block
 from plutoc.check.model import Checked
 from plutoc.emit.readme_file import readme
 from plutoc.report.graph import mermaid
 from plutoc.report.graph.picture import Shape, picture
 from plutoc_blocks.clock.step import wait_for_time
-from plutoc_runtime.station.graph.read import graph_in
 from tests.station.graph.sources import examples, random_graphs
 
 SHAPES = {Shape.START: "start", Shape.END: "end", Shape.GATE: "gate", Shape.BLOCK: "block"}

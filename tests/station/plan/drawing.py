@@ -8,8 +8,8 @@ from typing import Any
 
 from hypothesis import strategies as st
 
-from plutoc_runtime.files.fleet import FleetFile, default_fleet
-from plutoc_runtime.station.plan.plan import Plan
+from pluto_fleet.files.fleet import FleetFile, default_fleet
+from pluto_fleet.station.plan.plan import Plan
 from tests.runtime.files.an_app import APP
 
 FLEET = default_fleet(APP)

@@ -10,16 +10,16 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from pluto_fleet.files.fleet import FleetFile
+from pluto_fleet.simulate import simulate
+from pluto_fleet.station.plan.plan import Plan
 from plutoc_runtime.actions import Action, Parameter
 from plutoc_runtime.airspace import Airspace
 from plutoc_runtime.app import App
 from plutoc_runtime.errors import BadInput
-from plutoc_runtime.files.fleet import FleetFile
+from plutoc_runtime.faults import Faults
 from plutoc_runtime.model import Category, Mission
 from plutoc_runtime.quantities import Type
-from plutoc_runtime.session import simulate
-from plutoc_runtime.simulation.faults import Faults
-from plutoc_runtime.station.plan.plan import Plan
 from plutoc_runtime.status import Status
 from tests.flying import EXAMPLES
 from tests.runtime.files.an_app import APP, PLAIN

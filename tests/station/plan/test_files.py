@@ -10,10 +10,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from pluto_fleet.files.missions import load_missions
+from pluto_fleet.station.plan.plan import Plan, Stale
 from plutoc_runtime.errors import BadInput
-from plutoc_runtime.files.missions import load_missions
 from plutoc_runtime.model import Mission
-from plutoc_runtime.station.plan.plan import Plan, Stale
 from tests.runtime.files.an_app import APP
 from tests.runtime.files.test_missions import FULL
 from tests.station.plan.drawing import FLEET, SOUND_PLANS, Json, a_plan, drawn, mission, said, trip

@@ -9,8 +9,8 @@ from hypothesis import settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, invariant, rule
 
+from pluto_fleet.station.plan.plan import Plan, Stale
 from plutoc_runtime.errors import BadInput
-from plutoc_runtime.station.plan.plan import Plan, Stale
 from tests.station.plan.drawing import MISSIONS, Json, a_plan, drawn, keyed, mission, trip
 
 KEYS = ["mission-one", "mission-two"]

@@ -12,11 +12,11 @@ from typing import Any
 
 from websockets.typing import Origin
 
-from plutoc_runtime.station.web.api import Api
-from plutoc_runtime.station.web.audit import Audit
-from plutoc_runtime.station.web.guard import Guard
-from plutoc_runtime.station.web.listening import listening, port_of
-from plutoc_runtime.station.web.server import serve
+from pluto_fleet.station.web.api import Api
+from pluto_fleet.station.web.audit import Audit
+from pluto_fleet.station.web.guard import Guard
+from pluto_fleet.station.web.listening import listening, port_of
+from pluto_fleet.station.web.server import serve
 
 from .asking import AStation
 

@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
+from pluto_fleet.station.commands import Malformed
+from pluto_fleet.station.web.answers import ADDRESSES
 from plutoc_runtime.errors import BadInput
-from plutoc_runtime.station.commands import Malformed
-from plutoc_runtime.station.web.answers import ADDRESSES
 
 from .asking import OURS, AStation, asked, request, said, without
 

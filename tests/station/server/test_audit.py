@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from plutoc_runtime.station.web.audit import Audit
+from pluto_fleet.station.web.audit import Audit
 
 from .asking import asked, request, without
 

@@ -12,15 +12,15 @@ from tempfile import TemporaryDirectory
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from plutoc_runtime.station.phase import Phase
-from plutoc_runtime.station.plan.plan import Plan
-from plutoc_runtime.station.settings import Settings
-from plutoc_runtime.station.station import Station
-from plutoc_runtime.station.web.answers import ADDRESSES
-from plutoc_runtime.station.web.api import Api
-from plutoc_runtime.station.web.audit import Audit
-from plutoc_runtime.station.web.guard import Guard
-from plutoc_runtime.station.web.http import Reply, Request
+from pluto_fleet.station.phase import Phase
+from pluto_fleet.station.plan.plan import Plan
+from pluto_fleet.station.settings import Settings
+from pluto_fleet.station.station import Station
+from pluto_fleet.station.web.answers import ADDRESSES
+from pluto_fleet.station.web.api import Api
+from pluto_fleet.station.web.audit import Audit
+from pluto_fleet.station.web.guard import Guard
+from pluto_fleet.station.web.http import Reply, Request
 from tests.runtime.files.an_app import APP
 from tests.station.plan.drawing import FLEET, a_plan
 

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from plutoc_runtime.errors import BadInput
-from plutoc_runtime.station.web.guard import (
+from pluto_fleet.station.web.guard import (
     Asking,
     Guard,
     is_loopback,
@@ -14,7 +13,8 @@ from plutoc_runtime.station.web.guard import (
     proper_name,
     refusal,
 )
-from plutoc_runtime.station.web.http import Request
+from pluto_fleet.station.web.http import Request
+from plutoc_runtime.errors import BadInput
 
 from .asking import OURS, without
 

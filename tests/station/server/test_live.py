@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from plutoc_runtime.station.web import live
-from plutoc_runtime.station.web.http import Closed
+from pluto_fleet.station.web import live
+from pluto_fleet.station.web.http import Closed
 
 from .asking import OURS, SEEN, Asked, AStation, asked, request, without
 

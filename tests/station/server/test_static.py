@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from pluto_fleet.station.web.static import FOLDER, floor_plan, pages
 from plutoc_runtime.errors import BadInput
-from plutoc_runtime.station.web.static import FOLDER, floor_plan, pages
 
 from .asking import OURS, AStation, asked, without
 

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from plutoc_runtime.station.commands import Malformed
-from plutoc_runtime.station.web.strict_json import DEEPEST, parsed, parsed_object
+from pluto_fleet.station.commands import Malformed
+from pluto_fleet.station.web.strict_json import DEEPEST, parsed, parsed_object
 
 SOUND = st.recursive(
     st.none()

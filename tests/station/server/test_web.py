@@ -15,11 +15,11 @@ from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.typing import Origin
 
+from pluto_fleet.station.web import crowd, server
+from pluto_fleet.station.web.borrowed import borrowed
+from pluto_fleet.station.web.guard import Guard
+from pluto_fleet.station.web.listening import address, listening, port_of
 from plutoc_runtime.errors import BadInput
-from plutoc_runtime.station.web import crowd, server
-from plutoc_runtime.station.web.borrowed import borrowed
-from plutoc_runtime.station.web.guard import Guard
-from plutoc_runtime.station.web.listening import address, listening, port_of
 
 from .asking import SEEN
 from .serving import Served, served, status

@@ -1,0 +1,1 @@
+"""What flies a compiled app: real time, journal, gateway, drones, station and trials."""

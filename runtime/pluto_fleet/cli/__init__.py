@@ -1,0 +1,197 @@
+"""The command line of a generated package."""
+
+from __future__ import annotations
+
+import os
+import sys
+from errno import ENAMETOOLONG
+from functools import partial
+
+from plutoc_runtime.errors import BadInput
+
+from . import output
+
+TYPE_CHECKING = False  # `typing` itself is slow to import, and plutoc's `--version` does without
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+    from typing import NoReturn
+
+    from plutoc_runtime.app import App
+
+BAD_INPUT, INTERNAL, INTERRUPTED, CLOSED_PIPE = 2, 70, 130, 141
+
+_WITHOUT_HOOKS = (["tell"], ["journal"])
+"""Commands that need nothing of an app but its name: a Stop must work whatever is in hooks.py."""
+
+
+def start(name: str, load: Callable[[], App]) -> int:
+    """Load an app and run the command that the program was called with."""
+    if sys.argv[1:2] == ["gateway"]:  # it must not fall with the app's own code
+        from ..gateway.process import main as gateway
+
+        return gateway(sys.argv[2:])
+    if sys.argv[1:2] == ["crtp"]:  # the drones must not fall with it, either
+        from ..crtp.process import main as crtp
+
+        return crtp(sys.argv[2:])
+    app: App | None = None
+    ending = Ending(name)
+    with ending:
+        from plutoc_runtime.forked import end_if_forked
+
+        from .loading import bare, loaded
+
+        parent = os.getpid()
+        app = bare(name) if sys.argv[1:2] in _WITHOUT_HOOKS else loaded(load)
+        end_if_forked(parent)  # as its hooks were loaded
+    code = _heard(app) if app is not None else ending.code
+    if code == BAD_INPUT and "--supervised" in sys.argv:
+        from .supervise import refuse
+
+        refuse()  # it must not be started again
+    if app is not None:
+        from .leaving import leave_in_time
+
+        leave_in_time(name, code)
+    return code
+
+
+def _heard(app: App) -> int:
+    """Run the program's command; hooks neither interrupt it for a person nor end it as if it were over."""
+    from plutoc_runtime.hard_exit import instead_of, refused
+    from plutoc_runtime.raised import interrupted_by_a_person
+
+    command = sys.argv[1:2]
+    if command == ["simulate"]:
+        with interrupted_by_a_person(), refused():
+            return main(app)
+    if command in (["fly"], ["resume"], ["serve"]):
+        instead_of(partial(_ended_by_hooks, app.name))
+    if command == ["fly"]:  # it calls hooks in the main thread, where interrupts arrive
+        with interrupted_by_a_person():
+            return main(app)
+    return main(app)
+
+
+def _ended_by_hooks(name: str, status: int) -> NoReturn:
+    """End as after a crash: drones may fly, and `--supervise` starts the app again."""
+    from plutoc_runtime.hard_exit import leave
+
+    output.tell(f"{name}: something in the app's own code ends it by os._exit({status})")
+    leave(INTERNAL)
+
+
+def main(app: App, argv: Sequence[str] | None = None) -> int:
+    """Run one command of the app and return its exit code; `argv` is without the program."""
+    output.prepare()
+    ending = Ending(app.name)
+    with ending:
+        ending.code = _command(app, argv)
+        output.flush()
+    return ending.code
+
+
+class Ending:
+    """Turns whatever a command ends with into an exit code, and into a message."""
+
+    def __init__(self, name: str) -> None:
+        self.code = 0
+        self._name = name
+
+    def __enter__(self) -> None:
+        pass
+
+    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> bool:
+        name = self._name
+        if error is not None:
+            from plutoc_runtime.words import printable
+        match error:
+            case None:
+                return True
+            case BadInput():
+                output.tell("\n".join(map(printable, str(error).split("\n"))))
+                self.code = BAD_INPUT
+            case OSError() if error.errno == ENAMETOOLONG:
+                output.tell(f"{printable(str(error.filename))}: a name is too long")
+                self.code = BAD_INPUT
+            case output.ClosedPipe():
+                output.silence()
+                self.code = CLOSED_PIPE
+            case output.CannotWrite():
+                output.silence()
+                output.tell(f"{name}: the output cannot be written: {error}")
+                self.code = BAD_INPUT
+            case KeyboardInterrupt():
+                output.tell(f"{name}: interrupted")
+                self.code = INTERRUPTED
+            case _:  # even a SystemExit: it would pass for a proper end
+                _report_bug(name, error)
+                self.code = INTERNAL
+        return True
+
+
+def _command(app: App, argv: Sequence[str] | None) -> int:
+    from .options import parse
+
+    try:
+        options = parse(app, argv)
+    except SystemExit as end:  # argparse has printed the help, or what is wrong
+        return end.code if isinstance(end.code, int) else BAD_INPUT
+    from .beside import take_fleet_beside
+
+    take_fleet_beside(options)
+    match options.command:
+        case "simulate":
+            from .simulate import simulate
+
+            return simulate(app, options)
+        case "fly" if options.dry_run:
+            from .dry_run import dry_run
+
+            return dry_run(app, options)
+        case "fly":
+            from .fly import fly
+
+            return fly(app, options)
+        case "serve":
+            from .serve import serve
+
+            return serve(app, options)
+        case "tell":
+            from .tell import tell
+
+            return tell(app, options)
+        case "decide":
+            from .decide import decide
+
+            return decide(app, options)
+        case "resume":
+            from .resume import resume
+
+            return resume(app, options)
+        case "drones":
+            from .drones import drones
+
+            return drones(app, options)
+        case "journal":
+            from .journal import journal
+
+            return journal(app, options)
+        case _:
+            from .check import check
+
+            return check(app, options)
+
+
+def _report_bug(name: str, error: BaseException) -> None:
+    if os.environ.get("PLUTO_DEBUG") == "1":
+        import traceback
+
+        output.tell("".join(traceback.format_exception(error)).rstrip())
+    where = getattr(error, "__notes__", ())  # the block, if it was in one
+    whose = "of ours, or of whoever made that block" if where else "of ours"
+    output.tell(
+        "\n".join([f"{name}: internal error: {type(error).__name__}: {error}", *where])
+        + f"\nThis is a mistake {whose}: please report it"
+        " (PLUTO_DEBUG=1 shows where it happened)."
+    )

@@ -1,0 +1,108 @@
+"""A fleet file made of the drones that answer: a beginning, to be read by a person before anything flies."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import cycle
+from math import dist
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from plutoc_runtime.airspace import Airspace
+from plutoc_runtime.errors import BadInput
+from plutoc_runtime.words import counted, number, place, printable
+
+from ..files.behaviour import APART, CRAZYFLIE
+from ..files.fleet import fleet_of
+from ..files.reading import parsed
+from ..files.toml_text import numbers, text
+from . import output
+from .drone_answers import heard
+
+if TYPE_CHECKING:
+    from plutoc_runtime.app import App
+    from plutoc_runtime.geometry import Corner
+
+    from .drone_answers import Answer
+
+
+_ORIGIN = 0.05
+"""Metres from (0, 0): that near says who has just been switched on, and knows of no other place."""
+
+
+def write_fleet(app: App, path: Path, told: Sequence[Answer], navigation: str | None) -> None:
+    """Write a fleet file of those that have answered; never over another file."""
+    there = [answer for answer in told if heard(answer) is not None]
+    if not there:
+        raise BadInput(f"{path}: not written, for no drone has answered")
+    content = "\n".join(_file(app, path, there, navigation or CRAZYFLIE)) + "\n"
+    fleet_of(parsed(str(path), content), app)  # it is one that can be read
+    try:
+        with path.open("x", encoding="utf-8") as file:
+            file.write(content)
+    except FileExistsError:
+        raise BadInput(
+            f"{path}: there is such a file already, and it is never overwritten"
+        ) from None
+    except OSError as error:
+        raise BadInput(f"{path}: cannot be written: {error.strerror or error}") from None
+    output.tell(f"{path}: {counted(len(there), 'drone')}; look at each home before anything flies")
+
+
+def _file(app: App, path: Path, there: Sequence[Answer], navigation: str) -> Iterator[str]:
+    airspace = Airspace()
+    yield f"# Written by: {app.name} drones --save {printable(str(path))}"
+    yield "# Say below how large the room is, and see whether each drone has its home and category."
+    yield ""
+    yield "[map]"
+    yield f"size = {numbers(airspace.size)}  # metres, from the place where positions are (0, 0)"
+    yield f"ceiling = {number(airspace.ceiling)}  # nothing flies higher"
+    if navigation != CRAZYFLIE:
+        yield ""
+        yield "[fleet]"
+        yield f"navigation = {text(navigation)}"
+    categories = cycle(category.name for category in app.categories)
+    homes = _Homes(airspace)
+    for index, (answer, category) in enumerate(zip(there, categories, strict=False), start=1):
+        yield ""
+        yield "[[drone]]"
+        yield f'id = "cf{index}"'
+        yield f"category = {text(category)}{_choice(app)}"
+        yield homes.line(answer)
+        if answer.asked.uri is not None:
+            yield f"uri = {text(answer.asked.uri)}"
+
+
+def _choice(app: App) -> str:
+    names = [category.name for category in app.categories]
+    return f"  # one of: {', '.join(names)}" if len(names) > 1 else ""
+
+
+class _Homes:
+    """Where drones stand, as they say; in a row where that cannot be."""
+
+    def __init__(self, airspace: Airspace) -> None:
+        self._airspace = airspace
+        self._taken: list[Corner] = []
+
+    def line(self, answer: Answer) -> str:
+        """Return the line of the next drone's home."""
+        telemetry = heard(answer)
+        x, y, _ = telemetry.position if telemetry is not None else (0.0, 0.0, 0.0)
+        said = round(x, 2) + 0.0, round(y, 2) + 0.0
+        if dist(said, (0.0, 0.0)) > _ORIGIN and self._is_free(said):
+            self._taken.append(said)
+            return f"home = {numbers(said)}  # where it stood"
+        free = self._next_of_row()
+        self._taken.append(free)
+        return f"home = {numbers(free)}  # put it there: it said {place((*said, 0.0))}"
+
+    def _is_free(self, spot: Corner) -> bool:
+        if self._airspace.problem((*spot, 0.0)) is not None:
+            return False
+        return all(dist(spot, other) >= APART for other in self._taken)
+
+    def _next_of_row(self) -> Corner:
+        width, depth = self._airspace.size
+        row = ((float(x), y + 0.5) for y in range(int(depth)) for x in range(1, int(width)))
+        return next(spot for spot in row if self._is_free(spot))

@@ -1,0 +1,178 @@
+"""`drones`: which real drones answer, whether each is ready, and which one is which."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from plutoc_runtime.errors import BadInput
+from plutoc_runtime.words import counted, quoted
+
+from ..crazyflie.borrowed import require
+from ..files.behaviour import CRAZYFLIE
+from ..files.drones import which
+from ..files.errors import near
+from ..files.fleet import load_fleet
+from ..files.reading import shortened
+from ..files.real import navigation_of, not_real, options_of
+from ..journal import place
+from ..journal_line import dumped
+from . import output
+from .drone_answers import Asked, answers, found, identified
+from .drone_file import write_fleet
+from .drone_table import drones_data, drones_table
+
+if TYPE_CHECKING:
+    from plutoc_runtime.app import App
+
+    from ..files.fleet import FleetFile
+    from ..files.free_tables import Options
+    from .drone_answers import Answer
+    from .options import Options as Command
+
+NOT_READY = 1
+"""The exit code where a drone does not answer, or may not fly."""
+
+
+def drones(app: App, options: Command) -> int:
+    """Ask real drones how they are; nothing is armed, and nothing moves."""
+    _refuse_what_does_not_go_together(options)
+    fleet = None if options.fleet is None else _fleet(app, options.fleet)
+    team = _Team(app, fleet, options.navigation)
+    if CRAZYFLIE in team.navigations:
+        require()
+    if options.identify is not None:
+        return _identify(app, team.one(options.identify))
+    told = asyncio.run(_asked(app, options, team))
+    if options.json:
+        output.line(dumped(drones_data(app.name, told)))
+    else:
+        _say(told)
+    if options.save is not None:
+        write_fleet(app, options.save, told, options.navigation)
+    return 0 if told and not any(one.problems for one in told) else NOT_READY
+
+
+def _refuse_what_does_not_go_together(options: Command) -> None:
+    if options.scan and (options.fleet is None or options.who):
+        raise BadInput("--scan goes with --fleet, and with no drone: drones alone finds all")
+    if options.identify is not None and (options.who or options.scan):
+        raise BadInput("--identify names the drone itself: leave the others out")
+    if options.save is None:
+        return
+    if options.fleet is not None:
+        raise BadInput(f"--save writes a new fleet file, and {options.fleet} is one: leave one out")
+    if options.save.exists():
+        raise BadInput(f"{options.save}: there is such a file already, and it is never overwritten")
+
+
+def _fleet(app: App, path: Path) -> FleetFile:
+    """Return a fleet whose drones can be reached, as far as the file is concerned."""
+    fleet = load_fleet(path, app)
+    problems = not_real(fleet)
+    if problems:
+        raise BadInput(shortened([f"{path}: {sentence}" for sentence in problems]))
+    return fleet
+
+
+class _Team:
+    """The drones of the fleet file, and how others are reached."""
+
+    def __init__(self, app: App, fleet: FleetFile | None, navigation: str | None) -> None:
+        self.fleet, self._is_told = fleet, navigation is not None
+        self.others = navigation or (CRAZYFLIE if fleet is None else fleet.navigation)
+        self.known = [] if fleet is None else _known(app, fleet)
+
+    @property
+    def navigations(self) -> list[str]:
+        """All by which these drones, and others, are reached."""
+        return list(dict.fromkeys([self.others, *(asked.navigation for asked in self.known)]))
+
+    def one(self, who: str) -> Asked:
+        """Return a drone by its name in the fleet file, or by its uri."""
+        for asked in self.known:
+            if who == asked.id or (asked.uri is not None and which(who) == which(asked.uri)):
+                return asked
+        if "://" in who or self._is_told:
+            return self._other(who)
+        if self.fleet is None:
+            raise BadInput(f"which drone is {quoted(who)}? Name its uri, or the --fleet it is of")
+        hint = near(who, [asked.id for asked in self.known])
+        raise BadInput(f"the fleet has no drone {quoted(who)}{hint}")
+
+    async def all_found(self, addresses: Sequence[str]) -> list[Asked]:
+        """Return what can be found by the navigation of this fleet, as the fleet knows it."""
+        where = {"addresses": list(addresses)} if addresses else {}
+        uris = await found(self.others, {**self._options(), **where})
+        known = {which(asked.uri): asked for asked in self.known if asked.uri is not None}
+        return [known.get(which(uri)) or self._other(uri) for uri in uris]
+
+    def _other(self, uri: str) -> Asked:
+        options = self._options()
+        return Asked(id=uri, uri=uri, navigation=self.others, options=options, known=False)
+
+    def _options(self) -> Options:
+        return {} if self.fleet is None else self.fleet.options.get(self.others, {})
+
+
+def _known(app: App, fleet: FleetFile) -> list[Asked]:
+    """Return the drones of a fleet file."""
+    categories = {category.name: category for category in app.categories}
+    return [
+        Asked(
+            id=drone.id,
+            uri=drone.uri,
+            navigation=navigation_of(fleet, drone),
+            home=drone.home,
+            speed=categories[drone.category].speed,
+            options=options_of(fleet, drone),
+        )
+        for drone in fleet.drones
+    ]
+
+
+def _identify(app: App, asked: Asked) -> int:
+    asyncio.run(identified(asked, _folder(app)))
+    where = "" if asked.uri in (None, asked.id) else f" ({asked.uri})"
+    output.line(f"{asked.id}{where} has shown itself")
+    return 0
+
+
+async def _asked(app: App, options: Command, team: _Team) -> list[Answer]:
+    asked = [team.one(who) for who in options.who]
+    if not asked:
+        asked = list(team.known)
+    if not asked or options.scan:
+        output.tell("looking for drones …")
+        there = await team.all_found(options.addresses)
+        asked += there
+    each = list({one.id: one for one in asked}.values())
+    if each:
+        output.tell(f"asking {counted(len(each), 'drone')} …")
+    folder, fleet = _folder(app), team.fleet
+    if fleet is None:
+        return await answers(each, folder)
+    return await answers(each, folder, fleet.localization, fleet.localization_options)
+
+
+def _say(told: Sequence[Answer]) -> None:
+    if not told:
+        output.line("no drone answers: are they switched on, and near?")
+        return
+    for line in drones_table(told):
+        output.line(line)
+    output.line()
+    ready = sum(not one.problems for one in told)
+    output.line(f"{ready} of {counted(len(told), 'drone')} ready to fly")
+
+
+def _folder(app: App) -> Path:
+    """Return where navigations may keep what they have learnt of drones."""
+    folder = place.folder_of(app.name) / "drones"
+    try:
+        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+    except OSError as error:
+        raise BadInput(f"{folder}: cannot be made: {error.strerror}") from None
+    return folder

@@ -1,0 +1,120 @@
+"""`journal`: what happened, as it was written down."""
+
+from __future__ import annotations
+
+import json
+import select
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import closing, suppress
+from typing import TYPE_CHECKING, Any
+
+from plutoc_runtime.words import counted
+
+from ..journal import place
+from ..journal.mending import mend
+from ..journal.reader import Reader
+from . import output
+from .told import told
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from pathlib import Path
+
+    from plutoc_runtime.app import App
+
+    from ..journal.reading import Row
+    from .options import Options
+
+DAMAGED = 1
+
+PAUSE = 0.2
+"""Seconds between two looks at a journal that is followed."""
+
+
+def journal(app: App, options: Options) -> int:
+    """Print the journal: all that can be read, and with `--follow` what comes as well."""
+    path = options.journal or place.newest(app.name)
+    if options.mend:
+        output.line(_mended(path))
+        return 0
+    with closing(Reader(path, follows=options.follow)) as reader:
+        printer = _Printer(as_json if options.json else as_text)
+        printer.print(reader.rows())
+        if options.follow and reader.damaged is None:
+            _follow(reader, printer)
+    for trouble in (reader.torn, reader.damaged):
+        if trouble is not None:
+            output.flush()
+            output.tell(trouble if trouble.startswith(str(path)) else f"{path}: {trouble}")
+    return DAMAGED if reader.damaged is not None else 0
+
+
+def _mended(path: Path) -> str:
+    done = mend(path)
+    if done is None:
+        return f"{path}: nothing is damaged"
+    kept = f"the damaged journal is kept as {done.kept}"
+    if not done.lost:
+        return f"{path}: mended: {counted(done.rows, 'row')} are there again; {kept}"
+    lost = counted(done.lost, "row")
+    return (
+        f"{path}: mended: {counted(done.rows, 'row')} are there again; {lost} after a gap are left"
+        f" out, and resume asks the drones what they did since; {kept}"
+    )
+
+
+def _follow(reader: Reader, printer: _Printer) -> None:
+    """Print what comes, until somebody interrupts it or nobody reads it any more."""
+    with suppress(KeyboardInterrupt):
+        while reader.damaged is None:
+            _wait(PAUSE)
+            printer.print(reader.more())
+
+
+def _wait(seconds: float) -> None:
+    """Wait, and notice when whoever read the output has gone in the meantime."""
+    try:
+        watched = select.poll()
+        watched.register(sys.stdout.fileno(), 0)  # what is wrong is told in any case
+    except (AttributeError, OSError, ValueError):  # Windows; an output that is no file
+        time.sleep(seconds)
+        return
+    if watched.poll(seconds * 1000):
+        raise output.ClosedPipe
+
+
+class _Printer:
+    """Prints the events of rows; says where rows are left out."""
+
+    def __init__(self, lines: Callable[[dict[str, Any], float], Iterator[str]]) -> None:
+        self._lines, self._next = lines, 0
+
+    def print(self, rows: Iterator[Row]) -> None:
+        for row in rows:
+            if row.seq > self._next:
+                first, last = self._next, row.seq - 1
+                missing = f"row {first}" if first == last else f"rows {first} to {last}"
+                output.flush()
+                output.tell(f"… {missing} cannot be read …")
+            self._next = row.seq + 1
+            for event in json.loads(row.text):
+                for line in self._lines(event, row.wall):
+                    output.line(line)
+        output.flush()
+
+
+def as_json(event: dict[str, Any], wall: float) -> Iterator[str]:
+    """Give an event as it was written, with the time of day at which that was."""
+    yield json.dumps({**event, "wall": wall})
+
+
+def as_text(event: dict[str, Any], wall: float) -> Iterator[str]:
+    """Give an event as people read it, behind the local time at which it was written."""
+    said = told(event, wall)
+    if said is not None:
+        begin = time.strftime("%H:%M:%S", time.localtime(wall)) + "  "
+        for line in said.split("\n"):
+            yield begin + line
+            begin = " " * len(begin)

@@ -1,0 +1,261 @@
+"""The commands and their flags."""
+
+from __future__ import annotations
+
+from argparse import ArgumentParser, ArgumentTypeError
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from plutoc_runtime.errors import BadInput
+from plutoc_runtime.quantities import Type, parse_quantity
+from plutoc_runtime.words import quoted
+
+from .drone_options import add_drones, add_dry_run
+from .flight_options import add_flights, how_it_flies
+from .station_options import add_station
+
+if TYPE_CHECKING:
+    from plutoc_runtime.app import App
+
+FAULTS = ("crash", "link", "action", "battery")
+"""What `--fail` can make go wrong."""
+
+
+@dataclass
+class Options:
+    """What was asked for. No slots: argparse keeps what it does not know here, too."""
+
+    command: str = ""
+    missions: Path = field(default_factory=Path)
+    fleet: Path | None = None
+    seed: int = 0
+    runs: int | None = None
+    until: float | None = None
+    fail: dict[str, float] = field(default_factory=dict)
+    trace: Path | None = None
+    plot: Path | None = None
+    json: bool = False
+    follow: bool = False
+    mend: bool = False
+    sim: bool = False
+    crtp_sim: int | None = None
+    speed: float | None = None
+    supervise: bool = False
+    supervised: bool = False
+    journal: Path | None = None
+    action: str = ""
+    mission: str | None = None
+    trip: str | None = None
+    priority: int | None = None
+    land: bool = False
+    rtl: bool = False
+    everyone: bool = False
+    answer: str | None = None
+    plan: Path | None = None
+    host: str = ""
+    port: int = 0
+    names: list[str] = field(default_factory=list)
+    folder: Path | None = None
+    open: bool = False
+    going_on: bool = False
+    who: list[str] = field(default_factory=list)
+    scan: bool = False
+    addresses: list[str] = field(default_factory=list)
+    navigation: str | None = None
+    identify: str | None = None
+    save: Path | None = None
+    dry_run: bool = False
+
+    @property
+    def the_journal(self) -> Path:
+        """The journal, where a command cannot be without."""
+        if self.journal is None:
+            raise BadInput("name the journal")
+        return self.journal
+
+    @property
+    def is_real(self) -> bool:
+        """Whether real drones are meant, or what stands in for them down to the radio."""
+        return self.command in ("fly", "serve") and not self.sim
+
+    def refuse_what_is_simulated(self) -> None:
+        """Raise `BadInput` if real drones are meant, and flags that only simulated ones obey."""
+        given = {"--speed": self.speed, "--fail": self.fail, "--seed": self.seed}
+        for flag, value in given.items():
+            if value and self.crtp_sim is not None:
+                raise BadInput(
+                    f"{flag} does not go with --crtp-sim, whose drones fly as real ones do: it goes"
+                    " with --sim"
+                )
+            if value and not self.sim:
+                raise BadInput(f"{flag} is for simulated drones: it goes with --sim")
+
+
+def parse(app: App, argv: Sequence[str] | None) -> Options:
+    """Read the command line; raise SystemExit, as argparse does, after help or an error."""
+    parser = _plain(ArgumentParser(prog=app.name, description=app.title, allow_abbrev=False))
+    commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
+
+    def command(name: str, what: str) -> ArgumentParser:
+        return _plain(commands.add_parser(name, help=what, description=what, allow_abbrev=False))
+
+    simulate = command("simulate", "Fly the missions in virtual time, with simulated drones.")
+    _files(simulate)
+    _simulation(simulate)
+    _files(command("check", "Say whether the fleet can fly the missions; nothing flies."))
+    fly = command("fly", "Fly the missions in real time.")
+    _files(fly)
+    how_it_flies(fly)
+    _chance(fly, "with --sim: ")
+    fly.add_argument(
+        "--journal",
+        metavar="J",
+        type=Path,
+        help="where to write down what happens; default: a new file in the user's own folder",
+    )
+    add_dry_run(fly, time)
+    serve = command("serve", "Open the ground station: draw, fly and watch missions in a browser.")
+    _fleet(serve)
+    how_it_flies(serve)
+    _chance(serve, "with --sim: ")
+    add_station(serve)
+    add_flights(command)
+    add_drones(command)
+    _journal(command("journal", "Print what happened, as it was written down."))
+    options = parser.parse_args(argv, namespace=Options())
+    if options.trace is not None and options.runs is not None:
+        simulate.error("--trace writes down one run: it does not go with --runs")
+    if options.command == "fly" and options.until is not None and not options.dry_run:
+        fly.error("--until goes with --dry-run: to end a flight, stop it")
+    if options.plot is not None and options.runs is None:
+        simulate.error("--plot draws many runs: it goes with --runs")
+    return options
+
+
+def _plain(parser: ArgumentParser) -> ArgumentParser:
+    vars(parser)["color"] = False  # from Python 3.14 on it would be True
+    return parser
+
+
+def _files(parser: ArgumentParser) -> None:
+    parser.add_argument("missions", metavar="M.toml", type=Path, help="the missions file")
+    _fleet(parser)
+
+
+def _fleet(parser: ArgumentParser) -> None:
+    parser.add_argument(
+        "--fleet",
+        metavar="F.toml",
+        type=Path,
+        help="the map and the drones; default: the fleet.toml beside the missions, or else five drones"
+        " on a plain of 20 × 20 m; real drones need it",
+    )
+
+
+def _journal(parser: ArgumentParser) -> None:
+    parser.add_argument(
+        "journal", metavar="J", type=Path, nargs="?", help="the journal; default: the newest"
+    )
+    how = parser.add_mutually_exclusive_group()
+    how.add_argument("--follow", action="store_true", help="go on with what comes, as it comes")
+    how.add_argument(
+        "--mend",
+        action="store_true",
+        help="make a whole journal of what can be read of a damaged one",
+    )
+    parser.add_argument("--json", action="store_true", help="print a JSON object for each event")
+
+
+def _chance(parser: ArgumentParser, only: str = "") -> None:
+    parser.add_argument(
+        "--seed",
+        metavar="N",
+        type=whole,
+        default=0,
+        help=f"{only}what chance depends on (default 0)",
+    )
+    parser.add_argument(
+        "--fail",
+        metavar="WHAT=SHARE,…",
+        type=faults,
+        default={},
+        help=f"{only}let flights go wrong: {', '.join(FAULTS)}; such as crash=2%%,link=1%%",
+    )
+
+
+def _simulation(parser: ArgumentParser) -> None:
+    _chance(parser)
+    parser.add_argument(
+        "--runs", metavar="N", type=count, help="simulate N times, with N seeds from --seed on"
+    )
+    parser.add_argument(
+        "--plot",
+        metavar="FILE",
+        type=Path,
+        help="draw how the runs lie, into an .svg or a .png; needs matplotlib",
+    )
+    parser.add_argument(
+        "--until", metavar="TIME", type=time, help='stop at this simulated time, such as "2 h"'
+    )
+    parser.add_argument(
+        "--trace", metavar="FILE", type=Path, help="write every event there, a JSON object a line"
+    )
+    parser.add_argument("--json", action="store_true", help="print one JSON object instead")
+
+
+def whole(text: str) -> int:
+    """Read a whole number."""
+    try:
+        return int(text)
+    except ValueError:
+        raise ArgumentTypeError(f"{quoted(text)} is not a whole number") from None
+
+
+def count(text: str) -> int:
+    """Read a number of times."""
+    number = whole(text)
+    if number < 1:
+        raise ArgumentTypeError(f"{quoted(text)} is less than 1")
+    return number
+
+
+def time(text: str) -> float:
+    """Read a time that is more than nothing: 7200, "2 h"."""
+    try:
+        seconds = parse_quantity(text, Type.TIME)
+    except ValueError as error:
+        raise ArgumentTypeError(f"{quoted(text)} {error}") from None
+    if seconds <= 0:
+        raise ArgumentTypeError(f"{quoted(text)} is not more than 0")
+    return seconds
+
+
+def faults(text: str) -> dict[str, float]:
+    """Read crash=10%,link=5%."""
+    shares: dict[str, float] = {}
+    for part in text.split(","):
+        what, equals, amount = (piece.strip() for piece in part.partition("="))
+        if not equals:
+            raise ArgumentTypeError(f"{quoted(part)} is not written like crash=10%")
+        if what not in FAULTS:
+            known = ", ".join(FAULTS)
+            raise ArgumentTypeError(f"{quoted(what)} cannot go wrong; what can: {known}")
+        if what in shares:
+            raise ArgumentTypeError(f"{what} is given twice")
+        shares[what] = share(what, amount)
+    return shares
+
+
+def share(what: str, text: str) -> float:
+    """Read 10% or 0.1."""
+    try:
+        number = parse_quantity(text, Type.PERCENT)
+    except ValueError:
+        raise ArgumentTypeError(
+            f"{what}={text} is not a percentage: write it like {what}=10%"
+        ) from None
+    if not 0 <= number <= 1:
+        raise ArgumentTypeError(f"{what}={text} is not between 0% and 100%")
+    return number

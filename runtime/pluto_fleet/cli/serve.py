@@ -1,0 +1,262 @@
+"""`serve`: the ground station in a browser."""
+
+from __future__ import annotations
+
+import asyncio
+import fcntl
+import os
+import secrets
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from plutoc_runtime.errors import BadInput
+from plutoc_runtime.forked import not_for_children
+from plutoc_runtime.standing import Down
+
+from .. import again
+from ..files.reading import text_of
+from ..files.real import as_flown
+from ..journal import place
+from ..station.phase import Phase
+from ..station.plan.plan import Plan
+from ..station.settings import Settings
+from ..station.station import Station
+from ..station.web.api import Api
+from ..station.web.audit import Audit
+from ..station.web.borrowed import borrowed
+from ..station.web.guard import Guard, needs_token, proper_name
+from ..station.web.listening import address, listening, port_of
+from ..station.web.server import serve as serve_web
+from ..station.web.static import floor_plan
+from . import output
+from .flight_options import how_it_flies_in
+from .flown import finished, records_in
+from .interrupts import Interrupts
+from .leaving import run
+from .plans import load_fleet
+from .real import check_real
+from .supervise import Supervised, supervise
+
+if TYPE_CHECKING:
+    from plutoc_runtime.app import App
+
+    from .options import Options
+
+AGAIN = "serve shows what was interrupted, and Resume goes on with it"
+
+
+def serve(app: App, options: Options) -> int:
+    """Serve the station until somebody interrupts it; then all drones land first."""
+    options.refuse_what_is_simulated()
+    borrowed(app.name)  # before anything is kept or flown
+    settings = _settings(app, options)
+    if options.is_real:
+        where = str(options.fleet or app.name)
+        check_real(app, settings.fleet, where, stand_ins=options.crtp_sim is not None)
+        app = as_flown(app, settings.fleet)
+    _make_room(settings)
+    if options.supervise:
+        return _supervised(app, options, settings)
+    with _alone(settings):
+        (settings.own_folder / LEFT).unlink(missing_ok=True)
+        station = Station(app, settings, _plan(app, options, settings))
+        leaving = _Leaving(station)
+        left = settings.own_folder / LEFT
+        interrupts = Interrupts(leaving, leaving.journal, AGAIN, last=left.touch)
+        with interrupts.listening():
+            run(_serve(app, options, settings, station, interrupts))
+        left.touch()
+        return interrupts.code or 0
+
+
+async def _serve(
+    app: App, options: Options, settings: Settings, station: Station, interrupts: Interrupts
+) -> None:
+    interrupts.loop = asyncio.get_running_loop()
+    with listening(options.host, _port(options, settings)) as listener:
+        guard = _guard(options, settings, port_of(listener))
+        api = Api(station, guard, Audit(settings.own_folder / "audit.log"))
+        station.begin(options.going_on)
+        if options.going_on and station.phase is Phase.INTERRUPTED:
+            station.resume()
+
+        def ready() -> None:
+            (settings.own_folder / PORT).write_text(str(guard.port), encoding="utf-8")
+            output.line(f"station: {address(guard)}")
+            output.flush()
+            if options.open:
+                import webbrowser  # few want it, and it is slow to import
+
+                webbrowser.open(address(guard))
+
+        server = asyncio.create_task(serve_web(api, listener, app.name, ready))
+        leaves = asyncio.create_task(station.leaves.wait())
+        await asyncio.wait([server, leaves], return_when=asyncio.FIRST_COMPLETED)
+        if station.leaves.is_set():
+            server.cancel()
+            with suppress(asyncio.CancelledError):
+                await server
+        else:  # it has ended by itself, which it should not
+            station.leave()
+            await leaves
+            await server
+
+
+def _guard(options: Options, settings: Settings, port: int) -> Guard:
+    names = tuple(map(proper_name, options.names))
+    token = _token(settings) if needs_token(options.host, names) else None
+    return Guard(host=options.host, port=port, names=names, token=token)
+
+
+class _Leaving:
+    """What Ctrl-C stops: all that flies, and then the station."""
+
+    def __init__(self, station: Station) -> None:
+        self.asked: Down | None = None
+        self._station = station
+
+    def stop(self, _: Down) -> None:
+        """Let all drones land, and the station end."""
+        self._station.leave()
+
+    def journal(self) -> Path | None:
+        """Return which journal is being written."""
+        outing = self._station.outing
+        return outing.journal if outing is not None and outing.lives else None
+
+
+def _settings(app: App, options: Options) -> Settings:
+    fleet, text = load_fleet(app, options)
+    folder = options.folder or place.folder_of(app.name)
+    image = None
+    if options.fleet and fleet.image:
+        try:
+            image = floor_plan(options.fleet.parent, fleet.image)
+        except BadInput as error:
+            raise BadInput(f"{options.fleet}: {error}") from None
+    return Settings(
+        folder=folder,
+        fleet=fleet,
+        fleet_text=text,
+        image=image,
+        sim=options.sim,
+        crtp_sim=options.crtp_sim,
+        seed=options.seed,
+        faults=options.fail,
+        speed=options.speed,
+    )
+
+
+def _make_room(settings: Settings) -> None:
+    """See to it that the station's folder is there."""
+    folder = settings.folder
+    try:
+        folder.mkdir(mode=0o700, parents=True, exist_ok=True)  # nobody else's, and so all in it
+        settings.own_folder.mkdir(mode=0o700, exist_ok=True)
+        if not os.access(settings.own_folder, os.W_OK | os.X_OK):
+            raise PermissionError(0, "it may only be read")
+    except OSError as error:
+        raise BadInput(
+            f"{folder}: the station cannot keep anything there: {error.strerror}"
+        ) from None
+
+
+def _plan(app: App, options: Options, settings: Settings) -> Plan:
+    plan = Plan(app, settings.fleet, settings.own_folder / "plan.json")
+    if options.plan is not None:
+        if plan.is_empty:
+            plan.import_toml(text_of(options.plan), plan.revision, str(options.plan))
+        elif not options.going_on:  # nobody has just said so
+            output.tell(f"the plan that was drawn here stays: {options.plan} is not read")
+    return plan
+
+
+LEFT = "left"
+"""The file that is there once a station has ended as it was told to."""
+
+PORT = "port"
+"""The file that says where browsers look for the station: after a crash it is there again."""
+
+
+def _port(options: Options, settings: Settings) -> int:
+    if options.going_on and not options.port:
+        with suppress(OSError, ValueError):
+            return int((settings.own_folder / PORT).read_text(encoding="utf-8"))
+    return options.port
+
+
+def _token(settings: Settings) -> str:
+    """Return the token: the same after a restart, so that nobody is locked out in mid-flight."""
+    file = settings.own_folder / "token"
+    with suppress(OSError, ValueError):
+        known = file.read_text(encoding="ascii").strip()
+        if len(known) >= _TOKEN:
+            return known
+    token = secrets.token_urlsafe(_TOKEN)
+    file.touch(mode=0o600)
+    file.write_text(token, encoding="ascii")
+    return token
+
+
+_TOKEN = 32
+"""Bytes."""
+
+
+@contextmanager
+def _alone(settings: Settings) -> Iterator[None]:
+    """Let nobody else serve from this folder."""
+    with (settings.own_folder / "lock").open("a+", encoding="ascii") as lock:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            lock.seek(0)
+            raise BadInput(
+                f"{settings.folder}: another station is being served from there"
+                f" (process {lock.read()}): end that one, or name another folder with --folder"
+            ) from None
+        not_for_children(lock.fileno())
+        lock.truncate(0)
+        lock.write(str(os.getpid()))
+        lock.flush()
+        yield
+
+
+def _supervised(app: App, options: Options, settings: Settings) -> int:
+    """Let another process serve, and start it again, going on, when it crashes."""
+    first = again.command(*_words(options))
+
+    def done() -> int:
+        journal = place.newest_in(settings.folder)
+        with suppress(BadInput):  # it is damaged, or another app's: the station says so
+            return finished(records_in(app, journal)) if journal is not None else 0
+        return 0
+
+    return supervise(
+        Supervised(
+            name=app.name,
+            first=first,
+            again=lambda: [*(word for word in first if word != "--open"), "--going-on"],
+            finished=done,
+            over=lambda _: (settings.own_folder / LEFT).exists(),
+            how_to_go_on=AGAIN,
+        )
+    )
+
+
+def _words(options: Options) -> list[str]:
+    """Return the command line of the station that is supervised."""
+    faults = ",".join(f"{what}={share}" for what, share in options.fail.items())
+    optional = {
+        "--fleet": options.fleet,
+        "--missions": options.plan,
+        "--folder": options.folder,
+        "--speed": options.speed,
+        "--fail": faults or None,
+    }
+    given = [word for flag, value in optional.items() if value for word in (flag, str(value))]
+    names = [word for name in options.names for word in ("--name", name)]
+    where = ["--host", options.host, "--port", str(options.port), "--seed", str(options.seed)]
+    opens = ["--open"] if options.open else []
+    return ["serve", *how_it_flies_in(options), "--supervised", *where, *names, *given, *opens]

@@ -1,0 +1,67 @@
+"""A fleet of simulated Crazyflies in the place of the one that a fleet file describes."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import count
+from typing import TYPE_CHECKING
+
+from plutoc_runtime.errors import BadInput
+from plutoc_runtime.spots import free_spots
+
+from ..files.behaviour import CRAZYFLIE, OWN
+from ..files.real import navigation_of
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from ..files.drones import DroneEntry
+    from ..files.fleet import FleetFile
+
+
+def with_stand_ins(fleet: FleetFile, number: int) -> FleetFile:
+    """Return a fleet of so many drones, each a Crazyflie that is simulated down to its radio.
+
+    They are the first of the fleet file; those that it lacks are like them, and stand beside them.
+    """
+    drones = [_as_crazyflie(fleet, one) for one in fleet.drones[:number]]
+    for place in range(len(drones), number):
+        taken = [one.home for one in drones]
+        beside = max(fleet.apart, _BESIDE)
+        home = next(free_spots(fleet.airspace, taken[-1], taken, beside), None)
+        if home is None:
+            raise BadInput(
+                f"--crtp-sim {number}: this map has room for {place} drones, which stand"
+                f" {beside:g} m apart: fly fewer, or let the fleet file say where they stand"
+            )
+        like = drones[place % len(fleet.drones)]
+        drones.append(replace(like, id=_free_id(drones), home=home))
+    return replace(fleet, drones=tuple(drones), navigation=CRAZYFLIE, localization=OWN)
+
+
+def who_is_missing(fleet: FleetFile, number: int) -> str | None:
+    """Return a sentence that names the categories which the first drones of a fleet lack; None: none."""
+    there = {one.category for one in fleet.drones[:number]}
+    missing = dict.fromkeys(one.category for one in fleet.drones if one.category not in there)
+    if not missing:
+        return None
+    return (
+        f"no {' and no '.join(missing)} flies: --crtp-sim {number} takes only {number} of the fleet"
+        f" file's {len(fleet.drones)} drones, from its top"
+    )
+
+
+def _as_crazyflie(fleet: FleetFile, one: DroneEntry) -> DroneEntry:
+    """Return a Crazyflie in the place of a drone; what is said of another navigation is not for it."""
+    options = one.options if navigation_of(fleet, one) == CRAZYFLIE else {}
+    return replace(one, navigation=None, uri=None, options=options)
+
+
+_BESIDE = 0.7
+"""Metres between drones that nobody has placed."""
+
+
+def _free_id(drones: Sequence[DroneEntry]) -> str:
+    """Return the first name of the usual ones that no drone has."""
+    known = {one.id for one in drones}
+    return next(id for number in count(1) if (id := f"cf{number}") not in known)

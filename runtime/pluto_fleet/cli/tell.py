@@ -1,0 +1,172 @@
+"""`tell`: a command for the app that runs."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Mapping
+from contextlib import suppress
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from plutoc_runtime.errors import BadInput
+from plutoc_runtime.standing import Down
+from plutoc_runtime.words import in_shell
+
+from ..asking import Ended, Nobody, Silent, ask, note_of
+from ..gateway.starting import cut_directly, stop_directly
+from ..journal.errors import missing
+from ..journal.lock import holder
+from ..journal.place import gateway_folder
+from . import output, stop_mark
+from .looked_after import looked_after
+
+if TYPE_CHECKING:
+    from plutoc_runtime.app import App
+
+    from .options import Options
+
+AT_ONCE = 1.0
+"""Seconds until a Stop goes to the drones without the app."""
+
+PATIENCE = 10.0
+"""Seconds until any other command is given up."""
+
+
+def tell(app: App, options: Options) -> int:
+    """Say to the running app what it shall do, and say what it did."""
+    request = _request(app, options)
+    if options.action == "stop":
+        output.line(_stop(app, options, request))
+    elif options.action == "cut-motors":
+        output.line(cut_motors(app, options.the_journal, options.mission))
+    elif options.action == "bring-back":
+        output.line(_bring_back(app, options, request))
+    else:
+        output.line(asked(app, options, request))
+    return 0
+
+
+def _bring_back(app: App, options: Options, request: Mapping[str, object]) -> str:
+    """Tell the running app, or its journal, that a person has looked after a drone."""
+    try:
+        return asked(app, options, request)
+    except Nobody:
+        return looked_after(app, options.the_journal, str(request["drone"]))
+
+
+def asked(app: App, options: Options, request: Mapping[str, object]) -> str:
+    """Return what the running app says to a request."""
+    journal = options.the_journal
+    try:
+        return ask(note_of(journal), request, PATIENCE)
+    except Nobody:
+        if not journal.exists():
+            raise missing(journal) from None
+        raise Nobody(
+            f"{journal}: {app.name} is not running, so there is nobody to tell; "
+            f"{app.name} resume {in_shell(journal)} goes on"
+        ) from None
+    except Ended as error:
+        raise Ended(
+            f"{journal}: {error}; {app.name} resume {in_shell(journal)} does that"
+        ) from None
+    except Silent as error:
+        raise Silent(
+            f"{journal}: {error}; a hook may keep it busy. "
+            f"{app.name} tell {in_shell(journal)} stop brings the drones down all the same"
+        ) from None
+
+
+def _request(app: App, options: Options) -> dict[str, object]:
+    """Return the request for what the command line says; raise `BadInput` if it makes no sense."""
+    action, mission, trip = options.action, options.mission, options.trip
+    wrong = _wrong(options)
+    if wrong:
+        raise BadInput(f"{app.name} tell: {wrong}")
+    match action:
+        case "stop":
+            return {"command": action, "how": (Down.HOME if options.rtl else Down.LAND).value}
+        case "skip":
+            return {"command": action, "mission": mission, "trip": trip}
+        case "prioritise":
+            given = {"mission": mission, "trip": trip, "priority": options.priority}
+            return {"command": action, **given}
+        case "retire" | "bring-back":
+            return {"command": action, "drone": mission}
+        case _:
+            return {"command": action, "mission": mission}
+
+
+def _wrong(options: Options) -> str:
+    """Return what in a command makes no sense; empty: it does."""
+    action, mission, trip = options.action, options.mission, options.trip
+    priority = options.priority is not None
+    if action != "stop" and (options.land or options.rtl):
+        return f"--land and --rtl go with stop, not with {action}"
+    if action != "prioritise" and priority:
+        return f"--to goes with prioritise, not with {action}"
+    if action == "stop" and mission is not None:
+        return "stop brings all drones down; to end one mission, cancel it, or pause it"
+    if action == "skip" and mission is None:
+        return "skip needs the name of a mission"
+    if action != "cut-motors" and options.everyone:
+        return f"--all goes with cut-motors, not with {action}"
+    if action == "cut-motors" and (mission is None) is not options.everyone:
+        return "cut-motors lets a drone fall: name the drone, or say --all"
+    if action in ("retire", "bring-back") and mission is None:
+        return f"{action} needs the name of a drone"
+    if action == "prioritise" and (mission is None or trip is None or not priority):
+        return "prioritise needs a mission, a trip of it, and --to N"
+    if action not in ("skip", "prioritise") and trip is not None:
+        return f"{action} takes no trip; only skip and prioritise do"
+    return ""
+
+
+def _stop(app: App, options: Options, request: dict[str, object]) -> str:
+    """Stop the app; if it says nothing, bring the drones down without it."""
+    journal, how = Path(os.path.realpath(options.the_journal)), Down(request["how"])
+    again = f"{app.name} resume {in_shell(journal)}"
+    if gateway_folder(journal).is_dir():
+        # If the app crashes meanwhile, whoever starts it again shall land as well.
+        stop_mark.leave(journal, how)
+    until = time.monotonic() + PATIENCE
+    while True:
+        try:
+            return ask(note_of(journal), request, AT_ONCE)
+        except (Nobody, Silent) as nobody:
+            with suppress(Nobody):
+                said = stop_directly(gateway_folder(journal), how, PATIENCE)
+                return f"{nobody}: {said} without it; {again} goes on"
+        if holder(journal) is None:
+            if not journal.exists():
+                raise missing(journal)
+            raise Nobody(f"{journal}: {app.name} is not running, and no drone flies")
+        if time.monotonic() > until:
+            raise Silent(f"{journal}: {app.name} runs, but has come to no drones: end it")
+        stop_mark.leave(journal, how)  # it has only just begun: it shall not fly
+        time.sleep(0.1)
+
+
+def cut_motors(app: App, journal: Path, drone: str | None) -> str:
+    """Switch motors off without asking the app: nothing that it does may hold that up."""
+    journal = Path(os.path.realpath(journal))
+    until = time.monotonic() + AT_ONCE
+    while True:
+        try:
+            return cut_directly(gateway_folder(journal), drone, PATIENCE)
+        except Nobody:
+            if time.monotonic() > until:
+                break
+        except Silent:
+            raise Silent(
+                f"{journal}: what commands the drones does not answer, so nobody can say whether"
+                " their motors are cut"
+            ) from None
+        time.sleep(0.05)  # it may have died this moment, and be started again
+    if not journal.exists():
+        raise missing(journal)
+    raise Nobody(
+        f"{journal}: nobody commands its drones, so no motor can be cut from here;"
+        f" {app.name} resume {in_shell(journal)} reaches them again"
+    )

@@ -1,0 +1,175 @@
+"""What a Crazyflie is told to fly, each from the command to what it tells when that is done."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from contextlib import suppress
+from typing import TYPE_CHECKING
+
+from ..drones.errors import (
+    NavigationError,
+    NotReady,
+    OutsideArea,
+    PositionLost,
+    Rejected,
+    TargetTimeout,
+)
+from . import arming, commander, words
+from .courses import NEAR, SLACK, hovers, is_speed, is_target, stop
+from .pace import pace_of
+
+if TYPE_CHECKING:
+    from plutoc_runtime.model import Point
+
+    from .session import Session
+    from .state import State
+
+_SETTLES = 6.0
+"""Seconds after its motors have stopped in which it may still count as flying."""
+_SEEN = 1.0
+"""Seconds until it shows that a take-off has begun."""
+
+
+def check(drone: str, target: Point, speed: float) -> None:
+    """Refuse, before anything moves, what cannot be flown."""
+    if not is_target(target):
+        raise OutsideArea(words.outside(drone, target))
+    check_speed(drone, speed)
+
+
+def check_speed(drone: str, speed: float) -> None:
+    """Refuse what is no speed."""
+    if not is_speed(speed):
+        raise Rejected(words.no_speed(drone, speed))
+
+
+def knows_its_place(session: Session) -> None:
+    """Raise `PositionLost` for one that does not know any more where it is."""
+    variance = session.certainty.variance
+    if session.adrift and variance is not None:
+        raise PositionLost(words.lost_its_place(session.drone, variance))
+
+
+async def takeoff(session: Session, height: float, speed: float) -> None:
+    """Arm, rise straight up, and return when it hovers at this height."""
+    x, y, z = session.well().position
+    session.commanded = True
+    seconds = pace_of(session).seconds((x, y, z), (x, y, height), speed)
+    try:
+        if not await _begun(session, height, seconds) and not await _begun(
+            session, height, seconds
+        ):
+            raise Rejected(words.disarmed(session.drone))
+    except (NotReady, Rejected):
+        with suppress(NavigationError):
+            await _disarm(session)
+        raise
+
+    def risen(state: State) -> bool:
+        knows_its_place(session)
+        return _hovers(session, state, off)
+
+    def off(state: State) -> float:
+        return abs(state.position[2] - height)
+
+    if await session.until(risen, seconds + SLACK) is None:
+        raise TargetTimeout(words.not_arrived(session.drone, "risen", off(session.now())))
+
+
+async def _begun(session: Session, height: float, seconds: float) -> bool:
+    """Begin to rise; False: it was disarmed just then, by whatever has done that."""
+    await session.fresh()
+    if await session.until(lambda state: not state.flies, _SETTLES) is None:
+        raise Rejected(words.still_flies(session.drone))
+    await arming.arm_anew(session)
+    session.took_off_at = session.loop.time()
+    try:
+        await commander.takeoff(session, height, seconds)
+    except Rejected:
+        if await _is_disarmed(session):
+            return False
+        raise
+    return not await _is_disarmed(session)
+
+
+async def _is_disarmed(session: Session) -> bool:
+    """Say whether it is disarmed within a moment: what it then does not do it was not told."""
+    return await session.until(lambda state: not state.armed, _SEEN) is not None
+
+
+async def _disarm(session: Session) -> None:
+    """Leave nobody armed on the ground that does not take off."""
+    if not (await session.fresh()).flies:
+        await arming.disarm(session)
+
+
+async def go_to(session: Session, target: Point, speed: float) -> None:
+    """Fly straight to a place, and return when it hovers there."""
+    if not session.well().steered:
+        raise Rejected(words.not_flying(session.drone))
+    if not session.now().finished:  # two courses in one make a third that nobody has asked for
+        await hold(session)
+    seconds = pace_of(session).seconds(session.now().position, target, speed)
+    await _course(session, target, seconds, "arrived")
+
+
+async def hold(session: Session) -> None:
+    """Stop, and return when it hovers; nothing, if it does not fly."""
+    await _may_rise(session)
+    if session.well().steered:
+        target, seconds = stop(session.before, session.now())
+        if not session.doubts:
+            await _course(session, target, seconds, "stopped")
+        else:  # where that is nobody knows, and it is the best that can be done
+            await commander.go_to(session, target, seconds, NEAR)
+            await session.until(lambda state: state.finished, seconds + SLACK)
+
+
+async def _may_rise(session: Session) -> None:
+    """Wait until one that was just told to take off says that it does, or until it has not."""
+    since = session.loop.time() - session.took_off_at
+    if since < _SEEN:
+        await session.until(lambda state: state.steered, _SEEN - since)
+
+
+async def land(session: Session, speed: float) -> None:
+    """Come down straight, and return when the motors are off; nothing, if it does not fly.
+
+    One that has just come down would start its motors again for that: what it tells now counts.
+    """
+    await _may_rise(session)
+    state = await session.fresh()
+    if state.steered:
+        seconds = pace_of(session).seconds_down(max(0.0, state.position[2]), speed)
+        session.commanded = True
+        await commander.land(session, seconds)
+        await _down(session, lambda state: not state.steered, seconds + SLACK)
+    # Its motors are off. It says for two more seconds that it flies, and must be let alone so long.
+    await _down(session, lambda state: not state.flies, _SETTLES)
+    session.commanded = False
+
+
+async def _course(session: Session, target: Point, seconds: float, what: str) -> None:
+    """Send it somewhere, and wait until it is there and hovers."""
+    session.commanded = True
+    await commander.go_to(session, target, seconds, NEAR)
+
+    def there(state: State) -> bool:
+        knows_its_place(session)
+        return _hovers(session, state, off)
+
+    def off(state: State) -> float:
+        return state.distance(target)
+
+    if await session.until(there, seconds + SLACK) is None:
+        raise TargetTimeout(words.not_arrived(session.drone, what, off(session.now())))
+
+
+def _hovers(session: Session, state: State, off: Callable[[State], float]) -> bool:
+    """Whether it is at the end of its course, near and at rest, and knows where that is."""
+    return state.finished and not session.doubts and hovers(session.recent, off)
+
+
+async def _down(session: Session, ready: Callable[[State], bool], limit: float) -> None:
+    if await session.until(ready, limit) is None:
+        raise TargetTimeout(words.not_landed(session.drone))

@@ -1,0 +1,274 @@
+"""A Crazyflie as an app flies it: what the public protocol asks for, said to cflib."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import AsyncIterator, Mapping, Sequence
+from contextlib import suppress
+from math import inf
+from typing import TYPE_CHECKING
+
+from ..drones.errors import LinkLost, NavigationError, NotReady, Rejected
+from ..drones.telemetry import LINK_LOST, DroneEvent, DroneTelemetry
+from . import (
+    actions,
+    flying,
+    lights,
+    logs,
+    parameters,
+    preflight,
+    recovery,
+    starting,
+    words,
+)
+from .alarms import Alarms
+from .battery import Battery
+from .emergency import cut
+from .facts import facts_of
+from .opening import open_session
+from .options import options_of
+from .scan import scan
+
+if TYPE_CHECKING:
+    from plutoc_runtime.actions import Plain
+    from plutoc_runtime.model import Item, Point
+
+    from ..drones.setup import DroneSetup
+    from .session import Session
+    from .state import State
+
+_AWAY = 4.0
+"""Seconds that letting go of links may take."""
+_LANDING = 0.3
+"""Metres per second, where nobody says how fast."""
+
+
+class Crazyflie:
+    """One Crazyflie, reached through cflib by radio or, a simulated one, by UDP."""
+
+    def __init__(self, setup: DroneSetup) -> None:
+        self._setup, self._id = setup, setup.id
+        self._options = options_of(setup.options)
+        self._session: Session | None = None
+        self._readings: logs.Readings | None = None
+        cells = self._options.cells
+        self._battery, self._alarms = Battery(cells), Alarms(cells)
+        self._state: State | None = None
+        self._events: asyncio.Queue[DroneEvent | None] = asyncio.Queue()
+        self._commanded = False
+        """Whether it may fly because of an earlier link."""
+        self._opening: asyncio.Task[None] | None = None
+        self._leaving: set[asyncio.Future[None]] = set()
+        self._closed = False
+
+    # The link
+
+    async def connect(self) -> None:
+        """Reach it, or reach it anew: what is left of an earlier link is put away.
+
+        The first time takes long, as it tells all its tables, and longer with many others on the
+        air. Who does not wait so long finds it further on the next time.
+        """
+        uri = self._setup.uri
+        if uri is None:
+            raise NotReady(words.no_uri(self._id))
+        if self._session is not None and self._session.alive:
+            return
+        if self._opening is None or self._opening.done():
+            self._opening = asyncio.create_task(self._open(uri), name=f"connecting to {self._id}")
+            self._opening.add_done_callback(_heard)
+        await asyncio.shield(self._opening)
+
+    async def _open(self, uri: str) -> None:
+        if self._session is not None:
+            self._commanded = self._session.commanded
+            self._session.let_go()
+            self._session = None
+        await self._left()  # two links to one drone would take each other's packets
+        session = await open_session(self._id, uri, self._setup.folder, self)
+        session.commanded = self._commanded
+        if not self._options.starts_at_home:  # else it never knows its place, only its way
+            session.lost_beyond = self._options.lost_beyond
+        self._session, self._readings = session, logs.Readings(session)
+        if self._options.starts_at_home:
+            await starting.begin_at(session, self._setup.home)
+
+    async def close(self) -> None:
+        """Let go of it. What flies by a command of this object is landed first, if it listens.
+
+        What does not listen, and what somebody else has sent up, hovers on: the link ends without a
+        command to the drone.
+        """
+        if self._opening is not None:
+            self._opening.cancel()
+            await asyncio.wait({self._opening})
+        session = self._session
+        if session is not None:
+            if session.commanded and session.alive:
+                with suppress(NavigationError):
+                    await flying.land(session, _LANDING)
+            self._session = None
+            session.let_go()
+        await self._left()
+        if not self._closed:
+            self._closed = True
+            self._events.put_nowait(None)
+
+    def told(self, state: State) -> None:
+        """It told how it is."""
+        self._state = state
+        self._battery.hear(state)
+        for event in self._alarms.hear(state):
+            self._events.put_nowait(event)
+
+    def doubted(self, variance: float) -> None:
+        """It told how sure it is of its place."""
+        adrift = self._session is not None and self._session.adrift
+        for event in self._alarms.hear_of_its_place(adrift, variance):
+            self._events.put_nowait(event)
+
+    def gone(self, why: str) -> None:
+        """It tells nothing any more."""
+        self._events.put_nowait(DroneEvent(kind=LINK_LOST, reason=why))
+
+    def leaves(self, gone: asyncio.Future[None]) -> None:
+        """A link to it is being put away."""
+        self._leaving = {one for one in self._leaving if not one.done()} | {gone}
+
+    async def _left(self) -> None:
+        """Wait until no link to it is left, as far as cflib lets go of them."""
+        if self._leaving:
+            await asyncio.wait(self._leaving, timeout=_AWAY)
+
+    @property
+    def telemetry(self) -> DroneTelemetry:
+        """What it told last."""
+        state = self._state
+        return DroneTelemetry(
+            time=-inf if state is None else state.time,
+            position=self._setup.home if state is None else state.position,
+            yaw=0.0 if state is None else state.yaw,
+            voltage=0.0 if state is None else state.volts,
+            battery_level=self._battery.level,
+            flying=state is not None and state.flies,
+        )
+
+    async def events(self) -> AsyncIterator[DroneEvent]:
+        """Yield what happens to it, until it is closed."""
+        while (event := await self._events.get()) is not None:
+            yield event
+
+    def _linked(self) -> Session:
+        """Return the connection; raise `LinkLost` if there is none, or nothing comes by it."""
+        if self._session is None:
+            raise LinkLost(words.not_connected(self._id))
+        self._session.now()
+        return self._session
+
+    # Flying
+
+    async def preflight(self) -> Sequence[str]:
+        """Return why it must not take off."""
+        try:
+            return await self._problems(self._linked())
+        except LinkLost as error:
+            return [str(error)]
+
+    async def _problems(self, session: Session) -> list[str]:
+        return await preflight.problems(session, self._battery, self._options, self._setup.speed)
+
+    async def takeoff(self, height: float, speed: float) -> None:
+        """Rise straight up to this height; one that flies already goes there from where it is."""
+        session = self._linked()
+        state = session.well()
+        target = (state.position[0], state.position[1], height)
+        flying.check(self._id, target, speed)
+        if state.steered:
+            await flying.go_to(session, target, speed)
+            return
+        reasons = await self._problems(session)
+        if reasons:
+            raise NotReady(f"{self._id} is not ready: {'; '.join(reasons)}")
+        await flying.takeoff(session, height, speed)
+
+    async def go_to(self, target: Point, speed: float) -> None:
+        """Fly straight to a place."""
+        flying.check(self._id, target, speed)
+        await flying.go_to(self._linked(), target, speed)
+
+    async def hold(self) -> None:
+        """Stop and hover."""
+        await flying.hold(self._linked())
+
+    async def land(self, speed: float) -> None:
+        """Come down straight; return when the motors are off."""
+        flying.check_speed(self._id, speed)
+        await flying.land(self._linked(), speed)
+
+    async def emergency_stop(self) -> None:
+        """Switch the motors off: it falls."""
+        if self._session is None:
+            raise LinkLost(words.not_connected(self._id))
+        await cut(self._session)
+
+    # What only some drones can do
+
+    def why_not(self, action: str, parameters: Mapping[str, Plain]) -> str | None:
+        """Return why it cannot do an action, or None."""
+        return actions.why_not(self._id, self._options, self._session, action, parameters)
+
+    async def act(self, action: str, parameters: Mapping[str, Plain], item: Item | None) -> object:
+        """Do an action where it hovers."""
+        hands = actions.Hands(
+            session=self._linked(),
+            readings=self._reader(),
+            options=self._options,
+            folder=self._setup.folder,
+        )
+        return await actions.act(hands, action, parameters)
+
+    async def read(self, name: str) -> float:
+        """Return a log variable, or else a parameter."""
+        session = self._linked()
+        if logs.has(session.cf, name):
+            return await self._reader().mean(name, 0.0)
+        if parameters.element_of(session.cf, name) is None:
+            raise Rejected(words.no_such(self._id, name))
+        return await parameters.read(session, name)
+
+    async def write(self, name: str, value: float) -> None:
+        """Set a parameter, and see that it is so."""
+        await parameters.write(self._linked(), name, value)
+
+    def _reader(self) -> logs.Readings:
+        if self._readings is None:
+            raise LinkLost(words.not_connected(self._id))
+        return self._readings
+
+    async def locate(self, position: Point) -> None:
+        """Tell it where somebody else sees it; nothing, while it is not connected."""
+        if self._session is not None and self._session.alive:
+            await starting.be_located(self._session, position)
+
+    async def looked_after(self) -> None:
+        """Forget a crash: a person has looked after it."""
+        await recovery.recover(self._linked())
+
+    async def identify(self) -> None:
+        """Blink."""
+        await lights.blink(self._linked())
+
+    async def facts(self) -> Mapping[str, str]:
+        """Return what it is, for people: its firmware and its decks."""
+        return await facts_of(self._linked())
+
+    @staticmethod
+    async def scan(options: Mapping[str, object]) -> Sequence[str]:
+        """Return the URIs of all Crazyflies that answer."""
+        return await scan(options_of(options))
+
+
+def _heard(opening: asyncio.Task[None]) -> None:
+    """Take note of how it ended: it may be that nobody waits for it any more."""
+    if not opening.cancelled():
+        opening.exception()

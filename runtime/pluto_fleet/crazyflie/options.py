@@ -1,0 +1,205 @@
+"""What the fleet file may say of Crazyflies: `[navigation.crazyflie]`, and `[drone.options]` on top."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from math import sqrt
+from sys import float_info
+
+from plutoc_runtime.errors import BadInput
+from plutoc_runtime.words import number
+
+from . import words
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Grip:
+    """A deck that holds things, by one of its parameters."""
+
+    parameter: str
+    pick: float
+    release: float
+    seconds: float = 1.0
+    """How long it takes to close or to open."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Options:
+    """All of it, checked."""
+
+    measure: Mapping[str, str]
+    """The log variable of each quantity that can be measured; ANY_OTHER: of all that it lacks."""
+    measure_seconds: float
+    """Over how long it is averaged."""
+    camera: tuple[str, int] | None
+    """Where the AI-deck sends its pictures."""
+    camera_view: tuple[float, float]
+    """How much it sees, in degrees: across and along."""
+    grip: Grip | None
+    decks: tuple[str, ...]
+    """The decks that it must have, as the firmware names them."""
+    cells: int
+    """How many its battery has in series: two, on a Bolt or a Flapper."""
+    least_voltage: float
+    """Volts of a cell at rest below which it does not take off."""
+    sure_within: float
+    """Metres to which it must know where it is, as a standard deviation, before it takes off."""
+    lost_beyond: float
+    """Metres to which it must know that in the air: beyond, it does not fly on."""
+    starts_at_home: bool
+    """It knows only how far it has flown: it is told that it stands at home."""
+    addresses: tuple[str, ...]
+    """Radio addresses to look at when looking who is there."""
+    udp: tuple[str, ...]
+    """Simulated drones to look at then."""
+
+    def variable_of(self, quantity: str) -> str | None:
+        """Return the log variable of a quantity; None: it has none."""
+        return self.measure.get(quantity, self.measure.get(ANY_OTHER))
+
+
+ANY_OTHER = "*"
+"""What stands in `measure` for every quantity that is not named there."""
+
+_KNOWN = tuple(field.name for field in fields(Options))
+_VIEW = (65.0, 50.0)
+_LEAST_VOLTAGE = 3.7
+SURE_WITHIN = 0.07
+"""Metres: radio beacons (Loco) let it know its place to five centimetres, others to two."""
+LOST_BEYOND = sqrt(0.05)
+"""Metres, about 0.22: no more than a third of it while it sees its beacons, however it flies."""
+_LONGEST = 10.0
+_CELLS = 6
+_ADDRESS = "E7E7E7E7E7"
+
+
+def options_of(given: Mapping[str, object]) -> Options:
+    """Return what the fleet file says; raise `BadInput` naming the key that cannot be used."""
+    for key in given:
+        if key not in _KNOWN:
+            raise BadInput(words.unknown_option(key, _KNOWN))
+    reading = _Reading(given)
+    sure_within = reading.length("sure_within", SURE_WITHIN)
+    lost_beyond = reading.length("lost_beyond", max(LOST_BEYOND, sure_within))
+    if lost_beyond < sure_within:
+        raise reading.bad("lost_beyond", f"at least sure_within, which is {number(sure_within)}")
+    return Options(
+        measure=reading.names("measure"),
+        measure_seconds=reading.number("measure_seconds", 1.0, least=0.0),
+        camera=reading.address("camera"),
+        camera_view=reading.view("camera_view"),
+        grip=reading.grip("grip"),
+        decks=reading.texts("decks", ()),
+        cells=reading.count("cells", 1, most=_CELLS),
+        least_voltage=reading.number("least_voltage", _LEAST_VOLTAGE, least=0.0),
+        sure_within=sure_within,
+        lost_beyond=lost_beyond,
+        starts_at_home=reading.flag("starts_at_home"),
+        addresses=reading.texts("addresses", (_ADDRESS,)),
+        udp=reading.texts("udp", ()),
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class _Reading:
+    """A table of options."""
+
+    given: Mapping[str, object]
+
+    def bad(self, key: str, wanted: str) -> BadInput:
+        return BadInput(words.bad_option(key, wanted))
+
+    def number(self, key: str, default: float, *, least: float) -> float:
+        value = _number(self.given.get(key, default))
+        if value is None or value < least:
+            raise self.bad(key, f"a number from {least:g} on")
+        return value
+
+    def count(self, key: str, default: int, *, most: int) -> int:
+        value = self.given.get(key, default)
+        if not isinstance(value, int) or isinstance(value, bool) or not 1 <= value <= most:
+            raise self.bad(key, f"a whole number from 1 to {most}")
+        return value
+
+    def length(self, key: str, default: float) -> float:
+        value = _number(self.given.get(key, default))
+        if value is None or not 0.0 < value <= _LONGEST:
+            raise self.bad(key, f"a number of metres above 0, at most {_LONGEST:g}")
+        return value
+
+    def flag(self, key: str) -> bool:
+        value = self.given.get(key, False)
+        if not isinstance(value, bool):
+            raise self.bad(key, "true or false")
+        return value
+
+    def texts(self, key: str, default: tuple[str, ...]) -> tuple[str, ...]:
+        value = self.given.get(key, default)
+        if isinstance(value, str):
+            return (value,)
+        if not isinstance(value, (list, tuple)) or not all(isinstance(one, str) for one in value):
+            raise self.bad(key, 'a list of texts, such as ["bcLighthouse4"]')
+        return tuple(value)
+
+    def names(self, key: str) -> Mapping[str, str]:
+        value = self.given.get(key, {})
+        if not isinstance(value, Mapping):
+            raise self.bad(key, 'a table, such as { temperature = "bme.temp" }')
+        for quantity, name in value.items():
+            if not _is_name(name):
+                raise self.bad(f"{key}.{quantity}", 'a log variable, such as "bme.temp"')
+        return dict(value)
+
+    def address(self, key: str) -> tuple[str, int] | None:
+        value = self.given.get(key)
+        if value is None:
+            return None
+        host, _, port = value.rpartition(":") if isinstance(value, str) else ("", "", "")
+        if not host or not port.isdecimal() or not 0 < int(port) < 65536:
+            raise self.bad(key, 'a host and a port, such as "192.168.4.1:5000"')
+        return host.removeprefix("[").removesuffix("]"), int(port)
+
+    def view(self, key: str) -> tuple[float, float]:
+        match self.given.get(key, _VIEW):
+            case [across, along]:
+                angles = _number(across) or 0.0, _number(along) or 0.0
+                if all(0.0 < angle < 180.0 for angle in angles):
+                    return angles
+        raise self.bad(key, "two angles in degrees, such as [65, 50]")
+
+    def grip(self, key: str) -> Grip | None:
+        wanted = 'a table, such as { parameter = "gripper.closed", pick = 1, release = 0 }'
+        given = self.given.get(key)
+        if given is None:
+            return None
+        if isinstance(given, Mapping) and given.keys() <= {
+            "parameter",
+            "pick",
+            "release",
+            "seconds",
+        }:
+            name, seconds = given.get("parameter"), _number(given.get("seconds", 1.0))
+            pick, release = _number(given.get("pick")), _number(given.get("release"))
+            if (
+                isinstance(name, str)
+                and _is_name(name)
+                and pick is not None
+                and release is not None
+                and seconds is not None
+                and seconds >= 0.0
+            ):
+                return Grip(parameter=name, pick=pick, release=release, seconds=seconds)
+        raise self.bad(key, wanted)
+
+
+def _number(value: object) -> float | None:
+    """Return a finite number as such, and None for everything else."""
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        return None
+    return float(value) if abs(value) <= float_info.max else None
+
+
+def _is_name(value: object) -> bool:
+    """Say whether this is how the firmware names things: a group, a dot and a name."""
+    return isinstance(value, str) and value.count(".") == 1 and all(value.split("."))

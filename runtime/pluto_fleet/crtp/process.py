@@ -1,0 +1,242 @@
+"""Simulated drones as a process of its own, which outlives whoever flies them, as real ones would.
+
+It ends when all are on the ground and nobody has talked to any for a while. Whoever starts it again
+finds the drones where they were, at the same ports if those are still free.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import fcntl
+import json
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+from plutoc_runtime.errors import BadInput
+from plutoc_runtime.forked import deaf, in_children, not_for_children
+
+from .. import again
+from ..asking import Nobody, ask
+from ..remote_control import listening
+from .camera import camera, port_of
+from .drone import Build, SimulatedCrazyflie
+from .record import InFiles, Point
+from .server import HOST, Server
+
+NOTE, DRONES, LOCK, LOG = "crtp", "crtp.json", "crtp.lock", "crtp.log"
+"""What lies in its folder; NOTE says where it listens to `ask`."""
+COMMAND = "crtp"
+
+GATEWAY_LOCK = "lock"
+"""What the gateway of a flight keeps locked in this folder."""
+_IDLE = 60.0
+"""Seconds with nobody in the air and nobody who talks, after which it ends."""
+_PATIENCE = 10.0
+"""Seconds that it may take to begin, or to answer."""
+_LOOK = 1.0
+
+_STARTED: dict[Path, subprocess.Popen[bytes]] = {}
+"""What this process has started, by the folder: they are noticed to have ended by `end`."""
+
+_FOR_APPS = "crtp: an app starts this by itself when it flies; there is nothing to do by hand"
+
+
+def start(
+    folder: Path, homes: Mapping[str, Point], command: Sequence[str] | None = None
+) -> dict[str, str]:
+    """See to it that simulated drones live behind a folder; return the URI of each.
+
+    Those that already do stay as they are. Raises `BadInput` if they cannot be started. `command`
+    starts them, the folder added; default: this very program once more.
+    """
+    folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+    with suppress(BadInput):
+        uris = uris_in(folder)
+        if list(uris) == list(homes):
+            return uris
+        end(folder)  # it flies others
+    kept = _kept(folder)
+    drones = {id: {**kept.get(id, {}), "home": home} for id, home in homes.items()}
+    _write(folder, drones)
+    with (folder / LOG).open("ab") as log:
+        process = subprocess.Popen(
+            [*(command or again.command(COMMAND)), str(folder)],
+            stdin=subprocess.DEVNULL,
+            stdout=log,
+            stderr=log,
+            start_new_session=True,
+        )
+    _STARTED[folder] = process
+    until = time.monotonic() + _PATIENCE
+    while time.monotonic() < until and process.poll() is None:
+        with suppress(Nobody):
+            return uris_in(folder)
+        time.sleep(0.01)
+    raise BadInput(f"the simulated drones did not start; what they said is in {folder / LOG}")
+
+
+def uris_in(folder: Path) -> dict[str, str]:
+    """Return the URI of each drone; `BadInput`: none live behind this folder."""
+    uris: dict[str, str] = json.loads(told(folder, "uris"))
+    return uris
+
+
+def told(folder: Path, do: str, **more: object) -> str:
+    """Ask the simulated drones of a folder for something; `BadInput` says why they do not do it.
+
+    `fault` with `drone`, `name` and `value`, `state`, `uris`, `camera`, `end`.
+    """
+    return ask(folder / NOTE, {"do": do, **more}, _PATIENCE)
+
+
+def end(folder: Path) -> None:
+    """End the simulated drones of a folder, if there are any."""
+    until = time.monotonic() + _PATIENCE
+    with suppress(BadInput):
+        while time.monotonic() < until:
+            told(folder, "end")
+            time.sleep(0.02)
+    process = _STARTED.pop(folder, None)
+    if process is not None:
+        process.wait(_PATIENCE)
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Run the simulated drones of a folder until nobody needs them."""
+    folder = Path(*arguments[:1])
+    if len(arguments) != 1 or not (folder / DRONES).is_file():
+        print(_FOR_APPS, file=sys.stderr)
+        return 2
+    with (folder / LOCK).open("a") as lock:
+        not_for_children(lock.fileno())
+        fcntl.flock(lock, fcntl.LOCK_EX)  # another one is ending
+        asyncio.run(_run(folder))
+    return 0
+
+
+async def _run(folder: Path) -> None:
+    kept, record = _kept(folder), InFiles(folder)
+    server = Server(
+        [_build(id, number, one) for number, (id, one) in enumerate(kept.items())], record
+    )
+    for id, drone in server.drones.items():
+        _restore(drone, kept[id])
+    over = asyncio.Event()
+    for number in (signal.SIGTERM, signal.SIGINT):
+        asyncio.get_running_loop().add_signal_handler(number, over.set)
+    no_more = in_children(deaf)
+    signal.signal(signal.SIGHUP, signal.SIG_IGN)
+    await server.start({id: int(one.get("port", 0)) for id, one in kept.items()})
+    desk = _Desk(server, over)
+    try:
+        async with listening(folder / NOTE, desk.answer):
+            while not over.is_set():
+                record.flush()
+                _write(folder, _state(server))
+                if server.quiet > _IDLE and not server.airborne and not is_flown(folder):
+                    break
+                with suppress(TimeoutError):
+                    async with asyncio.timeout(_LOOK):
+                        await over.wait()
+    finally:
+        no_more()
+        await desk.close()
+        await server.close()
+        record.close()
+        _write(folder, _state(server))
+
+
+class _Desk:
+    """Answers what other processes ask."""
+
+    def __init__(self, server: Server, over: asyncio.Event) -> None:
+        self._server, self._over = server, over
+        self._camera: asyncio.Server | None = None
+
+    async def answer(self, request: Mapping[str, object]) -> str:
+        """Do what is asked, and say so."""
+        match request:
+            case {"do": "uris"}:
+                return json.dumps(self._server.uris)
+            case {"do": "state"}:
+                return json.dumps(_state(self._server))
+            case {"do": "end"}:
+                self._over.set()
+                return "it ends"
+            case {"do": "camera"}:
+                self._camera = self._camera or await camera()
+                return f"{HOST}:{port_of(self._camera)}"
+            case {"do": "fault", "drone": str(id), "name": str(name), "value": value}:
+                if id not in self._server.endpoints:
+                    raise BadInput(f"there is no drone {id}")
+                if not isinstance(value, bool | int | float | list):
+                    raise BadInput(f"{name} cannot be {value!r}")
+                try:
+                    await self._server.let(id, name, value)
+                except ValueError as error:
+                    raise BadInput(str(error)) from None
+                return f"{id}: {name} is {value}"
+        raise BadInput("that cannot be asked of simulated drones")
+
+    async def close(self) -> None:
+        """Close the camera."""
+        if self._camera is not None:
+            self._camera.close()
+
+
+def _build(id: str, number: int, data: Mapping[str, Any]) -> Build:
+    x, y, *_ = data["home"]
+    return Build(id=id, home=(x, y, 0.0), seed=number, level=data.get("level", 1.0))
+
+
+def _restore(drone: SimulatedCrazyflie, data: Mapping[str, Any]) -> None:
+    if "at" in data:
+        x, y, _ = data["at"]
+        drone.body.place((x, y, 0.0))  # whatever flew has fallen meanwhile
+        drone.body.yaw = data["yaw"]
+
+
+def _state(server: Server) -> dict[str, dict[str, object]]:
+    return {
+        id: {
+            "home": endpoint.drone.build.home,
+            "port": endpoint.port,
+            "at": endpoint.drone.body.position,
+            "yaw": endpoint.drone.body.yaw,
+            "level": endpoint.drone.battery.level,
+            "airborne": endpoint.drone.body.airborne,
+            "info": endpoint.drone.info(),
+        }
+        for id, endpoint in server.endpoints.items()
+    }
+
+
+def is_flown(folder: Path) -> bool:
+    """Say whether the gateway of this folder runs: it hears drones that stand, and tells them nothing."""
+    with suppress(OSError), (folder / GATEWAY_LOCK).open("rb") as lock:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_SH | fcntl.LOCK_NB)
+        except BlockingIOError:
+            return True
+    return False
+
+
+def _kept(folder: Path) -> dict[str, dict[str, Any]]:
+    """Return what was written down of each drone."""
+    with suppress(OSError, ValueError):
+        kept: dict[str, dict[str, Any]] = json.loads((folder / DRONES).read_text(encoding="utf-8"))
+        return kept
+    return {}
+
+
+def _write(folder: Path, drones: Mapping[str, Mapping[str, object]]) -> None:
+    part = folder / f".{DRONES}.part"
+    with suppress(OSError):
+        part.write_text(json.dumps(drones), encoding="utf-8")
+        part.replace(folder / DRONES)

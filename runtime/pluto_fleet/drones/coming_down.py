@@ -1,0 +1,51 @@
+"""A drone that comes down by itself: its battery is low, or it is where none may be."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Sequence
+from functools import partial
+from typing import TYPE_CHECKING
+
+from plutoc_runtime.errors import FlightFailed
+from plutoc_runtime.spots import free_spot
+
+from . import flying
+from .member import LAND
+from .stray import is_over_no_fly
+
+if TYPE_CHECKING:
+    from plutoc_runtime.airspace import Airspace
+    from plutoc_runtime.model import Point
+
+    from .member import Member
+
+_PAUSE = 1.0
+"""Seconds until it is tried again."""
+_BESIDE = 0.5
+"""Metres from other drones at which one lands that may not land below."""
+
+
+async def come_down(member: Member, airspace: Airspace, others: Sequence[Point]) -> None:
+    """Land here; who is over a no-fly area flies out of it first, the shortest way.
+
+    One that does not know where it is goes nowhere: it stops, and lands.
+    """
+    try:
+        await member.lane.run(LAND, partial(_down, member, airspace, others))
+    except FlightFailed as error:
+        member.calls.say(f"{member.id} was to land: {error}")
+        await asyncio.sleep(_PAUSE)
+
+
+async def _down(member: Member, airspace: Airspace, others: Sequence[Point]) -> None:
+    here = member.seen.location
+    if member.adrift:
+        await member.hover()
+    elif is_over_no_fly(airspace, here):
+        x, y, _ = free_spot(airspace, here, others, _BESIDE)
+        try:
+            await flying.fly(member, (x, y, min(max(here[2], _BESIDE), airspace.ceiling)))
+        except FlightFailed as error:
+            member.calls.say(f"{member.id} was to leave the no-fly area: {error}")
+    await flying.come_down(member)

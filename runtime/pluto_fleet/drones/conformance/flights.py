@@ -1,0 +1,267 @@
+"""The flights of the kit, each flown once and recorded; the checks look at the records.
+
+A command that raises ends a flight, which then lands and closes: what it did until then is there to be
+looked at.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from collections.abc import Awaitable, Callable
+from contextlib import asynccontextmanager, suppress
+from math import dist, nan
+from typing import TYPE_CHECKING, Protocol
+
+from .record import Record, Sample, Step, Truth
+
+if TYPE_CHECKING:
+    from collections.abc import AsyncIterator
+
+    from plutoc_runtime.model import Point
+
+    from ..protocol import DroneNavigation
+
+LOOK = 0.02
+"""Seconds between two looks at the drone."""
+_MISTAKES: tuple[type[Exception], ...] = (Exception,)
+
+
+class Subject(Protocol):
+    """What the flights must know of the navigation that is tested."""
+
+    height: float
+    away: float
+    speed: float
+    rest: float
+    connect_limit: float
+
+    def make(self) -> DroneNavigation:
+        """Return a fresh navigation of a drone that is ready to fly."""
+        ...
+
+    def truth(self, navigation: DroneNavigation) -> Truth | None:
+        """Return how its drone really is, if anybody knows."""
+        ...
+
+
+class Ended(Exception):
+    """A command has failed: the flight goes no further."""
+
+
+class Flight:
+    """One flight under way."""
+
+    def __init__(self, subject: Subject, navigation: DroneNavigation) -> None:
+        self.subject, self.navigation = subject, navigation
+        self.record = Record(made=type(navigation))
+        self.during = "before"
+
+    def look(self) -> Sample:
+        """Look at the drone now, and keep what was seen."""
+        told, true = self.navigation.telemetry, self.subject.truth(self.navigation)
+        sample = Sample(at=time.monotonic(), during=self.during, telemetry=told, truth=true)
+        self.record.samples.append(sample)
+        return sample
+
+    async def tries(
+        self, name: str, command: Callable[[], Awaitable[object]], limit: float
+    ) -> Step:
+        """Give a command and keep how it ended, within a limit."""
+        self.during = name
+        step = Step(
+            name=name, began=time.monotonic(), ended=0.0, before=(first := self.look()), after=first
+        )
+        try:
+            async with asyncio.timeout(limit) as timer:
+                step.value = await command()
+        except TimeoutError as error:
+            expired = timer.expired()
+            step.error = TimeoutError(f"not over after {limit:.1f} s") if expired else error
+        except _MISTAKES as error:
+            step.error = error
+        step.ended, step.after = time.monotonic(), self.look()
+        self.record.steps[name] = step
+        self.during = f"after {name}"
+        return step
+
+    async def does(self, name: str, command: Callable[[], Awaitable[object]], limit: float) -> Step:
+        """Give a command without which the flight cannot go on."""
+        step = await self.tries(name, command, limit)
+        if step.error is not None:
+            raise Ended from step.error
+        return step
+
+    async def goes(self, name: str, target: Point) -> Step:
+        """Fly somewhere."""
+        speed = self.subject.speed
+        limit = self.limit(dist(self.navigation.telemetry.position, target))
+        return await self.does(name, lambda: self.navigation.go_to(target, speed), limit)
+
+    def limit(self, metres: float) -> float:
+        """Return how long the runtime waits for a way of so many metres."""
+        return metres / self.subject.speed * 3 + 10
+
+    async def sets_out(self) -> None:
+        """Connect and take off."""
+        subject, drone = self.subject, self.navigation
+        await self.does("connect", drone.connect, subject.connect_limit)
+        await self.does("preflight", drone.preflight, 5.0)
+        await self.does(
+            "takeoff",
+            lambda: drone.takeoff(subject.height, subject.speed),
+            self.limit(subject.height),
+        )
+
+    async def rests(self) -> None:
+        """Look on for a moment."""
+        await asyncio.sleep(self.subject.rest)
+
+    async def watched(self) -> None:
+        """Look at the drone again and again, until cancelled."""
+        while True:
+            self.look()
+            await asyncio.sleep(LOOK)
+
+    async def hears(self) -> None:
+        """Listen to its events, until they end."""
+        try:
+            async for event in self.navigation.events():
+                self.record.events.append(event)
+            self.record.events_ended = True
+        except _MISTAKES as error:
+            self.record.events_error = error
+
+
+@asynccontextmanager
+async def flying(subject: Subject, make: Callable[[], DroneNavigation]) -> AsyncIterator[Flight]:
+    """Make a navigation; whatever becomes of its flight, land it and close it."""
+    flight = Flight(subject, make())
+    drone = flight.navigation
+    watching = asyncio.create_task(flight.watched())
+    hearing = asyncio.create_task(flight.hears())
+    try:
+        yield flight
+    except Ended as ended:
+        flight.record.failed = ended.__cause__
+    finally:
+        if "close" not in flight.record.steps:
+            if drone.telemetry.flying:
+                await flight.tries("land at the end", lambda: drone.land(0.5), 20.0)
+            await flight.tries("close", drone.close, 20.0)
+        await asyncio.wait([hearing], timeout=1.0)
+        for task in (watching, hearing):
+            task.cancel()
+            with suppress(asyncio.CancelledError):
+                await task
+
+
+async def tour(subject: Subject) -> Record:
+    """Everything that a drone that is well must do."""
+    async with flying(subject, subject.make) as flight:
+        drone, speed, height = flight.navigation, subject.speed, subject.height
+        await flight.does("connect", drone.connect, subject.connect_limit)
+        x, y, _ = home = drone.telemetry.position
+        await flight.does("preflight", drone.preflight, 5.0)
+        await flight.rests()
+        await flight.tries("go_to on the ground", lambda: drone.go_to((x, y, height), speed), 5.0)
+        await flight.does("takeoff", lambda: drone.takeoff(height, speed), flight.limit(height))
+        for name, target, limit in (
+            ("go_to a place that is no number", (nan, y, height), speed),
+            ("go_to below the ground", (x, y, -1.0), speed),
+            ("go_to at no speed", (x + subject.away, y, height), 0.0),
+        ):
+            await flight.tries(name, _go(drone, target, limit), 5.0)
+        await flight.rests()
+        there_ = (x + subject.away, y, height)
+        await flight.goes("go_to", there_)
+        await flight.rests()
+        await flight.does("preflight in the air", drone.preflight, 5.0)
+        await _cancelled(flight, (home[0], home[1], height))
+        await flight.does("hold", drone.hold, 10.0)
+        await flight.rests()
+        await flight.does("land", lambda: drone.land(speed), flight.limit(height))
+        await flight.does("land on the ground", lambda: drone.land(speed), 5.0)
+        await flight.does("hold on the ground", drone.hold, 5.0)
+        await flight.rests()
+        await flight.tries("connect again", drone.connect, subject.connect_limit)
+        await flight.rests()
+        await flight.does("close", drone.close, 20.0)
+    return flight.record
+
+
+def _go(drone: DroneNavigation, target: Point, speed: float) -> Callable[[], Awaitable[object]]:
+    return lambda: drone.go_to(target, speed)
+
+
+async def _cancelled(flight: Flight, target: Point) -> None:
+    """Cancel a go_to half-way, as a Stop does."""
+    drone, start = flight.navigation, flight.navigation.telemetry.position
+    half = dist(start, target) / 2
+
+    async def broken_off() -> None:
+        going = asyncio.create_task(drone.go_to(target, flight.subject.speed))
+        while dist(drone.telemetry.position, start) < half and not going.done():
+            await asyncio.sleep(LOOK)
+        if going.done():
+            await going
+            return
+        flight.during = "cancel"
+        going.cancel()
+        await asyncio.wait([going], timeout=1.0)
+        if not going.done():
+            raise TimeoutError("go_to goes on a second after it was cancelled")
+        if not going.cancelled() and (error := going.exception()) is not None:
+            raise error
+
+    await flight.does("go_to that is cancelled", broken_off, flight.limit(2 * half))
+
+
+async def closed_in_the_air(subject: Subject) -> Record:
+    """Let go of a drone that hovers, as a program does that ends too early."""
+    async with flying(subject, subject.make) as flight:
+        await flight.sets_out()
+        await flight.tries("close", flight.navigation.close, 20.0)
+        await flight.rests()
+    return flight.record
+
+
+async def struck(subject: Subject, strike: Callable[[DroneNavigation], object]) -> Record:
+    """Let something happen to a drone on its way."""
+    async with flying(subject, subject.make) as flight:
+        await flight.sets_out()
+        drone = flight.navigation
+        x, y, z = start = drone.telemetry.position
+        target = (x + subject.away, y, z)
+
+        async def goes() -> None:
+            going = asyncio.create_task(drone.go_to(target, subject.speed))
+            try:
+                while dist(drone.telemetry.position, start) < subject.away / 4:
+                    if going.done():
+                        break
+                    await asyncio.sleep(LOOK)
+                strike(drone)
+                flight.during = "struck"
+                await going
+            finally:
+                going.cancel()
+
+        await flight.tries("go_to", goes, flight.limit(subject.away))
+    return flight.record
+
+
+async def nobody(subject: Subject, make: Callable[[], DroneNavigation]) -> Record:
+    """Connect to a drone that is not there."""
+    async with flying(subject, make) as flight:
+        await flight.tries("connect", flight.navigation.connect, subject.connect_limit)
+    return flight.record
+
+
+async def cut(subject: Subject) -> Record:
+    """Switch the motors off, a hand's breadth above the ground."""
+    async with flying(subject, subject.make) as flight:
+        await flight.sets_out()
+        await flight.does("emergency_stop", flight.navigation.emergency_stop, 3.0)
+        await flight.rests()
+    return flight.record

@@ -1,0 +1,181 @@
+"""Finds the class that a fleet file names to fly its drones, or to see them; nothing of it is called.
+
+Its module is imported once it is known that it has such a class (`looking_up.py`).
+
+A name is one of ours (`crazyflie`), one that an installed package offers by an entry point, or
+`module:Class`. Only what is installed is found: a fleet file is data, and the folder that it lies in
+is no place for code.
+"""
+
+from __future__ import annotations
+
+import inspect
+import os
+import sys
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from functools import cache
+from importlib import import_module
+from typing import TYPE_CHECKING, TypeVar, cast
+
+from plutoc_runtime.errors import BadInput
+from plutoc_runtime.kernel import WHATEVER
+
+from . import refusals
+from .calls import shortened
+from .checking import problems
+from .kinds import CAPABILITIES, LOCALIZATION_METHODS, NAVIGATION_METHODS, Kind
+from .looking_up import look_up
+from .trial import tried
+
+if TYPE_CHECKING:
+    from .localization import Localization
+    from .protocol import DroneNavigation
+    from .setup import DroneSetup
+
+S = TypeVar("S")
+T = TypeVar("T")
+
+
+def _crazyflie() -> object:
+    from ..crazyflie.navigation import Crazyflie  # few look at it
+
+    return Crazyflie
+
+
+NAVIGATION = Kind(
+    word="navigation",
+    ours=(("crazyflie", _crazyflie),),
+    group="plutoc.navigations",
+    argument="setup",
+    such_as="my_drones.parrot:Parrot",
+    methods=NAVIGATION_METHODS,
+    together=CAPABILITIES,
+)
+LOCALIZATION = Kind(
+    word="localization",
+    group="plutoc.localizations",
+    argument="options",
+    such_as="my_cameras:Ceiling",
+    methods=LOCALIZATION_METHODS,
+)
+
+
+def load_navigation(name: str) -> Callable[[DroneSetup], DroneNavigation]:
+    """Return the class that a fleet file names to fly drones; raise `BadInput` if that fails."""
+    return cast("Callable[[DroneSetup], DroneNavigation]", _loaded(NAVIGATION, name))
+
+
+def load_localization(name: str) -> Callable[[Mapping[str, object]], Localization]:
+    """Return the class that a fleet file names to see drones; not for `own`, which is none."""
+    return cast("Callable[[Mapping[str, object]], Localization]", _loaded(LOCALIZATION, name))
+
+
+def hears(name: str) -> bool:
+    """Say whether drones that are flown so can be told where they are; raise as loading does."""
+    return hasattr(load_navigation(name), "locate")
+
+
+def make_navigation(name: str, setup: DroneSetup) -> DroneNavigation:
+    """Return the navigation of one drone; raise `BadInput` if there cannot be one."""
+    return _made(NAVIGATION, name, load_navigation(name), setup, f" for {setup.id}")
+
+
+def make_localization(name: str, options: Mapping[str, object]) -> Localization:
+    """Return the localization of a fleet; raise `BadInput` if there cannot be one."""
+    return _made(LOCALIZATION, name, load_localization(name), options, "")
+
+
+def _made(kind: Kind, name: str, of: Callable[[S], T], argument: S, whose: str) -> T:
+    try:
+        return of(argument)
+    except KeyboardInterrupt:
+        raise
+    except WHATEVER as error:  # an option that it cannot use, mostly
+        raise refusals.not_made(kind, name, whose, _said(error)) from error
+
+
+@cache
+def _loaded(kind: Kind, name: str) -> object:
+    ours = dict(kind.ours)
+    if name in ours:
+        return ours[name]()
+    written = name if ":" in name else _offered(kind, name)
+    module, path = _apart(kind, name, written)
+    if written is name:
+        with _only_what_is_installed():
+            look_up(kind, name, module, path)
+    found = _imported(kind, name, module, path)
+    if not inspect.isclass(found):
+        raise refusals.not_a_class(kind, name)
+    wrong = problems(kind, found)
+    if wrong:
+        raise refusals.lacks(kind, name, wrong)
+    return found
+
+
+def _offered(kind: Kind, name: str) -> str:
+    """Return the `module:Class` that an installed package offers under a name."""
+    from importlib.metadata import entry_points
+
+    points = entry_points(group=kind.group)
+    values = sorted({point.value for point in points if point.name == name})
+    if not values:
+        others = sorted({point.name for point in points} - set(dict(kind.ours)))
+        raise refusals.no_such_name(kind, name, [*dict(kind.ours), *others])
+    if len(values) > 1:
+        raise refusals.several(kind, name, values)
+    return values[0]
+
+
+def _apart(kind: Kind, name: str, written: str) -> tuple[str, str]:
+    module, _, path = (part.strip() for part in written.partition(":"))
+    if not all(part.isidentifier() for part in [*module.split("."), *path.split(".")]):
+        raise refusals.no_class_written(kind, name)
+    return module, path
+
+
+def _imported(kind: Kind, name: str, module: str, path: str) -> object:
+    with _only_what_is_installed():
+        tried(kind, name, module)
+    try:
+        with _only_what_is_installed():
+            found: object = import_module(module)
+    except ModuleNotFoundError as error:
+        missing = error.name or module
+        if f"{module}.".startswith(f"{missing}."):
+            raise refusals.no_such_module(kind, name, missing) from error
+        raise refusals.needs(kind, name, missing) from error
+    except KeyboardInterrupt:
+        raise
+    except WHATEVER as error:
+        raise refusals.not_imported(kind, name, _said(error)) from error
+    for part in path.split("."):
+        classes = [word for word, value in vars(found).items() if inspect.isclass(value)]
+        found = getattr(found, part, None)
+        if found is None:
+            raise refusals.no_such_class(kind, name, part, classes)
+    return found
+
+
+@contextmanager
+def _only_what_is_installed() -> Iterator[None]:
+    """Look for no module in the folder where somebody happens to be, as `python -m` would.
+
+    Nor does the gateway's process: so both find the same.
+    """
+    first = sys.path[:1]
+    here = not sys.flags.safe_path and any(os.path.isdir(one or ".") for one in first)
+    here = here and os.path.samefile(first[0] or ".", ".")
+    if here:
+        del sys.path[0]
+    try:
+        yield
+    finally:
+        if here:
+            sys.path[:0] = first
+
+
+def _said(error: BaseException) -> str:
+    said = str(error) if isinstance(error, BadInput) else f"{type(error).__name__}: {error}"
+    return shortened(said)

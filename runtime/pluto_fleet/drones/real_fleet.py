@@ -1,0 +1,114 @@
+"""What the gateway's process must know of real drones: plain data, from the fleet file."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import asdict, dataclass
+from typing import TYPE_CHECKING, Any
+
+from plutoc_runtime.actions import BUILT_IN, Plain
+
+from ..files.real import navigation_of, options_of
+
+if TYPE_CHECKING:
+    from plutoc_runtime.model import Mission
+
+    from ..files.fleet import FleetFile
+
+SLACK = 0.15
+"""Metres that a real drone may be beside where it believes to be: drones are kept apart by more."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RealDrone:
+    """How one drone is flown."""
+
+    id: str
+    navigation: str
+    """A name, or `module:Class`."""
+    uri: str | None
+    options: Mapping[str, object]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Wanted:
+    """A built-in action that the plan asks for: who cannot do it is not ready."""
+
+    action: str
+    parameters: Mapping[str, Plain]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RealFleet:
+    """How all drones are flown."""
+
+    drones: tuple[RealDrone, ...]
+    localization: str
+    """Who tells them where they are: `own`, a name, or `module:Class`."""
+    localization_options: Mapping[str, object]
+    wanted: tuple[Wanted, ...] = ()
+
+
+def real_fleet(
+    fleet: FleetFile,
+    missions: Iterable[Mission[Any]],
+    uris: Mapping[str, str] | None = None,
+    *,
+    records: Iterable[Mapping[str, Any]] = (),
+) -> RealFleet:
+    """Return how a fleet's drones are flown for these missions; `uris` instead of the file's.
+
+    `records`: what a journal says of missions that go on.
+    """
+    uris = uris or {}
+    return RealFleet(
+        drones=tuple(
+            RealDrone(
+                id=drone.id,
+                navigation=navigation_of(fleet, drone),
+                uri=uris.get(drone.id, drone.uri),
+                options=options_of(fleet, drone),
+            )
+            for drone in fleet.drones
+        ),
+        localization=fleet.localization,
+        localization_options=fleet.localization_options,
+        wanted=_wanted([*_planned(missions), *_recorded(records)]),
+    )
+
+
+def _planned(missions: Iterable[Mission[Any]]) -> Iterator[Wanted]:
+    for mission in missions:
+        for trip in mission.trips:
+            yield Wanted(action=trip.action, parameters=dict(trip.parameters))
+
+
+def _recorded(records: Iterable[Mapping[str, Any]]) -> Iterator[Wanted]:
+    """Yield what is asked for by what goes on: in another round, by what was done already, too."""
+    for record in records:
+        for trip in () if record["ended"] else (*record["done"], *record["todo"]):
+            yield Wanted(action=trip["action"], parameters=trip.get("parameters", {}))
+
+
+def _wanted(trips: Iterable[Wanted]) -> tuple[Wanted, ...]:
+    """Return what the trips ask for, each once, in their order."""
+    found: list[Wanted] = []
+    for wanted in trips:
+        if wanted.action in BUILT_IN and wanted not in found:
+            found.append(wanted)
+    return tuple(found)
+
+
+def real_data(real: RealFleet) -> dict[str, object]:
+    """Return it as plain data."""
+    return asdict(real)
+
+
+def real_of(data: Mapping[str, Any]) -> RealFleet:
+    """Return what was written down."""
+    return RealFleet(
+        drones=tuple(RealDrone(**drone) for drone in data["drones"]),
+        localization=data["localization"],
+        localization_options=data["localization_options"],
+        wanted=tuple(Wanted(**wanted) for wanted in data["wanted"]),
+    )

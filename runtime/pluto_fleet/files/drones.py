@@ -1,0 +1,137 @@
+"""The drones of a fleet file: `[[drone]]`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import partial
+from math import dist
+from typing import TYPE_CHECKING
+
+from plutoc_runtime.files import DroneData
+from plutoc_runtime.words import quoted
+
+from . import errors, values
+from .free_tables import Options, options_under
+
+if TYPE_CHECKING:
+    from plutoc_runtime.airspace import Airspace
+    from plutoc_runtime.app import App
+
+    from .table import Table
+
+HOME_SIZE = 0.1
+"""Metres that a drone takes up where it stands."""
+
+Cell = tuple[int, int]
+"""A square of the map with sides of that length."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DroneEntry(DroneData):
+    """A drone as the fleet file has it, with how a real one is flown."""
+
+    uri: str | None = None
+    """Where a real one is reached; how that is written, its navigation says."""
+    navigation: str | None = None
+    """How it is flown; None: as the fleet is."""
+    options: Options = field(default_factory=dict)
+    """For its navigation, on top of the fleet's."""
+    line: int | None = None
+
+
+def read_drones(top: Table, app: App, airspace: Airspace | None) -> tuple[DroneEntry, ...]:
+    """Return the drones that can be read."""
+    drones: list[DroneEntry] = []
+    ids: dict[str, Table] = {}
+    uris: dict[str, Table] = {}
+    homes: dict[Cell, list[DroneEntry]] = {}
+    for index, table in enumerate(top.tables("drone", "drone")):
+        drone = _drone(table, index, app, airspace, ids)
+        _answers_alone(table, uris)
+        if drone is not None:
+            _stands_alone(drone, homes, table)
+            drones.append(drone)
+    if top.data.get("drone", []) == []:
+        top.problem(errors.none_given("drone"))
+    return tuple(drones)
+
+
+def named_navigations(top: Table, of_fleet: str) -> list[str]:
+    """Return by what drones are flown, those that have other mistakes included."""
+    tables = top.data.get("drone")
+    entries = tables if isinstance(tables, list) else []
+    own = [entry.get("navigation") for entry in entries if isinstance(entry, dict)]
+    return list(dict.fromkeys([of_fleet, *(name for name in own if isinstance(name, str))]))
+
+
+def _drone(
+    table: Table, index: int, app: App, airspace: Airspace | None, ids: dict[str, Table]
+) -> DroneEntry | None:
+    table.who = f"drone {index + 1}"
+    table.only(("id", "category", "home", "uri", "navigation", "options"), "a drone")
+    name = table.read("id", values.name, required=True)
+    if name is not None:
+        table.who = f"drone {quoted(name)}"
+        other = ids.setdefault(name, table)
+        if other is not table:
+            table.problem(errors.not_unique("drone", name, other.line("id")), "id")
+    category = _category(table, app)
+    home = table.read("home", partial(values.position, height=0.0), required=True)
+    uri = table.read("uri", values.name)
+    navigation = table.read("navigation", values.name)
+    options = options_under(table, "options", "drone.options")
+    if home is not None and airspace is not None:
+        problem = airspace.problem(home)
+        if problem is not None:
+            table.problem(f"home {problem}", "home")
+    if name is None or category is None or home is None:
+        return None
+    return DroneEntry(
+        id=name,
+        category=category,
+        home=home,
+        uri=uri,
+        navigation=navigation,
+        options=options,
+        line=table.line(),
+    )
+
+
+def _category(table: Table, app: App) -> str | None:
+    names = [category.name for category in app.categories]
+    if "category" not in table.data:
+        if len(names) == 1:  # there is nothing to choose
+            return names[0]
+        table.problem(errors.category_missing(names))
+        return None
+    name = table.read("category", values.text)
+    if name is not None and name not in names:
+        table.problem(errors.unknown_name("category", name, names, "this app has"), "category")
+        return None
+    return name
+
+
+def _stands_alone(drone: DroneEntry, homes: dict[Cell, list[DroneEntry]], table: Table) -> None:
+    """Tell if another has its home here: only those in this square and those around it can."""
+    column, row = (int(along // HOME_SIZE) for along in drone.home[:2])
+    around = [(column + x, row + y) for x in (-1, 0, 1) for y in (-1, 0, 1)]
+    others = (other for cell in around for other in homes.get(cell, ()))
+    near = next((other for other in others if dist(drone.home, other.home) < HOME_SIZE), None)
+    if near is not None:
+        table.problem(errors.shared_home(near.id), "home")
+    homes.setdefault((column, row), []).append(drone)
+
+
+def _answers_alone(table: Table, uris: dict[str, Table]) -> None:
+    uri = table.data.get("uri")
+    if isinstance(uri, str):
+        other = uris.setdefault(which(uri), table)
+        if other is not table:
+            table.problem(errors.shared_uri(other.who, other.line("uri")), "uri")
+
+
+def which(uri: str) -> str:
+    """Return a drone's uri so that two ways to write it are one: by whichever dongle, too."""
+    plain = uri.strip().casefold().partition("?")[0].rstrip("/")
+    scheme, _, rest = plain.partition("://")
+    return rest.partition("/")[2] if scheme == "radio" else plain

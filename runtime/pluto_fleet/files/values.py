@@ -1,0 +1,166 @@
+"""From what TOML holds to what the runtime wants: `delay "3 m" is a length, not a time`."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from datetime import time
+from functools import partial
+from math import isfinite
+from typing import TYPE_CHECKING
+
+from plutoc_runtime.fields import FieldType
+from plutoc_runtime.quantities import QUANTITIES, Type, parse_quantity, units_of
+
+from .limits import PLACE, TIME, Limit
+
+if TYPE_CHECKING:
+    from plutoc_runtime.actions import Plain
+
+LARGEST = 1e9
+"""No field needs more, and nothing that is computed from less overflows: 30 years, for a time."""
+
+LONGEST_NAME = 200
+
+
+class Wrong(ValueError):
+    """What a value is not; the message goes on after the key and the value."""
+
+
+def name(value: object) -> str:
+    """Read a word that will stand in lists and logs."""
+    word = text(value)
+    if not word.strip():
+        raise Wrong("is empty")
+    if word != word.strip():
+        raise Wrong("begins or ends with a blank")
+    if len(word) > LONGEST_NAME:
+        raise Wrong(f"is longer than {LONGEST_NAME} characters")
+    if not word.isprintable():
+        raise Wrong("holds a character that cannot be shown")
+    return word
+
+
+def text(value: object) -> str:
+    """Read any text."""
+    if not isinstance(value, str):
+        raise Wrong("is not a text: put it in quotes")
+    return value
+
+
+def boolean(value: object) -> bool:
+    """Read true or false."""
+    if not isinstance(value, bool):
+        raise Wrong("is neither true nor false")
+    return value
+
+
+def integer(value: object, *, least: int | None = None) -> int:
+    """Read a whole number."""
+    if isinstance(value, bool) or not isinstance(value, int):
+        raise Wrong("is not a whole number")
+    if abs(value) > LARGEST:
+        raise Wrong("is too large")
+    if least is not None and value < least:
+        raise Wrong(f"is less than {least}")
+    return value
+
+
+def real(value: object) -> float:
+    """Read a number."""
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise Wrong("is not a number")
+    if isinstance(value, float) and not isfinite(value):
+        raise Wrong("is not a finite number")
+    if abs(value) > LARGEST:
+        raise Wrong("is too large")
+    return float(value)
+
+
+def quantity(value: object, kind: Type, *, limit: Limit | None = None) -> float:
+    """Read "3 min" or 180 as 180.0."""
+    if isinstance(value, str):
+        amount = real(parse_quantity(value, kind))
+    elif isinstance(value, bool) or not isinstance(value, int | float):
+        units = ", ".join(units_of(kind))
+        raise Wrong(f"is not a {kind.value}: write a number, or a text with a unit ({units})")
+    else:
+        amount = real(value)
+    problem = None if limit is None else limit.problem(amount)
+    if problem is not None:
+        raise Wrong(problem)
+    return amount
+
+
+def parameter(value: object, kind: Type) -> Plain:
+    """Read the value of an action's parameter."""
+    if kind in QUANTITIES:
+        return quantity(value, kind)
+    return _PLAIN[kind](value)
+
+
+_PLAIN: dict[Type, Callable[[object], Plain]] = {
+    Type.INT: integer,
+    Type.FLOAT: real,
+    Type.BOOL: boolean,
+    Type.TEXT: text,
+}
+
+
+def numbers(value: object, counts: tuple[int, ...], limit: Limit = PLACE) -> tuple[float, ...]:
+    """Read a list of lengths; it may have so many."""
+    wanted = " or ".join(str(count) for count in counts)
+    if not isinstance(value, list) or len(value) not in counts:
+        raise Wrong(f"is not a list of {wanted} numbers")
+    try:
+        return tuple(quantity(element, Type.LENGTH, limit=limit) for element in value)
+    except ValueError as error:
+        raise Wrong(f"has an element that {error}") from None
+
+
+def corner(value: object) -> tuple[float, float]:
+    """Read [x, y]."""
+    x, y = numbers(value, (2,))
+    return x, y
+
+
+def position(value: object, height: float) -> tuple[float, float, float]:
+    """Read [x, y] or [x, y, z]; without z it is at this height."""
+    x, y, *z = numbers(value, (2, 3))
+    return x, y, z[0] if z else height
+
+
+def rounds(value: object) -> int | bool:
+    """Read how many more rounds; true: until stopped."""
+    if value is True:
+        return True
+    if value is False or not isinstance(value, int) or value < 0:
+        raise Wrong("is neither a whole number from 0 on nor true")
+    return integer(value)
+
+
+_TIME_OF_DAY = re.compile(r"([01]?\d|2[0-3]):([0-5]\d)(?::([0-5]\d))?")
+
+
+def time_of_day(value: object) -> float:
+    """Read "08:00", or TOML's own 08:00:00, as seconds since midnight."""
+    if isinstance(value, time):
+        return value.hour * 3600.0 + value.minute * 60.0 + value.second
+    match = _TIME_OF_DAY.fullmatch(value) if isinstance(value, str) else None
+    if match is None:
+        raise Wrong('is not a time of day: write it like "08:00"')
+    return int(match[1]) * 3600.0 + int(match[2]) * 60.0 + int(match[3] or 0)
+
+
+def field_reader(kind: FieldType) -> Callable[[object], object]:
+    """Return how a field of this type is read."""
+    return _FIELDS[kind]
+
+
+_FIELDS: dict[FieldType, Callable[[object], object]] = {
+    FieldType.TIME: partial(quantity, kind=Type.TIME, limit=TIME),
+    FieldType.INT: integer,
+    FieldType.ROUNDS: rounds,
+    FieldType.TIME_OF_DAY: time_of_day,
+    FieldType.EVALUATOR: name,
+}

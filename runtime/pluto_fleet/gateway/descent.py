@@ -1,0 +1,244 @@
+"""How all drones come down at once: where they are, or each at home, apart from one another.
+
+Who goes home does so even if it stands somewhere else; what it carries comes along.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Coroutine, Sequence
+from functools import partial
+from itertools import islice
+from typing import TYPE_CHECKING, Any, Protocol
+
+from plutoc_runtime.energy import docked
+from plutoc_runtime.errors import FlightFailed
+from plutoc_runtime.kernel import FLEET, Kernel, Task
+from plutoc_runtime.standing import Down
+
+from .traffic.choosing import Goer
+from .traffic.courses import Course, course
+from .traffic.timetable import Timetable, timetable
+from .traffic.ways_home import ways_home
+
+if TYPE_CHECKING:
+    from plutoc_runtime.airspace import Airspace
+    from plutoc_runtime.model import Category, Point
+
+    from .pilots import Pilots
+    from .traffic.detours import Section
+    from .traffic.traffic import Traffic
+
+_LOOK = 0.1
+"""Seconds between two looks at those who are to pass first."""
+_NEAR = 60
+"""How many ways to the ground are looked at, where it is not straight below."""
+
+_Command = Callable[[], Coroutine[Any, Any, None]]
+
+
+class Craft(Protocol):
+    """What must be known of a drone."""
+
+    @property
+    def id(self) -> str:
+        """Its name in the fleet."""
+        ...
+
+    @property
+    def category(self) -> Category:
+        """How fast it flies, and for how long."""
+        ...
+
+    @property
+    def home(self) -> Point:
+        """Where its dock is."""
+        ...
+
+    @property
+    def index(self) -> int:
+        """Its place in the fleet file."""
+        ...
+
+
+class Descent:
+    """Brings down every drone that flies. One that cannot follow keeps no other up."""
+
+    def __init__(
+        self,
+        kernel: Kernel,
+        pilots: Pilots,
+        drones: Sequence[Craft],
+        airspace: Airspace,
+        traffic: Traffic | None,
+    ) -> None:
+        self._kernel, self._pilots, self._airspace = kernel, pilots, airspace
+        self._drones, self._traffic = drones, traffic
+        self._places = {drone.id: drone.index for drone in drones}
+        self._tasks: list[Task[bool]] = []
+        self._plan = Timetable()
+        self._at: dict[str, tuple[int, int]] = {}
+        """In which pieces of their ways they are: the one that they left last, and the next stop."""
+
+    async def down(self, how: Down) -> None:
+        """Bring them down; whoever cancels this leaves them hovering."""
+        try:
+            goers = self._goers(how)
+            if self._traffic is None:
+                self._at_once(goers)
+            else:
+                now, later = self._split(goers, self._traffic)
+                self._in_turn(timetable(now, self._traffic.limit), later)
+            for task in self._tasks:
+                await task
+        finally:
+            for task in self._tasks:
+                task.cancel()
+
+    # Who goes where
+
+    def _goers(self, how: Down) -> list[Goer]:
+        """Return who is to come down, and by which ways: home, or near to where it is.
+
+        Who has the longest way home chooses first: the others have time. Who lands below others
+        chooses before them.
+        """
+        found = []
+        for drone in self._drones:
+            ways = self._ways_home(drone) if how is Down.HOME else []
+            if not ways and not self._is_landed(drone):
+                ways = self._ways_down(drone)
+            if ways:
+                courses = sorted((self._course(drone, way) for way in ways), key=_cost)
+                found.append(Goer(drone.id, courses))
+        sign = 1 if how is Down.LAND else -1
+        return sorted(found, key=lambda goer: sign * goer.courses[0].seconds)
+
+    def _split(self, goers: Sequence[Goer], traffic: Traffic) -> tuple[list[Goer], list[Goer]]:
+        """Return who goes by the plan, and who when there is room.
+
+        Where only so many may be in the air, nobody there must wait for somebody who stands.
+        """
+        stand = [goer for goer in goers if traffic.is_limited and goer.courses[0].section.stands]
+        return [goer for goer in goers if goer not in stand], stand
+
+    def _ways_down(self, drone: Craft) -> list[Section]:
+        if self._traffic is None:
+            return [self._pilots.way_down(drone.id)]
+        return [*islice(self._traffic.ground.ways_down(drone.id), _NEAR)]
+
+    def _ways_home(self, drone: Craft) -> list[Section]:
+        """Return ways home; none where it is there, or cannot get there."""
+        telemetry, traffic = self._pilots.telemetry(drone.id), self._traffic
+        if telemetry.landed and docked(telemetry.location, drone.home):
+            return []
+        if traffic is not None and traffic.ground.below(drone.id, drone.home) is None:
+            return []  # another stands there
+        step = 0.0 if traffic is None else traffic.step
+        ways = ways_home(self._airspace, drone, telemetry.location, telemetry.landed, step)
+        enough = telemetry.battery_level * drone.category.flight_time
+        return [way for way in ways if self._course(drone, way).seconds < enough]
+
+    def _course(self, drone: Craft, way: Section) -> Course:
+        traffic = self._traffic
+        return course(way, drone.category.speed, traffic is not None and traffic.is_real)
+
+    # How they go
+
+    def _at_once(self, goers: Sequence[Goer]) -> None:
+        """Let all go by the quickest way: nobody asks for more."""
+        for goer in goers:
+            self._send(goer.drone, partial(self._flies, goer.drone, goer.courses[0].section))
+
+    def _in_turn(self, plan: Timetable, later: Sequence[Goer]) -> None:
+        """Let all go as it was planned, and then those for whom nothing could be, or was."""
+        self._plan = plan
+        self._at = dict.fromkeys(plan.courses, (0, 0))
+        for drone in plan.courses:
+            self._send(drone, partial(self._follows, drone))
+        for goer in (*plan.without, *later):
+            ways = [one.section for one in goer.courses]
+            self._send(goer.drone, partial(self._flies, goer.drone, *ways))
+
+    async def _flies(self, drone: str, *ways: Section) -> None:
+        begins = partial(self._pilots.begins, drone)
+        await self._pilots.travels(
+            drone, lambda: ways[0], begins, ways=lambda _: ways, anywhere=True
+        )
+
+    async def _follows(self, drone: str) -> None:
+        """Fly as far as nobody is in the way who was to pass before; and so on, to the end."""
+        last = len(self._plan.courses[drone].pieces) - 1
+        telemetry, at = self._pilots.telemetry(drone), 0
+        try:
+            self._pilots.begins(drone)
+            while at < last:
+                to = self._free(drone, at)
+                if to == at:
+                    await self._kernel.sleep(_LOOK)
+                    continue
+                self._at[drone] = at, to
+                await self._pilots.travels(
+                    drone, partial(self._stretch, drone), ways=_no_other, anywhere=True
+                )
+                if telemetry.landed:
+                    return
+                at = to
+                self._at[drone] = at, at
+        finally:
+            del self._at[drone]
+
+    def _stretch(self, drone: str) -> Section:
+        """Return what a drone flies next, from where it is: it may have been stopped on the way."""
+        (first, last), one = self._at[drone], self._plan.courses[drone]
+        telemetry = self._pilots.telemetry(drone)
+        here = telemetry.location
+        first = max(first, one.piece_at(here, first, last) - 1)
+        return one.stretch(here, telemetry.landed, first, last)
+
+    def _free(self, drone: str, at: int) -> int:
+        """Return where it rests next; where it is, if somebody has to pass first."""
+        last = len(self._plan.courses[drone].pieces) - 1
+        waits = [
+            piece for piece, other, its in self._plan.after[drone] if not self._left(other, its)
+        ]
+        free = min((piece - 1 for piece in waits if piece > at), default=last)
+        return self._plan.rest_after(drone, at, free)
+
+    def _left(self, drone: str, piece: int) -> bool:
+        """Say whether a drone has left a piece of its way."""
+        if drone not in self._at:
+            return True  # it is down, or fails
+        if self._traffic is not None and self._traffic.touches_down(drone):
+            return True
+        first, last = self._at[drone]
+        if last <= piece < first or first > piece:
+            return first > piece
+        if last <= piece and first == last:
+            return False
+        here = self._pilots.telemetry(drone).location
+        return self._plan.courses[drone].piece_at(here, first, last) > piece
+
+    def _send(self, drone: str, command: _Command) -> None:
+        key = FLEET + 1 + self._places[drone]
+        self._tasks.append(self._kernel.spawn(_well(command), key, f"{drone} comes down"))
+
+    def _is_landed(self, drone: Craft) -> bool:
+        return self._pilots.telemetry(drone.id).landed
+
+
+async def _well(command: _Command) -> bool:
+    """Say whether a drone could do it; whatever keeps it, it keeps no other."""
+    try:
+        await command()
+    except FlightFailed:
+        return False
+    return True
+
+
+def _cost(one: Course) -> float:
+    return one.cost
+
+
+def _no_other(section: Section) -> Sequence[Section]:
+    """It was planned so, and all others rely on it."""
+    return (section,)

@@ -1,0 +1,62 @@
+"""Where drones may be sent at all, whatever the brain believes: refused, and never made to fit."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+from plutoc_runtime.errors import Failure, FlightFailed
+from plutoc_runtime.navigation import permitted_way
+from plutoc_runtime.words import number
+
+if TYPE_CHECKING:
+    from plutoc_runtime.airspace import Airspace
+    from plutoc_runtime.model import Point
+
+
+class Envelope:
+    """Inside the map, outside the no-fly areas, between ground and ceiling: all the way."""
+
+    def __init__(self, airspace: Airspace) -> None:
+        self._airspace = airspace
+
+    def problem(self, points: Iterable[Point]) -> str | None:
+        """Return why no drone may be sent to these points, or None."""
+        for point in points:
+            problem = self._airspace.problem(point)
+            if problem is not None:
+                return problem
+        return None
+
+    def check(self, target: Point) -> None:
+        """Raise `FlightFailed` if no drone may be sent to this point."""
+        problem = self._airspace.problem(target)
+        if problem is not None:
+            raise FlightFailed(Failure.REFUSED, problem)
+
+    def check_height(self, height: float) -> None:
+        """Raise `FlightFailed` if no drone may rise so high."""
+        ceiling = self._airspace.ceiling
+        if not 0 <= height <= ceiling:
+            reason = f"{number(height)} m is not between the ground and {number(ceiling)} m"
+            raise FlightFailed(Failure.REFUSED, reason)
+
+    def straight(self, start: Point, target: Point) -> tuple[Point, ...]:
+        """Return the points of a straight leg; one that has drifted out flies back in first."""
+        airspace = self._airspace
+        back: tuple[Point, ...] = ()
+        if airspace.problem(start) is not None:
+            start = airspace.way_back(start)
+            back = (start,)
+        problem = airspace.problem(target) or airspace.leg_problem(start, target)
+        if problem is not None:
+            raise FlightFailed(Failure.REFUSED, problem)
+        return (*back, target)
+
+    def way(self, drone: str, start: Point, end: Point) -> tuple[Point, ...]:
+        """Return the points of the shortest permitted way; who has drifted out flies back in first."""
+        airspace = self._airspace
+        if airspace.problem(start) is None or airspace.problem(end) is not None:
+            return permitted_way(airspace, drone, start, end)
+        back = airspace.way_back(start)
+        return (back, *permitted_way(airspace, drone, back, end))

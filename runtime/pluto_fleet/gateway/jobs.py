@@ -1,0 +1,204 @@
+"""The jobs that drones were given: by their ids, so that nothing that was done is done again."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from functools import partial
+from typing import TYPE_CHECKING
+
+from plutoc_runtime.errors import Failure, FlightFailed
+from plutoc_runtime.kernel import Kernel, Key, Kind
+from plutoc_runtime.standing import Entry, JobState, Standing, outcome
+
+from .given import Given, Report
+
+if TYPE_CHECKING:
+    from plutoc_runtime.navigation import Job, Navigation
+
+    from .envelope import Envelope
+    from .ledger import Ledger
+
+
+class Jobs:
+    """Every job that somebody may still ask for."""
+
+    def __init__(
+        self,
+        kernel: Kernel,
+        navigation: Navigation,
+        keys: Mapping[str, Key],
+        envelope: Envelope,
+        ledger: Ledger | None,
+    ) -> None:
+        self._kernel, self._navigation, self._keys = kernel, navigation, keys
+        self._envelope, self._ledger = envelope, ledger
+        self._known: dict[str, Given | Entry] = {}
+        """By their ids; an `Entry` is settled, or of another life of the gateway."""
+        if ledger is not None:
+            self._known.update((entry.id, entry) for entry in ledger.entries())
+        self._remembered: dict[str, Standing] = {}
+        """Who says to have done a job, by the job's id: nobody else may know of it any more."""
+        self._current: dict[str, Given] = {}
+        """What drones fly, or hover for, by the drones' ids."""
+        self.boots = dict.fromkeys(keys, 0)
+        """How the drones' boots were numbered when they were last asked."""
+
+    # What the brain asks for
+
+    def fly(self, job: Job, report: Report) -> None:
+        """Give a drone its job, unless its action was done before, or may have been."""
+        drone = job.drone
+        given = Given(self, job, report, self.boots[drone])
+        known = self._known.get(given.id)
+        if known is None and given.id in self._remembered:
+            known = self._known[given.id] = _done(given.id, self._remembered[given.id])
+        if known is not None and known.state not in _MAY_FLY:
+            self._repeated(known, report)
+            return
+        problem = self._problem(given)
+        if problem is not None:
+            self._post(drone, partial(report, FlightFailed(Failure.REFUSED, problem)))
+            return
+        self._known[given.id] = self._current[drone] = given
+        self._navigation.fly(given, given.report)
+
+    def _repeated(self, known: Given | Entry, report: Report) -> None:
+        """Answer who gives a job once more by what is known of it, never by a flight."""
+        if known.state is JobState.BEGUN and not _flies(known):
+            reason = f"nobody can say whether the action of {known.id} was done"
+            self._post(known.drone, partial(report, FlightFailed(Failure.UNKNOWN, reason)))
+        else:
+            self.attach(known.id, report)
+
+    def _problem(self, job: Given) -> str | None:
+        other = self._current.get(job.drone)
+        if other is not None and other.flies:
+            return f"{job.drone} flies already, for {other.id}"
+        return self._envelope.problem(job.stops)
+
+    def attach(self, id: str, report: Report) -> None:
+        """Tell somebody how a job ends, or has ended; of others nothing is told."""
+        known = self._known.get(id)
+        if isinstance(known, Given) and known.flies:
+            known.listener = report
+        elif known is not None and known.state in _ENDED:
+            self._post(known.drone, partial(report, outcome(known)))
+
+    def forget(self, id: str) -> None:
+        """Drop a job that does not fly: nobody will ask for it, and its id may be given again."""
+        known = self._known.get(id)
+        if known is None or _flies(known):
+            return
+        del self._known[id]
+        if self._current.get(known.drone) is known:
+            del self._current[known.drone]
+        if self._ledger is not None:
+            self._ledger.forget(id)
+
+    def break_off(self, drone: str) -> None:
+        """Stop a drone's job, if it has one: nobody hears of it any more."""
+        job = self._current.pop(drone, None)
+        if job is not None:
+            job.break_off()
+            if self._ledger is None:
+                self._known.pop(job.id, None)
+
+    def is_flown_by(self, drone: str) -> bool:
+        """Say whether a drone flies a job now."""
+        job = self._current.get(drone)
+        return job is not None and job.flies
+
+    def moves_on(self, drone: str) -> None:
+        """A drone is told to leave where it hovered for an action of the app's own."""
+        job = self._current.get(drone)
+        if job is not None and job.hovers:
+            del self._current[drone]
+            job.break_off()
+
+    # What becomes of whoever listens
+
+    def mute(self) -> None:
+        """Nobody listens any more; the jobs go on."""
+        for job in self._current.values():
+            job.listener = None
+
+    def leave(self) -> None:
+        """Nobody even writes down what becomes of them: the gateway is gone."""
+        for job in self._current.values():
+            job.leave()
+
+    # What jobs tell
+
+    def write(self, job: Given) -> None:
+        """Write down how a job stands, for good."""
+        if self._ledger is not None:
+            self._ledger.write(job)
+
+    def ended(self, job: Given, begun: bool) -> None:
+        """Hear that a job is over; where nothing had begun, that need not be kept for good."""
+        if self._ledger is None:
+            self._known.pop(job.id, None)
+        elif begun:
+            self._keep(job)
+        if not job.hovers:
+            self._current.pop(job.drone, None)
+
+    # What drones tell
+
+    def settle(self, drones: Mapping[str, Standing], again: bool) -> Mapping[str, Entry]:
+        """Find out from the drones what has become of actions that had begun; return all jobs.
+
+        `again`: it is not the journal's first life, so what they remember may be of earlier ones.
+        """
+        if again:
+            self._remembered = {id: drone for drone in drones.values() for id in drone.done or ()}
+        if self._ledger is not None and not self._ledger.is_whole:
+            for drone in drones.values():
+                self._believe(drone)
+        for id, job in self._known.items():
+            if job.state is JobState.BEGUN and not _flies(job):
+                self._known[id] = self._settled(job, drones.get(job.drone))
+        return {id: job.entry if isinstance(job, Given) else job for id, job in self._known.items()}
+
+    def _settled(self, job: Given | Entry, drone: Standing | None) -> Given | Entry:
+        if drone is None or drone.done is None:
+            return job
+        if job.id in drone.done:
+            state, value = JobState.DONE, drone.done[job.id]
+        elif drone.reached and drone.boot == job.boot:
+            state, value = JobState.BROKEN_OFF, None
+        else:
+            return job
+        entry = Entry(id=job.id, drone=job.drone, state=state, boot=job.boot, value=value)
+        self._keep(entry)
+        return entry
+
+    def _believe(self, drone: Standing) -> None:
+        """Take the drone's word for what it did, where the ledger was damaged."""
+        for id in drone.done or ():
+            if id not in self._known:
+                self._known[id] = entry = _done(id, drone)
+                self._keep(entry)
+
+    def _keep(self, job: Given | Entry) -> None:
+        """Write down what came of an action; if that fails, its drone still remembers it."""
+        if self._ledger is not None:
+            with suppress(OSError):
+                self._ledger.write(job)
+
+    def _post(self, drone: str, call: Callable[[], object]) -> None:
+        self._kernel.schedule(self._kernel.now, Kind.FLIGHT, self._keys[drone], call)
+
+
+def _done(id: str, drone: Standing) -> Entry:
+    value = (drone.done or {})[id]
+    return Entry(id=id, drone=drone.drone, state=JobState.DONE, boot=drone.boot, value=value)
+
+
+def _flies(job: Given | Entry) -> bool:
+    return isinstance(job, Given) and job.flies
+
+
+_MAY_FLY = frozenset({JobState.FAILED, JobState.BROKEN_OFF})
+_ENDED = frozenset({JobState.DONE, JobState.FAILED})

@@ -1,0 +1,187 @@
+"""The gateway as a process of its own: it starts nothing of the app, and ends when nobody needs it."""
+
+from __future__ import annotations
+
+import asyncio
+import fcntl
+import json
+import os
+import signal
+import sys
+import time
+from collections.abc import Sequence
+from contextlib import suppress
+from errno import EDQUOT, EFBIG, ENOSPC
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from plutoc_runtime.errors import BadInput
+from plutoc_runtime.forked import deaf, in_children, not_for_children
+from plutoc_runtime.signals import Signal
+from plutoc_runtime.words import printable
+from plutoc_runtime.world import World
+
+from ..drones.real_fleet import SLACK
+from ..private import new_address, publish, withdraw
+from ..realtime import RealTime
+from ..simulation.drones import SimulatedNavigation
+from ..simulation.keeping import Keeper
+from ..simulation.moments import this_moment
+from .ending import Ending
+from .file_ledger import FileLedger
+from .gateway import Gateway
+from .holding import LEAVING, holding
+from .server import Server
+from .settings import Settings, settings_of
+from .sightings import SEEN, Sightings
+from .wire import LONGEST_TOLD
+
+if TYPE_CHECKING:
+    from ..controls import Controls
+
+NOTE, SETTINGS, LEDGER, LOCK, LOG = "gateway", "settings.json", "ledger", "lock", "log"
+"""What lies in its folder; NOTE says where it listens."""
+
+ANOTHER_RUNS, CANNOT, NO_ROOM = 3, 4, 5
+"""Exit codes; on a full disk there is no other word, for the log has no room either."""
+
+_FOR_APPS = "gateway: an app starts this by itself when it flies; there is nothing to do by hand"
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Run the gateway of a folder until nobody needs it."""
+    folder = Path(*arguments[:1])
+    if len(arguments) != 1 or not (folder / SETTINGS).is_file():
+        print(_FOR_APPS, file=sys.stderr)
+        return 2
+    try:
+        return _alone(folder)
+    except OSError as error:
+        if error.errno not in (ENOSPC, EDQUOT, EFBIG):
+            raise
+        return NO_ROOM
+
+
+def _alone(folder: Path) -> int:
+    """Run the gateway of a folder, unless another one does."""
+    lock = taken(folder)
+    if lock is None:
+        return ANOTHER_RUNS
+    try:
+        settings = settings_of(json.loads((folder / SETTINGS).read_text(encoding="utf-8")))
+        asyncio.run(run(folder, settings))
+    except BadInput as error:
+        print(error, file=sys.stderr)
+        return CANNOT
+    finally:
+        os.close(lock)
+    return 0
+
+
+def taken(folder: Path) -> int | None:
+    """Take the folder's lock, which goes with the process; None: another gateway has it."""
+    lock = os.open(folder / LOCK, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o600)
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        os.close(lock)
+        return None
+    not_for_children(lock)
+    os.ftruncate(lock, 0)
+    os.pwrite(lock, f"{os.getpid()}\n".encode(), 0)
+    return lock
+
+
+async def run(folder: Path, settings: Settings) -> None:
+    """Reach the drones, or let the simulated world go on, and let brains command until all is over."""
+    kernel = RealTime(settings.speed)
+    drones = [drone.id for drone in settings.drones]
+    if settings.real is None:
+        simulated = _simulated(folder, settings, kernel)
+        seen = Sightings(
+            folder / SEEN, drones, simulated.telemetry, down=simulated.down, speed=settings.speed
+        )
+        await _command(folder, settings, kernel, simulated, seen)
+        return
+    from ..drones.making import make_team  # a simulation does without
+
+    uris = {drone.id: drone.uri or drone.id for drone in settings.real.drones}
+    with holding(uris, patience=LEAVING):
+        team = make_team(kernel, settings.drones, settings.real, settings.airspace, folder, _say)
+        team.begin()
+        seen = Sightings(folder / SEEN, drones, team.telemetry, down=team.down)
+        try:
+            await _command(folder, settings, kernel, team, seen)
+        finally:
+            await team.close()
+            seen.keep()
+
+
+def _simulated(folder: Path, settings: Settings, kernel: RealTime) -> SimulatedNavigation:
+    """Return the simulated drones, in the world as it was left."""
+    keeper = Keeper(folder, kernel.time, settings.speed, this_moment)
+    navigation = SimulatedNavigation(
+        kernel,
+        settings.drones,
+        World(settings.seed, settings.airspace, settings.world),
+        settings.faults,
+        settings.seed,
+        settings.airspace,
+        keeper.record,
+    )
+    keeper.take_over(navigation.bodies)
+    kernel.settled = keeper.settled
+    return navigation
+
+
+async def _command(
+    folder: Path, settings: Settings, kernel: RealTime, controls: Controls, seen: Sightings
+) -> None:
+    """Let brains command."""
+    gateway = Gateway(
+        kernel,
+        controls,
+        settings.drones,
+        settings.airspace,
+        ledger=FileLedger(folder / LEDGER),
+        apart=settings.apart,
+        slack=0.0 if settings.real is None else SLACK,
+        max_airborne=settings.max_airborne,
+        patience=settings.patience * settings.speed,
+        leaving=seen.leaving,
+    )
+    over: Signal[None] = Signal()
+    ending = Ending(gateway, over, settings)
+    server = Server(gateway, _say, ending.goodbye)
+    ending.server = server
+    for number in (signal.SIGTERM, signal.SIGINT):
+        asyncio.get_running_loop().add_signal_handler(number, kernel.post, ending.told_to_end)
+    no_more = in_children(deaf)
+    signal.signal(signal.SIGHUP, signal.SIG_IGN)
+    note = folder / NOTE
+    address = new_address(note)
+    listening = await asyncio.start_unix_server(server.accept, address, limit=LONGEST_TOLD)
+    watching = asyncio.ensure_future(seen.watch())
+    try:
+        publish(note, address)
+        _say("the gateway is ready")
+        kernel.post(ending.look)
+        await kernel.run(over)
+    finally:
+        no_more()
+        watching.cancel()
+        seen.keep()
+        listening.close()
+        withdraw(note)
+        await server.close()
+    _say("the gateway ends: all drones are down")
+
+
+def _say(what: str) -> None:
+    """Write a line of the log; one that nobody can take is no reason to let drones fall.
+
+    What others' classes say is in it, and must command no terminal on which it is read.
+    """
+    said = "\n".join(map(printable, what.split("\n")))
+    with suppress(OSError):
+        print(f"{time.strftime('%Y-%m-%d %H:%M:%S')} {said}", file=sys.stderr, flush=True)

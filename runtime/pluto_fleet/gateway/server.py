@@ -1,0 +1,314 @@
+"""Lets a brain in another process command through the gateway; whatever it says, nothing breaks.
+
+One connection is one link. Who has not linked may only say `stop` and `cut-motors`: whoever may open
+the socket may land the drones, whether the brain answers or not.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Coroutine, Sequence
+from contextlib import suppress
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from plutoc_runtime.errors import BadInput, FlightFailed
+from plutoc_runtime.kernel import FLEET, Cancelled, Task
+from plutoc_runtime.standing import Down
+from plutoc_runtime.words import quoted, shown
+
+from .link import Busy
+from .requests import asked
+from .wire import (
+    LONGEST_TOLD,
+    Message,
+    job_of,
+    line,
+    message_in,
+    result_data,
+    seen,
+)
+
+if TYPE_CHECKING:
+    from asyncio import StreamReader, StreamWriter
+
+    from .gateway import Gateway
+    from .link import Link
+
+_AT_ONCE = 32
+"""Who may be connected at the same time."""
+_PENDING = 10_000
+"""Commands of one brain that may be under way."""
+_UNREAD = 64 * 1024 * 1024
+"""Bytes that a brain may leave unread before it is given up."""
+_EACH = 0.1
+"""Seconds on the wall between two looks at the drones."""
+_ALIVE = 10
+"""After so many looks without any change something is said all the same."""
+
+Say = Callable[[str], object]
+
+
+class Server:
+    """Everybody who is connected."""
+
+    def __init__(self, gateway: Gateway, say: Say, on_goodbye: Callable[[], object]) -> None:
+        self.gateway, self.say, self.on_goodbye = gateway, say, on_goodbye
+        self.connected: dict[asyncio.Task[None], Connection] = {}
+
+    @property
+    def has_a_brain(self) -> bool:
+        """Whether somebody commands."""
+        return any(
+            connection.link is not None and not connection.leaves
+            for connection in self.connected.values()
+        )
+
+    def accept(self, reader: StreamReader, writer: StreamWriter) -> None:
+        """Serve somebody, unless there are too many."""
+        if len(self.connected) >= _AT_ONCE:
+            self.say("somebody was turned away: too many are connected")
+            writer.transport.abort()
+            return
+        connection = Connection(self, writer)
+        task = asyncio.ensure_future(connection.serve(reader))
+        self.connected[task] = connection
+        task.add_done_callback(self.connected.pop)
+
+    def hang_up(self) -> None:
+        """Let those go who have said goodbye: whatever is still to be done, they need not wait."""
+        for connection in self.connected.values():
+            if connection.leaves:
+                connection.hang_up()
+
+    async def close(self) -> None:
+        """Say goodbye to everybody."""
+        for task in list(self.connected):
+            task.cancel()
+        await asyncio.gather(*self.connected, return_exceptions=True)
+
+
+class Connection:
+    """One brain, or somebody who wants the drones down."""
+
+    def __init__(self, server: Server, writer: StreamWriter) -> None:
+        self._server, self._writer, self._gateway = server, writer, server.gateway
+        self.link: Link | None = None
+        self._was_cut = False
+        self._under_way: dict[int, Task[Any]] = {}
+        """Commands that are not answered yet, by their numbers."""
+        self._seen: dict[str, tuple[object, ...]] = {}
+        """What was told of the drones last."""
+        self.leaves = False
+        """Whether it has said goodbye."""
+
+    def hang_up(self) -> None:
+        """End the connection."""
+        with suppress(OSError):
+            self._writer.close()
+
+    async def serve(self, reader: StreamReader) -> None:
+        """Do what is asked, line by line, until nothing more comes."""
+        watch = asyncio.ensure_future(self._watch())
+        try:
+            with suppress(OSError):
+                while told := await reader.readline():
+                    self._gateway.kernel.post(self._hear, told)
+        except ValueError:  # no line may be so long
+            self._refuse(f"a line was longer than {LONGEST_TOLD} bytes")
+        finally:
+            watch.cancel()
+            self._gateway.kernel.post(self._leave)
+            with suppress(OSError):
+                self._writer.close()
+
+    def _leave(self) -> None:
+        """The brain is gone: its jobs go on, what it had drones do besides is broken off."""
+        link, self.link = self.link, None
+        for task in self._under_way.values():
+            _call_off(task)
+        if link is not None and self._gateway.is_commanded_by(link):
+            self._gateway.cut()
+
+    def _tell(self, message: Message) -> None:
+        """Write a message; who does not read is given up."""
+        transport = self._writer.transport
+        if transport.get_write_buffer_size() > _UNREAD:
+            self._server.say("the brain reads nothing any more: it is given up")
+            transport.abort()
+        elif not transport.is_closing():
+            self._writer.write(line(message))
+
+    # What drones look like
+
+    async def _watch(self) -> None:
+        """Tell what has changed, some times a second."""
+        quiet = 0
+        while True:
+            await asyncio.sleep(_EACH)
+            if self.link is not None:
+                changed = self._changed()
+                quiet = 0 if changed else quiet + 1
+                if changed or quiet >= _ALIVE:
+                    quiet = 0
+                    self._tell({"seen": changed})
+
+    def _changed(self) -> dict[str, tuple[object, ...]]:
+        """Return what has changed of the drones since it was told last."""
+        telemetry, changed = self._gateway.navigation.telemetry, {}
+        for drone, before in self._seen.items():
+            now = seen(telemetry(drone))
+            if now != before:
+                self._seen[drone] = changed[drone] = now
+        return changed
+
+    # What is asked
+
+    def _hear(self, told: bytes) -> None:
+        message = message_in(told)
+        try:
+            if message is None:
+                raise BadInput("that is not a line of JSON with an object")
+            self._do(message)
+        except BadInput as error:
+            self._refuse(str(error))
+        except (AttributeError, KeyError, OverflowError, TypeError, ValueError) as error:
+            self._refuse(f"that message is not complete: {type(error).__name__}: {error}")
+
+    def _refuse(self, why: str) -> None:
+        self._server.say(f"refused: {why}")
+        self._tell({"ok": False, "said": why})
+
+    def _do(self, message: Message) -> None:
+        match message:
+            case {"do": "stop", "how": ("rtl" | "land") as how}:
+                self._gateway.fail_safe(Down(how))
+                self._server.say(f"told to bring all drones down ({how}), not by the brain")
+                self._tell({"ok": True, "said": "the drones come down"})
+            case {"do": "cut-motors", "drone": str(drone)}:
+                self._cut_motors([self._in_the_fleet(drone)])
+            case {"do": "cut-motors", "all": True}:
+                self._cut_motors([drone.id for drone in self._gateway.drones])
+            case {"do": "link", "epoch": int(epoch)} if self.link is None:
+                self._link(epoch)
+            case {"do": "link"} if self.link is not None:
+                raise BadInput("this connection commands already")
+            case {"do": str(what)} if self.link is not None:
+                self._command(self.link, what, message)
+            case {"do": str()} if self._was_cut:
+                pass  # it was on its way
+            case _:
+                raise BadInput("this gateway does not know that message")
+
+    def _cut_motors(self, drones: Sequence[str]) -> None:
+        """Switch motors off, at once; answer when that is done."""
+        self._server.say(f"told to cut the motors of {', '.join(drones)}")
+        spawn, cut = self._gateway.kernel.spawn, self._gateway.cut_motors
+        tasks = [spawn(cut(drone), FLEET, f"{drone}'s motors are cut") for drone in drones]
+        spawn(self._say_what_is_cut(drones, tasks), FLEET, "motors are cut")
+
+    async def _say_what_is_cut(self, drones: Sequence[str], tasks: Sequence[Task[str]]) -> None:
+        done, not_done = [], []
+        for drone, task in zip(drones, tasks, strict=True):
+            why = await task
+            if why:
+                not_done.append(f"{drone} could not be told to: {why}")
+            else:
+                done.append(drone)
+        said = [f"the motors of {', '.join(done)} are cut"] if done else []
+        self._server.say("; ".join((*said, *not_done)))
+        self._tell({"ok": not not_done, "said": "; ".join((*said, *not_done))})
+
+    def _in_the_fleet(self, drone: str) -> str:
+        names = [one.id for one in self._gateway.drones]
+        if drone not in names:
+            known = ", ".join(map(quoted, names))
+            raise BadInput(f"no drone {quoted(drone)} is in the fleet; there are: {known}")
+        return drone
+
+    def _link(self, epoch: int) -> None:
+        self.link = self._gateway.link(epoch, self._lost)
+        drones = self._gateway.drones
+        telemetry = self._gateway.navigation.telemetry
+        self._seen = {drone.id: seen(telemetry(drone.id)) for drone in drones}
+        self._tell({"linked": self._seen})
+        self._server.say(f"a brain commands, number {epoch}")
+
+    def _lost(self) -> None:
+        if self.link is None:  # it has hung up
+            return
+        self._server.say("the brain that commanded is cut off")
+        self.link, self._was_cut = None, True
+        self._tell({"lost": True})
+
+    def _command(self, link: Link, what: str, message: Message) -> None:
+        link.heartbeat()
+        match what:
+            case "heartbeat":
+                pass
+            case "fly":
+                job = job_of(message["job"], self._begins)
+                self._known(job.drone)
+                report = partial(self._report, int(message["n"]))
+                try:
+                    link.fly(job, report)
+                except Busy as error:
+                    self._server.say(f"refused: {error}")
+                    report(error.as_failure)
+            case "break_off":
+                link.break_off(self._known(message["drone"]))
+            case "mended":
+                link.mended(self._known(message["drone"]))
+            case "attach":
+                link.attach(str(message["id"]), partial(self._report, int(message["n"])))
+            case "forget":
+                link.forget(str(message["id"]))
+            case "cancel":
+                task = self._under_way.pop(int(message["n"]), None)
+                if task is not None:
+                    _call_off(task)
+            case "goodbye":
+                self.leaves = True
+                self._server.on_goodbye()
+            case _:
+                self._begin(int(message["n"]), what, asked(link, what, message, self._known))
+
+    def _begin(self, number: int, what: str, command: Coroutine[Any, Any, object]) -> None:
+        if number in self._under_way or len(self._under_way) >= _PENDING:
+            command.close()
+            raise BadInput("too much is under way")
+        task = self._gateway.kernel.spawn(command, FLEET, what)
+        self._under_way[number] = task
+        task.over = partial(self._answer, number)
+
+    def _answer(self, number: int, task: Task[Any]) -> None:
+        del self._under_way[number]
+        error = task.error
+        if error is None:
+            self._tell({"n": number, "value": task.result(), "seen": self._changed()})
+        elif isinstance(error, (FlightFailed, Busy)):
+            failed = result_data(error.as_failure if isinstance(error, Busy) else error)
+            self._tell({"n": number, **failed, "seen": self._changed()})
+        elif not isinstance(error, Cancelled):
+            self._gateway.kernel.crash(error)
+
+    def _known(self, drone: str) -> str:
+        if drone not in self._seen:
+            raise BadInput(f"there is no drone {shown(drone)}")
+        return drone
+
+    def _begins(self, id: str) -> None:
+        self._tell({"begins": id})
+
+    def _report(self, number: int, result: object) -> None:
+        self._tell({"report": number, **result_data(result), "seen": self._changed()})
+
+
+def _call_off(task: Task[Any]) -> None:
+    """Cancel what nobody wants an answer to."""
+    task.over = _nobody
+    task.cancel()
+
+
+def _nobody(_: object) -> None:
+    """Nobody wants to know how it ended."""

@@ -1,0 +1,161 @@
+"""What the gateway's process must know of the fleet: plain data, for it loads nothing of the app."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from typing import TYPE_CHECKING, Any
+
+from plutoc_runtime.airspace import Airspace
+from plutoc_runtime.faults import Faults
+from plutoc_runtime.model import Category
+from plutoc_runtime.world import Feature, Source, WorldData
+
+from ..drones.real_fleet import RealFleet, real_data, real_of
+from ..simulation.body import SimulatedDrone
+
+if TYPE_CHECKING:
+    from plutoc_runtime.app import App
+
+    from ..files.fleet import FleetFile
+
+PATIENCE = 3.0
+"""Seconds without a sign of life from the brain, after which all drones land."""
+IDLE = 60.0
+"""Seconds without a brain and with all drones down, after which the gateway ends."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Settings:
+    """A fleet of drones, and how it is flown."""
+
+    drones: tuple[SimulatedDrone, ...]
+    airspace: Airspace
+    apart: float
+    world: WorldData | None
+    seed: int
+    faults: Faults
+    real: RealFleet | None = None
+    """None: the drones are simulated."""
+    max_airborne: int | None = None
+    """How many may be in the air at once."""
+    speed: float = 1.0
+    """How fast time passes: 10 is ten times as fast as on the wall."""
+    patience: float = PATIENCE
+    """Seconds on the wall."""
+    idle: float = IDLE
+    """Seconds on the wall."""
+
+
+def settings_for(
+    app: App,
+    fleet: FleetFile,
+    *,
+    seed: int,
+    faults: Faults | None = None,
+    real: RealFleet | None = None,
+    speed: float = 1.0,
+    patience: float = PATIENCE,
+) -> Settings:
+    """Return the settings for the fleet of an app."""
+    categories = {category.name: category for category in app.categories}
+    return Settings(
+        drones=tuple(
+            SimulatedDrone(
+                id=entry.id, category=categories[entry.category], home=entry.home, index=index
+            )
+            for index, entry in enumerate(fleet.drones)
+        ),
+        airspace=fleet.airspace,
+        apart=fleet.apart,
+        max_airborne=fleet.max_airborne,
+        world=fleet.world,
+        seed=seed,
+        faults=faults or Faults(),
+        real=real,
+        speed=speed,
+        patience=patience,
+    )
+
+
+def data_of(settings: Settings) -> dict[str, object]:
+    """Return settings as plain data."""
+    airspace, world = settings.airspace, settings.world
+    return {
+        "drones": [
+            {
+                "id": drone.id,
+                "home": drone.home,
+                "index": drone.index,
+                "battery_level": drone.battery_level,
+                "category": {
+                    **asdict(drone.category),
+                    "actions": (
+                        None if drone.category.actions is None else sorted(drone.category.actions)
+                    ),
+                },
+            }
+            for drone in settings.drones
+        ],
+        "airspace": {
+            "size": airspace.size,
+            "cruise_height": airspace.cruise_height,
+            "ceiling": airspace.ceiling,
+            "no_fly": airspace.no_fly,
+        },
+        "apart": settings.apart,
+        "max_airborne": settings.max_airborne,
+        "world": None if world is None else {**asdict(world), "background": {**world.background}},
+        "seed": settings.seed,
+        "faults": asdict(settings.faults),
+        "real": None if settings.real is None else real_data(settings.real),
+        "speed": settings.speed,
+        "patience": settings.patience,
+        "idle": settings.idle,
+    }
+
+
+def settings_of(data: Mapping[str, Any]) -> Settings:
+    """Return the settings that were written down."""
+    return Settings(
+        drones=tuple(map(_drone, data["drones"])),
+        airspace=_airspace(data["airspace"]),
+        apart=data["apart"],
+        max_airborne=data.get("max_airborne"),
+        world=None if data["world"] is None else _world(data["world"]),
+        seed=data["seed"],
+        faults=Faults(**data["faults"]),
+        real=None if data["real"] is None else real_of(data["real"]),
+        speed=data["speed"],
+        patience=data["patience"],
+        idle=data["idle"],
+    )
+
+
+def _drone(data: Mapping[str, Any]) -> SimulatedDrone:
+    category, actions = data["category"], data["category"]["actions"]
+    actions = None if actions is None else frozenset(actions)
+    return SimulatedDrone(
+        id=data["id"],
+        category=Category(**{**category, "actions": actions}),
+        home=tuple(data["home"]),
+        index=data["index"],
+        battery_level=data["battery_level"],
+    )
+
+
+def _airspace(data: Mapping[str, Any]) -> Airspace:
+    return Airspace(
+        size=tuple(data["size"]),
+        cruise_height=data["cruise_height"],
+        ceiling=data["ceiling"],
+        no_fly=tuple(tuple(map(tuple, area)) for area in data["no_fly"]),
+    )
+
+
+def _world(data: Mapping[str, Any]) -> WorldData:
+    return WorldData(
+        features=tuple(Feature(**{**one, "at": tuple(one["at"])}) for one in data["features"]),
+        sources=tuple(Source(**{**one, "at": tuple(one["at"])}) for one in data["sources"]),
+        background=data["background"],
+    )

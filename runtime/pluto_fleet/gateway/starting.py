@@ -1,0 +1,187 @@
+"""Finds the gateway of a folder, or starts it: a process that outlives whoever started it."""
+
+from __future__ import annotations
+
+import asyncio
+import fcntl
+import json
+import os
+import signal
+import subprocess
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from plutoc_runtime.errors import BadInput
+from plutoc_runtime.forked import not_for_children
+from plutoc_runtime.standing import Down
+
+from .. import again
+from ..asking import ask
+from ..private import address_in
+from .process import ANOTHER_RUNS, LOCK, LOG, NO_ROOM, NOTE, SETTINGS
+from .remote import SILENCE, RemoteLink
+from .settings import Settings, data_of
+from .wire import LONGEST_HEARD
+
+if TYPE_CHECKING:
+    from plutoc_runtime.kernel import Kernel
+
+_WITHIN, _EACH = 10.0, 0.01
+"""Seconds that a gateway may take to begin, and between two looks."""
+_LOADING = 50.0
+"""Seconds more for what its drones are flown by: an import may take 20, and is tried before."""
+_LONG = 1_000_000
+"""Bytes of a log after which another one is begun."""
+
+_STARTED: list[subprocess.Popen[bytes]] = []
+"""The gateways that this process has started: one that has ended is noticed when the next begins."""
+
+
+async def connect(
+    folder: Path,
+    settings: Settings,
+    kernel: Kernel,
+    epoch: int,
+    lost: Callable[[], object] | None = None,
+    command: Sequence[str] | None = None,
+) -> RemoteLink:
+    """Command the drones through the gateway of a folder, which is started unless it runs.
+
+    `command` starts it, its folder added; default: this very program once more.
+    """
+    loop = asyncio.get_running_loop()
+    until = loop.time() + _WITHIN + (0.0 if settings.real is None else _LOADING)
+    process: subprocess.Popen[bytes] | None = None
+    while True:
+        try:
+            return await _linked(folder, settings, kernel, epoch, lost)
+        except TimeoutError:
+            _end(folder)
+        except OSError:
+            pass  # there is none yet
+        if process is None or process.poll() is not None:
+            if process is not None and _broke(process.returncode):
+                raise BadInput(_ended(folder, process.returncode))
+            try:
+                process = start(folder, settings, command)
+            except OSError as error:
+                raise BadInput(f"{folder}: the gateway cannot be started: {error}") from error
+        if loop.time() > until:
+            process.kill()  # or it would keep the next one out, and fly nothing
+            raise BadInput(f"the gateway does not answer; what it said is in {folder / LOG}")
+        await asyncio.sleep(_EACH)
+
+
+def _broke(code: int) -> bool:
+    """Whether a gateway could not begin; one that was killed, or that others are before, could."""
+    return code >= 0 and code != ANOTHER_RUNS
+
+
+async def _linked(
+    folder: Path,
+    settings: Settings,
+    kernel: Kernel,
+    epoch: int,
+    lost: Callable[[], object] | None,
+) -> RemoteLink:
+    """Link to the gateway that runs; OSError: none does; TimeoutError: it does not answer."""
+    address = address_in(folder / NOTE)
+    if address is None:
+        raise FileNotFoundError(folder / NOTE)
+    reader, writer = await asyncio.open_unix_connection(address, limit=LONGEST_HEARD)
+    not_for_children(writer.get_extra_info("socket").fileno())
+    link = RemoteLink(kernel, reader, writer, lost)
+    try:
+        async with asyncio.timeout(SILENCE):
+            await link.link(epoch, settings.patience)
+    except BaseException:
+        writer.close()
+        raise
+    return link
+
+
+def start(
+    folder: Path, settings: Settings, command: Sequence[str] | None = None
+) -> subprocess.Popen[bytes]:
+    """Start a gateway that nobody's end takes along; what it says goes to its log."""
+    folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+    part = folder / f".{SETTINGS}.{os.getpid()}.part"
+    part.write_text(json.dumps(data_of(settings)), encoding="utf-8")
+    part.replace(folder / SETTINGS)
+    _STARTED[:] = [process for process in _STARTED if process.poll() is None]
+    if (folder / LOG).exists() and (folder / LOG).stat().st_size > _LONG:
+        (folder / LOG).replace(folder / f"{LOG}.old")
+    with (folder / LOG).open("ab") as log:
+        process = subprocess.Popen(
+            [*(command or again.command("gateway")), str(folder)],
+            stdin=subprocess.DEVNULL,
+            stdout=log,
+            stderr=log,
+            start_new_session=True,
+        )
+    _STARTED.append(process)
+    return process
+
+
+def speed_in(folder: Path) -> float | None:
+    """Return how fast time passes for the gateway of a folder; None: it was never started."""
+    with suppress(OSError, ValueError, KeyError, TypeError):
+        return float(json.loads((folder / SETTINGS).read_text(encoding="utf-8"))["speed"])
+    return None
+
+
+def stop_directly(folder: Path, how: Down, patience: float) -> str:
+    """Bring all drones down without their brain; return what the gateway says.
+
+    Raises `BadInput`, as `ask` does, if there is no gateway, or it says nothing in these seconds.
+    """
+    return ask(folder / NOTE, {"do": "stop", "how": how.value}, patience)
+
+
+def cut_directly(folder: Path, drone: str | None, patience: float) -> str:
+    """Switch a drone's motors off, or with None those of all; return what the gateway says.
+
+    Raises `BadInput`, as `ask` does, if there is no gateway, or it says nothing in these seconds.
+    """
+    which = {"all": True} if drone is None else {"drone": drone}
+    return ask(folder / NOTE, {"do": "cut-motors", **which}, patience)
+
+
+def still_runs(folder: Path) -> int | None:
+    """Return the number of the process that is the gateway of a folder; None: none runs."""
+    with suppress(OSError, ValueError), (folder / LOCK).open("rb") as lock:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_SH | fcntl.LOCK_NB)
+        except BlockingIOError:  # so the number in it is that of whoever has it
+            return int(lock.read())
+    return None
+
+
+def let_end(folder: Path) -> None:
+    """Let the gateway of a folder end once all its drones are down: nobody comes back to it."""
+    process = still_runs(folder)
+    if process is not None:
+        with suppress(OSError):
+            os.kill(process, signal.SIGTERM)
+
+
+def _end(folder: Path) -> None:
+    """Kill a gateway that hangs: it flies nothing any more, and another one can."""
+    process = still_runs(folder)
+    if process is not None:
+        with suppress(OSError):
+            os.kill(process, signal.SIGKILL)
+
+
+def _ended(folder: Path, code: int) -> str:
+    """Say that a gateway could not begin, with the last it said."""
+    if code == NO_ROOM:
+        return f"{folder}: the gateway cannot begin: the disk is full; make room, then resume"
+    lines: list[str] = []
+    with suppress(OSError):
+        lines = (folder / LOG).read_text(encoding="utf-8", errors="replace").strip().splitlines()
+    if not lines:
+        return f"the gateway ended before it was ready, with exit code {code}, and said nothing"
+    return f"the gateway ended before it was ready: {lines[-1]} (all it said is in {folder / LOG})"

@@ -1,0 +1,210 @@
+"""A way cut into short pieces: where its drone may rest, and when it has left each of them."""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from itertools import pairwise
+from math import ceil, dist, sqrt
+from typing import TYPE_CHECKING
+
+from plutoc_runtime.energy import CLIMB_SPEED
+from plutoc_runtime.geometry import between
+
+from .claims import Box, box_of
+from .detours import Section
+
+if TYPE_CHECKING:
+    from plutoc_runtime.model import Point
+
+PIECE, SHORT = 0.5, 0.2
+"""Metres: where two ways come near each other, one drone waits until another has left a piece. Where
+real drones land they are shorter."""
+_BESIDE = 3.0
+"""Seconds that a drone rather waits than land beside where it is."""
+_AT_LEAST = 1.0
+"""Seconds that a leg takes from rest to rest, however short."""
+_PUSH, _MOST = 7.52, 4.0
+"""On such a leg: the peak acceleration over distance and squared time; metres per second squared
+that it usually may be. Speeds are mean ones already: see `files.real`."""
+_BLURRED = 0.05
+"""Metres: so exactly is it known where a drone is."""
+_NOTICED = 0.15
+"""Seconds until a real drone's leg is known to be over."""
+_CLIMBS = 0.27
+"""Metres a second that a real drone makes up and down, on average: its limit is a peak speed."""
+_RESTS = 30
+"""At about so many places a drone may rest on its way, at most."""
+_LOWEST = 0.3
+"""Metres of height below which nobody rests on the way."""
+_SMOOTHLY = [s**4 * (35 - 84 * s + 70 * s**2 - 20 * s**3) for s in (n / 100 for n in range(101))]
+"""The share of a leg that lies behind a real drone after each hundredth of its time."""
+
+
+@dataclass(frozen=True, slots=True)
+class Piece:
+    """A part of a way that is flown without looking."""
+
+    start: Point
+    end: Point
+
+
+@dataclass(frozen=True, slots=True)
+class Leg:
+    """A straight part of a way: pieces from one number up to another."""
+
+    first: int
+    last: int
+    start: Point
+    end: Point
+    box: Box
+
+    @property
+    def piece(self) -> float:
+        """How many metres each of its pieces has."""
+        return dist(self.start, self.end) / (self.last - self.first)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Course:
+    """A section, in pieces. The first piece is where the drone is until it departs."""
+
+    section: Section
+    pieces: tuple[Piece, ...]
+    legs: tuple[Leg, ...]
+    """The first is no leg, but the start."""
+    speed: float
+    from_rest: bool
+    """Each leg begins and ends at rest, as those of real drones do."""
+    seconds: float = field(init=False)
+    """How long it lasts in one go."""
+    cost: float = field(init=False)
+    """The same, and more for what nobody likes."""
+    rests: tuple[int, ...] = field(init=False)
+    """The pieces at whose ends a drone may rest without losing much time, the first and the last included."""
+    _least: dict[int, float] = field(init=False, default_factory=dict, repr=False)
+    _times: dict[tuple[int, int], tuple[float, ...]] = field(
+        init=False, default_factory=dict, repr=False
+    )
+
+    def __post_init__(self) -> None:
+        # Frozen, yet all of this follows from its legs.
+        lasts = self.times(0, len(self.pieces) - 1)[-1]
+        start, end = self.pieces[0].start, self.pieces[-1].end
+        beside = dist(start[:2], end[:2]) if self.section.aside else 0.0
+        object.__setattr__(self, "seconds", lasts)
+        object.__setattr__(self, "cost", lasts + _BESIDE + 2 * beside if beside else lasts)
+        object.__setattr__(self, "rests", tuple(sorted({*self._places()})))
+
+    def _places(self) -> Iterator[int]:
+        """Yield where to rest: where legs end, and on long ones, and low above the ground."""
+        end = len(self.pieces) - 1
+        yield from (0, end)
+        hop = max(PIECE, sum(dist(leg.start, leg.end) for leg in self.legs) / _RESTS)
+        if self.from_rest:  # on a shorter one it is not the speed that counts
+            hop = max(hop, _AT_LEAST * self.speed, _PUSH / _MOST * self.speed**2)
+        for leg in self.legs[1:]:
+            count = leg.last - leg.first
+            if self.section.lands and leg.last > end:
+                high = (i for i in range(leg.first, end) if self.pieces[i].end[2] >= _LOWEST)
+                yield from [*high][::-2]
+            else:
+                hops = max(1, int(count * leg.piece / hop))
+                yield from (leg.first - 1 + round(count * n / hops) for n in range(1, hops + 1))
+
+    @property
+    def least(self) -> dict[int, float]:
+        """How long the rest of the way lasts at least, from each place where the drone may rest."""
+        least, places = self._least, self.rests
+        if not least:
+            least[places[-1]] = 0.0
+            for number in range(len(places) - 2, -1, -1):
+                here = places[number]
+                least[here] = min(
+                    self.times(here, there)[-1] + least[there]
+                    for there in places[number + 1 : number + 3]
+                )
+        return least
+
+    def times(self, first: int, last: int) -> tuple[float, ...]:
+        """Return when a drone that rests at the end of a piece has left that piece, and those that follow.
+
+        The very last is when it rests again, at the end of the last piece.
+        """
+        times = self._times.get((first, last))
+        if times is None:
+            times = self._times[first, last] = tuple(self._worked_out(first, last))
+        return times
+
+    def _worked_out(self, first: int, last: int) -> Iterator[float]:
+        now, end = 0.0, len(self.pieces) - 1
+        for leg in self.legs[1:]:
+            begins, ends = max(leg.first, first + 1), min(leg.last - 1, last)
+            if begins > ends:
+                continue
+            metres = leg.piece * (ends - begins + 1)
+            rises = self.section.stands and first == 0 and leg.first == 1
+            sinks = self.section.lands and last == end and leg.last > end
+            lasts = seconds(metres, self._climbs if rises or sinks else self.speed, self.from_rest)
+            for part in range(ends - begins + 1):
+                yield now + lasts * self._share(part * leg.piece + _BLURRED, metres)
+            now += lasts + (_NOTICED if self.from_rest else 0.0)
+        yield now
+
+    @property
+    def _climbs(self) -> float:
+        return min(_CLIMBS, self.speed) if self.from_rest else CLIMB_SPEED
+
+    def _share(self, metres: float, of: float) -> float:
+        """Return after which share of a leg's time a drone is so far."""
+        part = min(1.0, metres / of) if of else 1.0
+        return bisect_left(_SMOOTHLY, part) / 100 if self.from_rest else part
+
+    def piece_at(self, place: Point, first: int, last: int) -> int:
+        """Return in which of these pieces a drone is; where it may be in two, in the first."""
+        far = [
+            between(place, place, piece.start, piece.end) for piece in self.pieces[first : last + 1]
+        ]
+        near = min(far) + _BLURRED
+        return first + next(index for index, metres in enumerate(far) if metres <= near)
+
+    def stretch(self, here: Point, stands: bool, first: int, last: int) -> Section:
+        """Return the section from here, where one piece ends or soon after, to another's end."""
+        ends = {leg.last - 1 for leg in self.legs}
+        points = [
+            piece.end
+            for index, piece in enumerate(self.pieces[: last + 1])
+            if index > first and (index in ends or index == last)
+        ]
+        return Section(
+            self.section.drone,
+            (here, *points),
+            stands,
+            self.section.lands and last == len(self.pieces) - 1,
+        )
+
+
+def course(section: Section, speed: float, from_rest: bool) -> Course:
+    """Cut a section into pieces; `from_rest`: each leg begins and ends at rest, as real ones do."""
+    first = section.points[0]
+    pieces, legs = [Piece(first, first)], [Leg(0, 1, first, first, (*first, *first))]
+    last = len(section.points) - 2
+    for number, (a, b) in enumerate(pairwise(section.points)):
+        metres = SHORT if from_rest and number == last and section.lands else PIECE
+        count = max(1, ceil(dist(a, b) / metres - 1e-9))
+        legs.append(Leg(len(pieces), len(pieces) + count, a, b, box_of((a, b))))
+        ends = [a, *(_between(a, b, part / count) for part in range(1, count)), b]
+        pieces += [Piece(start, end) for start, end in pairwise(ends)]
+    return Course(section, tuple(pieces), tuple(legs), speed, from_rest)
+
+
+def seconds(length: float, speed: float, from_rest: bool) -> float:
+    """Return how long a leg lasts."""
+    if not from_rest:
+        return length / speed
+    return max(_AT_LEAST, length / speed, sqrt(_PUSH * length / _MOST))
+
+
+def _between(a: Point, b: Point, part: float) -> Point:
+    return a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1]), a[2] + part * (b[2] - a[2])

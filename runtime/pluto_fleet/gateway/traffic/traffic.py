@@ -1,0 +1,367 @@
+"""Who may fly where, now: a section is given whole, or its drone waits for it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from math import hypot
+from typing import TYPE_CHECKING
+
+from plutoc_runtime.errors import Failure, FlightFailed
+from plutoc_runtime.kernel import FLEET, Kernel, Kind, Timer
+
+from .claims import Claim, box_of, meets, nearest
+from .detours import Section, sections
+from .landing import Ground
+from .obstacles import Obstacle
+from .waiting import Wait
+
+if TYPE_CHECKING:
+    from plutoc_runtime.airspace import Airspace
+    from plutoc_runtime.model import Point
+
+    from ...controls import Controls
+    from ..descent import Craft
+
+AGAIN = 0.5
+"""Seconds after which those who wait are looked at again, even if nobody says to have passed."""
+PATIENT = 10.0
+"""Seconds that a drone hovers where it is in the way of others; then it lands, and waits there."""
+AT_LAST = 30.0
+"""Seconds after which it lands even if others are about to let it pass."""
+ELDER = 20.0
+"""Seconds after which younger ones may take nothing any more of what a drone waits for."""
+OVERSHOOT, STOPPING = 0.6, 2.0
+"""How far a real drone shoots past where it was told to stop, in metres, and for how long."""
+_EXACT = 1e-9
+
+Ways = Callable[[Section], Iterable[Section]]
+"""The ways that a drone may take to where it wants to go, the best first."""
+
+
+class Traffic:
+    """The air that drones have for themselves. Two have none of it nearer to each other than `apart`."""
+
+    def __init__(
+        self,
+        kernel: Kernel,
+        controls: Controls,
+        drones: Sequence[Craft],
+        airspace: Airspace,
+        *,
+        apart: float,
+        slack: float = 0.0,
+        max_airborne: int | None = None,
+    ) -> None:
+        self._kernel, self._controls, self._airspace = kernel, controls, airspace
+        self._drones = {drone.id: drone for drone in drones}
+        self._telemetry = {drone.id: controls.telemetry(drone.id) for drone in drones}
+        self.apart, self.step = apart, apart + slack
+        self.limit = self.step - _EXACT
+        self.is_real = slack > 0
+        """What is simulated stops at once, and goes on as fast."""
+        self._overshoot = OVERSHOOT if self.is_real else 0.0
+        self._most = len(drones) if max_airborne is None else max_airborne
+        self.is_limited = self._most < len(drones)
+        """Whether only some may be in the air at once."""
+        self._claims: dict[str, Claim] = {}
+        """Of those in the air, or about to be."""
+        self._silent: dict[str, float] = {}
+        """Who is lost, and until when it may still be in the air."""
+        self._waiting: dict[str, Wait] = {}
+        """The oldest first."""
+        self._free: dict[str, None] = {}
+        """Who has given something free at this instant."""
+        self.halted: dict[str, None] = {}
+        """Who was stopped on its way, because somebody fails, and goes on by another."""
+        self._timer: Timer | None = None
+        self.ground = Ground(self._drones, self._telemetry, airspace, self.step)
+        self.look_around()
+
+    def look_around(self) -> None:
+        """See who is in the air that nobody has sent there."""
+        for drone, telemetry in self._telemetry.items():
+            if drone not in self._claims and not telemetry.landed:
+                self._claim(drone).rests((), 0.0)
+
+    # A drone's section
+
+    def clear(self, section: Section, ways: Ways | None = None) -> Section | None:
+        """Give a drone its section, or another one to the same place; None: it must wait."""
+        if not self._has_room(section):
+            return None
+        now = self._kernel.now
+        for way in self._ways(section) if ways is None else ways(section):
+            if self._blocker(way) is None and not (self._waiting and self._elder(way, now)):
+                return self._give(way)
+        return None
+
+    async def cleared(self, section: Section, since: float, ways: Ways | None = None) -> Section:
+        """Wait for a section, and return what may be flown: it may only lead out of the way."""
+        found = tuple(self._ways(section) if ways is None else ways(section))
+        wait = Wait(section, since, found)
+        self._waiting[section.drone] = wait
+        if self._timer is None:
+            self._timer = self._look_at(self._kernel.now + AGAIN, self._look)
+        try:
+            return await wait.over
+        finally:
+            if self._waiting.get(section.drone) is wait:
+                del self._waiting[section.drone]
+
+    def passed(self, drone: str) -> None:
+        """A drone has come to the next point of its section."""
+        self._claims[drone].at += 1
+        if self._waiting:
+            self._released(drone)
+
+    def rests(self, drone: str) -> None:
+        """A drone is at the end of its section."""
+        if self._telemetry[drone].landed:
+            self._claims.pop(drone, None)
+        else:
+            claim = self._claim(drone)
+            claim.rests(claim.tail, self._kernel.now + STOPPING)
+        if self._waiting:
+            self._released(drone)
+
+    def stopped(self, drone: str, fails: bool) -> None:
+        """A drone has broken off what it was doing, or it fails."""
+        claim = self._claims.get(drone)
+        telemetry = self._telemetry[drone]
+        if telemetry.landed:
+            self._claims.pop(drone, None)
+        elif fails:
+            self._claim(drone).sinks()
+            self._stop_before(drone)
+        elif claim is None:
+            self._claim(drone).rests((), 0.0)
+        elif claim.moves:
+            ahead = _ahead(claim.shape(self._kernel.now), self._overshoot)
+            claim.rests(ahead, self._kernel.now + STOPPING)
+        if self._waiting:
+            self._released(drone)
+
+    def _stop_before(self, drone: str) -> None:
+        """Let nobody fly below a drone that sinks; who is there already had better fly on."""
+        column = self._claims[drone].shape(self._kernel.now)
+        for other, claim in self._claims.items():
+            if other == drone or not claim.moves or other in self.halted:
+                continue
+            shape = claim.shape(self._kernel.now)
+            if meets(shape, column, self.limit) and not meets(shape[:1], column, self.limit):
+                self.halted[other] = None
+                self._controls.break_off(other)
+
+    def break_off(self, drone: str) -> None:
+        """Whatever a drone waits for, it gets it no more."""
+        wait = self._waiting.pop(drone, None)
+        if wait is not None:
+            wait.over.fail(FlightFailed(Failure.REFUSED, f"{drone} was told to break it off"))
+
+    def lost(self, drone: str) -> None:
+        """Nobody knows any more where a drone is: it comes down when its battery is empty."""
+        flight_time = self._drones[drone].category.flight_time
+        self._silent[drone] = self._kernel.now + flight_time
+
+    def found(self, drone: str) -> None:
+        """A drone is heard of again."""
+        self._silent.pop(drone, None)
+
+    # Who waits
+
+    def _released(self, drone: str) -> None:
+        """Somebody has given something free: look at those whom it kept, at the end of this."""
+        if not self._free:
+            self._look_at(self._kernel.now, self._look_at_some)
+        self._free[drone] = None
+
+    def _look_at(self, when: float, look: Callable[[], None]) -> Timer:
+        return self._kernel.at(when, Kind.CLOCK, FLEET, look)
+
+    def _look_at_some(self) -> None:
+        """Give those what they can get who waited for somebody that has gone."""
+        free, self._free = self._free, {}
+        for wait in self._in_turn():
+            is_for_room = wait.section.stands and self.is_limited
+            if is_for_room or wait.was_kept_by(free):
+                self._serve(wait)
+
+    def _look(self) -> None:
+        """Give those who wait what they can get: others fly on, and do not say so all the time."""
+        self._timer = None
+        for wait in self._in_turn():
+            self._serve(wait)
+        if self._waiting:
+            self._timer = self._look_at(self._kernel.now + AGAIN, self._look)
+
+    def _in_turn(self) -> list[Wait]:
+        return sorted(self._waiting.values(), key=lambda wait: wait.since)
+
+    def _serve(self, wait: Wait) -> None:
+        section = self._found(wait)
+        if section is None and self._should_land(wait):
+            ways = self.ground.ways_down(wait.section.drone)
+            section = next((way for way in ways if self._blocker(way) is None), None)
+        if section is not None:
+            del self._waiting[section.drone]
+            wait.over.set(self._give(section))
+
+    def _found(self, wait: Wait) -> Section | None:
+        """Return a way that is free now. Most are still blocked by whoever blocked them before."""
+        if not self._has_room(wait.section):
+            return None
+        for index, way in enumerate(wait.ways):
+            obstacle, elder = wait.obstacles[index], wait.elders[index]
+            if obstacle is not None and self._stays(obstacle, way):
+                continue
+            if index and elder is not None and self._waiting.get(elder.section.drone) is elder:
+                continue  # of the first way it must be known whether somebody is on it
+            claim = self._blocker(way)
+            wait.obstacles[index] = None if claim is None else self._obstacle(claim, way)
+            if claim is None:
+                wait.elders[index] = elder = self._elder(way, wait.since)
+                if elder is None:
+                    return way
+        return None
+
+    def _stays(self, obstacle: Obstacle, way: Section) -> bool:
+        """Say whether somebody who was on a way still is."""
+        claim, now = obstacle.claim, self._kernel.now
+        if self._claims.get(claim.drone) is not claim:
+            return False
+        if obstacle.is_sure(now):
+            return True
+        if not self._is_in_the_way(claim, _whole(way), way.stands):
+            return False
+        obstacle.seen(_whole(way), self.limit, now)
+        return True
+
+    def _obstacle(self, claim: Claim, way: Section) -> Obstacle:
+        obstacle = Obstacle(claim, self._drones[claim.drone].category, self.is_real)
+        obstacle.seen(_whole(way), self.limit, self._kernel.now)
+        return obstacle
+
+    def _should_land(self, wait: Wait) -> bool:
+        """Whether a drone that waits had better do so on the ground."""
+        waited = self._kernel.now - wait.since
+        if wait.section.stands or waited < PATIENT:
+            return False
+        first = wait.obstacles[0]
+        blocker = None if first is None else self._claims.get(first.claim.drone)
+        return blocker is None or not blocker.moves or waited >= AT_LAST
+
+    # Who has what
+
+    def _ways(self, section: Section) -> Iterator[Section]:
+        return sections(section, self.step, self._airspace)
+
+    def _give(self, section: Section) -> Section:
+        claim = self._claim(section.drone)
+        claim.moves_along(section.points, section.tail)
+        return section
+
+    def _claim(self, drone: str) -> Claim:
+        claim = self._claims.get(drone)
+        if claim is None:
+            claim = self._claims[drone] = Claim(drone, self._telemetry[drone])
+        return claim
+
+    def _has_room(self, section: Section) -> bool:
+        """Say whether a drone may take off: so many may be in the air."""
+        claims = self._claims
+        if not section.stands or len(claims) < self._most:
+            return True
+        for claim in [*claims.values()]:  # some may have come down by themselves
+            if not claim.moves and self._is_over(claim):
+                del claims[claim.drone]
+        return len(claims) < self._most
+
+    def _is_over(self, claim: Claim) -> bool:
+        """Whether a drone that should hover, or fails, is in the air no more."""
+        if claim.telemetry.landed:
+            return True
+        until = self._silent.get(claim.drone)
+        return until is not None and self._kernel.now >= until
+
+    def _blocker(self, section: Section) -> Claim | None:
+        """Return somebody who has what a section takes."""
+        claims, drone = self._claims, section.drone
+        if not claims or (len(claims) == 1 and drone in claims):
+            return None
+        way, limit = _whole(section), self.limit
+        x, y, z, most_x, most_y, most_z = box_of(way)
+        x, y, z = x - limit, y - limit, z - limit
+        most_x, most_y, most_z = most_x + limit, most_y + limit, most_z + limit
+        for claim in claims.values():
+            box = claim.box
+            if (
+                box[0] < most_x
+                and box[3] > x
+                and box[1] < most_y
+                and box[4] > y
+                and box[2] < most_z
+                and box[5] > z
+                and claim.drone != drone
+                and self._is_in_the_way(claim, way, section.stands)
+            ):
+                return claim
+        return None
+
+    def touches_down(self, drone: str) -> bool:
+        """Say whether a real drone is about to stand: it says for seconds more that it flies."""
+        claim = self._claims.get(drone)
+        return self.is_real and claim is not None and claim.touches_down
+
+    def _is_in_the_way(self, claim: Claim, way: tuple[Point, ...], stands: bool) -> bool:
+        shape, limit = claim.shape(self._kernel.now), self.limit
+        if self.is_real and claim.touches_down:
+            limit = self.apart - _EXACT
+        if not meets(way, shape, limit):
+            return False
+        if claim.moves:
+            return True
+        if self._is_over(claim):
+            return False
+        if stands:
+            return True
+        # Who is too near to somebody that hovers already, may go away, but no nearer.
+        now = nearest(way[:1], shape[:1])
+        return now >= limit or meets(way, shape, now - 1e-6)
+
+    def _elder(self, section: Section, since: float) -> Wait | None:
+        """Return somebody who has waited for long for what a section takes.
+
+        Who lands is never kept, nor who leaves that place to somebody older.
+        """
+        if section.lands:
+            return None
+        for wait in self._waiting.values():
+            wanted = wait.section
+            if (
+                wait.since < since
+                and self._kernel.now - wait.since >= ELDER
+                and wanted.drone != section.drone
+                and meets(section.points, wanted.points, self.limit)
+                and (
+                    section.stands
+                    or not meets(section.points[:1], wanted.points, self.limit)
+                    or meets(section.points[-1:], wanted.points, self.limit)
+                )
+            ):
+                return wait
+        return None
+
+
+def _whole(section: Section) -> tuple[Point, ...]:
+    """Return a way, and where it goes on at once."""
+    return (*section.points, *section.tail) if section.tail else section.points
+
+
+def _ahead(shape: tuple[Point, ...], metres: float) -> tuple[Point, ...]:
+    """Return to where a drone shoots past the place where it is, on its way."""
+    if len(shape) < 2 or not metres:
+        return ()
+    (x, y, z), (tx, ty, tz) = shape[:2]
+    far = hypot(tx - x, ty - y, tz - z)
+    part = min(1.0, metres / far) if far else 0.0
+    return ((x + part * (tx - x), y + part * (ty - y), z + part * (tz - z)),)

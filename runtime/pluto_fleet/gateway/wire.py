@@ -1,0 +1,174 @@
+"""What brain and gateway tell each other: one object of JSON a line."""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from math import isinf
+from typing import TYPE_CHECKING, Any
+
+from plutoc_runtime.errors import Failure, FlightFailed
+from plutoc_runtime.plain import value_data
+from plutoc_runtime.standing import Entry, JobState, RollCall, Standing
+
+from ..journal.values import item_data, item_of, point_of, value_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from plutoc_runtime.actions import Plain
+    from plutoc_runtime.model import Item, Point, Telemetry
+    from plutoc_runtime.navigation import Job
+
+SILENT = 2.0
+"""Seconds without a word after which a drone's place is no longer news."""
+LONGEST_TOLD = 256 * 1024
+"""Bytes of a line that the gateway reads."""
+LONGEST_HEARD = 256 * 1024 * 1024
+"""Bytes of a line that the brain reads: a roll call has all jobs of a large plan."""
+
+Message = Mapping[str, Any]
+
+
+def line(message: Message) -> bytes:
+    """Write a message."""
+    return json.dumps(message).encode() + b"\n"
+
+
+def message_in(told: bytes) -> Message | None:
+    """Read a message; None: it is none."""
+    try:
+        message = json.loads(told)
+    except (ValueError, RecursionError):
+        return None
+    return message if isinstance(message, dict) else None
+
+
+@dataclass(slots=True, kw_only=True)
+class ToldJob:
+    """A job as it came over the wire."""
+
+    id: str
+    drone: str
+    stops: tuple[Point, ...]
+    action: str | None
+    parameters: Mapping[str, Plain]
+    item: Item | None
+    seconds: float
+    on_begin: Callable[[str], object] = field(repr=False)
+
+    def begins(self) -> None:
+        """Hear that the action is about to be done."""
+        self.on_begin(self.id)
+
+
+def job_data(job: Job) -> dict[str, object]:
+    """Return a job as plain data."""
+    return {
+        "id": job.id,
+        "drone": job.drone,
+        "stops": job.stops,
+        "action": job.action,
+        "parameters": dict(job.parameters),
+        "item": item_data(job.item),
+        "seconds": job.seconds,
+    }
+
+
+def job_of(data: Message, on_begin: Callable[[str], object]) -> ToldJob:
+    """Return a job from plain data; KeyError, TypeError or ValueError: it is none."""
+    return ToldJob(
+        id=str(data["id"]),
+        drone=str(data["drone"]),
+        stops=tuple(point_of([float(value) for value in stop]) for stop in data["stops"]),
+        action=None if data["action"] is None else str(data["action"]),
+        parameters=dict(data["parameters"]),
+        item=item_of(data["item"]),
+        seconds=float(data["seconds"]),
+        on_begin=on_begin,
+    )
+
+
+def result_data(result: object) -> dict[str, object]:
+    """Return what was reported as plain data."""
+    if isinstance(result, FlightFailed):
+        return {"failure": result.failure.name, "reason": str(result)}
+    return {"value": value_data(result)}
+
+
+def result_of(data: Message) -> object:
+    """Return what was reported."""
+    if "failure" in data:
+        return FlightFailed(Failure[data["failure"]], data["reason"])
+    return value_of(data["value"])
+
+
+def seen(telemetry: Telemetry) -> tuple[object, ...]:
+    """Return what is known of a drone, in short.
+
+    Last comes since when it is silent, in seconds since 1970: None where it is not, 0 where it was
+    never heard of.
+    """
+    silence, since = telemetry.silence, None
+    if silence > SILENT:
+        since = 0.0 if isinf(silence) else round(time.time() - silence)
+    return *telemetry.location, telemetry.battery_level, telemetry.landed, since
+
+
+def standing_data(standing: Standing) -> dict[str, object]:
+    """Return a drone's answer as plain data."""
+    done = standing.done
+    return {
+        "drone": standing.drone,
+        "reached": standing.reached,
+        "location": standing.location,
+        "landed": standing.landed,
+        "battery_level": standing.battery_level,
+        "boot": standing.boot,
+        "carrying": standing.carrying,
+        "done": None if done is None else {id: value_data(value) for id, value in done.items()},
+        "problems": standing.problems,
+    }
+
+
+def standing_of(data: Message) -> Standing:
+    """Return a drone's answer."""
+    done = data["done"]
+    values = None if done is None else {id: value_of(value) for id, value in done.items()}
+    known = {"location": point_of(data["location"]), "problems": tuple(data["problems"])}
+    return Standing(**{**data, **known, "done": values})
+
+
+def roll_data(roll: RollCall) -> dict[str, object]:
+    """Return a roll call as plain data."""
+    return {
+        "drones": [standing_data(standing) for standing in roll.drones.values()],
+        "jobs": [
+            {
+                "id": entry.id,
+                "drone": entry.drone,
+                "state": entry.state.value,
+                "boot": entry.boot,
+                "flies": entry.flies,
+                "value": value_data(entry.value),
+                "failure": entry.failure,
+                "reason": entry.reason,
+            }
+            for entry in roll.jobs.values()
+        ],
+    }
+
+
+def roll_of(data: Message) -> RollCall:
+    """Return a roll call."""
+    standings = map(standing_of, data["drones"])
+    entries = [
+        Entry(**{**job, "state": JobState(job["state"]), "value": value_of(job["value"])})
+        for job in data["jobs"]
+    ]
+    return RollCall(
+        drones={standing.drone: standing for standing in standings},
+        jobs={entry.id: entry for entry in entries},
+    )

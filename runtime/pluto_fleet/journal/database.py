@@ -1,0 +1,197 @@
+"""Opens a journal's file, and looks at it before a row is taken from it."""
+
+from __future__ import annotations
+
+import json
+import os
+import sqlite3
+import stat
+import struct
+from dataclasses import dataclass
+from pathlib import Path
+from typing import NamedTuple
+
+from plutoc_runtime.trace import Event
+
+from . import errors, wal
+from .errors import TROUBLE
+from .format import (
+    APPLICATION,
+    TABLES,
+    VERSION,
+    row_checksum,
+    snapshot_checksum,
+    tip_checksum,
+)
+
+PATIENCE = 5.0
+"""Seconds that a commit waits for somebody who looks at the file with a tool of his own."""
+
+_MAGIC = b"SQLite format 3\0"
+_LOOKED_AT, _SIZE_OF_HEAD = 4096, 100
+_SANE = 1000
+"""No format will ever have that number: a bit was flipped."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Found:
+    """What a journal says of itself."""
+
+    header: Event
+    seq: int
+    """Of the last row."""
+    epoch: int
+    torn: str | None
+    """What is wrong with what was written last, if something is: it is left out."""
+    lost: bool
+    """Whether what was written after that row cannot be read."""
+
+
+class Snapshot(NamedTuple):
+    """What the rows up to one come to."""
+
+    text: str | None
+    """None: there is none."""
+    seq: int
+    wall: float | None
+    """When it was made."""
+    damaged: tuple[str, ...]
+    """What is wrong with newer ones."""
+
+
+def connect(path: Path, how: str) -> sqlite3.Connection:
+    """Open a database as it is, such as by `mode=ro`; texts come as bytes."""
+    database = sqlite3.connect(
+        f"{path.absolute().as_uri()}?{how}",
+        uri=True,
+        isolation_level=None,
+        check_same_thread=False,
+        timeout=PATIENCE,
+    )
+    database.text_factory = bytes
+    database.execute("PRAGMA trusted_schema = OFF")
+    database.execute("PRAGMA cell_size_check = ON")  # what is damaged is noticed early
+    return database
+
+
+def look_at(path: Path) -> None:
+    """Refuse what is no journal, by its first bytes; nothing is changed."""
+    try:
+        kind = path.stat()
+        if stat.S_ISDIR(kind.st_mode):
+            raise errors.is_folder(path)
+        if not stat.S_ISREG(kind.st_mode):
+            raise errors.no_file(path)
+        with path.open("rb") as file:
+            start = file.read(_LOOKED_AT)
+    except FileNotFoundError:
+        raise errors.missing(path) from None
+    except (OSError, ValueError) as error:  # ValueError: a NUL in the name
+        raise errors.cannot_open(path, error) from None
+    if not start:
+        raise errors.empty(path)
+    if len(start) < _SIZE_OF_HEAD:
+        raise errors.no_journal(path)
+    version, application = struct.unpack_from(">60xI4xI", start)
+    if application != APPLICATION and TABLES["journal"].encode() not in start:
+        raise errors.no_journal(path)
+    if VERSION < version < _SANE:
+        raise errors.newer(path, version, VERSION)
+    if not start.startswith(_MAGIC) or version != VERSION or application != APPLICATION:
+        raise errors.damaged(path, errors.no_beginning())
+
+
+def found(path: Path, database: sqlite3.Connection) -> Found:
+    """Say what a journal is, or raise a `JournalError`: how much of it is sound is seen later."""
+    try:
+        if _schema(database) != set(TABLES.values()):
+            raise errors.damaged(path, errors.other_tables())
+        header = _header(database)
+        seq, epoch = _tip(database)
+    except TROUBLE as error:
+        raise errors.refused(path, error) from None
+    if header is None:
+        raise errors.damaged(path, errors.no_header())
+    rest = wal.rest(path)
+    torn = errors.torn_log() if rest is wal.Rest.TORN else None
+    last_is_bad = seq > 0 and not _sound(database, seq) and _sound(database, seq - 1)
+    if last_is_bad and newest_snapshot(database).seq < seq:  # else nobody needs the row
+        torn = errors.torn(seq)
+        seq -= 1
+    lost = rest is wal.Rest.LOST
+    return Found(header=header, seq=seq, epoch=epoch, torn=torn, lost=lost)
+
+
+def _schema(database: sqlite3.Connection) -> set[str]:
+    return {
+        sql.decode(errors="replace") if isinstance(sql, bytes) else str(sql)
+        for (sql,) in database.execute("SELECT sql FROM sqlite_schema")
+    }
+
+
+def _header(database: sqlite3.Connection) -> Event | None:
+    if not _sound(database, 0):
+        return None
+    ((text,),) = database.execute("SELECT text FROM journal WHERE seq = 0")
+    header: Event = json.loads(text)[0]
+    return header
+
+
+def _tip(database: sqlite3.Connection) -> tuple[int, int]:
+    """Return the number of the last row, and the epoch."""
+    for seq, epoch, checksum in database.execute("SELECT seq, epoch, checksum FROM tip"):
+        if checksum == tip_checksum(seq, epoch):
+            return seq, epoch
+    # Then the database's own structure has to tell, and it is looked at page by page.
+    if [fault for (fault,) in database.execute("PRAGMA quick_check(1)")] != [b"ok"]:
+        raise sqlite3.DatabaseError("database disk image is malformed")
+    query = "SELECT seq, epoch FROM journal ORDER BY seq DESC LIMIT 1"
+    ((seq, epoch),) = database.execute(query)
+    return seq, epoch + SURELY_LESS_OPENINGS
+
+
+SURELY_LESS_OPENINGS = 1_000
+"""It is not known how often the journal was opened since its last row; an epoch only has to grow."""
+
+
+def _sound(database: sqlite3.Connection, seq: int) -> bool:
+    query = "SELECT seq, epoch, wall, text, checksum FROM journal WHERE seq = ?"
+    try:
+        row = database.execute(query, (seq,)).fetchone()
+    except TROUBLE:
+        return False
+    return row is not None and is_sound(row)
+
+
+def last_row(database: sqlite3.Connection) -> int:
+    """Return the number of the last row, as it is by now."""
+    return _tip(database)[0]
+
+
+def is_sound(row: tuple[object, ...]) -> bool:
+    """Whether a row of the journal is what was written."""
+    seq, epoch, wall, text, checksum = row
+    return isinstance(text, bytes) and row_checksum(seq, epoch, wall, text) == checksum
+
+
+def newest_snapshot(database: sqlite3.Connection) -> Snapshot:
+    """Return the newest sound snapshot."""
+    damaged: list[str] = []
+    try:
+        query = "SELECT seq, epoch, wall, text, checksum FROM snapshot ORDER BY seq DESC"
+        for seq, epoch, wall, text, checksum in database.execute(query):
+            if isinstance(text, bytes) and checksum == snapshot_checksum(seq, epoch, wall, text):
+                return Snapshot(text.decode(), seq, wall / 1000, tuple(damaged))
+            damaged.append(errors.bad_snapshot(seq))
+    except TROUBLE:
+        damaged.append(errors.unreadable_snapshots())
+    return Snapshot(None, 0, None, tuple(damaged))
+
+
+def sync_folder(path: Path) -> None:
+    """Let a name that was given to a file survive a power cut."""
+    descriptor = os.open(path.parent, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)

@@ -1,0 +1,264 @@
+"""What can be wrong with a journal, in sentences for a person."""
+
+from __future__ import annotations
+
+import sqlite3
+from errno import EDQUOT, EFBIG, ENOSPC
+from pathlib import Path
+
+from plutoc_runtime.errors import BadInput
+from plutoc_runtime.words import counted
+
+TROUBLE = (sqlite3.Error, UnicodeDecodeError)
+"""What the database raises; the second where it quotes what is damaged."""
+
+
+class JournalError(BadInput):
+    """A journal that cannot be made, opened or gone on with; nothing is lost that was acknowledged."""
+
+
+class Damaged(JournalError):
+    """A journal that is not what was written; part of it may be."""
+
+
+def exists(path: Path) -> JournalError:
+    """A new journal would take the place of another."""
+    if path.is_dir():
+        return is_folder(path)
+    return JournalError(
+        f"{path}: there is a journal already, or some other file, and it is never overwritten:"
+        " go on with a journal by resume, or name another place with --journal"
+    )
+
+
+def missing(path: Path) -> JournalError:
+    """There is no such journal."""
+    return JournalError(f"{path}: there is no such journal")
+
+
+def is_folder(path: Path) -> JournalError:
+    """A folder was named instead of a file."""
+    return JournalError(f"{path}: it is a folder: name the journal, which is a file")
+
+
+def no_file(path: Path) -> JournalError:
+    """A pipe, a device."""
+    return JournalError(f"{path}: it is no file: a journal is a file of its own")
+
+
+def empty(path: Path) -> JournalError:
+    """A file without a byte."""
+    return JournalError(
+        f"{path}: the file is empty: it is no journal, and there is nothing to read"
+    )
+
+
+def no_journal(path: Path) -> JournalError:
+    """Some other file."""
+    return JournalError(f"{path}: it is no journal of an app: nothing in it was read or changed")
+
+
+def newer(path: Path, version: int, known: int) -> JournalError:
+    """Written by a later version of the runtime."""
+    return JournalError(
+        f"{path}: its format is {version}, and this app reads {known} at most: use the app as it was"
+        " compiled by a newer plutoc"
+    )
+
+
+def in_use(path: Path, pid: int | None) -> JournalError:
+    """Another process has it open."""
+    who = f"process {pid}" if pid else "another process"
+    return JournalError(
+        f"{path}: {who} is writing this journal, and only one at a time may: let it end first, or"
+        " stop it (the command journal reads beside it)"
+    )
+
+
+def of_another_app(path: Path, theirs: str, ours: str) -> JournalError:
+    """It was begun by another app."""
+    return JournalError(
+        f"{path}: this is a journal of {theirs}, and this app is {ours}: use {theirs}"
+    )
+
+
+def cannot_make(path: Path, error: Exception) -> JournalError:
+    """It cannot be created where it was to be."""
+    return JournalError(
+        f"{path}: the journal cannot be made: {why(error)}; name another place with --journal"
+    )
+
+
+def cannot_open(path: Path, error: Exception) -> JournalError:
+    """It is there, but not for us."""
+    return JournalError(f"{path}: the journal cannot be opened: {why(error)}")
+
+
+def cannot_write(path: Path, error: Exception, seq: int) -> JournalError:
+    """A commit failed: from now on nothing is acknowledged."""
+    return JournalError(
+        f"{path}: the journal cannot be written: {why(error)}. What was written before,"
+        f" {counted(seq, 'row')}, is safe, and nothing later counts: make room or mend the disk, then"
+        " resume"
+    )
+
+
+def gone(file: Path, now: Path | None, journal: Path) -> JournalError:
+    """It was deleted or renamed while it was written: whoever looks for it finds nothing."""
+    if now is not None:
+        return JournalError(
+            f"{now}: it is part of a journal that is being written, and was moved away from {file}:"
+            " move it back, and then resume"
+        )
+    return JournalError(
+        f"{file}: it was deleted while the flight was being written into it: nothing of that flight"
+        " can be gone on with"
+        + (f"; what {journal.name} itself holds is older" if file != journal else "")
+    )
+
+
+def cut_short(file: Path) -> JournalError:
+    """It was emptied, or another file was written over it, while it was written."""
+    return JournalError(
+        f"{file}: it was cut short or written over while the flight was being written into it: nothing of"
+        " that flight can be gone on with"
+    )
+
+
+def full(seq: int) -> JournalError:
+    """A journal in memory has no room left: as on a full disk."""
+    return cannot_write(Path("the journal in memory"), OSError(ENOSPC, ""), seq)
+
+
+def cannot_mend(path: Path, why_not: str) -> JournalError:
+    """A damaged journal stays as it is."""
+    return JournalError(f"{path}: the journal cannot be mended: {why_not}")
+
+
+def refused(path: Path, error: Exception) -> JournalError:
+    """The database reports an error when it is looked at."""
+    if code(error) in (sqlite3.SQLITE_CORRUPT, sqlite3.SQLITE_NOTADB, sqlite3.SQLITE_ERROR):
+        return damaged(path, f"{why(error)}")
+    return cannot_open(path, error)
+
+
+def why(error: Exception) -> str:
+    """Say why the disk refused, as far as it told."""
+    if isinstance(error, OSError):
+        if error.errno in (ENOSPC, EDQUOT, EFBIG):
+            return "the disk is full"
+        return (error.strerror or str(error)).lower()
+    if isinstance(error, UnicodeDecodeError):
+        return _WHY[sqlite3.SQLITE_CORRUPT]
+    return _WHY.get(code(error), str(error))
+
+
+def code(error: Exception) -> int:
+    """Return SQLite's number for an error, without its finer shades."""
+    number: int = getattr(error, "sqlite_errorcode", sqlite3.SQLITE_CORRUPT)
+    return number & 0xFF
+
+
+_WHY = {
+    sqlite3.SQLITE_FULL: "the disk is full",
+    sqlite3.SQLITE_READONLY: "it may only be read",
+    sqlite3.SQLITE_BUSY: "another program holds it",
+    sqlite3.SQLITE_LOCKED: "another program holds it",
+    sqlite3.SQLITE_IOERR: "the disk reports an error",
+    sqlite3.SQLITE_CANTOPEN: "it may not be opened, or not be written",
+    sqlite3.SQLITE_CORRUPT: "its pages do not fit together",
+    sqlite3.SQLITE_NOTADB: "its first page is not what was written",
+}
+
+
+def damaged(path: Path, what: str) -> Damaged:
+    """Bits were flipped, or parts are gone."""
+    return Damaged(
+        f"{path}: the journal is damaged: {what}. The command journal prints what can be read;"
+        " with --mend it makes a whole journal of that, or put back a copy of the file"
+    )
+
+
+def unsound_row(seq: int, last: int) -> str:
+    """One row's checksum does not fit."""
+    return f"row {seq} of {last} is not what was written{_before(seq)}"
+
+
+def missing_rows(first: int, until: int, last: int) -> str:
+    """Rows that were acknowledged are not there."""
+    rows = f"row {first}" if first == until else f"rows {first} to {until}"
+    return f"{rows} of {last} cannot be found{_before(first)}"
+
+
+def unreadable_from(seq: int, last: int, why_not: str) -> str:
+    """The database gives nothing more."""
+    return f"from row {seq} of {last} on it cannot be read ({why_not}){_before(seq)}"
+
+
+def _before(seq: int) -> str:
+    return f"; {counted(seq - 1, 'row')} before it can be read" if seq > 1 else ""
+
+
+def no_header() -> str:
+    """The first row, which says whose journal it is, is not readable."""
+    return "its first row, which says whose it is, cannot be read"
+
+
+def no_beginning() -> str:
+    """The first bytes of the file."""
+    return "the first bytes of the file are not what was written"
+
+
+def other_tables() -> str:
+    """Its tables are not ours."""
+    return "its tables are not those of a journal"
+
+
+def lost_log() -> str:
+    """The write-ahead log beside it has parts that the database no longer sees."""
+    return "part of what was written last, in the file beside it that ends in -wal, cannot be read"
+
+
+def torn(seq: int) -> str:
+    """The very last row is not whole: it is dropped."""
+    return (
+        f"row {seq}, the last one, is not what was written: it is left out, as if the app had been"
+        " killed right before it"
+    )
+
+
+def torn_log() -> str:
+    """The last commit in the log is not whole."""
+    return (
+        "what was being written last is not whole and is left out: so it is when a machine loses"
+        " its power in the middle of it"
+    )
+
+
+def bad_snapshot(seq: int) -> str:
+    """A snapshot's checksum does not fit: the rows tell the same."""
+    return f"the snapshot of row {seq} is damaged: the rows are read instead"
+
+
+def unreadable_snapshots() -> str:
+    """They cannot even be listed."""
+    return "the snapshots cannot be read: the rows are read instead"
+
+
+def no_home() -> JournalError:
+    """Nobody can tell where this user keeps things."""
+    return JournalError(
+        "there is no home folder to keep journals in: name the journal, which for fly is --journal"
+    )
+
+
+def no_default_place(folder: Path, error: OSError) -> JournalError:
+    """The folder of journals cannot be made or written."""
+    return JournalError(
+        f"{folder}: the journal cannot be kept here: {why(error)}; name another place with --journal"
+    )
+
+
+def none_yet(app: str, folder: Path) -> JournalError:
+    """There is no newest journal."""
+    return JournalError(f"{app}: there is no journal in {folder}: name the one that is meant")

@@ -1,0 +1,413 @@
+"""What a journal says, event by event, of every mission: where each stands, and what it has done.
+
+The records are plain data: written down as JSON they are the journal's snapshot. One function an
+event; an event that is not here changes nothing that must survive.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from plutoc_runtime.actions import PICK, RELEASE
+
+Record = dict[str, Any]
+"""One mission. Its trips are as in `values.trip_data`."""
+
+Fact = Mapping[str, Any]
+
+REMEMBERED = 200
+"""Commands that are known by their names: nobody asks again for one that is older."""
+
+
+class Records:
+    """All missions of one journal, as far as it has been read."""
+
+    def __init__(self, data: Record | None = None) -> None:
+        self.data: Record = data or {
+            "t": 0.0,
+            "missions": {},
+            "results": [],
+            "flown": {},
+            "lives": 0,
+            "stopped": None,
+        }
+        self.missions: dict[str, Record] = self.data["missions"]
+        for name, record in self.missions.items():  # an older snapshot may know fewer facts
+            self.missions[name] = {**_new(), **record}
+        self.results: list[list[Any]] = self.data["results"]
+        """[mission, trip, round, attempt, value] of every action that was done."""
+        self.flown: dict[str, int] = self.data["flown"]
+        """How many trips each drone was sent on."""
+        self.commands: list[str] = self.data.setdefault("commands", [])
+        """The names of the last commands that were carried out, as whoever commanded chose them."""
+        self.retired: list[str] = self.data.setdefault("retired", [])
+        """The drones that nobody may have."""
+        self.mended: list[str] = self.data.setdefault("mended", [])
+        """The drones that were lost, that a person has looked after, and that are not back yet."""
+        self.lost: dict[str, Record] = self.data.setdefault("lost", {})
+        """The drones that nobody may have before a person has looked after them: why, and where
+        each was when it was lost."""
+
+    @property
+    def time(self) -> float:
+        """Seconds since the app first started, of the last event."""
+        return float(self.data["t"])
+
+    @property
+    def stopped(self) -> bool:
+        """Whether everything was stopped on purpose, and nothing has begun again since."""
+        return self.data["stopped"] is not None
+
+    def flown_last(self, mission: str) -> Record:
+        """Return the trip that a mission completed last."""
+        trip: Record = self.missions[mission]["done"][-1]
+        return trip
+
+    def take(self, event: Fact) -> None:
+        """Something happened."""
+        kind = event["event"]
+        self.data["t"] = event["t"]
+        change = _MISSION.get(kind)
+        if change is not None:
+            name = event["mission"]
+            record = self.missions.get(name)
+            if record is None:
+                record = self.missions[name] = _new()
+            change(self, record, event)
+        elif kind in _WHOLE:
+            _WHOLE[kind](self, event)
+
+
+def _new() -> Record:
+    return {
+        "index": 0,
+        "fields": {},
+        "status": "UNEXECUTED",
+        "reason": "",
+        "round": 0,
+        "attempts": 0,
+        "todo": [],
+        "done": [],
+        "gone": [],
+        "at": None,
+        "delay": None,
+        "waited": [],
+        "first_start": None,
+        "last_action_end": None,
+        "flight": None,
+        "carrier": None,
+        "carries": None,
+        "judged": 0,
+        "interrupted": False,
+        "ended": False,
+        "paused": None,
+        "question": None,
+        "held": None,
+        "answer": None,
+        "accepted": None,
+    }
+
+
+def _created(_: Records, record: Record, event: Fact) -> None:
+    plan, gone = event["plan"], record["gone"]  # it may begin anew, but without what was skipped
+    record.update(_new())
+    record.update(index=plan["index"], fields=plan["fields"], todo=plan["trips"], gone=gone)
+
+
+def _changed(_: Records, record: Record, event: Fact) -> None:
+    """A hook has changed the mission itself: this is how it is now."""
+    names = {trip["name"] for trip in (*event["todo"], *event["done"])}
+    record["gone"] += [t for t in (*record["todo"], *record["done"]) if t["name"] not in names]
+    record.update(fields=event["fields"], todo=event["todo"], done=event["done"])
+
+
+def _delayed(_: Records, record: Record, event: Fact) -> None:
+    _goes_on(record)
+    trip = _trip(record, event)
+    place = [event["block"], trip["name"], record["round"], trip.get("attempt", 1)]
+    record["at"], record["delay"] = event["resumes_at"], [place, event["over"], event["begins"]]
+
+
+def _allocated(_: Records, record: Record, event: Fact) -> None:
+    _goes_on(record)
+    if record["delay"] is not None:
+        place, over, begins = record["delay"]
+        record["waited"].append(place)
+        record["delay"] = None
+        if record["first_start"] is None:
+            record["first_start"] = max(over, begins)
+    if record["first_start"] is None:
+        record["first_start"] = event["t"]
+    record["at"] = event["resumes_at"]
+
+
+def _launched(records: Records, record: Record, event: Fact) -> None:
+    last, name, drone = record["flight"], event["trip"], event["drone"]
+    record["flight"] = {
+        "trip": name,
+        "drone": drone,
+        "round": event["round"],
+        "attempt": event["attempt"],
+        "since": event["t"],
+        "retry": last is not None and last["trip"] == name and last["outcome"] == "FAILED",
+        "begun": False,
+        "outcome": None,
+        "heard": False,
+    }
+    record["status"], record["reason"] = "RUNNING", ""
+    record["attempts"] += 1
+    trip = _trip(record, event)
+    trip["status"], trip["start_time"] = "EXECUTING", event["t"]
+    trip.pop("end_time", None)
+    records.flown[drone] = records.flown.get(drone, 0) + 1
+
+
+def _begun(_: Records, record: Record, event: Fact) -> None:
+    record["flight"]["begun"] = True
+
+
+def _completed(records: Records, record: Record, event: Fact) -> None:
+    trip = _take(record["todo"], event["trip"])
+    _waits(trip)  # what is in this list was completed: nothing more is kept of it
+    record["done"].append(trip)
+    record["last_action_end"] = event["t"]
+    result = [event["mission"], event["trip"], event["round"], event["attempt"], event["result"]]
+    records.results.append(result)
+    if trip["action"] == PICK:
+        record["carrier"], record["carries"] = event["drone"], trip["item"]
+    elif trip["action"] == RELEASE:
+        record["carrier"] = record["carries"] = None
+    _outcome(record, "STANDBY" if record["todo"] else "COMPLETED", "")
+
+
+def _failed(_: Records, record: Record, event: Fact) -> None:
+    _trip(record, event).update(status="FAILED", end_time=event["t"], reason=event["reason"])
+    record["carrier"] = record["carries"] = None
+    _outcome(record, "FAILED", event["reason"])
+
+
+def _outcome(record: Record, status: str, reason: str) -> None:
+    record["status"], record["reason"] = status, reason
+    record["question"] = record["answer"] = None
+    if record["flight"] is not None:
+        record["flight"]["outcome"] = status
+
+
+def _reset(_: Records, record: Record, event: Fact) -> None:
+    _goes_on(record)
+    trip = _trip(record, event)
+    trip.update(attempt=event["attempt"], fields=event["fields"])
+    _waits(trip)
+    record.update(status="STANDBY", reason="")
+
+
+def _interrupted(_: Records, record: Record, event: Fact) -> None:
+    _goes_on(record)
+    _waits(_trip(record, event))
+    record["attempts"] -= 1
+    record["interrupted"] = True
+    record.update(status="STANDBY", reason="", question=None, answer=None)
+
+
+def _skipped(_: Records, record: Record, event: Fact) -> None:
+    flight = record["flight"]
+    if flight and flight["outcome"] and record["todo"][0]["name"] == event["trip"]:
+        _goes_on(record)
+    record["gone"].append(_take(record["todo"], event["trip"]))
+
+
+def _prioritised(_: Records, record: Record, event: Fact) -> None:
+    _trip(record, event).setdefault("fields", {})["priority"] = event["priority"]
+
+
+def _extended(records: Records, record: Record, event: Fact) -> None:
+    _goes_on(record)
+    record["judged"] = len(records.results)
+    for name in event["redo"]:
+        trip = _take(record["done"], name)
+        trip["attempt"] = trip.get("attempt", 1) + 1
+        _waits(trip)
+        record["todo"].append(trip)
+    record["todo"] += event["trips"]
+    record.update(status="STANDBY", reason="")
+
+
+def _repeated(records: Records, record: Record, event: Fact) -> None:
+    _goes_on(record)
+    own = [trip for trip in record["done"] if not trip.get("added")]
+    for trip in own:
+        _waits(trip)
+        trip["attempt"] = 1
+    record["gone"] += [trip for trip in record["done"] if trip.get("added")]
+    record["todo"] = sorted([*record["todo"], *own], key=lambda trip: int(trip["index"]))
+    record["judged"] = len(records.results)
+    record["waited"] = []
+    record.update(done=[], round=event["round"], last_action_end=None, status="STANDBY", reason="")
+
+
+def _modified(_: Records, record: Record, event: Fact) -> None:
+    record.update(status=event["status"], reason=event["reason"])
+    if event["status"] in ("STANDBY", "UNEXECUTED"):
+        _goes_on(record)
+
+
+def _judged(_: Records, record: Record, event: Fact) -> None:
+    record.update(status="FAILED", reason=event["reason"])
+
+
+def _ended(_: Records, record: Record, event: Fact) -> None:
+    record.update(status=event["status"], reason=event["reason"], ended=True)
+    record.update(carrier=None, carries=None, question=None, held=None, paused=None, delay=None)
+
+
+def _paused(_: Records, record: Record, event: Fact) -> None:
+    if record["paused"] is None:  # else it says so once more, in another life
+        record["paused"] = event["t"]
+
+
+def _resumed(_: Records, record: Record, event: Fact) -> None:
+    if record["paused"] is not None and record["delay"] is not None:
+        record["delay"][1] += event["t"] - record["paused"]
+    record.update(paused=None, held=None, question=None, answer=None, status=event["status"])
+
+
+def _uncertain(_: Records, record: Record, event: Fact) -> None:
+    record.update(question=event["reason"], held=None, answer=None)
+
+
+def _held(_: Records, record: Record, event: Fact) -> None:
+    record["held"] = event["reason"]
+
+
+def _decided(_: Records, record: Record, event: Fact) -> None:
+    record["answer"] = event["answer"]
+    if event["answer"] == "go-on":
+        record["accepted"] = record["at"]  # this block need not be there any more
+
+
+def _inherited(records: Records, event: Fact) -> None:
+    """What the flights before this one have left: drones do not heal because a journal is new."""
+    records.lost.update(event.get("lost") or {})
+    records.mended += event.get("mended") or []
+    records.retired += event.get("retired") or []
+
+
+def _began(records: Records, event: Fact) -> None:
+    """A brain has taken over: delays that a Stop has interrupted keep their rest."""
+    if records.stopped:
+        shift_delays(records, float(event["t"]) - float(records.data["stopped"]))
+    records.data["stopped"] = None
+    records.data["lives"] += 1
+
+
+def _stopped(records: Records, event: Fact) -> None:
+    records.data["stopped"] = event["t"]
+
+
+def _commanded(records: Records, event: Fact) -> None:
+    """Somebody commanded something, and may ask again, not having heard the answer."""
+    records.commands.append(str(event["id"]))
+    del records.commands[:-REMEMBERED]
+
+
+def _retired(records: Records, event: Fact) -> None:
+    if event["drone"] not in records.retired:
+        records.retired.append(str(event["drone"]))
+
+
+def _brought_back(records: Records, event: Fact) -> None:
+    if event["drone"] in records.retired:
+        records.retired.remove(str(event["drone"]))
+    if event.get("lost"):
+        records.lost.pop(str(event["drone"]), None)
+        if event["drone"] not in records.mended:
+            records.mended.append(str(event["drone"]))
+
+
+def _came_back(records: Records, event: Fact) -> None:
+    """A drone is back: that somebody had looked after it says nothing any more."""
+    if event["drone"] in records.mended:
+        records.mended.remove(str(event["drone"]))
+
+
+def _lost(records: Records, event: Fact) -> None:
+    """A drone is lost, perhaps once more; if it has been so all the time, the first reason counts."""
+    _came_back(records, event)
+    found = {"reason": event.get("reason", ""), "at": event.get("at")}
+    records.lost.setdefault(str(event["drone"]), found)
+
+
+def shift_delays(records: Records, seconds: float) -> None:
+    """Move every delay that is not over by so many seconds, in which nobody waited."""
+    for record in records.missions.values():
+        if record["delay"] is not None:
+            record["delay"][1] += seconds
+        if record["paused"] is not None:
+            record["paused"] += seconds
+
+
+def _goes_on(record: Record) -> None:
+    """The mission has done something with the end of its last flight: it need not hear it again."""
+    if record["flight"] is not None:
+        record["flight"]["heard"] = True
+
+
+def _trip(record: Record, event: Fact) -> Record:
+    name = event["trip"]
+    for trips in record["todo"], record["done"], record["gone"]:
+        for trip in trips:
+            if trip["name"] == name:
+                found: Record = trip
+                return found
+    raise KeyError(name)
+
+
+def _waits(trip: Record) -> None:
+    for fact in ("status", "start_time", "end_time"):
+        trip.pop(fact, None)
+
+
+def _take(trips: list[Record], name: str) -> Record:
+    for place, trip in enumerate(trips):
+        if trip["name"] == name:
+            return trips.pop(place)
+    raise KeyError(name)
+
+
+_MISSION: dict[str, Callable[[Records, Record, Fact], None]] = {
+    "mission.created": _created,
+    "mission.changed": _changed,
+    "trip.delayed": _delayed,
+    "trip.allocated": _allocated,
+    "trip.launched": _launched,
+    "action.begun": _begun,
+    "trip.completed": _completed,
+    "trip.failed": _failed,
+    "trip.reset": _reset,
+    "trip.interrupted": _interrupted,
+    "trip.skipped": _skipped,
+    "trip.prioritised": _prioritised,
+    "mission.extended": _extended,
+    "mission.repeated": _repeated,
+    "mission.modified": _modified,
+    "mission.judged": _judged,
+    "mission.ended": _ended,
+    "mission.paused": _paused,
+    "mission.resumed": _resumed,
+    "mission.uncertain": _uncertain,
+    "mission.held": _held,
+    "mission.decided": _decided,
+}
+
+_WHOLE: dict[str, Callable[[Records, Fact], None]] = {
+    "journal.begun": _inherited,
+    "brain.began": _began,
+    "stopped": _stopped,
+    "commanded": _commanded,
+    "drone.retired": _retired,
+    "drone.brought_back": _brought_back,
+    "drone.free": _came_back,
+    "drone.charging": _came_back,
+    "drone.lost": _lost,
+}

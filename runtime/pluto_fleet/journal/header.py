@@ -1,0 +1,82 @@
+"""The first row of a journal: whose it is, and what was to be flown."""
+
+from __future__ import annotations
+
+import hashlib
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from . import errors
+from .errors import JournalError
+
+if TYPE_CHECKING:
+    from plutoc_runtime.app import App
+
+Header = Mapping[str, Any]
+
+LANGUAGE = 1
+"""The version of the language that apps are written in."""
+
+EVENTS = 1
+"""The version of what the events mean: a later runtime reads all earlier ones."""
+
+
+def header(
+    app: App,
+    *,
+    missions: str,
+    fleet: str | None,
+    sim: bool,
+    crtp_sim: int | None = None,
+    seed: int,
+    faults: Mapping[str, float] | None = None,
+    inherited: Mapping[str, object] | None = None,
+) -> dict[str, object]:
+    """Return the header of a new journal; the two files are kept as text, for whoever goes on.
+
+    `inherited` is what is known of the drones from before: who is lost, mended or retired.
+    """
+    return {
+        "t": 0.0,
+        "event": "journal.begun",
+        "app": app.name,
+        "app_hash": fingerprint(app),
+        "language": LANGUAGE,
+        "events": EVENTS,
+        "missions": missions,
+        "fleet": fleet,
+        "sim": sim,
+        "crtp_sim": crtp_sim,
+        "seed": seed,
+        "faults": dict(faults or {}),
+        **(inherited or {}),
+    }
+
+
+def check(path: Path, header: Header, app: App) -> None:
+    """Raise a `JournalError` if this app cannot go on with a journal that begins so."""
+    if header.get("app") != app.name:
+        raise errors.of_another_app(path, str(header.get("app")), app.name)
+    version = header.get("events")
+    if not isinstance(version, int) or version > EVENTS:
+        raise newer_events(path, version)
+
+
+def fingerprint(app: App) -> str:
+    """Return a checksum of the app's graph and of the fields of its missions."""
+    sums = hashlib.sha256()
+    for module in (app.flow.__module__, app.mission.__module__):
+        file = getattr(sys.modules.get(module), "__file__", None)
+        if file is not None and Path(file).is_file():
+            sums.update(Path(file).read_bytes())
+    return sums.hexdigest()
+
+
+def newer_events(path: Path, version: object) -> JournalError:
+    """What happened is told in words that this runtime does not know."""
+    return JournalError(
+        f"{path}: it was begun by an app of a newer plutoc (events {version}, and this app knows"
+        f" {EVENTS}): go on with that one, or compile this app by a newer plutoc"
+    )

@@ -1,0 +1,262 @@
+"""One open journal: an SQLite file that one process writes."""
+
+from __future__ import annotations
+
+import json
+import os
+import sqlite3
+import time
+from collections.abc import Callable, Sequence
+from contextlib import closing, suppress
+from functools import cache
+from pathlib import Path
+
+from plutoc_runtime.trace import Event
+
+from . import errors
+from .database import connect, found, look_at, sync_folder
+from .errors import TROUBLE, JournalError
+from .following import Identity, identity, moved_to, size
+from .format import row_checksum, snapshot_checksum, tip_checksum
+from .lock import Lock
+from .making import made
+from .place import beside
+from .reading import Read, Row, since_snapshot
+from .reserve import give_back, keep_back
+
+SNAPSHOTS = 2
+"""How many are kept: should the newest be damaged, there is the one before."""
+
+_COLUMNS, _AT_ONCE = 5, 500
+"""Rows go in by few statements: a thread that executes one waits its turn among busy ones."""
+
+Clock = Callable[[], float]
+
+
+class Store:
+    """A journal that is open for writing, by this process and no other."""
+
+    def __init__(
+        self, path: Path, lock: Lock, database: sqlite3.Connection, header: Event, clock: Clock
+    ) -> None:
+        self.path, self.header = path, header
+        self.epoch = 0
+        """It grows at each opening: an older one is no longer obeyed."""
+        self.seq = 0
+        """The number of the last row."""
+        self.torn: str | None = None
+        """What was wrong with the last row, which was dropped; None: nothing was."""
+        self.failure: JournalError | None = None
+        """Why nothing more is taken; None: all is well."""
+        self._lock, self._database, self._clock = lock, database, clock
+        self._files: dict[Path, Identity | None] = {}
+        """The files that are written, and which they were when it was opened."""
+        self._closed, self._process, self._least = False, os.getpid(), 0
+        most = database.getlimit(sqlite3.SQLITE_LIMIT_VARIABLE_NUMBER)
+        self._at_once = min(_AT_ONCE, most // _COLUMNS)
+
+    @classmethod
+    def create(cls, path: Path, header: Event, clock: Clock = time.time) -> Store:
+        """Begin a journal, which must not be there yet, and open it."""
+        path = _real(path)
+        try:
+            lock = Lock.take(path)
+            try:
+                keep_back(path)
+                _make(path, header, clock())
+                try:
+                    return cls._opened(path, lock, clock)
+                except BaseException:
+                    _unmake(path)
+                    raise
+            except BaseException:
+                _let_go(path, lock)
+                raise
+        except (OSError, ValueError, *TROUBLE) as error:  # ValueError: a NUL in the name
+            raise errors.cannot_make(path, error) from None
+
+    @classmethod
+    def open(cls, path: Path, clock: Clock = time.time) -> Store:
+        """Go on with a journal: it gets a new epoch, durably."""
+        path = _real(path)
+        look_at(path)
+        try:
+            lock = Lock.take(path)
+            try:
+                keep_back(path)
+                return cls._opened(path, lock, clock)
+            except BaseException:
+                _let_go(path, lock)
+                raise
+        except (OSError, *TROUBLE) as error:
+            raise errors.cannot_open(path, error) from None
+
+    @classmethod
+    def _opened(cls, path: Path, lock: Lock, clock: Clock) -> Store:
+        with closing(connect(path, "mode=ro")) as database:  # to look at it must not change it
+            state = found(path, database)
+        if state.lost:
+            raise errors.damaged(path, errors.lost_log())
+        database = connect(path, "mode=rw")
+        store = cls(path, lock, database, state.header, clock)
+        try:
+            store._begin(state.seq, state.epoch + 1, state.torn)
+        except BaseException:
+            database.close()
+            raise
+        return store
+
+    def _begin(self, seq: int, epoch: int, torn: str | None) -> None:
+        self.seq, self.epoch, self.torn = seq, epoch, torn
+        database = self._database
+        database.execute("PRAGMA journal_mode = WAL")
+        database.execute("PRAGMA synchronous = FULL")  # with NORMAL a power cut takes what was told
+        database.execute("BEGIN IMMEDIATE")
+        database.execute("DELETE FROM journal WHERE seq > ?", (seq,))
+        database.execute("DELETE FROM tip")
+        database.execute(
+            "INSERT INTO tip VALUES (0, ?, ?, ?)", (seq, epoch, tip_checksum(seq, epoch))
+        )
+        database.execute("COMMIT")
+        database.execute("PRAGMA wal_checkpoint(TRUNCATE)")
+        self._files = {file: identity(file) for file in (self.path, beside(self.path, "-wal"))}
+        self._least = size(self.path)
+
+    def look(self) -> None:
+        """Raise a `JournalError` if what is written is in no place any more where it would be found."""
+        if self.failure is not None:
+            raise self.failure
+        for file, which in self._files.items():
+            if which is not None and identity(file) != which:
+                self.failure = errors.gone(file, moved_to(which), self.path)
+                give_back(self.path)
+                raise self.failure
+        if size(self.path) < self._least:  # it only grows by itself
+            self.failure = errors.cut_short(self.path)
+            give_back(self.path)
+            raise self.failure
+
+    def append(self, rows: Sequence[str]) -> None:
+        """Write rows, each the events of one instant; when this returns they are durable."""
+        self.look()
+        try:
+            self._commit(rows)
+        except (ValueError, *TROUBLE) as error:  # ValueError: a text that is none
+            raise self._failed(error) from None
+
+    def last_words(self, row: str) -> bool:
+        """Try once to write a row after all, such as why nothing more is written."""
+        try:
+            self._commit([row])
+        except TROUBLE:
+            self._roll_back()
+            return False
+        return True
+
+    def snapshot(self, state: str) -> None:
+        """Keep what all rows so far come to; the rows stay."""
+        if self.failure is not None:
+            raise self.failure
+        text, seq, wall = state.encode(), self.seq, _milliseconds(self._clock)
+        checksum, database = snapshot_checksum(seq, self.epoch, wall, text), self._database
+        try:
+            database.execute("BEGIN IMMEDIATE")
+            database.execute(
+                "INSERT OR REPLACE INTO snapshot VALUES (?, ?, ?, ?, ?)",
+                (seq, self.epoch, wall, state, checksum),
+            )
+            database.execute(
+                "DELETE FROM snapshot WHERE seq NOT IN"
+                " (SELECT seq FROM snapshot ORDER BY seq DESC LIMIT ?)",
+                (SNAPSHOTS,),
+            )
+            database.execute("COMMIT")
+        except TROUBLE as error:
+            raise self._failed(error) from None
+
+    def read(self) -> Read:
+        """Return the newest sound snapshot and the rows after it."""
+        return since_snapshot(self._database, self.seq)
+
+    def close(self) -> None:
+        """Let others have it; what was acknowledged is on disk already."""
+        if self._closed or os.getpid() != self._process:
+            return  # what lies beside the journal may be another's by now
+        self._closed = True
+        with suppress(*TROUBLE):
+            self._database.execute("PRAGMA wal_checkpoint(TRUNCATE)")  # even beside a reader
+        with suppress(*TROUBLE):
+            self._database.close()
+        _let_go(self.path, self._lock)
+
+    def _commit(self, rows: Sequence[str]) -> None:
+        wall, epoch, seq = _milliseconds(self._clock), self.epoch, self.seq
+        values: list[object] = []
+        for text in rows:
+            seq += 1
+            values += (seq, epoch, wall, text, row_checksum(seq, epoch, wall, text.encode()))
+        database, most = self._database, self._at_once * _COLUMNS
+        database.execute("BEGIN IMMEDIATE")
+        for start in range(0, len(values), most):
+            part = values[start : start + most]
+            database.execute(_insertion(len(part) // _COLUMNS), part)
+        database.execute("UPDATE tip SET seq = ?, checksum = ?", (seq, tip_checksum(seq, epoch)))
+        database.execute("COMMIT")
+        self.seq = seq
+
+    def _failed(self, error: Exception) -> JournalError:
+        """Stop for good: nothing later is acknowledged."""
+        self._roll_back()
+        give_back(self.path)
+        self.failure = errors.cannot_write(self.path, error, self.seq)
+        return self.failure
+
+    def _roll_back(self) -> None:
+        with suppress(*TROUBLE):
+            if self._database.in_transaction:
+                self._database.execute("ROLLBACK")
+
+
+@cache
+def _insertion(rows: int) -> str:
+    return "INSERT INTO journal VALUES " + ", ".join(["(?, ?, ?, ?, ?)"] * rows)
+
+
+def _make(path: Path, header: Event, wall: float) -> None:
+    """Write a whole journal beside its place, and only then let it be seen."""
+    if path.is_dir():
+        raise errors.is_folder(path)
+    if os.path.lexists(path):
+        raise errors.exists(path)
+    with made(path, [Row(0, wall, json.dumps([header]), 0)], 0) as part:
+        try:
+            os.link(part, path)  # unlike a change of its name this never takes another's place
+        except FileExistsError:
+            raise errors.exists(path) from None
+        except OSError:  # a file system without links
+            part.rename(path)
+        sync_folder(path)
+
+
+def _unmake(path: Path) -> None:
+    """Nothing can be written into it: as if it had never been."""
+    for suffix in ("-wal", "-shm", ""):
+        with suppress(OSError):
+            beside(path, suffix).unlink()
+
+
+def _let_go(path: Path, lock: Lock) -> None:
+    give_back(path)
+    lock.release()
+
+
+def _real(path: Path) -> Path:
+    """Follow links: a journal with two names is one journal, with one lock."""
+    try:
+        return Path(os.path.realpath(path))
+    except ValueError as error:  # a NUL in the name
+        raise errors.cannot_open(path, error) from None
+
+
+def _milliseconds(clock: Clock) -> int:
+    return round(clock() * 1000)

@@ -1,0 +1,92 @@
+"""Missions, trips and results as plain data, and back: what the journal keeps of them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+from plutoc_runtime.changes import fields_of, trip_data
+from plutoc_runtime.fields import Entity
+from plutoc_runtime.model import NOTHING, Item, Photo
+from plutoc_runtime.plain import Data
+from plutoc_runtime.status import TripStatus
+
+if TYPE_CHECKING:
+    from plutoc_runtime.app import App
+    from plutoc_runtime.model import Mission, Point, Trip
+
+
+def mission_data(app: App, mission: Mission[Any]) -> Data:
+    """Return everything that its user said of a mission, and its trips."""
+    return {
+        "index": mission.index,
+        "fields": fields_of(app, Entity.MISSION, mission),
+        "trips": [trip_data(app, trip) for trip in mission.trips],
+    }
+
+
+def trip_of(app: App, data: Mapping[str, Any], status: TripStatus = TripStatus.WAITING) -> Trip:
+    """Return the trip that was written down; raise KeyError or TypeError if the app has none such."""
+    app.actions[data["action"]]
+    trip = app.trip(
+        name=data["name"],
+        action=data["action"],
+        target=point_of(data["target"]),
+        source=None if data.get("source") is None else point_of(data["source"]),
+        parameters=data.get("parameters") or NOTHING,
+        item=item_of(data.get("item")),
+        index=data["index"],
+        **data.get("fields", {}),
+    )
+    trip.added = bool(data.get("added"))
+    trip.attempt = data.get("attempt", 1)
+    trip.status = TripStatus(data["status"]) if "status" in data else status
+    trip.reason = data.get("reason", "")
+    trip.start_time, trip.end_time = data.get("start_time"), data.get("end_time")
+    return trip
+
+
+def point_of(data: Sequence[float]) -> Point:
+    """Return a place that was written down."""
+    x, y, z = data
+    return x, y, z
+
+
+def item_of(data: Mapping[str, Any] | None) -> Item | None:
+    """Return an item that was written down."""
+    return None if data is None else Item(name=data["name"], mass=data["mass"])
+
+
+def item_data(item: Item | None) -> Data | None:
+    """Return an item as plain data."""
+    return None if item is None else {"name": item.name, "mass": item.mass}
+
+
+def value_of(data: object) -> object:
+    """Return what an action gave from what was written down."""
+    match data:
+        case {"$number": str(text)}:
+            return float(text)
+        case {"$photo": dict(photo)}:
+            return _photo_of(photo)
+        case {"$tuple": [*elements]}:
+            return tuple(value_of(element) for element in elements)
+        case {"$text": str(text)}:
+            return text
+        case list():
+            return [value_of(element) for element in data]
+        case dict():
+            return {key: value_of(element) for key, element in data.items()}
+        case _:
+            return data
+
+
+def _photo_of(photo: Mapping[str, Any]) -> Photo:
+    return Photo(
+        position=point_of(photo["position"]),
+        width=photo["width"],
+        height=photo["height"],
+        sees=tuple(photo["sees"]),
+        sharpness=photo["sharpness"],
+        file=photo.get("file"),
+    )

@@ -1,0 +1,131 @@
+"""An app in virtual time, over simulated drones that a gateway keeps apart."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any
+
+from plutoc_runtime.enough import IDLE, Bound, Enough
+from plutoc_runtime.errors import BadInput
+from plutoc_runtime.kernel import Kernel
+from plutoc_runtime.model import Mission
+from plutoc_runtime.session import Listener, Outcome, Session
+from plutoc_runtime.trace import Event
+from plutoc_runtime.virtual import Stuck, VirtualTime
+from plutoc_runtime.words import duration
+from plutoc_runtime.world import World
+
+from .gateway.gateway import Gateway
+from .simulation.drones import SimulatedDrone, SimulatedNavigation
+
+if TYPE_CHECKING:
+    from plutoc_runtime.app import App
+    from plutoc_runtime.faults import Faults
+
+    from .controls import Controls
+    from .files.fleet import FleetFile
+
+Around = Callable[["Kernel", "Controls"], "Controls"]
+
+
+class Simulation:
+    """A session over simulated drones, all of whose events are kept."""
+
+    def __init__(
+        self,
+        app: App,
+        fleet: FleetFile,
+        kernel: Kernel,
+        seed: int,
+        faults: Faults,
+        listener: Listener | None,
+        around: Around | None = None,
+        slack: float = 0.0,
+    ) -> None:
+        categories = {category.name: category for category in app.categories}
+        simulated = [
+            SimulatedDrone(
+                id=entry.id, category=categories[entry.category], home=entry.home, index=index
+            )
+            for index, entry in enumerate(fleet.drones)
+        ]
+        world = World(seed, fleet.airspace, fleet.world)
+        self._navigation = SimulatedNavigation(
+            kernel, simulated, world, faults, seed, fleet.airspace
+        )
+        gateway = Gateway(
+            kernel,
+            self._navigation if around is None else around(kernel, self._navigation),
+            simulated,
+            fleet.airspace,
+            apart=fleet.apart,
+            slack=slack,
+            max_airborne=fleet.max_airborne,
+        )
+        self._events: list[Event] = []
+        listeners = [self._events.append, *([listener] if listener else [])]
+        self.session = Session(app, fleet, kernel, gateway.link(1), listeners)
+
+    def outcome(
+        self, missions: Sequence[Mission[Any]], ended: float, given_up: str = ""
+    ) -> Outcome:
+        """Return what has come of the missions."""
+        drones = self.session.drones
+        return Outcome(
+            duration=ended,
+            missions=tuple(missions),
+            drones=drones,
+            flown={drone.id: self._navigation.flown(drone.id) for drone in drones},
+            events=tuple(self._events),
+            given_up=given_up,
+        )
+
+
+def simulate(
+    app: App,
+    missions: Sequence[Mission[Any]],
+    fleet: FleetFile,
+    *,
+    seed: int,
+    faults: Faults,
+    until: float | None,
+    on_event: Listener | None,
+    around: Around | None = None,
+    slack: float = 0.0,
+) -> Outcome:
+    """Fly the missions in virtual time, until the last one has ended or a time is reached.
+
+    Without such a time it is given up where missions set out again and again for nothing.
+    `around` puts something between the gateway and its drones; `slack` keeps them further apart.
+    """
+    kernel, bound = VirtualTime(), Bound(missions)
+
+    def listen(event: Event) -> None:
+        if on_event is not None:
+            on_event(event)
+        if until is None and (enough := bound.look(event)) is not None:
+            kernel.crash(enough)
+
+    simulation = Simulation(app, fleet, kernel, seed, faults, listen, around, slack)
+    over = simulation.session.start(missions)
+    try:
+        if until is None:
+            while not kernel.run(over, last := bound.last + IDLE):
+                if bound.last + IDLE <= last:
+                    raise Enough(bound.idle())
+            ended = over.result()
+        else:
+            ended = over.result() if kernel.run(over, until) else kernel.now
+    except Enough as enough:
+        return simulation.outcome(missions, kernel.now, str(enough))
+    except Stuck:
+        queue = simulation.session.core.queue
+        if not queue.waiting:
+            raise
+        raise BadInput(
+            f"{app.name}: the simulation stops at {duration(kernel.now)}: missions wait for ever, "
+            f"because the policy gives them none of the drones ({queue.standing()})"
+        ) from None
+    finally:
+        kernel.close()
+    return simulation.outcome(missions, ended)

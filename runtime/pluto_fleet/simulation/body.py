@@ -1,0 +1,329 @@
+"""One simulated drone: where it is and what is in its battery, worked out when somebody asks.
+
+Nothing ticks. A body keeps its last change; whatever goes wrong in the meantime is applied, at its
+exact moment, the next time anybody looks. So a flight costs one event a leg, however long it is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import inf
+from operator import is_
+from typing import TYPE_CHECKING
+
+from plutoc_runtime.energy import CLIMB_SPEED, docked
+from plutoc_runtime.errors import Failure, FlightFailed
+from plutoc_runtime.faults import Drawn
+from plutoc_runtime.kernel import FLEET, Key
+from plutoc_runtime.motion import Charge, Leg, standing
+from plutoc_runtime.signals import Signal
+from plutoc_runtime.standing import Standing
+from plutoc_runtime.words import place
+
+if TYPE_CHECKING:
+    from plutoc_runtime.model import Category, Item, Point
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SimulatedDrone:
+    """A drone to simulate: it begins in its dock. Docks stand on the ground, at height 0."""
+
+    id: str
+    category: Category
+    home: Point
+    index: int = 0
+    """Its place in the fleet file."""
+    battery_level: float = 1.0
+    """What is in its battery at the start, from 0 to 1."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Snapshot:
+    """A drone as it is at a moment; all times are those of its clock."""
+
+    boot: int
+    carries: Item | None
+    down: FlightFailed | None
+    down_since: float
+    drawn: Drawn
+    began: float
+    charge: Charge
+    leg: Leg
+    landed: bool
+    flown: float
+
+
+Due = tuple[float, "Failure | None"]
+"""When something comes to pass by itself, and what; None: it touches down."""
+
+_NEVER: Due = inf, None
+
+
+def _moment(due: Due) -> float:
+    return due[0]
+
+
+class Body:
+    """The state of one drone. It is its own telemetry."""
+
+    def __init__(self, drone: SimulatedDrone, clock: Callable[[], float]) -> None:
+        self.drone, self._clock = drone, clock
+        self.key: Key = FLEET + 1 + drone.index
+        self.down: FlightFailed | None = None
+        """Why it takes no commands, if it takes none."""
+        self.down_since = 0.0
+        self.carries: Item | None = None
+        self.command = ""
+        """What it is doing; one thing at a time."""
+        self.over: Signal[None] | None = None
+        """Happens when that is done, if it takes time; fails if it is broken off."""
+        self.cut_short = FlightFailed(Failure.REFUSED, "it was broken off")
+        """Why, the last time that this was so."""
+        self.boot = 0
+        """How often it was switched off and on again."""
+        self.done: dict[str, object] = {}
+        """What it remembers: the jobs whose action it did, with what that gave."""
+        self.settings: dict[str, float] = {}
+        """What an action of the app's own has set on it."""
+        self.on_change: Callable[[], object] | None = None
+        """Told when something of it has changed that time alone does not change."""
+        self.left_alone = False
+        """Whoever let it sink is gone: it touches down by itself."""
+        self._drawn, self._began = Drawn(), clock()
+        self._charge = Charge(drone.battery_level, clock())
+        self._leg, self._landed = standing(drone.home, clock()), True
+        self._flown = 0.0
+        self._due: Due = _NEVER
+        self._due_of: tuple[object, ...] = (None,) * 6
+        """What comes first, and of what that was worked out: it is asked for all the time."""
+        self.touch_down(clock())
+
+    # What anybody may ask at any time
+
+    @property
+    def location(self) -> Point:
+        """Where it is."""
+        now = self._clock()
+        self.settle(now)
+        return self._leg.at(now)
+
+    @property
+    def battery_level(self) -> float:
+        """What is left in its battery, from 0 to 1."""
+        now = self._clock()
+        self.settle(now)
+        return self._charge.at(now)
+
+    @property
+    def landed(self) -> bool:
+        """Whether it is on the ground."""
+        self.settle(self._clock())
+        return self._landed
+
+    @property
+    def silence(self) -> float:
+        """What is simulated is known at any moment."""
+        return 0.0
+
+    @property
+    def is_docked(self) -> bool:
+        """Whether it stands in its dock."""
+        return self.landed and docked(self._leg.end, self.drone.home)
+
+    @property
+    def flown(self) -> float:
+        """How many metres it has flown, up and down included."""
+        now = self._clock()
+        self.settle(now)
+        return self._flown + self._leg.length(now)
+
+    @property
+    def arrives(self) -> float:
+        """When it is where it goes."""
+        return self._leg.arrives
+
+    @property
+    def fails_to_act(self) -> bool:
+        """Whether the action of this flight goes wrong."""
+        return self._drawn.action
+
+    @property
+    def standing(self) -> Standing:
+        """What it answers when the roll is called; one that takes no commands does not answer."""
+        now = self._clock()
+        self.settle(now)
+        return Standing(
+            drone=self.drone.id,
+            reached=self.down is None,
+            location=self._leg.at(now),
+            landed=self._landed,
+            battery_level=self._charge.at(now),
+            boot=self.boot,
+            carrying=None if self.carries is None else self.carries.name,
+            done=dict(self.done),
+            problems=() if self.down is None else (str(self.down),),
+        )
+
+    # What navigation does to it
+
+    def begin(self, drawn: Drawn, now: float) -> None:
+        """Begin a flight, with what will go wrong on it: from here, or from its take-off on."""
+        self._drawn, self._began = drawn, now
+
+    def lift_off(self, now: float) -> None:
+        """Leave the ground: from now on the battery drains, and things go wrong."""
+        self._charge = self._charge.changing(now, -1.0 / self.drone.category.flight_time)
+        self._began, self._landed = now, False
+
+    def move(self, target: Point, now: float, arrives: float) -> None:
+        """Go straight to a point, to be there at a time."""
+        self._turn(Leg(self._leg.at(now), target, now, arrives), now)
+
+    def halt(self, now: float) -> None:
+        """Hover where it is, unless it is past that."""
+        self.settle(now)
+        if self.down is None and not self._landed:
+            self._turn(standing(self._leg.at(now), now), now)
+
+    def touch_down(self, now: float) -> None:
+        """Stand on the ground, below where it is: its flight is over."""
+        self._rest(now)
+        at_home = docked(self._leg.end, self.drone.home)
+        rate = 1.0 / self.drone.category.charge_time if at_home else 0.0
+        self._charge = self._charge.changing(now, rate)
+        self._drawn = Drawn()
+        self._changed()
+
+    def dock(self, now: float) -> None:
+        """Stand in its dock, put there by somebody, and take commands again."""
+        if self.down is not None and self.down.failure is Failure.BATTERY:
+            self.reboot()
+        self.down = None
+        self._turn(standing(self.drone.home, now), now)
+        self.touch_down(now)
+
+    def reboot(self) -> None:
+        """Switch it off and on again: it forgets what it has done."""
+        self.boot, self.done, self.settings = self.boot + 1, {}, {}
+
+    def check(self, now: float) -> None:
+        """Raise why it takes no commands, if it takes none."""
+        self.settle(now)
+        if self.down is not None:
+            raise FlightFailed(self.down.failure, str(self.down))
+
+    def unload(self) -> None:
+        """Take off what it carries."""
+        self.carries = None
+        self._changed()
+
+    def befall(self, now: float, what: Failure, why: str | None = None) -> bool:
+        """Let something go wrong at this moment; False: it took no commands before."""
+        self.settle(now)
+        if self.down is not None:
+            return False
+        self._happen(now, what)
+        if why is not None:
+            self.down = FlightFailed(what, why)
+            self._changed()
+        return True
+
+    # What comes to pass by itself
+
+    def settle(self, now: float) -> None:
+        """Let everything come to pass that was due by now, each at its own moment."""
+        if self._landed:
+            return
+        while (due := self._next())[0] <= now:
+            self._happen(*due)
+
+    @property
+    def next_mishap(self) -> float:
+        """When something will go wrong, if it stays in the air for so long."""
+        return self._next()[0]
+
+    def _next(self) -> Due:
+        """What comes first, and of equals the worst."""
+        if self._landed:
+            return _NEVER
+        # each of these is replaced when it changes, and never changes in itself
+        of = (self._charge, self._drawn, self._began, self._leg, self.down, self.left_alone)
+        if not all(map(is_, of, self._due_of)):
+            self._due, self._due_of = self._worked_out(), of
+        return self._due
+
+    def _worked_out(self) -> Due:
+        empty = self._charge.empty_at, Failure.BATTERY
+        if self.down is not None or self.left_alone:  # it has lost its link, and lands
+            return min((self._leg.arrives, None), empty, key=_moment)
+        drawn = (
+            (self._drawn.crash, Failure.CRASH),
+            (self._drawn.link, Failure.LINK),
+            (self._drawn.battery, Failure.BATTERY),
+        )
+        moments = [(self._began + after, what) for after, what in drawn if after is not None]
+        return min((*moments, empty), key=_moment)
+
+    def _happen(self, when: float, what: Failure | None) -> None:
+        x, y, z = self._leg.at(when)
+        who, where = self.drone.id, f"at {place((x, y, z))}"
+        if what is None:
+            self.touch_down(when)
+        elif what is Failure.LINK:
+            self._fail(what, f"{who} lost its link {where}", when)
+            self.move((x, y, 0.0), when, when + z / CLIMB_SPEED)
+        elif what is Failure.BATTERY:
+            self._fail(what, f"{who} ran out of battery {where}", when)
+            self._rest(when)
+            self._charge = Charge(0.0, when)
+        else:
+            self._fail(what, f"{who} crashed {where}", when)
+            self._rest(when)
+            self._charge = self._charge.changing(when, 0.0)
+            self.carries = None
+
+    def _fail(self, what: Failure, reason: str, when: float) -> None:
+        self.down, self.down_since = FlightFailed(what, reason), when
+        self._drawn = Drawn()
+
+    def _rest(self, when: float) -> None:
+        x, y, _ = self._leg.at(when)
+        self._turn(standing((x, y, 0.0), when), when)
+        self._landed = True
+
+    def _turn(self, leg: Leg, now: float) -> None:
+        self._flown += self._leg.length(now)
+        self._leg, self.left_alone = leg, False
+        self._changed()
+
+    def _changed(self) -> None:
+        if self.on_change is not None:
+            self.on_change()
+
+    # What outlives the simulation
+
+    @property
+    def snapshot(self) -> Snapshot:
+        """Everything of it, but for what it has done."""
+        return Snapshot(
+            boot=self.boot,
+            carries=self.carries,
+            down=self.down,
+            down_since=self.down_since,
+            drawn=self._drawn,
+            began=self._began,
+            charge=self._charge,
+            leg=self._leg,
+            landed=self._landed,
+            flown=self._flown,
+        )
+
+    def restore(self, was: Snapshot) -> None:
+        """Be as it was; what it was told to do, it does to the end, and then it hovers."""
+        self.boot, self.carries = was.boot, was.carries
+        self.down, self.down_since = was.down, was.down_since
+        self._drawn, self._began = was.drawn, was.began
+        self._charge, self._leg = was.charge, was.leg
+        self._landed, self._flown = was.landed, was.flown
+        self.left_alone = not was.landed and was.leg.end[2] <= 0

@@ -1,0 +1,300 @@
+"""A simulated team of drones: navigation over any kernel, in virtual or in real time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
+from math import dist, inf
+from typing import TYPE_CHECKING
+
+from plutoc_runtime.actions import BUILT_IN, PICK, RELEASE, Plain
+from plutoc_runtime.energy import CLIMB_SPEED
+from plutoc_runtime.errors import Failure, FlightFailed
+from plutoc_runtime.faults import Faults, Order, draw
+from plutoc_runtime.kernel import Kernel, Kind
+from plutoc_runtime.navigation import motors_cut
+from plutoc_runtime.signals import Signal
+from plutoc_runtime.words import place
+
+from .body import Body, SimulatedDrone
+from .deeds import Deed, action_failed, grip_problem
+
+if TYPE_CHECKING:
+    from plutoc_runtime.airspace import Airspace
+    from plutoc_runtime.model import Item, Point, Telemetry
+    from plutoc_runtime.navigation import Job
+    from plutoc_runtime.standing import Standing
+    from plutoc_runtime.world import World
+
+__all__ = ["SimulatedDrone", "SimulatedNavigation"]
+
+OUTAGE = 20.0
+"""Seconds until a drone that lost its link can be reached again."""
+CARRYING_HOME = 300.0
+"""Seconds until somebody has carried a drone home."""
+
+
+class SimulatedNavigation:
+    """Flies simulated drones in a simulated world, and lets go wrong what is drawn to."""
+
+    def __init__(
+        self,
+        kernel: Kernel,
+        drones: Sequence[SimulatedDrone],
+        world: World,
+        faults: Faults,
+        seed: int,
+        airspace: Airspace,
+        record: Callable[[Deed], object] | None = None,
+    ) -> None:
+        self._kernel, self._world, self._airspace = kernel, world, airspace
+        self._faults, self._seed = faults, seed
+        self.record = record
+        """Told of everything that drones do to the world, right before it is so."""
+        self.bodies = {drone.id: Body(drone, kernel.time) for drone in drones}
+
+    def telemetry(self, drone: str) -> Telemetry:
+        """Return what is known of a drone; the value stays current."""
+        return self.bodies[drone]
+
+    def down(self, drone: str) -> FlightFailed | None:
+        """Return why a drone takes no commands; None: it takes them."""
+        body = self.bodies[drone]
+        body.settle(self._kernel.now)
+        return body.down
+
+    def carrying(self, drone: str) -> Item | None:
+        """Return what a drone has aboard."""
+        body = self.bodies[drone]
+        body.settle(self._kernel.now)
+        return body.carries
+
+    def flown(self, drone: str) -> float:
+        """Return how many metres a drone has flown, up and down included."""
+        return self.bodies[drone].flown
+
+    def strike(self, drone: str, failure: Failure, why: str | None = None) -> bool:
+        """Let a crash, an empty battery or a lost link happen now; False: it was down already."""
+        body = self.bodies[drone]
+        if not body.befall(self._kernel.now, failure, why):
+            return False
+        self._interrupt(body, FlightFailed(failure, str(body.down)))
+        return True
+
+    def reboot(self, drone: str) -> None:
+        """Switch a drone off and on again: it forgets what it has done, and sinks if it flies."""
+        body = self.bodies[drone]
+        if not body.landed:
+            self.strike(drone, Failure.LINK)
+        body.reboot()
+
+    def _interrupt(self, body: Body, why: FlightFailed) -> None:
+        """Let what it does end here with an error."""
+        over = body.over
+        if over is not None:
+            body.over, body.command, body.cut_short = None, "", why
+            over.fail(why)
+
+    def break_off(self, drone: str) -> None:
+        """Stop whatever a drone does, and hover."""
+        body = self.bodies[drone]
+        if body.over is not None:
+            body.halt(self._kernel.now)
+            self._interrupt(body, broken_off(drone))
+
+    def why_not(self, drone: str, action: str, parameters: Mapping[str, Plain]) -> str | None:
+        """Return why a drone cannot do a built-in action: simulated ones can do all."""
+        return None if action in BUILT_IN else f"{drone} has no action {action}"
+
+    def begins(self, drone: str, job: Job | None, seconds: float) -> None:
+        """A flight begins: what will go wrong is drawn anew."""
+        body, now = self.bodies[drone], self._kernel.now
+        body.check(now)
+        order = None if job is None else Order(id=job.id, seconds=seconds)
+        body.begin(draw(self._faults, self._seed, order), now)
+
+    async def takeoff(self, drone: str, height: float) -> None:
+        """Rise to a height; one that flies stays where it is."""
+        body = self.bodies[drone]
+        now = self._kernel.now
+        body.check(now)
+        if body.landed:
+            x, y, _ = body.location
+            body.lift_off(now)
+            body.check(now)  # what goes wrong at once leaves it on the ground
+            await self._move(body, (x, y, height), CLIMB_SPEED, "to take off")
+
+    async def go_to(self, drone: str, target: Point) -> None:
+        """Fly straight to a point."""
+        body = self._in_the_air(drone)
+        command = f"to fly to {place(target)}"
+        await self._move(body, target, body.drone.category.speed, command)
+
+    async def act(
+        self,
+        drone: str,
+        action: str,
+        parameters: Mapping[str, Plain],
+        item: Item | None,
+        job: str | None = None,
+    ) -> object:
+        """Do one of the built-in actions here, and return what came of it.
+
+        The drone remembers that it was done for a job.
+        """
+        body = self._in_the_air(drone)
+        if action not in BUILT_IN:
+            raise FlightFailed(Failure.REFUSED, f"{drone} has no action {action}")
+        problem = grip_problem(body, action, item)
+        if problem is None:
+            await self._pass(body, BUILT_IN[action].seconds, f"to {action}")
+            problem = f"{drone} could not do it" if body.fails_to_act else None
+        if problem is not None:
+            raise action_failed(body, f"{action} failed", problem)
+        value = self._value(body, action, parameters)
+        aboard = item if action == PICK else None if action == RELEASE else body.carries
+        if self.record is not None:
+            deed = Deed(
+                drone=drone,
+                action=action,
+                item=item,
+                job=job,
+                boot=body.boot,
+                value=value,
+                aboard=aboard,
+            )
+            self.record(deed)
+        body.carries = aboard
+        if job is not None:
+            body.done[job] = value
+        return value
+
+    async def hold(self, drone: str) -> None:
+        """Hover until something goes wrong or nobody wants it any longer."""
+        body = self._in_the_air(drone)
+        if body.fails_to_act:
+            raise action_failed(body, "the action failed", f"{drone} could not do it")
+        await self._pass(body, inf, "to hover")
+
+    async def read(self, drone: str, name: str) -> float:
+        """Return what was written under this name, or else what is measured here by this name."""
+        body = self._in_the_air(drone)
+        if name in body.settings:
+            return body.settings[name]
+        return self._world.measure(name, body.location, self._kernel.now)
+
+    async def write(self, drone: str, name: str, value: float) -> None:
+        """Keep a value under this name."""
+        self._in_the_air(drone).settings[name] = value
+
+    async def cut(self, drone: str) -> None:
+        """Switch its motors off: it falls, if it flies and can be told, and turns them on for nobody."""
+        cut = motors_cut(drone)
+        body = self.bodies[drone]
+        if not self.strike(drone, cut.failure, str(cut)) and not body.landed:
+            body.check(self._kernel.now)
+
+    def mended(self, drone: str) -> None:
+        """Somebody has repaired it, put it into its dock and switched it on."""
+        body = self.bodies[drone]
+        if body.down is not None:
+            body.reboot()
+            body.dock(self._kernel.now)
+
+    async def land(self, drone: str) -> None:
+        """Land here; does nothing for a drone that stands on the ground."""
+        body = self.bodies[drone]
+        body.check(self._kernel.now)
+        if not body.landed:
+            x, y, _ = body.location
+            body.touch_down(await self._move(body, (x, y, 0.0), CLIMB_SPEED, "to land"))
+
+    async def reach(self, drone: str) -> bool:
+        """Wait until a drone that lost its link can be reached again; False: it has crashed."""
+        body = self.bodies[drone]
+        body.settle(self._kernel.now)
+        if body.down is not None and body.down.failure is Failure.LINK:
+            await self._wait_until(body, max(body.down_since + OUTAGE, body.arrives))
+        if body.down is None or body.down.failure is Failure.BATTERY:
+            return True
+        if body.down.failure is Failure.CRASH:
+            return False
+        body.down = None  # the link is back
+        return True
+
+    async def fetched(self, drone: str) -> bool:
+        """Wait until somebody has carried a drone home."""
+        body = self.bodies[drone]
+        await self._wait_until(body, self._kernel.now + CARRYING_HOME)
+        body.dock(self._kernel.now)
+        return True
+
+    def unload(self, drone: str) -> None:
+        """Whoever meets it takes off what it carries."""
+        self.bodies[drone].unload()
+
+    async def roll_call(self, drone: str) -> Standing:
+        """Ask a drone where it is and what it has done."""
+        return self.bodies[drone].standing
+
+    async def _wait_until(self, body: Body, when: float) -> None:
+        await self._busy(body, when, "to recover")
+        body.settle(when)
+
+    async def _move(self, body: Body, target: Point, speed: float, command: str) -> float:
+        now = self._kernel.now
+        seconds = dist(body.location, target) / speed
+        body.move(target, now, now + seconds)
+        return await self._pass(body, seconds, command)
+
+    async def _pass(self, body: Body, seconds: float, command: str) -> float:
+        """Let the time of a command pass, and return when it is over; a mishap is over it first."""
+        until = min(self._kernel.now + seconds, body.next_mishap)
+        await self._busy(body, until, command)
+        # Not the time of now: a real clock is late, and sums of floats are not exact.
+        body.check(until)
+        return until
+
+    async def _busy(self, body: Body, until: float, command: str) -> None:
+        """Let time pass; whoever cancels this leaves the drone hovering."""
+        if body.command:
+            raise RuntimeError(f"{body.drone.id} was told {command} while told {body.command}")
+        if until <= self._kernel.now:
+            return
+        over: Signal[None] = Signal()
+        body.command, body.over = command, over
+        timer = self._kernel.at(until, Kind.FLIGHT, body.key, partial(over.set, None))
+        try:
+            await over
+        except BaseException:  # no longer wanted
+            if body.over is over:
+                body.halt(self._kernel.now)
+            raise
+        finally:
+            timer.cancel()
+            is_its_own = body.over is over
+            if is_its_own:
+                body.command, body.over = "", None
+        if not is_its_own:  # its time had come, but before its turn did, it was broken off
+            raise body.cut_short
+
+    def _in_the_air(self, drone: str) -> Body:
+        body = self.bodies[drone]
+        body.check(self._kernel.now)
+        if body.landed:
+            where = place(body.location)
+            reason = f"{drone} is on the ground at {where}: it must take off first"
+            raise FlightFailed(Failure.REFUSED, reason)
+        return body
+
+    def _value(self, body: Body, action: str, parameters: Mapping[str, Plain]) -> object:
+        if action in (PICK, RELEASE):
+            return None
+        if action == "take_photo":
+            return self._world.photo(body.location, self._kernel.now)
+        quantity = parameters.get("quantity", BUILT_IN["measure"].parameters[0].default)
+        return self._world.measure(str(quantity), body.location, self._kernel.now)
+
+
+def broken_off(drone: str) -> FlightFailed:
+    return FlightFailed(Failure.REFUSED, f"{drone} was told to break it off")

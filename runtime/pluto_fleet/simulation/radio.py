@@ -1,0 +1,130 @@
+"""A radio on which everything takes a moment: commands arrive later, and so does what they gave."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Coroutine, Mapping
+from functools import partial
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from plutoc_runtime.errors import Failure, FlightFailed
+from plutoc_runtime.kernel import FLEET, Kernel, Kind
+from plutoc_runtime.signals import Signal
+
+from ..controls import Before
+
+if TYPE_CHECKING:
+    from plutoc_runtime.actions import Plain
+    from plutoc_runtime.model import Item, Point
+    from plutoc_runtime.standing import Standing
+
+    from ..controls import Controls
+
+T = TypeVar("T")
+
+COMMAND, ANSWER = "command", "answer"
+
+
+class Radio(Before):
+    """Controls whose commands and answers are on their way for a while.
+
+    `delay` says how many seconds each is: it is asked with `command` or `answer`. What is broken
+    off while it is on its way does not arrive.
+    """
+
+    def __init__(self, kernel: Kernel, controls: Controls, delay: Callable[[str], float]) -> None:
+        super().__init__(controls)
+        self._kernel, self._delay = kernel, delay
+        self._orders: dict[str, Signal[None]] = {}
+        """What drones were told to do for themselves: a signal each, that fails if it is broken off."""
+        self.late = 0
+        """How many messages were late."""
+
+    def _late(self, what: str) -> float:
+        seconds = self._delay(what)
+        self.late += seconds > 0
+        return seconds
+
+    def break_off(self, drone: str) -> None:
+        """Stop whatever a drone does, or is about to be told."""
+        order = self._orders.pop(drone, None)
+        self._controls.break_off(drone)
+        if order is not None:
+            why = f"{drone} was told to break it off"
+            order.fail(FlightFailed(Failure.REFUSED, why))
+
+    async def hold(self, drone: str) -> None:
+        """Hover, for as long as an action of the app's own takes."""
+        await self._sent(drone, partial(self._controls.hold, drone))
+
+    async def takeoff(self, drone: str, height: float) -> None:
+        """Rise to a height."""
+        await self._sent(drone, partial(self._controls.takeoff, drone, height))
+
+    async def go_to(self, drone: str, target: Point) -> None:
+        """Fly straight to a point."""
+        await self._sent(drone, partial(self._controls.go_to, drone, target))
+
+    async def land(self, drone: str) -> None:
+        """Land here."""
+        await self._sent(drone, partial(self._controls.land, drone))
+
+    async def act(
+        self,
+        drone: str,
+        action: str,
+        parameters: Mapping[str, Plain],
+        item: Item | None,
+        job: str | None,
+    ) -> object:
+        """Do one of the built-in actions here, and return what came of it."""
+        act = self._controls.act
+        return await self._sent(drone, partial(act, drone, action, parameters, item, job))
+
+    async def read(self, drone: str, name: str) -> float:
+        """Return what a drone measures under this name."""
+        return await self._asked(self._controls.read(drone, name))
+
+    async def write(self, drone: str, name: str, value: float) -> None:
+        """Set what a drone has under this name."""
+        await self._asked(self._controls.write(drone, name, value))
+
+    async def cut(self, drone: str) -> None:
+        """Switch its motors off."""
+        await self._controls.cut(drone)
+
+    async def reach(self, drone: str) -> bool:
+        """Wait, after a failed flight, until a drone takes commands again."""
+        return await self._sent(drone, partial(self._controls.reach, drone))
+
+    async def roll_call(self, drone: str) -> Standing:
+        """Ask a drone where it is and what it has done, be it busy or not."""
+        return await self._asked(self._controls.roll_call(drone))
+
+    async def _asked(self, question: Coroutine[Any, Any, T]) -> T:
+        """Ask a drone beside what it does."""
+        try:
+            await self._kernel.sleep(self._late(COMMAND), Kind.FLIGHT)
+            answer = await question
+        finally:
+            question.close()
+        await self._kernel.sleep(self._late(ANSWER), Kind.FLIGHT)
+        return answer
+
+    async def _sent(self, drone: str, command: Callable[[], Coroutine[Any, Any, T]]) -> T:
+        self._orders[drone] = broken_off = Signal[None]()
+        try:
+            await self._on_its_way(COMMAND, broken_off)
+            result = await command()
+            await self._on_its_way(ANSWER, broken_off)
+        finally:
+            if self._orders.get(drone) is broken_off:
+                del self._orders[drone]
+        return result
+
+    async def _on_its_way(self, what: str, broken_off: Signal[None]) -> None:
+        seconds = self._late(what)
+        if seconds > 0:
+            until = self._kernel.now + seconds
+            await self._kernel.within(broken_off, until, Kind.FLIGHT, FLEET)
+        if broken_off.is_set:
+            broken_off.result()

@@ -1,0 +1,67 @@
+"""The commands that a station takes, and what each must say."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from plutoc_runtime.errors import BadInput
+from plutoc_runtime.words import quoted
+
+_MISSION, _TRIP = {"mission": (str,)}, {"trip": (str,)}
+_ALL = {"mission": (str, type(None))}
+
+NEEDS: Mapping[str, Mapping[str, tuple[type, ...]]] = {
+    "start": {"revision": (int, type(None)), "missions": (list, type(None))},
+    "stop": {"how": (str,)},
+    "resume": {},
+    "discard": {},
+    "pause": _ALL,
+    "go-on": _ALL,
+    "skip": {**_MISSION, "trip": (str, type(None))},
+    "cancel": _ALL,
+    "decide": {**_MISSION, "answer": (str,)},
+    "prioritise": {**_MISSION, **_TRIP, "priority": (int,)},
+    "retire": {"drone": (str,)},
+    "bring-back": {"drone": (str,)},
+    "cut-motors": {"drone": (str,)},
+}
+"""What goes with each command; what may be null may be left out."""
+
+HOWS = ("rtl", "land")
+
+LARGEST = 1_000_000_000
+"""No priority is further from 0, here as in a missions file."""
+
+
+class Malformed(BadInput):
+    """A command that nobody can make sense of, whatever flies: it lacks a name, or has two."""
+
+
+def checked(name: str, given: Mapping[str, object]) -> dict[str, object]:
+    """Return everything that a command needs; raise `Malformed` if it is not all there."""
+    needs = NEEDS.get(name)
+    if needs is None:
+        raise Malformed(f"there is no command {quoted(name)}")
+    for key in given:
+        if key not in needs:
+            raise Malformed(f"{name} takes no {quoted(key)}")
+    arguments: dict[str, object] = {}
+    for key, types in needs.items():
+        value = given.get(key)
+        if type(value) not in types:
+            raise Malformed(f"{name} needs {key}: {_said(types)}")
+        arguments[key] = value
+    chosen = arguments.get("missions")
+    if isinstance(chosen, list) and not all(isinstance(key, str) for key in chosen):
+        raise Malformed(f"{name} needs missions: the keys of missions of the plan, or null")
+    if name == "stop" and arguments["how"] not in HOWS:
+        raise Malformed('stop needs how: "rtl", all fly home first, or "land", where they are')
+    priority = arguments.get("priority")
+    if isinstance(priority, int) and abs(priority) > LARGEST:
+        raise Malformed(f"a priority is no more than {LARGEST}")
+    return arguments
+
+
+def _said(types: tuple[type, ...]) -> str:
+    names = {str: "a text", int: "a whole number", list: "a list", type(None): "null"}
+    return " or ".join(names[one] for one in types)

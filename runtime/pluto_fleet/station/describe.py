@@ -1,0 +1,100 @@
+"""What a page must know of the app, the fleet and the map before it can show anything."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from plutoc_runtime.actions import PICK, RELEASE
+from plutoc_runtime.fields import Entity, FieldType
+from plutoc_runtime.quantities import QUANTITIES, units_of
+
+from .graph.picture import laid_out
+from .graph.read import app_graph
+
+if TYPE_CHECKING:
+    from plutoc_runtime.actions import Action, Parameter
+    from plutoc_runtime.app import App
+    from plutoc_runtime.fields import Field
+    from plutoc_runtime.model import Category
+
+    from .graph.read import Graph
+    from .settings import Settings
+
+Shape = dict[str, object]
+
+
+def described(app: App, settings: Settings) -> Shape:
+    """Return it as plain data; of fields and actions only those that this app has."""
+    graph, space = app_graph(app), settings.fleet.airspace
+    return {
+        "name": app.name,
+        "title": app.title or app.name,
+        "sim": settings.sim or settings.crtp_sim is not None,
+        "speed": settings.speed or 1.0,
+        "fields": {
+            entity.value: [_field(field) for field in app.fields if field.on is entity]
+            for entity in Entity
+        },
+        "evaluators": list(app.evaluators),
+        "actions": [_action(action) for action in app.actions.values() if _can(app, action)],
+        "categories": [_category(category) for category in app.categories],
+        "drones": [
+            {"id": entry.id, "category": entry.category, "home": list(entry.home)}
+            for entry in settings.fleet.drones
+        ],
+        "map": {
+            "size": list(space.size),
+            "cruise_height": space.cruise_height,
+            "ceiling": space.ceiling,
+            "no_fly": [[list(corner) for corner in area] for area in space.no_fly],
+            "image": "/map" if settings.image is not None else None,
+        },
+        "retries": _retries(graph),
+        "rounds": any(field.type is FieldType.ROUNDS for field in app.fields),
+        "graph": laid_out(graph) if graph is not None else None,
+    }
+
+
+def _field(field: Field) -> Shape:
+    kind = field.type.value
+    return {"name": field.name, "type": kind, "label": field.label, "default": field.default}
+
+
+def _can(app: App, action: Action) -> bool:
+    return any(category.can(action.name) for category in app.categories)
+
+
+def _action(action: Action) -> Shape:
+    return {
+        "name": action.name,
+        "item": action.name in (PICK, RELEASE),
+        "parameters": [_parameter(parameter) for parameter in action.parameters],
+    }
+
+
+def _parameter(parameter: Parameter) -> Shape:
+    kind = parameter.type
+    return {
+        "name": parameter.name,
+        "type": kind.value,
+        "units": list(units_of(kind)) if kind in QUANTITIES else [],
+        "default": parameter.default,
+    }
+
+
+def _category(category: Category) -> Shape:
+    return {
+        "name": category.name,
+        "payload": category.payload,
+        "speed": category.speed,
+        "flight_time": category.flight_time,
+        "actions": None if category.actions is None else sorted(category.actions),
+    }
+
+
+def _retries(graph: Graph | None) -> bool:
+    """Whether a failed trip is ever tried again: some way that FAILED takes does not end there."""
+    if graph is None:
+        return True
+    onward = {box.name for box in graph.boxes if box.shape == "block"}
+    return any("FAILED" in way.statuses and way.target in onward for way in graph.arrows)

@@ -1,0 +1,152 @@
+"""A small plan for whoever has none yet: this very app and fleet can fly it on this very map."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import combinations, cycle, islice, product
+from math import dist
+from typing import TYPE_CHECKING
+
+from plutoc_runtime.actions import PICK, RELEASE, Action
+from plutoc_runtime.quantities import Type
+from plutoc_runtime.words import mass
+
+from . import errors
+from .problems import nobody_can_fly, read
+from .shape import Shape
+
+if TYPE_CHECKING:
+    from plutoc_runtime.app import App
+    from plutoc_runtime.geometry import Corner
+
+    from ...files.fleet import FleetFile
+
+PLAUSIBLE: dict[Type, object] = {
+    Type.INT: 1,
+    Type.FLOAT: 1,
+    Type.BOOL: True,
+    Type.TEXT: "example",
+    Type.MASS: "1 g",
+    Type.LENGTH: "1 m",
+    Type.TIME: "5 s",
+    Type.ANGLE: "90 deg",
+    Type.PERCENT: "50 %",
+    Type.SPEED: "0.5 m/s",
+    Type.TEMPERATURE: "20 C",
+}
+"""What is given for a parameter without a default."""
+
+HEAVIEST = 0.005
+"""Kilograms of the item, at most; drones that carry less get half of what they carry."""
+
+CLEAR = 0.3
+"""Metres around each place that are free, too."""
+
+_MISSIONS, _TRIPS = 3, 3
+_COLUMNS = 7
+_EDGE = 0.1
+"""The share of the map along each of its edges where no place is."""
+
+_WINDOWS = (2.0, 0.5, 0.2, 0.1, 0.05, 0.02)
+"""Shares of the map, around the drones' homes, in which places are looked for: the first that
+will do. On a large map a battery does not last for a way across."""
+
+_TRIES = 20
+
+
+def example_missions(app: App, fleet: FleetFile, taken: Sequence[str]) -> list[Shape]:
+    """Return two or three missions, without keys, named unlike these; or raise `BadInput`."""
+    wanted = _wanted(app, fleet)
+    best: list[Shape] = []
+    for share in _WINDOWS:
+        found = [
+            _mission(app, fleet, *one) for one in zip(wanted, _rows(fleet, share), strict=False)
+        ]
+        missions = [mission for mission in found if mission is not None]
+        best = max(best, missions, key=len)
+        if len(best) == len(wanted):
+            break
+    if not best:
+        raise errors.no_example()
+    numbers = (f"Example {i}" for i in range(1, len(taken) + len(best) + 1))
+    names = (name for name in numbers if name not in taken)
+    return [{"name": name, **mission} for name, mission in zip(names, best, strict=False)]
+
+
+def _wanted(app: App, fleet: FleetFile) -> list[list[Shape]]:
+    """Return what each mission does: one carries something, the others do all else in turn."""
+    flying = {drone.category for drone in fleet.drones}
+    categories = [category for category in app.categories if category.name in flying]
+    carrying = [one.payload for one in categories if one.can(PICK) and one.can(RELEASE)]
+    single = [
+        _trip(action)
+        for action in app.actions.values()
+        if action.name not in (PICK, RELEASE) and any(one.can(action.name) for one in categories)
+    ]
+    wanted = []
+    if carrying:
+        item = {"name": "parcel", "mass": mass(min(HEAVIEST, max(carrying) / 2))}
+        carry: list[Shape] = [{"action": PICK, "item": item}, {"action": RELEASE, "item": item}]
+        wanted = [carry] if single else [carry, carry]
+    turn = cycle(single)
+    while single and len(wanted) < _MISSIONS:
+        wanted.append(list(islice(turn, _TRIPS)))
+    return wanted
+
+
+def _trip(action: Action) -> Shape:
+    missing = {one.name: PLAUSIBLE[one.type] for one in action.parameters if one.default is None}
+    return {"action": action.name, "parameters": missing}
+
+
+def _mission(
+    app: App, fleet: FleetFile, wanted: Sequence[Shape], row: Sequence[Corner]
+) -> Shape | None:
+    """Return a mission that does this at places of the row, if it can be flown at any."""
+    for places in islice(_choices(row, len(wanted)), _TRIES):
+        trips: list[Shape] = [
+            {"key": str(i), **trip, "target": list(place)}
+            for i, (trip, place) in enumerate(zip(wanted, places, strict=True))
+        ]
+        mission: Shape = {"key": "", "name": "1", "trips": trips}
+        if not (
+            read(app, fleet.airspace, [mission])[1]
+            or nobody_can_fly(app, fleet, fleet.airspace, mission)
+        ):
+            return {"trips": trips}
+    return None
+
+
+def _choices(row: Sequence[Corner], count: int) -> Iterator[tuple[Corner, ...]]:
+    """Yield so many places of the row, those far from each other first."""
+    last = len(row) - 1
+    if last < count - 1:
+        return
+    spread = [row[round(i * last / max(1, count - 1))] for i in range(count)]
+    yield tuple(spread)
+    yield from combinations(row, count)
+
+
+def _rows(fleet: FleetFile, share: float) -> Iterator[list[Corner]]:
+    """Yield rows of places where there is room, in a window of so large a share of the map."""
+    homes = [drone.home for drone in fleet.drones]
+    spans = []
+    for axis, size in enumerate(fleet.airspace.size):
+        edge, half = _EDGE * size, share * size / 2
+        middle = sum(home[axis] for home in homes) / max(1, len(homes))
+        spans.append((max(edge, middle - half), min(size - edge, middle + half)))
+    (left, right), (low, high) = spans
+    for up in range(_MISSIONS):
+        y = low + (high - low) * (up + 0.5) / _MISSIONS
+        row = [left + (right - left) * across / (_COLUMNS - 1) for across in range(_COLUMNS)]
+        places = dict.fromkeys((round(x, 1), round(y, 1)) for x in row)
+        yield [place for place in places if _has_room(fleet, place)]
+
+
+def _has_room(fleet: FleetFile, place: Corner) -> bool:
+    x, y = place
+    around = product((x - CLEAR, x, x + CLEAR), (y - CLEAR, y, y + CLEAR))
+    height = fleet.airspace.cruise_height
+    return all(fleet.airspace.problem((*corner, height)) is None for corner in around) and all(
+        dist(place, drone.home[:2]) > 2 * CLEAR for drone in fleet.drones
+    )

@@ -1,0 +1,156 @@
+"""The plan on the disk: written beside and renamed, and never thrown away for being unreadable."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from plutoc_runtime.errors import BadInput
+from plutoc_runtime.fields import Entity
+
+from . import errors
+from .shape import MISSION_KEYS, TRIP_KEYS, Shape, fields_of, missions_from
+
+if TYPE_CHECKING:
+    from plutoc_runtime.app import App
+
+LARGEST = 1 << 25
+"""Bytes; a plan with every text as long as it may be is smaller."""
+
+VERSION = 1
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Kept:
+    """What an earlier life has left."""
+
+    missions: Sequence[Shape] = ()
+    revision: int = 0
+    said: str = ""
+    """What somebody must hear of it."""
+
+
+class _Unreadable(Exception):
+    """The file is no plan of this app."""
+
+
+def write(path: Path, app: App, revision: int, missions: Sequence[Shape]) -> None:
+    """Keep a plan: after a crash there is this one, or the one before; raise `OSError` if not."""
+    data = {"version": VERSION, "app": app.name, "revision": revision, "missions": missions}
+    text = json.dumps(data, ensure_ascii=False, separators=(",", ":"))
+    part = path.with_name(f"{path.name}.part")
+    try:
+        descriptor = os.open(part, os.O_WRONLY | os.O_CREAT | os.O_TRUNC | os.O_NOFOLLOW, 0o600)
+        with open(descriptor, "wb") as file:
+            file.write(text.encode())
+            file.flush()
+            os.fsync(file.fileno())
+        os.replace(part, path)
+    except OSError:
+        part.unlink(missing_ok=True)
+        raise
+    _settle(path.parent)
+
+
+def read(path: Path, app: App) -> Kept:
+    """Return the plan that was kept; one that cannot be read is put aside, and that is said."""
+    if not os.path.lexists(path):
+        return Kept()
+    try:
+        data = _data(path)
+        if data.get("app") != app.name:
+            raise _Unreadable(errors.of_another_app(data.get("app"), app.name))
+        return _kept(path, data, app)
+    except _Unreadable as error:
+        why = str(error)
+    aside = _aside(path)
+    try:
+        os.replace(path, aside)
+    except OSError as error:
+        raise errors.in_the_way(path, why, error) from None
+    return Kept(said=errors.not_a_plan(path, why, aside))
+
+
+def _data(path: Path) -> dict[str, object]:
+    try:
+        if not path.is_file():
+            raise _Unreadable(errors.not_json())
+        with path.open("rb") as file:
+            content = file.read(LARGEST + 1)
+    except OSError as error:
+        raise _Unreadable(errors.unreadable(error)) from None
+    if len(content) > LARGEST:
+        raise _Unreadable(errors.too_much())
+    try:
+        data = json.loads(content)
+    except (ValueError, RecursionError):
+        raise _Unreadable(errors.not_json()) from None
+    if not isinstance(data, dict) or data.get("version") != VERSION:
+        raise _Unreadable(errors.not_json())
+    return data
+
+
+def _kept(path: Path, data: Mapping[str, object], app: App) -> Kept:
+    revision, given = data.get("revision"), data.get("missions")
+    if isinstance(revision, bool) or not isinstance(revision, int) or revision < 0:
+        raise _Unreadable(errors.not_json())
+    missions, gone = _without_gone(given, app)
+    try:
+        shapes = missions_from(missions, app)
+    except BadInput as error:
+        raise _Unreadable(str(error)) from None
+    for shape, was in zip(shapes, missions, strict=True):
+        shape["launched"], shape["ended"] = was.get("launched") is True, was.get("ended")
+    if not gone:
+        return Kept(missions=shapes, revision=revision)
+    aside = _aside(path)
+    try:
+        aside.write_bytes(path.read_bytes())
+    except OSError as error:
+        raise errors.in_the_way(path, errors.unreadable(error), error) from None
+    return Kept(missions=shapes, revision=revision, said=errors.not_all_taken(aside, gone))
+
+
+def _without_gone(given: object, app: App) -> tuple[list[Shape], list[str]]:
+    """Leave out what an earlier graph of the app has brought in, and this one does not."""
+    gone: dict[str, None] = {}
+
+    def known(one: object, keys: Sequence[str]) -> Shape:
+        if not isinstance(one, dict):
+            raise _Unreadable(errors.not_json())
+        gone.update(dict.fromkeys(key for key in one if key not in keys))
+        return {key: value for key, value in one.items() if key in keys}
+
+    if not isinstance(given, list):
+        raise _Unreadable(errors.not_json())
+    missions = []
+    for element in given:
+        mission = known(element, (*MISSION_KEYS, *fields_of(app, Entity.MISSION)))
+        trips = mission.get("trips")
+        if isinstance(trips, list):
+            keys = (*TRIP_KEYS, *fields_of(app, Entity.TRIP))
+            mission["trips"] = [known(trip, keys) for trip in trips]
+        missions.append(mission)
+    return missions, list(gone)
+
+
+def _aside(path: Path) -> Path:
+    """Return a name beside the plan's that nothing has yet."""
+    aside, number = path.with_name(f"{path.name}.bad"), 1
+    while os.path.lexists(aside):
+        number += 1
+        aside = path.with_name(f"{path.name}.bad-{number}")
+    return aside
+
+
+def _settle(folder: Path) -> None:
+    """Make sure that the new name is on the disk, too."""
+    descriptor = os.open(folder, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)

@@ -1,0 +1,202 @@
+"""The shape of a plan as pages send it: whatever has this shape is kept, finished or not.
+
+What it means is another question, which `problems` asks: a plan is drawn bit by bit, and a
+name is typed letter by letter.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from math import isfinite
+from typing import TYPE_CHECKING
+
+from plutoc_runtime.fields import Entity
+from plutoc_runtime.words import quoted
+
+from . import errors
+
+if TYPE_CHECKING:
+    from plutoc_runtime.app import App
+
+Shape = dict[str, object]
+"""A mission or a trip, as JSON has it."""
+
+MOST_MISSIONS, MOST_TRIPS = 1_000, 10_000
+MOST_PARAMETERS = 64
+LONGEST_TEXT = 1_000
+LARGEST = 1e15
+"""Every whole number up to here is the same in a browser."""
+
+MISSION_KEYS = ("key", "name", "launched", "ended", "trips")
+TRIP_KEYS = ("key", "name", "action", "target", "source", "parameters", "item")
+"""What every app's plan has; its graph brings in more."""
+
+COMPLETED, BROKEN_OFF = "COMPLETED", "BROKEN_OFF"
+ENDS = (COMPLETED, "FAILED", "CANCELLED", BROKEN_OFF)
+"""How a mission has ended the last time that it flew, if it is still as it was then."""
+
+KEY = re.compile(r"[A-Za-z0-9_-]{8,32}")
+
+
+def missions_from(given: object, app: App) -> list[Shape]:
+    """Return missions in one and the same shape; raise `BadInput` if they have no such shape."""
+    elements = _list(given, "missions")
+    if len(elements) > MOST_MISSIONS:
+        raise errors.too_many("missions", MOST_MISSIONS)
+    missions = [_mission(one, f"mission {i}", app) for i, one in enumerate(elements, 1)]
+    check_together(missions)
+    return missions
+
+
+def check_together(missions: Sequence[Shape]) -> None:
+    """Raise `BadInput` where they are too many, or two of them are called alike."""
+    if len(missions) > MOST_MISSIONS:
+        raise errors.too_many("missions", MOST_MISSIONS)
+    keys = [str(one["key"]) for mission in missions for one in (mission, *trips_of(mission))]
+    if len(keys) - len(missions) > MOST_TRIPS:
+        raise errors.too_many("trips", MOST_TRIPS)
+    seen: set[str] = set()
+    for key in keys:
+        if key in seen:
+            raise errors.key_twice(key)
+        seen.add(key)
+
+
+def trips_of(mission: Mapping[str, object]) -> Sequence[Shape]:
+    """Return a mission's trips."""
+    trips = mission["trips"]
+    return trips if isinstance(trips, list) else ()
+
+
+def fields_of(app: App, entity: Entity) -> list[str]:
+    """Return the names of the fields that the graph brings in."""
+    return [field.name for field in app.fields if field.on is entity]
+
+
+def _mission(given: object, who: str, app: App) -> Shape:
+    fields = fields_of(app, Entity.MISSION)
+    data = _table(given, who, (*MISSION_KEYS, *fields))
+    if data.get("launched") is not None and not isinstance(data["launched"], bool):
+        raise errors.wrong(f"{who}: launched", data["launched"], "true or false")
+    if data.get("ended") not in (None, *ENDS):
+        raise errors.wrong(f"{who}: ended", data["ended"], " or ".join(ENDS))
+    trips = _list(_given(data, "trips", who), f"{who}: trips")
+    return {
+        "key": _key(data, who),
+        "name": _text(_given(data, "name", who), f"{who}: name"),
+        "launched": False,  # neither is for pages to say
+        "ended": None,
+        **_scalars(data, fields, who),
+        "trips": [_trip(one, f"{who}, trip {i}", app) for i, one in enumerate(trips, 1)],
+    }
+
+
+def _trip(given: object, who: str, app: App) -> Shape:
+    fields = fields_of(app, Entity.TRIP)
+    data = _table(given, who, (*TRIP_KEYS, *fields))
+    trip: Shape = {"key": _key(data, who)}
+    if data.get("name") is not None:
+        trip["name"] = _text(data["name"], f"{who}: name")
+    trip["action"] = _text(_given(data, "action", who), f"{who}: action")
+    trip["target"] = _place(data.get("target"), f"{who}: target")
+    if data.get("source") is not None:
+        trip["source"] = _place(data["source"], f"{who}: source")
+    trip["parameters"] = _parameters(data.get("parameters"), f"{who}: parameters")
+    trip["item"] = _item(data.get("item"), f"{who}: item")
+    return {**trip, **_scalars(data, fields, who)}
+
+
+def _parameters(given: object, who: str) -> Shape:
+    data = {} if given is None else _object(given, who)
+    if len(data) > MOST_PARAMETERS:
+        raise errors.too_many("parameters for an action", MOST_PARAMETERS)
+    names = [_text(name, f"{who}: a name") for name in data]
+    return _scalars(data, names, who)
+
+
+def _item(given: object, who: str) -> Shape | None:
+    if given is None:
+        return None
+    return _scalars(_table(given, who, ("name", "mass")), ("name", "mass"), who)
+
+
+def _place(given: object, who: str) -> list[object] | None:
+    if given is None:
+        return None
+    elements = _list(given, who)
+    if len(elements) not in (2, 3):
+        raise errors.wrong(who, given, "a list of two or three numbers")
+    for element in elements:
+        if isinstance(element, bool) or not isinstance(element, int | float):
+            raise errors.wrong(who, given, "a list of two or three numbers")
+        _number(element, who)
+    return list(elements)
+
+
+def _scalars(data: Mapping[str, object], keys: Sequence[str], who: str) -> Shape:
+    """Return what is given under these keys: a number, a text, yes or no."""
+    found: Shape = {}
+    for key in keys:
+        value = data.get(key)
+        if value is None:
+            continue
+        where = f"{who}: {quoted(key)}"
+        if isinstance(value, str):
+            _text(value, where)
+        elif not isinstance(value, bool):
+            _number(value, where)
+        found[key] = value
+    return found
+
+
+def _number(value: object, where: str) -> None:
+    if not isinstance(value, int | float):
+        raise errors.wrong(where, value, "a number or a text")
+    if isinstance(value, float) and not isfinite(value):
+        raise errors.wrong(where, value, "a finite number")
+    if abs(value) > LARGEST:
+        raise errors.too_large(where)
+
+
+def _text(value: object, where: str) -> str:
+    if not isinstance(value, str):
+        raise errors.wrong(where, value, "a text")
+    if len(value) > LONGEST_TEXT:
+        raise errors.too_long(where, LONGEST_TEXT)
+    if any("\ud800" <= character <= "\udfff" for character in value):
+        raise errors.no_text(where)
+    return value
+
+
+def _key(data: Mapping[str, object], who: str) -> str:
+    value = _given(data, "key", who)
+    if not isinstance(value, str) or KEY.fullmatch(value) is None:
+        raise errors.wrong(f"{who}: key", value, "8 to 32 letters, digits, - and _")
+    return value
+
+
+def _given(data: Mapping[str, object], key: str, who: str) -> object:
+    if key not in data:
+        raise errors.missing_key(who, key)
+    return data[key]
+
+
+def _table(given: object, who: str, keys: Sequence[str]) -> dict[str, object]:
+    data = _object(given, who)
+    for key in data:
+        if key not in keys:
+            raise errors.unknown_key(who, key, keys)
+    return data
+
+
+def _object(given: object, who: str) -> dict[str, object]:
+    if not isinstance(given, dict):
+        raise errors.wrong(who, given, "an object")
+    return given
+
+
+def _list(given: object, who: str) -> list[object]:
+    if not isinstance(given, list):
+        raise errors.wrong(who, given, "a list")
+    return given

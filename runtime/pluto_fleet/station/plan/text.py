@@ -1,0 +1,115 @@
+"""A plan as a missions file, and a missions file as a plan."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from datetime import time
+from typing import TYPE_CHECKING, Any
+
+from plutoc_runtime.fields import Entity
+
+from ...files.missions import missions_of
+from ...files.reading import parsed
+from ...files.values import numbers
+from .problems import as_in_a_file
+from .shape import Shape, fields_of, trips_of
+
+if TYPE_CHECKING:
+    from plutoc_runtime.airspace import Airspace
+    from plutoc_runtime.app import App
+
+NAME = "missions.toml"
+"""What a file is called in messages, if whoever sends it does not say."""
+
+_BASIC = ("name", "action", "item", "parameters", "source", "target")
+
+
+def text_of(app: App, missions: Sequence[Shape]) -> str:
+    """Return the missions file of these missions, finished or not."""
+    return "\n".join(line for mission in missions for line in _mission(app, mission))
+
+
+def shapes_of(text: str, app: App, airspace: Airspace, file: str = NAME) -> list[Shape]:
+    """Return the missions of a file, without keys; raise `BadInput` as `check` would say it."""
+    document = parsed(file, text)
+    missions_of(document, app, airspace)
+    given: Any = document.data["mission"]  # that it is a list of tables has just been seen
+    return [_shape(mission, str(i), app) for i, mission in enumerate(given, 1)]
+
+
+def _mission(app: App, mission: Shape) -> Iterator[str]:
+    given = as_in_a_file(mission)
+    yield "[[mission]]"
+    yield from _pairs(given, ("name", *fields_of(app, Entity.MISSION)), "")
+    yield ""
+    for trip in trips_of({"trips": given["trip"]}):
+        yield "  [[mission.trip]]"
+        yield from _pairs(trip, (*_BASIC, *fields_of(app, Entity.TRIP)), "  ")
+        yield ""
+
+
+def _pairs(given: Mapping[str, object], keys: Sequence[str], indent: str) -> Iterator[str]:
+    for key in keys:
+        if key in given:
+            yield f"{indent}{key} = {_written(given[key])}"
+
+
+def _written(value: object) -> str:
+    match value:
+        case bool():
+            return "true" if value else "false"
+        case str():
+            return _quoted(value)
+        case list():
+            return f"[{', '.join(map(_written, value))}]"
+        case dict():
+            pairs = (f"{_quoted_key(key)} = {_written(one)}" for key, one in value.items())
+            return f"{{ {', '.join(pairs)} }}" if value else "{}"
+        case _:
+            return repr(value)
+
+
+def _quoted(text: str) -> str:
+    # JSON escapes what TOML does, and alike, but for one character that TOML does not want bare
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
+
+
+def _quoted_key(key: str) -> str:
+    bare = key.isascii() and key.replace("_", "").replace("-", "").isalnum()
+    return key if bare else _quoted(key)
+
+
+def _shape(given: Mapping[str, Any], number: str, app: App) -> Shape:
+    return {
+        "name": given.get("name", number),
+        **_fields(given, app, Entity.MISSION),
+        "trips": [_trip(trip, app) for trip in given["trip"]],
+    }
+
+
+def _trip(given: Mapping[str, Any], app: App) -> Shape:
+    trip = {key: given[key] for key in _BASIC if key in given}
+    for key in ("target", "source"):
+        if key in trip:
+            trip[key] = _metres(trip[key])
+    return {**trip, **_fields(given, app, Entity.TRIP)}
+
+
+def _fields(given: Mapping[str, Any], app: App, entity: Entity) -> Shape:
+    fields = [key for key in fields_of(app, entity) if key in given]
+    return {key: _plain(given[key]) for key in fields}
+
+
+def _plain(value: object) -> object:
+    """Return a value as JSON has it: TOML has times of day of its own, 08:00:00."""
+    return value.isoformat("auto") if isinstance(value, time) else value
+
+
+def _metres(place: Sequence[object]) -> list[object]:
+    """Return a place in plain numbers, as pages draw it: files may say "80 cm"."""
+    read = numbers(place, (2, 3))
+    return [
+        metres if isinstance(given, str) else given
+        for given, metres in zip(place, read, strict=True)
+    ]

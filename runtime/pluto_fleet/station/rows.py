@@ -1,0 +1,223 @@
+"""What everybody sees of a mission and of a drone, as plain data."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterable, Sequence
+from math import isfinite
+from typing import TYPE_CHECKING, Any
+
+from plutoc_runtime.status import Status, TripStatus
+from plutoc_runtime.transitions import PRIORITY
+from plutoc_runtime.words import cut_off
+
+from ..cli.flown import aside
+from ..control import ANSWERS
+from ..gateway.wire import SILENT
+from .whereabouts import END, ENDED, blocks_of
+
+if TYPE_CHECKING:
+    from plutoc_runtime.app import App
+    from plutoc_runtime.model import Drone, Mission, Point, Trip
+    from plutoc_runtime.state import State
+
+    from ..gateway.sightings import Sighting
+    from ..journal.fold import Record
+
+Row = dict[str, object]
+
+WHY = 200
+"""Characters of why a drone may not fly; all of it is on the console."""
+
+
+def mission_row(
+    app: App,
+    mission: Mission[Any],
+    state: State | None,
+    now: float,
+    fleet: Callable[[Trip], str],
+) -> Row:
+    """Return what there is to see of a mission; `fleet` says why no drone flies a trip yet."""
+    done, todo = mission.completed_trips, mission.trips
+    at = blocks_of(state, app.flow) if state is not None else ()
+    status = mission.status
+    ends = status in ENDED
+    if ends and state is not None:  # its trips are done; what comes of it, a block has yet to say
+        status, ends = Status.STANDBY, False
+    until = _until(state, now)
+    current = todo[0] if todo else None
+    drone = _drone_of(mission, state)
+    return {
+        "name": mission.name,
+        "index": mission.index,
+        "status": status.value,
+        "reason": mission.reason,
+        "trips": [_trip(trip) for trip in (*done, *todo)],
+        "current": len(done) if todo else None,
+        "done": len(done),
+        "total": len(done) + len(todo),
+        "drone": drone.id if drone is not None else None,
+        "at": [END] if ends else list(at),
+        "wait": "" if state is None else _why_it_waits(app, state, at, until, fleet),
+        "until": until,
+        "attempt": current.attempt if current is not None else 1,
+        "attempts": mission.attempts,
+        "round": mission.round,
+        "question": _question(mission.status, mission.reason),
+    }
+
+
+def recorded_row(name: str, record: Record) -> Row:
+    """Return the same of a mission that nothing but a journal tells of."""
+    done, todo = record["done"], record["todo"]
+    status, reason = aside(record) or (Status(record["status"]), str(record["reason"]))
+    if status is Status.RUNNING or (status in ENDED and not record["ended"]):
+        status = Status.STANDBY  # it flew, and does no longer; or what comes of it is not said yet
+    at = [END] if record["ended"] else [record["at"]] if record["at"] else []
+    return {
+        "name": name,
+        "index": record["index"],
+        "status": status.value,
+        "reason": reason,
+        "trips": [_recorded_trip(trip, "COMPLETED") for trip in done]
+        + [_recorded_trip(trip, "WAITING") for trip in todo],
+        "current": len(done) if todo else None,
+        "done": len(done),
+        "total": len(done) + len(todo),
+        "drone": None,
+        "at": at,
+        "wait": "",
+        "until": None,
+        "attempt": todo[0].get("attempt", 1) if todo else 1,
+        "attempts": record["attempts"],
+        "round": record["round"],
+        "question": None,
+    }
+
+
+def drone_row(
+    drone: Drone, mission: str | None, retired: bool, why: str = "", status: str = ""
+) -> Row:
+    """Return what there is to see of a drone; to the centimetre, and the thousandth.
+
+    `why` is why it may not fly; `status` is its own unless a person had better read another.
+    """
+    silence = drone.telemetry.silence
+    heard = isfinite(silence)
+    return _drone_row(
+        drone.id,
+        status or drone.status.value,
+        drone.location if heard else None,
+        drone.battery_level if heard else None,
+        mission,
+        drone.trips,
+        retired,
+        why,
+        time.time() - silence if heard and silence > SILENT else None,
+    )
+
+
+def drone_at(
+    id: str,
+    status: str,
+    seen: Sighting | None,
+    trips: int,
+    retired: bool,
+    why: str,
+) -> Row:
+    """Return the same of a drone that nobody commands now; `seen` is when it was heard of last."""
+    if seen is None:
+        return _drone_row(id, status, None, None, None, trips, retired, why)
+    battery = seen.battery if seen.when else None
+    return _drone_row(id, status, seen.at, battery, None, trips, retired, why, seen.when)
+
+
+def mission_of_each(states: Iterable[State]) -> dict[str, str]:
+    """Return for which mission each drone works, by their names."""
+    drones = ((_drone_of(state.mission, state), state.mission.name) for state in states)
+    return {drone.id: name for drone, name in drones if drone is not None}
+
+
+def _drone_row(
+    id: str,
+    status: str,
+    at: Point | None,
+    battery: float | None,
+    mission: str | None,
+    trips: int,
+    retired: bool,
+    why: str = "",
+    when: float | None = None,
+) -> Row:
+    x, y, z = (None, None, None) if at is None else (round(metres, 2) for metres in at)
+    return {
+        "id": id,
+        "status": status,
+        "x": x,
+        "y": y,
+        "z": z,
+        "seen": None if when is None else round(when) * 1000,
+        "battery": None if battery is None else round(battery, 3),
+        "mission": mission,
+        "trips": trips,
+        "retired": retired,
+        "why": cut_off(why, WHY),
+    }
+
+
+def _trip(trip: Trip) -> list[object]:
+    x, y, _ = trip.target
+    priority = getattr(trip, PRIORITY, None)
+    return [trip.name, trip.status.value, round(x, 3), round(y, 3), priority, trip.action]
+
+
+def _recorded_trip(data: Record, status: str) -> list[object]:
+    x, y, _ = data["target"]
+    stands = data.get("status", status)
+    if stands == TripStatus.EXECUTING.value:  # nobody knows: it will be asked
+        stands = TripStatus.WAITING.value
+    priority = data.get("fields", {}).get(PRIORITY)
+    return [data["name"], stands, round(x, 3), round(y, 3), priority, data["action"]]
+
+
+def _drone_of(mission: Mission[Any], state: State | None) -> Drone | None:
+    if state is None:
+        return None
+    flight = state.in_flight
+    return state.allocated or (flight.flier if flight is not None else state.carrier)
+
+
+def _until(state: State | None, now: float) -> float | None:
+    if state is None or state.delay is None:
+        return None
+    until = max(state.delay[1:])
+    return until if until > now else None
+
+
+def _why_it_waits(
+    app: App,
+    state: State,
+    at: Sequence[str],
+    until: float | None,
+    fleet: Callable[[Trip], str],
+) -> str:
+    mission = state.mission
+    if mission.status is Status.PAUSED:
+        return "paused"
+    if mission.status in ANSWERS:
+        return "waits for your decision"
+    if state.in_flight is not None or state.task is None:
+        return ""
+    if until is not None:
+        return "waits until its time has come"
+    if state.allocated is None and at and at[0] in app.resumes:
+        why = fleet(mission.current)
+        return f"waits for a drone ({why})" if why else "waits for a drone"
+    if at and mission.status in ENDED:
+        return f"waits for what {at[0]} says"
+    return ""
+
+
+def _question(status: Status, text: str) -> Row | None:
+    answers = ANSWERS.get(status)
+    return None if answers is None else {"text": text, "answers": list(answers)}

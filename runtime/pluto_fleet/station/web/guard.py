@@ -1,0 +1,153 @@
+"""Who may ask what: a page on another site may press nothing, a stranger sees nothing.
+
+A browser sends requests for any page that asks it to. What such a page cannot do is to bear the
+name of ours (`Origin`), to send a header of its own without being asked first (`X-Pluto`), or to
+know the token. A name that was bent to this machine (DNS rebinding) shows in `Host`.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import Enum
+from hmac import compare_digest
+from ipaddress import IPv4Address, IPv6Address, ip_address
+
+from plutoc_runtime.errors import BadInput
+from plutoc_runtime.words import quoted
+
+from . import refusals
+from .http import Request
+from .refusals import Refusal
+
+_HOST = re.compile(r"(\[[0-9a-f:.]+\]|[a-z0-9_.-]+)(?::([0-9]{1,5}))?")
+_LOOPBACK = ("127.0.0.1", "localhost", "[::1]")
+_PLAIN_PORT, _PORTS = 80, 65536
+_USUAL = re.compile(r":(80|443)$")
+"""The ports that browsers leave out."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Guard:
+    """Where the station can be reached, and what one must know."""
+
+    host: str  # where it listens
+    port: int
+    names: tuple[
+        str, ...
+    ] = ()  # how else it is called: "station.example" or "station.example:8443"
+    token: str | None = field(default=None, repr=False)
+
+
+def proper_name(text: str) -> str:
+    """Return a name that the station is to go by, as a browser says it."""
+    name = _USUAL.sub("", text.lower())
+    found = _HOST.fullmatch(name)
+    if found is None or not int(found.group(2) or _PLAIN_PORT) < _PORTS:
+        raise BadInput(
+            f"--name {quoted(text)}: a name is like ward.example, or ward.example:8443 where its"
+            " port is not the station's own"
+        )
+    return name
+
+
+class Asking(Enum):
+    """What a request is, as far as it matters who may ask it."""
+
+    PAGE = "a page"  # the same for everybody, and says nothing of what flies
+    READ = "reading"
+    COMMAND = "a command"
+    LIVE = "staying connected"
+
+
+def is_loopback(host: str) -> bool:
+    """Whether only this machine can reach an address."""
+    address = _address(host)
+    return host == "localhost" if address is None else address.is_loopback
+
+
+def needs_token(host: str, names: tuple[str, ...]) -> bool:
+    """Whether others than the users of this machine can reach the station."""
+    return bool(names) or not is_loopback(host)
+
+
+def refusal(guard: Guard, request: Request, asking: Asking) -> Refusal | None:
+    """Return why this may not be asked; None: it may.
+
+    On a WebSocket the token is not looked for here: it comes with the first message.
+    """
+    headers = request.headers
+    host = headers.get("host", "").lower()
+    if not _is_ours(guard, host, request.local):
+        return refusals.unknown_host()
+    if asking is Asking.PAGE:
+        return None
+    if not _is_same_site(headers, host, asking):
+        return refusals.another_site()
+    marked = headers.get("x-pluto") == "1"
+    if asking is Asking.COMMAND and not marked:
+        return refusals.no_mark()
+    if asking is Asking.LIVE:
+        stranger = "origin" not in headers and guard.token is None and not marked
+        return refusals.no_mark() if stranger else None
+    return None if knows(guard, _bearer(headers)) else refusals.no_token()
+
+
+def knows(guard: Guard, token: str) -> bool:
+    """Whether this is the token, or none is needed; how long it takes to say so tells nothing."""
+    if guard.token is None:
+        return True
+    return compare_digest(token.encode("utf-8", "replace"), guard.token.encode())
+
+
+def _bearer(headers: Mapping[str, str]) -> str:
+    kind, _, token = headers.get("authorization", "").partition(" ")
+    return token.strip() if kind.lower() == "bearer" else ""
+
+
+def _is_same_site(headers: Mapping[str, str], host: str, asking: Asking) -> bool:
+    """Whether a page of ours asks, or no page at all."""
+    site = headers.get("sec-fetch-site", "same-origin")
+    match asking:
+        case Asking.LIVE:  # browsers differ in how near a ws: address is to its page's
+            near = site != "cross-site"
+        case Asking.READ:  # "none": somebody typed the address
+            near = site in ("same-origin", "none")
+        case _:
+            near = site == "same-origin"
+    origin = headers.get("origin")
+    return near and (origin is None or origin.lower() in (f"http://{host}", f"https://{host}"))
+
+
+def _is_ours(guard: Guard, host: str, local: str) -> bool:
+    """Whether a `Host` is a name of this station, to the port."""
+    found = _HOST.fullmatch(host)
+    if found is None:
+        return False
+    name, port = found.group(1), int(found.group(2) or _PLAIN_PORT)
+    for other in guard.names:
+        if host == other or (name == other and port in (guard.port, _PLAIN_PORT)):
+            return True
+    return port == guard.port and _is_own(guard.host, name, local)
+
+
+def _is_own(bound: str, name: str, local: str) -> bool:
+    """Whether a name needs no --name: the addresses of this machine, as far as it listens there."""
+    if is_loopback(bound) and name in _LOOPBACK:
+        return True
+    here, meant = _address(local), _address(name)
+    if meant is None:
+        return name == bound.lower() or (
+            name == "localhost" and here is not None and here.is_loopback
+        )
+    return not meant.is_unspecified and meant in (here, _address(bound))
+
+
+def _address(text: str) -> IPv4Address | IPv6Address | None:
+    try:
+        address = ip_address(text.strip("[]").partition("%")[0])
+    except ValueError:
+        return None
+    mapped = address.ipv4_mapped if isinstance(address, IPv6Address) else None
+    return mapped or address

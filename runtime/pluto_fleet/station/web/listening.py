@@ -1,0 +1,88 @@
+"""The socket on which the station is asked, and the address that people open."""
+
+from __future__ import annotations
+
+import socket
+from contextlib import closing
+from errno import EACCES, EADDRINUSE, EADDRNOTAVAIL
+from ipaddress import ip_address
+
+from plutoc_runtime.errors import BadInput
+from plutoc_runtime.words import quoted
+
+from .guard import Guard
+
+_BACKLOG = 128
+_PORTS = 65536
+_ELSEWHERE = ("192.0.2.1", 9)
+"""An address that nobody has: asked for the way there, the system tells which of ours it takes."""
+
+
+def listening(host: str, port: int) -> socket.socket:
+    """Return a socket that listens; port 0 is any that is free."""
+    if not 0 <= port < _PORTS:
+        raise BadInput(f"--port {port}: a port is a number from 0 to {_PORTS - 1}")
+    try:
+        family, kind, protocol, _, address = socket.getaddrinfo(
+            host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE
+        )[0]
+        listener = socket.socket(family, kind, protocol)
+    except (OSError, ValueError):  # ValueError: a host that is no name at all
+        raise BadInput(f"--host {quoted(host)}: there is no such address") from None
+    try:
+        listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        listener.bind(address)
+        listener.listen(_BACKLOG)
+    except OSError as error:
+        listener.close()
+        raise BadInput(_why(error, host, port)) from None
+    listener.setblocking(False)
+    return listener
+
+
+def port_of(listener: socket.socket) -> int:
+    """Return the port that a socket has got."""
+    return int(listener.getsockname()[1])
+
+
+def address(guard: Guard) -> str:
+    """Return what somebody types to see the station; it holds the token, where there is one."""
+    secret = f"#token={guard.token}" if guard.token is not None else ""
+    return f"http://{_name(guard)}/{secret}"
+
+
+def _name(guard: Guard) -> str:
+    host = _own() if _is_every(guard.host) else guard.host
+    return f"[{host}]:{guard.port}" if ":" in host else f"{host}:{guard.port}"
+
+
+def _is_every(host: str) -> bool:
+    try:
+        return ip_address(host).is_unspecified
+    except ValueError:
+        return False
+
+
+def _own() -> str:
+    """Return the address of this machine that others see; nothing is sent to find out."""
+    with closing(socket.socket(socket.AF_INET, socket.SOCK_DGRAM)) as way:
+        try:
+            way.connect(_ELSEWHERE)
+            return str(way.getsockname()[0])
+        except OSError:
+            return "127.0.0.1"
+
+
+def _why(error: OSError, host: str, port: int) -> str:
+    match error.errno:
+        case code if code == EADDRINUSE:
+            return (
+                f"port {port} is taken, perhaps by another station:"
+                " end that, or choose another port with --port (0 takes any that is free)"
+            )
+        case code if code == EACCES:
+            return f"port {port} is not for everybody: choose one above 1023 with --port"
+        case code if code == EADDRNOTAVAIL:
+            return f"--host {quoted(host)}: this machine has no such address"
+        case _:
+            return f"cannot listen at {quoted(host)}, port {port}: {error}"
