@@ -8,7 +8,7 @@ import sys
 from contextlib import contextmanager
 from errno import ENAMETOOLONG
 
-from pluto_fleet.cli import output
+from plutoc.cli import output
 from plutoc.cli.endings import (
     CLEAN,
     CLOSED_PIPE,

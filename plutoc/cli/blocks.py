@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from pluto_fleet.cli import output
 from plutoc.block import Block
+from plutoc.cli import output
 from plutoc.cli.endings import CLEAN, ERRORS, Unusable
 from plutoc.cli.options import Options
 from plutoc.graph.names import near

@@ -5,22 +5,21 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from hashlib import sha256
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from pluto_fleet.cli import output
 from plutoc.cache import cache_folder
 from plutoc.check.model import Checked
+from plutoc.cli import output
 from plutoc.cli.endings import Unusable
 from plutoc.cli.files import default_folder, find_hooks, hooks_path, read_module, shown
 from plutoc.cli.options import Options
 from plutoc.cli.say import say
 from plutoc.compile import Compiled, compile_source
-from plutoc.emit.embed import embed
 from plutoc.emit.errors import place_of
 from plutoc.emit.lock import NAME as LOCK
 from plutoc.emit.package import Package
@@ -33,28 +32,21 @@ FLEET = "fleet.toml"
 
 
 @contextmanager
-def in_cache(file: Path, source: Source, besides: Sequence[str] = ()) -> Iterator[tuple[Path, str]]:
-    """Give the folder of an app's modules, and the app's name; besides, carry these modules along."""
+def in_cache(file: Path, source: Source) -> Iterator[tuple[Path, str]]:
+    """Give the folder of an app's modules, and the app's name."""
 
     def hooks(checked: Checked) -> Source | None:
         return find_hooks(checked, file, default_folder(file, checked))
 
     compiled = compile_source(source, source_name=file.name, find_hooks=hooks)
     say(compiled.warnings)
-    package = _with(_with_own_code(compiled, file), besides)
+    package = _with_own_code(compiled, file)
     with _cache(file, package) as folder:
         try:
             write(compare(package, folder, place_of(compiled.checked.graph), force=True))
         except CannotWrite as error:
             raise Unusable(f"the cache cannot be written: {printable(str(error))}") from None
         yield folder / "src", package.name
-
-
-def _with(package: Package, modules: Sequence[str]) -> Package:
-    """Return a package that carries more of the runtime than its app needs."""
-    carried = embed((), modules) if modules else {}
-    more = {f"src/{package.name}/{path}": text for path, text in carried.items()}
-    return replace(package, owned=dict(sorted({**package.owned, **more}.items())))
 
 
 def beside(file: Path, name: str, given: Path | None) -> Path | None:

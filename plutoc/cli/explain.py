@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 
-from pluto_fleet.cli import output
+from plutoc.cli import output
 from plutoc.cli.colour import in_colour
 from plutoc.cli.endings import CLEAN, Unusable
 from plutoc.cli.options import Options

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from pluto_fleet.cli import output
+from plutoc.cli import output
 from plutoc.cli.endings import CLEAN, ERRORS, USAGE, Unusable
 from plutoc.cli.files import STANDARD_INPUT, read_app, read_standard_input, shown
 from plutoc.cli.options import Options

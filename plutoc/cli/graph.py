@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from pluto_fleet.cli import output
 from plutoc.check.model import Checked
+from plutoc.cli import output
 from plutoc.cli.endings import CLEAN, Unusable
 from plutoc.cli.files import read_app
 from plutoc.cli.options import Options

@@ -6,7 +6,7 @@ import os
 from importlib.resources import files
 from pathlib import Path
 
-from pluto_fleet.cli import output
+from plutoc.cli import output
 from plutoc.cli.endings import CLEAN, Unusable
 from plutoc.cli.options import Options
 from plutoc.diagnostic import Diagnostic

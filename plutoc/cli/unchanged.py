@@ -16,8 +16,8 @@ import stat
 import sys
 from hashlib import sha256
 
-from pluto_fleet.cli import output
 from plutoc import cache
+from plutoc.cli import output
 from plutoc.cli.colour import in_colour
 from plutoc.cli.compiler import identity
 from plutoc.installed import digest, fact, last_facts_of_package

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from pluto_fleet.cli import output
 from plutoc import __version__
+from plutoc.cli import output
 
 
 def tell_version() -> None:

@@ -83,7 +83,7 @@ def _version(written: object) -> str | None:
 def _read(data: bytes) -> Lock:
     import tomllib
 
-    from pluto_fleet.files.dotted import line_of_long_key
+    from plutoc_runtime.dotted import line_of_long_key
 
     try:
         text = data.decode()

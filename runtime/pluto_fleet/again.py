@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-_PACKAGE = __name__.partition(".")[0]
+from .scaffolding import app_package
 
 _START = (
     "import sys; from importlib import import_module as load; "
@@ -18,5 +18,6 @@ _START = (
 
 def command(*arguments: str) -> list[str]:
     """Return the words that start this package's program with these arguments."""
-    home = Path(sys.modules[_PACKAGE].__path__[0]).absolute().parent
-    return [sys.executable, "-P", "-c", _START, str(home), _PACKAGE, *arguments]
+    package = app_package()
+    home = Path(sys.modules[package].__path__[0]).absolute().parent
+    return [sys.executable, "-P", "-c", _START, str(home), package, *arguments]

@@ -16,6 +16,7 @@ from typing import Protocol
 from plutoc_runtime.errors import BadInput
 
 from ..drones.errors import NotReady
+from ..scaffolding import app_package
 from . import words
 
 _LOADING = Lock()
@@ -265,5 +266,5 @@ def borrowed() -> Borrowed:
 
 def _package() -> str | None:
     """Return the package whose extra brings cflib, or None where this lies in no such package."""
-    package, _, within = __name__.partition(".")
-    return package if within.startswith("_") else None
+    package = app_package()
+    return None if package == "pluto_fleet" else package

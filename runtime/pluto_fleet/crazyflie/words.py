@@ -16,7 +16,7 @@ PROTOCOL = 12
 
 
 def no_cflib(package: str | None) -> str:
-    what = "cflib" if package is None else f"{package.rstrip('_')}[crazyflie]"
+    what = "pluto-fleet[crazyflie]" if package is None else f"{package.rstrip('_')}[crazyflie]"
     return f"to fly Crazyflies, cflib is needed: pip install {in_shell(what)}"
 
 

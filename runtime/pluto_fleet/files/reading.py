@@ -9,10 +9,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from plutoc_runtime.dotted import line_of_long_key
 from plutoc_runtime.errors import BadInput
 
 from . import errors
-from .dotted import line_of_long_key
 from .toml_places import Place, Places, line_of, places
 from .wording import IN_A_FILE, Wording
 

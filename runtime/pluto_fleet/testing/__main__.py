@@ -1,4 +1,4 @@
-"""`python -m APP._runtime.testing …`: what `plutoc test` runs of the package that it has compiled."""
+"""`python -m pluto_fleet.testing APP …`: what `plutoc test` runs of the package that it has compiled."""
 
 from __future__ import annotations
 
@@ -6,28 +6,40 @@ import subprocess
 import sys
 from importlib import import_module
 
-from plutoc_runtime.hard_exit import refused
-from plutoc_runtime.raised import interrupted_by_a_person
-
-from ..cli import Ending, output
-from ..cli.loading import loaded
-from .command import test
+from pluto_fleet.seam import meet
 
 
-def by_itself(words: list[str]) -> int:
-    """Run the same with other words, in a new process; return the exit code."""
-    command = [sys.executable, "-P", "-m", __package__ or "", *words]
-    return subprocess.run(command, capture_output=True, check=False).returncode
+def run(name: str, words: list[str]) -> int:
+    """Try the app of this package, and return the exit code."""
+    from plutoc_runtime.hard_exit import refused
+    from plutoc_runtime.raised import interrupted_by_a_person
+
+    from ..cli import Ending, output
+    from ..cli.loading import loaded
+    from .command import test
+
+    def by_itself(words: list[str]) -> int:
+        """Run the same with other words, in a new process; return the exit code."""
+        command = [sys.executable, "-P", "-m", "pluto_fleet.testing", name, *words]
+        return subprocess.run(command, capture_output=True, check=False).returncode
+
+    output.prepare()
+    ending = Ending(name)
+    with ending:
+        app = loaded(lambda: import_module(f"{name}.flow").APP)
+        # a hook may raise a KeyboardInterrupt, or end the process, and is found then
+        with interrupted_by_a_person(), refused():
+            ending.code = test(app, words, by_itself)
+        output.flush()
+    return ending.code
+
+
+def main(name: str, words: list[str]) -> int:
+    """Meet the app's brain first: what is imported after that is the app's own."""
+    brain = f"{name}._runtime"
+    seam = import_module(f"{brain}.command").SEAM
+    return run(name, words) if meet(name, brain, seam) else 2
 
 
 if __name__ == "__main__":
-    output.prepare()
-    home = (__package__ or "").partition("._runtime")[0]
-    ending = Ending(home)
-    with ending:
-        app = loaded(lambda: import_module(f"{home}.flow").APP)
-        # a hook may raise a KeyboardInterrupt, or end the process, and is found then
-        with interrupted_by_a_person(), refused():
-            ending.code = test(app, sys.argv[1:], by_itself)
-        output.flush()
-    sys.exit(ending.code)
+    sys.exit(main(sys.argv[1], sys.argv[2:]))

@@ -1,0 +1,64 @@
+"""Standard output and standard error, with what can go wrong there."""
+
+from __future__ import annotations
+
+import os
+import sys
+from contextlib import suppress
+from io import TextIOWrapper
+
+
+class ClosedPipe(Exception):
+    """Whoever read the output has gone: there is nobody to tell."""
+
+
+class CannotWrite(Exception):
+    """The output cannot be written, for instance because a disk is full."""
+
+
+def prepare() -> None:
+    """Let no character stop the output: a terminal may not know all letters of a name."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, TextIOWrapper):
+            # what is wrong with it will show when it is written to
+            with suppress(OSError, ValueError):
+                stream.reconfigure(errors="backslashreplace")
+
+
+def line(text: str = "") -> None:
+    """Write a line on standard output."""
+    try:
+        print(text)
+    except BrokenPipeError as error:
+        raise ClosedPipe from error
+    except OSError as error:
+        raise CannotWrite(error.strerror or str(error)) from error
+    except ValueError as error:  # something in this process has closed it
+        raise CannotWrite(str(error)) from error
+
+
+def flush() -> None:
+    """Send on what was written; only now does a full disk or a closed pipe show."""
+    try:
+        if sys.stdout is not None:
+            sys.stdout.flush()
+    except BrokenPipeError as error:
+        raise ClosedPipe from error
+    except OSError as error:
+        raise CannotWrite(error.strerror or str(error)) from error
+    except ValueError as error:  # something in this process has closed it
+        raise CannotWrite(str(error)) from error
+
+
+def tell(text: str) -> None:
+    """Write a message for a person on standard error; if nobody hears it, so be it."""
+    with suppress(OSError, ValueError):
+        print(text, file=sys.stderr, flush=True)
+
+
+def silence() -> None:
+    """Drop what is still to be written: Python would try it once more at its end, and complain."""
+    with suppress(OSError, ValueError):
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nowhere, sys.stdout.fileno())
+        os.close(nowhere)
