@@ -213,7 +213,7 @@ def flown(package: str, missions: int) -> None:
 
     goals = field(missions * TRIPS, seed=2, height=1.5)
     places = [(0.05 * x, 0.05 * y, z) for x, y, z in goals]
-    model, files = part("model"), part("_runtime.files.fleet")
+    model, files = part("model"), import_module("pluto_fleet.files.fleet")
     plan = [
         model.Mission(
             name=str(number),
@@ -230,11 +230,11 @@ def flown(package: str, missions: int) -> None:
         files.DroneEntry(id=str(n), category="quick", home=home) for n, home in enumerate(homes)
     )
     ground = files.FleetFile(
-        airspace=part("_runtime.airspace").Airspace(),
+        airspace=import_module("plutoc_runtime.airspace").Airspace(),
         drones=tuple(entries),
         apart=0.0,  # it is not their traffic that is measured
     )
-    outcome = part("_runtime.session").simulate(
+    outcome = import_module("pluto_fleet.simulate").simulate(
         part("flow").APP,
         plan,
         ground,

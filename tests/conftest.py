@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import signal
 from collections.abc import Iterator
 
@@ -9,12 +10,16 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 from tests.apart import apart
+from tests.one_brain import share_one_brain
 
 # The same examples in every run, however busy the machine is: a test that fails is a change's fault.
 settings.register_profile(
     "pluto", deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow]
 )
 settings.load_profile("pluto")
+
+if "PLUTO_EMBEDDED" not in os.environ:  # there the runtime is what one app carries
+    share_one_brain()
 
 # Whoever runs this in the background may have it, and all that it starts, deaf to these.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:

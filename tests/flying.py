@@ -1,4 +1,4 @@
-"""Compiles an example and flies it in this process, with the package's own embedded runtime."""
+"""Compiles an example and flies it in this process."""
 
 from __future__ import annotations
 
@@ -12,8 +12,12 @@ from io import StringIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from pluto_fleet.files.fleet import load_fleet
+from pluto_fleet.files.missions import load_missions
+from pluto_fleet.simulate import simulate
 from pluto_fleet.testing.invariants import Items, items_of
 from plutoc.cli import main
+from plutoc_runtime.faults import Faults
 from plutoc_runtime.trace import Event
 
 if TYPE_CHECKING:
@@ -55,22 +59,17 @@ class Example:
 
     def fly(self, seed: int, mishaps: Mapping[str, float] | None = None) -> Flown:
         """Simulate the missions to their end."""
-        session = self._module("session")
-        faults = self._module("faults").Faults(**(mishaps or {}))
         trace: list[Mapping[str, object]] = []
-        outcome = session.simulate(
+        outcome = simulate(
             import_module(f"{self.name}.flow").APP,
             deepcopy(self.missions),
             self.fleet,
             seed=seed,
-            faults=faults,
+            faults=Faults(**(mishaps or {})),
             until=A_WEEK,
             on_event=trace.append,
         )
         return Flown(outcome=outcome, trace=trace)
-
-    def _module(self, name: str) -> Any:
-        return import_module(f"{self.name}._runtime.{name}")
 
 
 def compiled(name: str, into: Path) -> Path:
@@ -97,12 +96,8 @@ def built(name: str, into: Path) -> Example:
     sys.path.insert(0, str(package / "src"))
     try:
         app = import_module(f"{name}.flow").APP
-        files = import_module(f"{name}._runtime.files.fleet")
-        fleet = files.load_fleet(EXAMPLES / name / "fleet.toml", app)
-        files = import_module(f"{name}._runtime.files.missions")
-        missions = files.load_missions(EXAMPLES / name / "missions.toml", app, fleet.airspace)
-        for module in ("session", "faults"):
-            import_module(f"{name}._runtime.{module}")
+        fleet = load_fleet(EXAMPLES / name / "fleet.toml", app)
+        missions = load_missions(EXAMPLES / name / "missions.toml", app, fleet.airspace)
     finally:
         sys.path.remove(str(package / "src"))
     return Example(

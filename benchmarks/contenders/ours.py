@@ -29,22 +29,25 @@ AN_HOUR = 3600.0
 
 
 def runtime(name: str) -> Any:
-    """Return a module of the runtime that the package carries."""
-    return import_module(f"measured._runtime.{name}")
+    """Return a module of the runtime, or of the library that was given it."""
+    return import_module(name)
 
 
 def load() -> None:
     """Import all that flies, as every contender has when its clock starts."""
+    from pluto_fleet.scaffolding import bind  # before anything of the runtime is imported
+
+    bind("measured._runtime")
     import_module("measured.flow")
     for name in (
-        "airspace",
-        "errors",
-        "files.fleet",
-        "journal_line",
-        "kernel",
-        "realtime",
-        "session",
-        "virtual",
+        "plutoc_runtime.airspace",
+        "plutoc_runtime.errors",
+        "pluto_fleet.files.fleet",
+        "pluto_fleet.journal_line",
+        "plutoc_runtime.kernel",
+        "pluto_fleet.realtime",
+        "plutoc_runtime.session",
+        "plutoc_runtime.virtual",
     ):
         runtime(name)
 
@@ -54,7 +57,7 @@ class Journal:
 
     def __init__(self) -> None:
         self.lines: list[str] = []
-        self._line: Callable[[Event], str] = runtime("journal_line").line
+        self._line: Callable[[Event], str] = runtime("pluto_fleet.journal_line").line
 
     def note(self, event: Event) -> None:
         """Format an event."""
@@ -94,16 +97,18 @@ def started(
     given: argparse.Namespace, work: Work, kernel: Kernel, navigation: Still
 ) -> tuple[list[Mission[Any]], Task[float]]:
     """Set the missions on their way; the task is done when the last of them is over."""
-    app, files = import_module("measured.flow").APP, runtime("files.fleet")
+    app, files = import_module("measured.flow").APP, runtime("pluto_fleet.files.fleet")
     category = app.categories[0].name
     fleet = files.FleetFile(
-        airspace=runtime("airspace").Airspace(),
+        airspace=runtime("plutoc_runtime.airspace").Airspace(),
         drones=tuple(
             files.DroneEntry(id=str(number), category=category, home=HOME)
             for number in range(work.drones)
         ),
     )
-    session = runtime("session").Session(app, fleet, kernel, navigation, listeners(given))
+    session = runtime("plutoc_runtime.session").Session(
+        app, fleet, kernel, navigation, listeners(given)
+    )
     plan = missions(work, AN_HOUR if given.together else None)
     return plan, session.start(plan)
 
@@ -120,7 +125,7 @@ def told(plan: Sequence[Mission[Any]]) -> Done:
 
 def crash() -> Exception:
     """Return what is reported of a flight that failed."""
-    errors = runtime("errors")
+    errors = runtime("plutoc_runtime.errors")
     failed: Exception = errors.FlightFailed(errors.Failure.CRASH, "the hash says so")
     return failed
 
@@ -132,7 +137,7 @@ def listeners(given: argparse.Namespace) -> list[Callable[[Event], object]]:
 
 async def in_real_time(given: argparse.Namespace, work: Work, notes: Notes) -> Done:
     """Fly on asyncio."""
-    kernel = runtime("realtime").RealTime()
+    kernel = runtime("pluto_fleet.realtime").RealTime()
     flights = AllTogether if given.together else FromTheLoop
     plan, over = started(given, work, kernel, flights(crash(), kernel, work, notes))
     await kernel.run(over)
@@ -141,8 +146,8 @@ async def in_real_time(given: argparse.Namespace, work: Work, notes: Notes) -> D
 
 def in_virtual_time(given: argparse.Namespace, work: Work) -> Done:
     """Fly in a simulation."""
-    kernel = runtime("virtual").VirtualTime()
-    events = runtime("kernel")
+    kernel = runtime("plutoc_runtime.virtual").VirtualTime()
+    events = runtime("plutoc_runtime.kernel")
     navigation = ThroughTheKernel(crash(), kernel, events.Kind.FLIGHT, events.mission_key)
     plan, over = started(given, work, kernel, navigation)
     kernel.run(over)

@@ -114,13 +114,13 @@ def test_simulating_loads_nothing_of_the_station(tmp_path: Path) -> None:
     mission = 'name = "M"\ntrip = [{ action = "measure", target = [1.0, 2.0] }]'
     (folder / "missions.toml").write_text(f"[[mission]]\n{mission}\n")
     code = (
-        "import sys; from plain.flow import APP; from plain._runtime.cli import main;"
+        "import sys; from plain.flow import APP; from plain._runtime.command import main;"
         "code = main(APP, ['simulate', 'missions.toml']); print(code, *sys.modules)"
     )
     code_and_modules = run(folder, "-c", code).splitlines()[-1].split()
     assert code_and_modules[0] == "0"
-    assert "plain._runtime.session" in code_and_modules
-    assert not [one for one in code_and_modules if "_runtime.station" in one or "uvicorn" in one]
+    assert "plain._runtime.engine" in code_and_modules
+    assert not [one for one in code_and_modules if "pluto_fleet.station" in one or "uvicorn" in one]
 
 
 def test_importing_the_package_loads_next_to_nothing(tmp_path: Path) -> None:

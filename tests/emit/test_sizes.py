@@ -14,10 +14,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import plutoc_runtime
+from pluto_fleet.files.fleet import default_fleet
+from pluto_fleet.files.missions import load_missions
 from plutoc.compile import compile_source
 from plutoc.emit.package import Package
 from plutoc.source import Source
 from plutoc_blocks import BLOCKS
+from plutoc_runtime.errors import BadInput
 from plutoc_runtime.fields import Entity
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -139,9 +142,7 @@ def test_a_missions_file_cannot_give_what_no_block_needs(
         (tmp_path / path).write_text(text, encoding="utf-8")
     monkeypatch.syspath_prepend(tmp_path / "src")
     app = import_module(f"{name}.flow").APP
-    read = import_module(f"{name}._runtime.files.missions").load_missions
-    airspace = import_module(f"{name}._runtime.files.fleet").default_fleet(app).airspace
-    bad_input = import_module(f"{name}._runtime.errors").BadInput
+    airspace = default_fleet(app).airspace
     missions = tmp_path / "missions.toml"
     needed = {field.name for one in has for field in KINDS[OPTIONAL[one]].needs}
     for entity, key in sorted({(f.on.value, f.name) for b in BLOCKS for f in b.needs}):
@@ -152,10 +153,10 @@ def test_a_missions_file_cannot_give_what_no_block_needs(
             f'action = "measure"\ntarget = [1.0, 2.0]\n{line.get("trip", "")}\n'
         )
         if key in needed:
-            assert read(missions, app, airspace)
+            assert load_missions(missions, app, airspace)
         else:
-            with pytest.raises(bad_input, match=key):
-                read(missions, app, airspace)
+            with pytest.raises(BadInput, match=key):
+                load_missions(missions, app, airspace)
 
 
 def test_the_basic_app_is_small() -> None:

@@ -9,12 +9,15 @@ from pathlib import Path
 
 import pytest
 
+from pluto_fleet.files.fleet import default_fleet
+from pluto_fleet.simulate import simulate
 from plutoc import registry
 from plutoc.cli import main
 from plutoc.diagnostic import Rejected
 from plutoc.graph.resolve import resolve
 from plutoc.source import Source
 from plutoc.syntax.parse import parse
+from plutoc_runtime.faults import Faults
 
 DOCS = Path(__file__).parents[2] / "docs"
 PAGES = sorted([DOCS / "language.md", *DOCS.glob("tutorial/*.md")])
@@ -114,13 +117,12 @@ def test_a_trip_is_put_back_as_the_reference_says(
     monkeypatch.syspath_prepend(str(tmp_path / "out" / "src"))
     try:
         app = import_module("trips_again.flow").APP
-        session = import_module("trips_again._runtime.session")
-        outcome = session.simulate(
+        outcome = simulate(
             app,
             [app.mission(name="m", trips=[app.trip(name="A", action="measure", target=(2, 2, 1))])],
-            import_module("trips_again._runtime.files.fleet").default_fleet(app),
+            default_fleet(app),
             seed=0,
-            faults=import_module("trips_again._runtime.faults").Faults(action=1.0),
+            faults=Faults(action=1.0),
             until=None,
             on_event=None,
         )

@@ -16,14 +16,14 @@ from importlib.machinery import ModuleSpec
 from importlib.util import spec_from_loader
 from types import ModuleType
 
+from pluto_fleet.scaffolding import bind
+
 EMBEDDED = os.environ.get("PLUTO_EMBEDDED")
 HOME = "carrier._runtime"
 
 
 def embedded_name(name: str) -> str | None:
-    """Return where an embedded copy has this module; None: it has it not."""
-    if name == "plutoc_runtime" or name.startswith("plutoc_runtime."):
-        return HOME + name.removeprefix("plutoc_runtime")
+    """Return where an embedded copy has this block's step; None: this is none."""
     if name.startswith("plutoc_blocks.") and name.endswith(".step"):
         return f"{HOME}.blocks.{name.split('.')[1]}"
     return None
@@ -53,4 +53,5 @@ class Embedded(MetaPathFinder, Loader):
 if EMBEDDED:
     assert not [name for name in sys.modules if embedded_name(name)], "loaded before the copy"
     sys.path.insert(0, EMBEDDED)
+    bind(HOME)
     sys.meta_path.insert(0, Embedded())

@@ -8,9 +8,12 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet.station.whereabouts import _named
+from pluto_fleet.simulate import Simulation
+from pluto_fleet.station.whereabouts import _named, blocks_of
 from plutoc.compile import analyse
 from plutoc.source import Source
+from plutoc_runtime.faults import Faults
+from plutoc_runtime.virtual import VirtualTime
 from tests.flying import EXAMPLES, built
 
 DECLARATIONS = {
@@ -31,21 +34,17 @@ def test_a_declaration_above_a_call_names_its_blocks(declaration: str) -> None:
 def blocks_met(name: str, tmp_path: Any) -> Mapping[str, Sequence[tuple[str, ...]]]:
     """Fly an example, and return at which blocks each mission was after each event, in order."""
     example = built(name, tmp_path)
-    virtual, session, faults = (
-        import_module(f"{name}._runtime.{module}") for module in ("virtual", "session", "faults")
-    )
-    where = import_module(f"{name}._runtime.station.whereabouts")
     met: dict[str, list[tuple[str, ...]]] = {m.name: [] for m in example.missions}
 
     def look() -> None:
         for state in simulation.session.engine.states:
-            at, known = where.blocks_of(state, app.flow), met[state.mission.name]
+            at, known = blocks_of(state, app.flow), met[state.mission.name]
             if at and (not known or known[-1] != at):
                 known.append(at)
 
     app = import_module(f"{name}.flow").APP
-    kernel = virtual.VirtualTime()
-    simulation = session.Simulation(app, example.fleet, kernel, 0, faults.Faults(), None)
+    kernel = VirtualTime()
+    simulation = Simulation(app, example.fleet, kernel, 0, Faults(), None)
     kernel.settled = look
     over = simulation.session.start(example.missions)
     kernel.run(over, 100_000.0)

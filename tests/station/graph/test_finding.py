@@ -10,6 +10,7 @@ from typing import Any
 
 import pytest
 
+from pluto_fleet.station.graph.read import app_graph
 from plutoc.compile import compile_source
 from plutoc.source import Source
 from tests.emit.apps import PLAIN
@@ -36,9 +37,7 @@ def made(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Made:
 
 def found(name: str) -> Any:
     """Return the graph that the package finds."""
-    return import_module(f"{name}._runtime.station.graph.read").app_graph(
-        import_module(f"{name}.flow").APP
-    )
+    return app_graph(import_module(f"{name}.flow").APP)
 
 
 def installed(made: Made, monkeypatch: pytest.MonkeyPatch) -> Path:
