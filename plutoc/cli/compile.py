@@ -25,6 +25,7 @@ from plutoc.source import Source
 from plutoc_runtime.words import counted, printable
 
 if TYPE_CHECKING:
+    from plutoc.graph.model import Graph
     from plutoc.plan.model import Plan
 
 
@@ -157,8 +158,6 @@ def _refuse(checked: Checked, changes: Changes) -> None:
 def _outcome(compiled: Compiled, changes: Changes) -> Iterator[str]:
     folder = shown(changes.folder)
     if changes.first:
-        from shlex import quote
-
         yield f"{folder}: a new package of {counted(len(changes.files), 'file')}"
         graph = compiled.checked.graph
         own = f"{folder}/{hooks_path(compiled.checked)}"
@@ -168,10 +167,7 @@ def _outcome(compiled: Compiled, changes: Changes) -> Iterator[str]:
             yield f"  your own code goes into {own}"
         path = os.path.join(".", changes.folder)
         if printable(path) == path:  # else a shell would need it otherwise than can be shown
-            why = (
-                "; by -e what you edit there counts at once" if graph.hooks or graph.actions else ""
-            )
-            yield f"  install it with: pip install -e {quote(path)}{why}"
+            yield from _installing(graph, path)
     elif changes.files:
         yield f"{folder}: {counted(len(changes.files), 'file')} changed"
         for change in changes.files:
@@ -179,6 +175,19 @@ def _outcome(compiled: Compiled, changes: Changes) -> Iterator[str]:
             yield f"  {mark} {shown(Path(change.path))}"
     else:
         yield from _again(changes)
+
+
+def _installing(graph: Graph, path: str) -> Iterator[str]:
+    """Yield how a new package is installed, alone and with the library that flies."""
+    from shlex import quote
+
+    why = "; by -e what you edit there counts at once" if graph.hooks or graph.actions else ""
+    fleet, name = quote(f"{path}[fleet]"), quote(f"{graph.name.rstrip('_')}[fleet]")
+    yield f"  install it with: pip install -e {quote(path)}{why}"
+    yield f"  so it checks and simulates; to fly it needs pluto-fleet: pip install -e {fleet}"
+    yield f"    without an index, from Pluto's sources: pip install PLUTO/runtime -e {fleet}"
+    yield f"    without a network: pip wheel -w wheels PLUTO/runtime {fleet}, and there:"
+    yield f"    pip install --no-index --find-links wheels {name}"
 
 
 def _again(changes: Changes) -> Iterator[str]:

@@ -9,6 +9,7 @@ from plutoc.emit.python import header
 from plutoc.emit.render import render
 from plutoc.frozen import frozen
 from plutoc.graph.model import Graph
+from plutoc_runtime.command import SEAM
 
 
 @frozen
@@ -43,6 +44,7 @@ class Project:
     app: str
     distribution: str
     description: str
+    seam: str
 
 
 def init_file(graph: Graph) -> str:
@@ -73,6 +75,7 @@ def project_file(graph: Graph, source_name: str) -> str:
             app=graph.name,
             distribution=toml_text(graph.name.rstrip("_")),  # a distribution cannot end with one
             description=toml_text(one_line(graph.title) or graph.name),
+            seam=".".join(map(str, SEAM)),
         ),
     )
 
