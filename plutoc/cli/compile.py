@@ -18,6 +18,7 @@ from plutoc.cli.say import say, worded
 from plutoc.cli.unchanged import speak
 from plutoc.compile import Compiled, analyse, compile_source, planned
 from plutoc.diagnostic import Diagnostic, Rejected
+from plutoc.emit.carry import NoLibrary
 from plutoc.emit.errors import never_written, outdated, place_of
 from plutoc.emit.write import CannotWrite, Changes, Refused, compare, write
 from plutoc.frozen import filled
@@ -47,6 +48,8 @@ def compile_(options: Options) -> int:
     except Rejected as rejected:
         said.found += rejected.diagnostics
         code = REFUSED if isinstance(rejected, Refused) else ERRORS
+    except NoLibrary as error:
+        raise Unusable(f"--carry fleet: {error}") from None
     except Unusable as error:
         say(said.found, options.format, [str(error)])
         raise
@@ -71,6 +74,7 @@ def _compile(options: Options, said: _Said) -> None:
         source_name=options.file.name,
         find_hooks=lambda checked: _hooks(options, checked),
         optimise=not options.plain,
+        carry=options.carry is not None,
     )
     said.found += compiled.warnings
     try:
@@ -87,7 +91,7 @@ def _compile(options: Options, said: _Said) -> None:
         raise Unusable(f"{printable(str(error))}; nothing was changed") from None
     if options.format == "text" and not options.diff:
         said.lines += _outcome(compiled, changes)
-    if not (changes.files and options.diff):
+    if not (changes.files and options.diff) and options.carry is None:
         said.done = compiled, changes
 
 

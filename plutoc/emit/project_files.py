@@ -45,6 +45,7 @@ class Project:
     distribution: str
     description: str
     seam: str
+    carry: bool
 
 
 def init_file(graph: Graph) -> str:
@@ -66,8 +67,8 @@ def main_file(graph: Graph) -> str:
     return render("main.py", Entry(app=graph.name))
 
 
-def project_file(graph: Graph, source_name: str) -> str:
-    """Return the text of `pyproject.toml`."""
+def project_file(graph: Graph, source_name: str, *, carry: bool) -> str:
+    """Return the text of `pyproject.toml`; `carry`: the library is inside the package."""
     return render(
         "pyproject.toml",
         Project(
@@ -76,6 +77,7 @@ def project_file(graph: Graph, source_name: str) -> str:
             distribution=toml_text(graph.name.rstrip("_")),  # a distribution cannot end with one
             description=toml_text(one_line(graph.title) or graph.name),
             seam=".".join(map(str, SEAM)),
+            carry=carry,
         ),
     )
 
