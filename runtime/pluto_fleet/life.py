@@ -19,6 +19,7 @@ from .control import Control
 from .files.reading import shortened
 from .journal.careful import Careful
 from .journal.recorder import Recorder, Sink
+from .raised import guard_hooks
 from .recovery import go_on
 
 if TYPE_CHECKING:
@@ -49,6 +50,7 @@ class Life:
         watcher: Listener | None = None,
     ) -> None:
         """Begin; `watcher` is told of an event only when it is durable, `listeners` at once."""
+        guard_hooks()
         self._kernel, self._link, self._epoch = kernel, link, epoch
         self.recorder = Recorder(app, kernel, sink, records)
         navigation = Careful(link, self.recorder)

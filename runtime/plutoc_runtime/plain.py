@@ -5,9 +5,9 @@ from __future__ import annotations
 from math import isfinite, log10
 from typing import Any, cast
 
+from .guard import by_a_person
 from .kernel import WHATEVER
 from .model import Photo
-from .raised import by_a_person
 from .words import MOST_DIGITS, shown
 
 Data = dict[str, Any]
