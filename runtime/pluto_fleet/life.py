@@ -15,6 +15,7 @@ from plutoc_runtime.kernel import FLEET, Kernel, Task
 from plutoc_runtime.session import Listener, Session
 from plutoc_runtime.words import of, quoted
 
+from .calling_off import CallingOff
 from .control import Control
 from .files.reading import shortened
 from .journal.careful import Careful
@@ -25,12 +26,12 @@ from .recovery import go_on
 if TYPE_CHECKING:
     from plutoc_runtime.app import App
     from plutoc_runtime.model import Mission
-    from plutoc_runtime.navigation import Commanding
-    from plutoc_runtime.standing import RollCall
     from plutoc_runtime.trace import Event
 
     from .files.fleet import FleetFile
     from .journal.fold import Records
+    from .navigation import Commanding
+    from .standing import RollCall
 
 
 class Life:
@@ -57,7 +58,9 @@ class Life:
         heard: list[Listener] = [self.recorder.take, self._forget, *listeners]
         if watcher is not None:
             heard.append(partial(self._when_durable, watcher))
-        self.session = Session(app, fleet, kernel, navigation, heard, self.recorder, link)
+        self.session = Session(
+            app, fleet, kernel, navigation, heard, self.recorder, CallingOff(link)
+        )
         self.control = Control(self.session, link)
         self._retired: Sequence[str] = records.retired
         self._mended: Sequence[str] = records.mended
