@@ -9,9 +9,7 @@ from contextlib import suppress
 from pathlib import Path
 from zlib import crc32
 
-from plutoc_runtime.plain import value_data
-
-from ..journal.values import value_of
+from ..journal.values import value_data, value_of
 from ..standing import Entry, JobState
 from .ledger import Written
 

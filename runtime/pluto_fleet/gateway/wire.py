@@ -10,10 +10,9 @@ from math import isinf
 from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.errors import Failure, FlightFailed
-from plutoc_runtime.plain import value_data
 from plutoc_runtime.standing import Standing
 
-from ..journal.values import item_data, item_of, point_of, value_of
+from ..journal.values import item_data, item_of, point_of, value_data, value_of
 from ..standing import Entry, JobState, RollCall
 
 if TYPE_CHECKING:
