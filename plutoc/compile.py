@@ -34,13 +34,21 @@ class Compiled:
 
 
 def compile_source(
-    source: Source, *, source_name: str, find_hooks: FindHooks, optimise: bool = True
+    source: Source,
+    *,
+    source_name: str,
+    find_hooks: FindHooks,
+    optimise: bool = True,
+    carry: bool = False,
 ) -> Compiled:
-    """Return a source's package; raise `Rejected` with all errors of the first phase that fails."""
+    """Return a source's package; raise `Rejected` with all errors of the first phase that fails.
+
+    `carry`: the library that flies goes into the package, too; `NoLibrary` where there is none.
+    """
     checked, warnings = analyse(source)
     hooks = find_hooks(checked)
     warnings += check_hooks(checked, hooks)
-    package = package_of(checked, source_name=source_name, optimise=optimise)
+    package = package_of(checked, source_name=source_name, optimise=optimise, carry=carry)
     return Compiled(checked=checked, hooks=hooks, package=package, warnings=warnings)
 
 
@@ -70,7 +78,9 @@ def planned(checked: Checked, *, optimise: bool = True) -> Plan:
     return optimised(build(checked)) if optimise else build(checked)
 
 
-def package_of(checked: Checked, *, source_name: str, optimise: bool = True) -> Package:
+def package_of(
+    checked: Checked, *, source_name: str, optimise: bool = True, carry: bool = False
+) -> Package:
     """Return the files of a checked graph's package."""
     from plutoc.emit.errors import not_embeddable, place_of
     from plutoc.emit.modules import EmbedError
@@ -79,6 +89,6 @@ def package_of(checked: Checked, *, source_name: str, optimise: bool = True) -> 
 
     plan = planned(checked, optimise=optimise)
     try:
-        return emit(plan, source_name=source_name, picture=mermaid(checked))
+        return emit(plan, source_name=source_name, picture=mermaid(checked), carry=carry)
     except EmbedError as error:  # a block that somebody else made
         raise Rejected([not_embeddable(place_of(checked.graph), str(error))]) from error

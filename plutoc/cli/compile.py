@@ -18,6 +18,7 @@ from plutoc.cli.say import say, worded
 from plutoc.cli.unchanged import speak
 from plutoc.compile import Compiled, analyse, compile_source, planned
 from plutoc.diagnostic import Diagnostic, Rejected
+from plutoc.emit.carry import NoLibrary
 from plutoc.emit.errors import never_written, outdated, place_of
 from plutoc.emit.write import CannotWrite, Changes, Refused, compare, write
 from plutoc.frozen import filled
@@ -25,6 +26,7 @@ from plutoc.source import Source
 from plutoc_runtime.words import counted, printable
 
 if TYPE_CHECKING:
+    from plutoc.graph.model import Graph
     from plutoc.plan.model import Plan
 
 
@@ -46,6 +48,8 @@ def compile_(options: Options) -> int:
     except Rejected as rejected:
         said.found += rejected.diagnostics
         code = REFUSED if isinstance(rejected, Refused) else ERRORS
+    except NoLibrary as error:
+        raise Unusable(f"--carry fleet: {error}") from None
     except Unusable as error:
         say(said.found, options.format, [str(error)])
         raise
@@ -70,6 +74,7 @@ def _compile(options: Options, said: _Said) -> None:
         source_name=options.file.name,
         find_hooks=lambda checked: _hooks(options, checked),
         optimise=not options.plain,
+        carry=options.carry is not None,
     )
     said.found += compiled.warnings
     try:
@@ -86,7 +91,7 @@ def _compile(options: Options, said: _Said) -> None:
         raise Unusable(f"{printable(str(error))}; nothing was changed") from None
     if options.format == "text" and not options.diff:
         said.lines += _outcome(compiled, changes)
-    if not (changes.files and options.diff):
+    if not (changes.files and options.diff) and options.carry is None:
         said.done = compiled, changes
 
 
@@ -157,8 +162,6 @@ def _refuse(checked: Checked, changes: Changes) -> None:
 def _outcome(compiled: Compiled, changes: Changes) -> Iterator[str]:
     folder = shown(changes.folder)
     if changes.first:
-        from shlex import quote
-
         yield f"{folder}: a new package of {counted(len(changes.files), 'file')}"
         graph = compiled.checked.graph
         own = f"{folder}/{hooks_path(compiled.checked)}"
@@ -168,10 +171,7 @@ def _outcome(compiled: Compiled, changes: Changes) -> Iterator[str]:
             yield f"  your own code goes into {own}"
         path = os.path.join(".", changes.folder)
         if printable(path) == path:  # else a shell would need it otherwise than can be shown
-            why = (
-                "; by -e what you edit there counts at once" if graph.hooks or graph.actions else ""
-            )
-            yield f"  install it with: pip install -e {quote(path)}{why}"
+            yield from _installing(graph, path)
     elif changes.files:
         yield f"{folder}: {counted(len(changes.files), 'file')} changed"
         for change in changes.files:
@@ -179,6 +179,19 @@ def _outcome(compiled: Compiled, changes: Changes) -> Iterator[str]:
             yield f"  {mark} {shown(Path(change.path))}"
     else:
         yield from _again(changes)
+
+
+def _installing(graph: Graph, path: str) -> Iterator[str]:
+    """Yield how a new package is installed, alone and with the library that flies."""
+    from shlex import quote
+
+    why = "; by -e what you edit there counts at once" if graph.hooks or graph.actions else ""
+    fleet, name = quote(f"{path}[fleet]"), quote(f"{graph.name.rstrip('_')}[fleet]")
+    yield f"  install it with: pip install -e {quote(path)}{why}"
+    yield f"  so it checks and simulates; to fly it needs pluto-fleet: pip install -e {fleet}"
+    yield f"    without an index, from Pluto's sources: pip install PLUTO/runtime -e {fleet}"
+    yield f"    without a network: pip wheel -w wheels PLUTO/runtime {fleet}, and there:"
+    yield f"    pip install --no-index --find-links wheels {name}"
 
 
 def _again(changes: Changes) -> Iterator[str]:

@@ -38,6 +38,7 @@ class Options:
     fix: bool = False
     force: bool = False
     add_stubs: bool = False
+    carry: str | None = None
     plain: bool = False
     show: str | None = None
     missions: Path | None = None
@@ -174,6 +175,12 @@ def _compile(parser: ArgumentParser) -> None:
     )
     parser.add_argument(
         "--add-stubs", action="store_true", help="add the hooks that are missing to hooks.py"
+    )
+    parser.add_argument(
+        "--carry",
+        choices=["fleet"],
+        help="put the library that flies into the package, too, where a second distribution may not be"
+        " installed; to be given each time",
     )
     parser.add_argument("-O0", dest="plain", action="store_true", help="do not optimise the plan")
     parser.add_argument(

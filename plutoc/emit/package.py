@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterable, Iterator, Mapping
 
 from plutoc.emit.callables import carried_functions
+from plutoc.emit.carry import carried_library
 from plutoc.emit.embed import FOLDER, embed
 from plutoc.emit.flow_file import flow_file
 from plutoc.emit.hooks_file import hooks_file, hooks_test
@@ -33,8 +34,11 @@ class Package:
     """Written where there is no such file yet; the user's from then on."""
 
 
-def emit(plan: Plan, *, source_name: str, picture: str) -> Package:
-    """Return the package of a plan; `picture` is its graph in Mermaid, for the README."""
+def emit(plan: Plan, *, source_name: str, picture: str, carry: bool = False) -> Package:
+    """Return the package of a plan; `picture` is its graph in Mermaid, for the README.
+
+    `carry`: with the library that flies inside it.
+    """
     graph = plan.checked.graph
     app = f"src/{graph.name}"
     modules = {
@@ -44,13 +48,15 @@ def emit(plan: Plan, *, source_name: str, picture: str) -> Package:
         "model.py": model_file(graph),
     }
     carried = embed(carried_functions(plan), sorted(_runtime_modules(modules.values())))
+    library = carried_library() if carry else {}
     files = {
         ".gitattributes": attributes_file(source_name),
         "LICENSE": verbatim("LICENSE"),
         "README.md": readme(graph, source_name, picture),
-        "pyproject.toml": project_file(graph, source_name),
+        "pyproject.toml": project_file(graph, source_name, carry=carry),
         **{f"{app}/{name}": owned(text, source_name) for name, text in modules.items()},
         **{f"{app}/{path}": text for path, text in carried.items()},
+        **{f"{app}/{path}": text for path, text in library.items()},
         f"{app}/py.typed": "",
         "tests/test_flow.py": owned(flow_test(graph), source_name),
     }

@@ -9,6 +9,7 @@ from plutoc.emit.python import header
 from plutoc.emit.render import render
 from plutoc.frozen import frozen
 from plutoc.graph.model import Graph
+from plutoc_runtime.command import SEAM
 
 
 @frozen
@@ -43,6 +44,8 @@ class Project:
     app: str
     distribution: str
     description: str
+    seam: str
+    carry: bool
 
 
 def init_file(graph: Graph) -> str:
@@ -64,8 +67,8 @@ def main_file(graph: Graph) -> str:
     return render("main.py", Entry(app=graph.name))
 
 
-def project_file(graph: Graph, source_name: str) -> str:
-    """Return the text of `pyproject.toml`."""
+def project_file(graph: Graph, source_name: str, *, carry: bool) -> str:
+    """Return the text of `pyproject.toml`; `carry`: the library is inside the package."""
     return render(
         "pyproject.toml",
         Project(
@@ -73,6 +76,8 @@ def project_file(graph: Graph, source_name: str) -> str:
             app=graph.name,
             distribution=toml_text(graph.name.rstrip("_")),  # a distribution cannot end with one
             description=toml_text(one_line(graph.title) or graph.name),
+            seam=".".join(map(str, SEAM)),
+            carry=carry,
         ),
     )
 

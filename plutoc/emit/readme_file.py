@@ -35,6 +35,7 @@ class Readme:
 
     header: str
     app: str
+    distribution: str
     title: str
     fence: str
     picture: str
@@ -56,6 +57,7 @@ def readme(graph: Graph, source_name: str, picture: str) -> str:
         Readme(
             header=header(source_name),
             app=graph.name,
+            distribution=graph.name.rstrip("_"),
             title=markdown(graph.title),
             fence=fence(picture),
             picture=picture.rstrip("\n"),

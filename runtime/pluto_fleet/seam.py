@@ -7,6 +7,7 @@ speaks the newest first number and the one before.
 from __future__ import annotations
 
 import sys
+from importlib.metadata import PackageNotFoundError, version
 
 from . import __version__
 from .scaffolding import bind
@@ -49,6 +50,15 @@ def spoken() -> str:
 def written(seam: Seam) -> str:
     """Return a seam as it is written: `1.4`."""
     return ".".join(map(str, seam))
+
+
+def versions(app: str) -> str:
+    """Return in one line which app this is, which seam it speaks, and by which library it flies."""
+    try:
+        number = version(app.rstrip("_"))
+    except PackageNotFoundError:
+        number = "(not installed)"
+    return f"{app} {number}, seam {met()}, pluto-fleet {__version__}"
 
 
 def met() -> str | None:

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 BAD_INPUT, INTERNAL, INTERRUPTED, CLOSED_PIPE = 2, 70, 130, 141
 
-_WITHOUT_HOOKS = (["tell"], ["journal"])
+_WITHOUT_HOOKS = (["tell"], ["journal"], ["--version"])
 """Commands that need nothing of an app but its name: a Stop must work whatever is in hooks.py."""
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from argparse import ArgumentParser, ArgumentTypeError
+from argparse import Action, ArgumentParser, ArgumentTypeError
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -12,6 +12,7 @@ from plutoc_runtime.errors import BadInput
 from plutoc_runtime.quantities import Type, parse_quantity
 from plutoc_runtime.words import quoted
 
+from . import output
 from .drone_options import add_drones, add_dry_run
 from .flight_options import add_flights, how_it_flies
 from .station_options import add_station
@@ -96,6 +97,8 @@ class Options:
 def parse(app: App, argv: Sequence[str] | None) -> Options:
     """Read the command line; raise SystemExit, as argparse does, after help or an error."""
     parser = _plain(ArgumentParser(prog=app.name, description=app.title, allow_abbrev=False))
+    what = "say which app this is, which seam it speaks, and by which library it flies"
+    parser.add_argument("--version", action=_Version, nargs=0, help=what)
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
 
     def command(name: str, what: str) -> ArgumentParser:
@@ -132,6 +135,16 @@ def parse(app: App, argv: Sequence[str] | None) -> Options:
     if options.plot is not None and options.runs is None:
         simulate.error("--plot draws many runs: it goes with --runs")
     return options
+
+
+class _Version(Action):
+    """Says the versions, and looks them up only then: that takes a while."""
+
+    def __call__(self, parser: ArgumentParser, *_: object) -> None:
+        from ..seam import versions
+
+        output.line(versions(parser.prog))
+        parser.exit()
 
 
 def _plain(parser: ArgumentParser) -> ArgumentParser:

@@ -8,6 +8,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from .. import __version__
+from ..seam import met
 from . import errors
 from .errors import JournalError
 
@@ -45,6 +47,8 @@ def header(
         "app_hash": fingerprint(app),
         "language": LANGUAGE,
         "events": EVENTS,
+        "seam": met(),
+        "library": __version__,
         "missions": missions,
         "fleet": fleet,
         "sim": sim,
