@@ -16,6 +16,7 @@ from plutoc_runtime.words import duration
 from plutoc_runtime.world import World
 
 from .gateway.gateway import Gateway
+from .raised import guard_hooks
 from .simulation.drones import SimulatedDrone, SimulatedNavigation
 
 if TYPE_CHECKING:
@@ -98,6 +99,7 @@ def simulate(
     Without such a time it is given up where missions set out again and again for nothing.
     `around` puts something between the gateway and its drones; `slack` keeps them further apart.
     """
+    guard_hooks()
     kernel, bound = VirtualTime(), Bound(missions)
 
     def listen(event: Event) -> None:

@@ -6,9 +6,9 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from .blame import as_crash, blame, blamed
-from .calling_off import abort_now
 from .errors import HookFault, MissionFailed
 from .fields import Entity, wrong_field
+from .flight import fail
 from .kernel import Cancelled, Task, mission_key
 from .run import Run
 from .signals import Signal
@@ -190,8 +190,10 @@ class Engine:
 
     def _end(self, state: State, status: Status, reason: str) -> None:
         mission, fleet = state.mission, self._core.fleet
-        if state.in_flight is not None:
-            abort_now(state, f"its mission ended: {reason or status.value}")
+        flight = state.in_flight
+        if flight is not None:
+            flight.break_off()
+            fail(state, flight, f"its mission ended: {reason or status.value}")
         if state.allocated is not None:
             fleet.never_flew(state.allocated)
         if state.carrier is not None:

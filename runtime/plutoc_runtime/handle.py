@@ -30,7 +30,7 @@ class LiveDrone:
 
     __slots__ = ("_drone", "_is_over", "_kernel", "_key", "_navigation")
 
-    def __init__(self, kernel: Kernel, navigation: Navigation, drone: Drone, key: Key) -> None:
+    def __init__(self, kernel: Kernel, navigation: Navigation[Any], drone: Drone, key: Key) -> None:
         self._kernel, self._navigation, self._drone, self._key = kernel, navigation, drone, key
         self._is_over = False
 

@@ -6,8 +6,8 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from .errors import ActionFailed, HookFault
+from .guard import by_a_person
 from .kernel import WHATEVER, Cancelled, Kernel
-from .raised import by_a_person
 from .words import bounded, class_of, text_of
 
 if TYPE_CHECKING:

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
 
 from .errors import HookFault
-from .forked import end_if_forked
+from .guard import by_a_person, guarded
 from .hooks import hook_name, said, trace_of
 from .model import Drone
-from .raised import by_a_person
 from .words import class_of
 
 if TYPE_CHECKING:
@@ -93,12 +92,9 @@ class Asked:
         candidates = tuple(drone for drone in free if able(drone))
         if not candidates:
             return None
-        parent = os.getpid()
         try:
-            drone = self._hook(trip, candidates)
-            end_if_forked(parent)
+            drone = guarded(partial(self._hook, trip, candidates))
         except BaseException as error:
-            end_if_forked(parent, error)
             if by_a_person(error):
                 raise
             raise HookFault(f"policy {self._name} raised {said(error)}", trace_of(error)) from error

@@ -9,9 +9,10 @@ from types import ModuleType
 from typing import TYPE_CHECKING, NoReturn
 
 from plutoc_runtime.errors import BadInput
-from plutoc_runtime.hard_exit import refused
 from plutoc_runtime.hooks import said
-from plutoc_runtime.raised import by_a_person, interrupted_by_a_person
+
+from ..hard_exit import refused
+from ..raised import by_a_person, interrupted_by_a_person
 
 if TYPE_CHECKING:
     from plutoc_runtime.app import App

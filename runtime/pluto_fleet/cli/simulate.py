@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING
 
 from plutoc_runtime.errors import BadInput
 from plutoc_runtime.faults import Faults
-from plutoc_runtime.raised import Interrupted
 from plutoc_runtime.session import Outcome
 from plutoc_runtime.trace import Event
 from plutoc_runtime.words import duration
 
 from ..journal_line import dumped
+from ..raised import Interrupted
 from ..simulate import simulate as simulated
 from . import output
 from .as_json import outcome_data

@@ -2,23 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Coroutine
+from collections.abc import Callable
 from functools import lru_cache
 from inspect import CO_COROUTINE
 from opcode import opmap
-from types import CodeType, CoroutineType
-from typing import Any, TypeGuard
+from types import CodeType
 
 
 def never_waits(hook: Callable[..., object]) -> bool:
     """Say whether this is an `async def` without any `await`, `async for` or `async with`."""
     code = getattr(getattr(hook, "func", hook), "__code__", None)  # a partial carries its function
     return isinstance(code, CodeType) and _runs_through(code)
-
-
-def is_coroutine(value: object) -> TypeGuard[Coroutine[Any, Any, Any]]:
-    """Say whether a hook has returned what is still to be run; the value itself is asked nothing."""
-    return issubclass(type(value), CoroutineType)
 
 
 @lru_cache(maxsize=1_000)

@@ -10,14 +10,11 @@ import os
 import signal
 import sys
 import threading
-from collections.abc import Callable, Coroutine, Generator
+from collections.abc import Callable
 from contextlib import suppress
-from functools import partial
-from types import coroutine
-from typing import Any, TypeVar
+from typing import TypeVar
 
 from .hard_exit import leave
-from .kernel import WHATEVER
 
 T = TypeVar("T")
 
@@ -110,25 +107,3 @@ def end_if_forked(parent: int, error: BaseException | None = None) -> None:
             print(f"a process that a hook has forked ends: {type(code).__name__}", file=sys.stderr)
         code = 1
     leave((code or 0) & 0xFF)
-
-
-@coroutine
-def alone(hook: Coroutine[Any, Any, T]) -> Generator[Any, Any, T]:
-    """Let a hook run inside this coroutine; a copy of the process that it forks does not go on."""
-    parent = os.getpid()
-    step: Callable[[], object] = partial(hook.send, None)
-    while True:
-        try:
-            waits_for = step()
-        except StopIteration as end:
-            end_if_forked(parent)
-            returned: T = end.value
-            return returned
-        except BaseException as error:
-            end_if_forked(parent, error)
-            raise
-        end_if_forked(parent)
-        try:
-            step = partial(hook.send, (yield waits_for))
-        except WHATEVER as error:  # the hook hears of it
-            step = partial(hook.throw, error)

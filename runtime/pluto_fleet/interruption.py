@@ -1,6 +1,6 @@
 """What becomes of a flight that was interrupted, and of its mission.
 
-A flight is interrupted when the app stops or dies, or when somebody takes its mission out of its
+A flight is interrupted when the app stops or dies, or when a person has its mission taken out of its
 graph. Then the ledger is asked, and the drone; what they cannot say, only a person can.
 """
 
@@ -11,20 +11,22 @@ from collections.abc import Callable
 from enum import Enum
 from typing import TYPE_CHECKING, Any
 
-from .actions import PICK, RELEASE
-from .flight import Flight, keep_carrier, record_done
-from .hooks import trace_of
-from .kernel import WHATEVER, Cancelled
+from plutoc_runtime.actions import PICK, RELEASE
+from plutoc_runtime.flight import Flight, keep_carrier, record_done
+from plutoc_runtime.hooks import trace_of
+from plutoc_runtime.kernel import WHATEVER, Cancelled
+from plutoc_runtime.status import STANDBY, UNEXECUTED, Status
+
 from .standing import Entry, JobState, outcome
-from .status import STANDBY, UNEXECUTED, Status
 
 if TYPE_CHECKING:
-    from .actions import Action
-    from .app import App
-    from .core import Core
-    from .engine import Engine
+    from plutoc_runtime.actions import Action
+    from plutoc_runtime.app import App
+    from plutoc_runtime.core import Core
+    from plutoc_runtime.engine import Engine
+    from plutoc_runtime.state import State
+
     from .navigation import Commanding
-    from .state import State
 
 
 class Fate(Enum):
