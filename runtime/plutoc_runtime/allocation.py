@@ -52,6 +52,8 @@ class Queue:
         """Those that have not been served yet."""
         self._waiting = self._arrivals = 0
         self._pools: dict[Policy, Pool] = {}
+        self._batches: dict[Pool, BatchPool] = {}
+        """Those of the pools that look at all trips at once."""
         self._sure: Mapping[Category, float] | None = None
         """Levels with which some drone that is left can surely fly."""
         self._serving = self._serve
@@ -71,6 +73,8 @@ class Queue:
         pool = self._pools.get(policy)
         if pool is None:
             pool = self._pools[policy] = policy()
+            if isinstance(pool, BatchPool):
+                self._batches[pool] = pool
             for drone in self._ready:
                 pool.add(drone)
         request = Request(self._reach, trips, pool)
@@ -192,11 +196,12 @@ class Queue:
             if not self._ready or not self.room:
                 break
             priority, _, request = entry
-            if not isinstance(request.pool, BatchPool):
+            batch = self._batches.get(request.pool)
+            if batch is None:
                 self._choose(request)
-            elif (priority, request.pool) not in shared:
-                shared.add((priority, request.pool))
-                self._share_among(entry, request.pool)
+            elif (priority, batch) not in shared:
+                shared.add((priority, batch))
+                self._share_among(entry, batch)
 
     def _choose(self, request: Request) -> None:
         """Let the policy choose for one request."""
