@@ -67,7 +67,7 @@ def main_file(graph: Graph) -> str:
     return render("main.py", Entry(app=graph.name))
 
 
-def project_file(graph: Graph, source_name: str, *, carry: bool) -> str:
+def project_file(graph: Graph, source_name: str, *, carry: bool = False) -> str:
     """Return the text of `pyproject.toml`; `carry`: the library is inside the package."""
     return render(
         "pyproject.toml",
