@@ -24,9 +24,11 @@ def no_version(source: Source, text: Text, meant: str | None) -> Diagnostic:
         f"`{shortened(text.value)}` is not a version" if text.value else "this version is empty",
         source,
         text.span,
-        help=f'did you mean `version "{shortened(meant)}"`?'
-        if meant
-        else 'a version has numbers with points between them: `version "1.2.0"`',
+        help=(
+            f'did you mean `version "{shortened(meant)}"`?'
+            if meant
+            else 'a version has numbers with points between them: `version "1.2.0"`'
+        ),
     )
 
 
@@ -45,9 +47,11 @@ def no_requirement(
         help = "write the name that pip installs it by, and which versions will do: `numpy>=2`"
     return error(
         "P1041",
-        f"`{shortened(value)}` is not a library that pip could install"
-        if value.strip()
-        else "this requirement is empty",
+        (
+            f"`{shortened(value)}` is not a library that pip could install"
+            if value.strip()
+            else "this requirement is empty"
+        ),
         source,
         text.span,
         help=help,
@@ -87,14 +91,18 @@ def own_requirement(source: Source, text: Text, app: str, is_fleet: bool) -> Dia
     """The app itself, or the library that flies it: which version fits is not for the app to say."""
     return error(
         "P1044",
-        "an app does not require what flies it: the extras of its package do"
-        if is_fleet
-        else f"the app `{app}` cannot require itself",
+        (
+            "an app does not require what flies it: the extras of its package do"
+            if is_fleet
+            else f"the app `{app}` cannot require itself"
+        ),
         source,
         text.span,
-        help=f"remove it, and install the package with its extra: `{app.rstrip('_')}[fleet]`"
-        if is_fleet
-        else "remove it",
+        help=(
+            f"remove it, and install the package with its extra: `{app.rstrip('_')}[fleet]`"
+            if is_fleet
+            else "remove it"
+        ),
         fix=without_item(source, text.span),
     )
 

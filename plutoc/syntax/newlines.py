@@ -58,16 +58,18 @@ def ended(tokens: Sequence[Token]) -> Iterator[Token]:
             depth = 0
             if last not in (NEWLINE, "LBRACE"):
                 yield _newline(tokens[i - 1])  # `}` on the line of the last statement
-        elif depth and token.type in _WORDS:
-            token = token.of_type(NAME)
-        elif token.type in SETTING_KINDS and (
-            last not in (NEWLINE, "LBRACE") or following[i] in _FOLLOWS_A_NAME
-        ):
+        elif token.type in _WORDS and (depth or _is_a_name(last, token.type, following[i])):
             token = token.of_type(NAME)
         last = token.type
         yield token
     if last not in (NEWLINE, "LBRACE", "RBRACE"):
         yield _newline(tokens[-1])
+
+
+def _is_a_name(before: str, word: str, behind: str) -> bool:
+    """Say whether a word outside of brackets is a name: a setting's that begins no statement."""
+    begins = before in (NEWLINE, "LBRACE") and behind not in _FOLLOWS_A_NAME
+    return word in SETTING_KINDS and not begins
 
 
 def _following(tokens: Sequence[Token]) -> list[str]:
