@@ -43,7 +43,10 @@ class Project:
     header: str
     app: str
     distribution: str
+    version: str
     description: str
+    libraries: list[str]
+    direct: bool
     seam: str
     carry: bool
 
@@ -75,7 +78,10 @@ def project_file(graph: Graph, source_name: str, *, carry: bool = False) -> str:
             header=header(source_name),
             app=graph.name,
             distribution=toml_text(graph.name.rstrip("_")),  # a distribution cannot end with one
+            version=toml_text(graph.version),
             description=toml_text(one_line(graph.title) or graph.name),
+            libraries=[toml_text(library.requirement) for library in graph.libraries],
+            direct=any(library.direct for library in graph.libraries),
             seam=".".join(map(str, SEAM)),
             carry=carry,
         ),
