@@ -30,7 +30,7 @@ _LOST = DroneStatus.LOST
 _IN_THE_AIR = (_BUSY, DroneStatus.RETURNING, DroneStatus.RECOVERING)
 
 Entry = tuple[int, int, Request]
-"""Priority, higher first; arrival; the request."""
+"""Priority; arrival, below 0, so that the latest is least; the request."""
 
 
 class Queue:
@@ -47,7 +47,7 @@ class Queue:
         self._kernel, self._trace, self._reach = kernel, trace, reach
         self._drones, self._max_airborne = drones, max_airborne
         self._entries: list[Entry] = []
-        """In the order in which they are served; those that no longer wait are dropped then."""
+        """In order, the last is served first; those that no longer wait are dropped then."""
         self._fresh: list[Request] = []
         """Those that have not been served yet."""
         self._waiting = self._arrivals = 0
@@ -80,7 +80,7 @@ class Queue:
         request = Request(self._reach, trips, pool)
         self._waiting += 1
         self._arrivals += 1
-        insort(self._entries, (-priority, self._arrivals, request))
+        insort(self._entries, (priority, -self._arrivals, request))
         if self._low or request.levels is not self._sure:
             self._fresh.append(request)
         self._kernel.last = self._serving
@@ -121,7 +121,7 @@ class Queue:
         """The request for this trip has another priority from now on."""
         for place, (_, arrival, request) in enumerate(self._entries):
             if request.trip is trip and request.waits:
-                self._entries[place] = (-priority, arrival, request)
+                self._entries[place] = (priority, arrival, request)
                 self._entries.sort()
                 self.changed()
                 return
@@ -154,7 +154,7 @@ class Queue:
 
     def waiters(self) -> Iterator[Request]:
         """Give the requests that wait."""
-        return (request for _, _, request in self._entries if request.waits)
+        return (request for _, _, request in reversed(self._entries) if request.waits)
 
     # The free drones
 
@@ -190,40 +190,53 @@ class Queue:
         self._fresh.clear()
 
     def _share_out(self) -> None:
-        self._entries = [entry for entry in self._entries if entry[2].waits]
-        shared: set[tuple[int, Pool]] = set()
-        for entry in self._entries:
-            if not self._ready or not self.room:
-                break
-            priority, _, request = entry
+        passed: list[Entry] = []
+        while self._entries and self._ready and self.room:
+            entry = self._entries.pop()
+            request = entry[2]
+            if request.is_set:
+                continue
             batch = self._batches.get(request.pool)
-            if batch is None:
-                self._choose(request)
-            elif (priority, batch) not in shared:
-                shared.add((priority, batch))
-                self._share_among(entry, batch)
+            if batch is not None:
+                passed += self._share_among(self._alike(entry), batch)
+            elif not self._chosen(request):
+                passed.append(entry)
+        if passed:
+            self._entries += reversed(passed)
 
-    def _choose(self, request: Request) -> None:
-        """Let the policy choose for one request."""
+    def _chosen(self, request: Request) -> bool:
+        """Let the policy choose; say whether the request is over."""
         try:
             choice = request.pool.choose(request.trip, request.able)
         except HookFault as fault:
             self._refuse(request, fault)
-        else:
-            if choice is not None:
-                self._give(request, choice)
+            return True
+        if choice is not None:
+            self._give(request, choice)
+        return choice is not None
 
-    def _share_among(self, first: Entry, pool: BatchPool) -> None:
-        """Let the policy choose at once for all requests of one priority."""
-        alike = [
-            request
-            for priority, _, request in self._entries
-            if priority == first[0] and request.pool is pool
-        ]
-        offers = [(request.trip, request.able) for request in alike]
-        for request, choice in zip(alike, pool.share(offers), strict=True):
-            if choice is not None and self.room:
-                self._give(request, choice)
+    def _alike(self, first: Entry) -> list[Entry]:
+        """Take the entries that come next and have the same priority and policy."""
+        alike, entries = [first], self._entries
+        while entries:
+            priority, _, request = entries[-1]
+            if request.waits:
+                if (priority, request.pool) != (first[0], first[2].pool):
+                    break
+                alike.append(entries[-1])
+            entries.pop()
+        return alike
+
+    def _share_among(self, entries: Sequence[Entry], pool: BatchPool) -> list[Entry]:
+        """Let the policy choose for all of them at once; return those that got nothing."""
+        passed: list[Entry] = []
+        offers = [(request.trip, request.able) for _, _, request in entries]
+        for entry, choice in zip(entries, pool.share(offers), strict=True):
+            if choice is None or not self.room:
+                passed.append(entry)
+            else:
+                self._give(entry[2], choice)
+        return passed
 
     def _give(self, request: Request, choice: Choice) -> None:
         drone, why = choice

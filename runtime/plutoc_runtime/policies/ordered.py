@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from math import inf
 from typing import TYPE_CHECKING
 
 from ..policy import Able, Choice, FreeDrones
@@ -23,10 +24,13 @@ class Ordered(FreeDrones):
 
     def choose(self, trip: Trip, able: Able) -> Choice | None:
         """Return the first drone that is able."""
-        ranked = [
-            (self._rank(drone, trip), drone.index, drone) for drone in self.free if able(drone)
-        ]
-        if not ranked:
+        least = inf
+        found: Drone | None = None
+        for drone in self.free:
+            rank = self._rank(drone, trip)
+            better = rank < least or (rank == least and found and drone.index < found.index)
+            if better and able(drone):
+                least, found = rank, drone
+        if found is None:
             return None
-        rank, _, drone = min(ranked)
-        return drone, lambda: self._why(len(self.free), rank)
+        return found, lambda: self._why(len(self.free), least)
