@@ -7,7 +7,8 @@ from random import Random
 from typing import TYPE_CHECKING
 
 from .errors import Failure, FlightFailed
-from .words import place
+from .quantities import Type, parse_quantity
+from .words import place, quoted
 
 if TYPE_CHECKING:
     from .model import Point
@@ -91,3 +92,28 @@ _SAID = {
     Failure.LINK: "lost its link",
     Failure.BATTERY: "ran out of battery",
 }
+
+
+FAULTS = ("crash", "link", "action", "battery")
+"""What `--fail` can make go wrong."""
+
+
+def shares(text: str) -> dict[str, float]:
+    """Read crash=10%,link=5%."""
+    found: dict[str, float] = {}
+    for part in text.split(","):
+        what, equals, amount = (piece.strip() for piece in part.partition("="))
+        if not equals:
+            raise ValueError(f"{quoted(part)} is not written like crash=10%")
+        if what not in FAULTS:
+            raise ValueError(f"{quoted(what)} cannot go wrong; what can: {', '.join(FAULTS)}")
+        if what in found:
+            raise ValueError(f"{what} is given twice")
+        try:
+            found[what] = parse_quantity(amount, Type.PERCENT)
+        except ValueError:
+            wrong = f"{what}={amount} is not a percentage: write it like {what}=10%"
+            raise ValueError(wrong) from None
+        if not 0 <= found[what] <= 1:
+            raise ValueError(f"{what}={amount} is not between 0% and 100%")
+    return found
