@@ -93,3 +93,11 @@ def permitted_way(airspace: Airspace, drone: str, start: Point, end: Point) -> t
             Failure.REFUSED, f"there is no permitted way from {drone} to {place(end)}"
         )
     return route
+
+
+def way_from(airspace: Airspace, drone: str, start: Point, end: Point) -> tuple[Point, ...]:
+    """Return such a way; one that begins where no drone may be leads back in first."""
+    if airspace.problem(start) is None or airspace.problem(end) is not None:
+        return permitted_way(airspace, drone, start, end)
+    back = airspace.way_back(start)
+    return (back, *permitted_way(airspace, drone, back, end))

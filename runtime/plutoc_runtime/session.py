@@ -137,3 +137,46 @@ class Session:
             await self.core.fleet.all_down()
             if engine.done.is_set:  # and nobody has let a mission go on meanwhile
                 return ended
+
+
+def outcome_data(name: str, seed: int, outcome: Outcome) -> dict[str, object]:
+    """Return the object that `simulate --json` prints."""
+    return {
+        "app": name,
+        "seed": seed,
+        "duration_s": outcome.duration,
+        "missions": [
+            {
+                "name": mission.name,
+                "status": mission.status.value,
+                "reason": mission.reason,
+                "completed_trips": [trip.name for trip in mission.completed_trips],
+                "rounds": mission.round + 1,
+                "attempts": mission.attempts,
+            }
+            for mission in outcome.missions
+        ],
+        "trips": trips_data(outcome),
+        "drones": [
+            {
+                "id": drone.id,
+                "trips": drone.trips,
+                "flown_m": outcome.flown[drone.id],
+                "battery_level": drone.battery_level,
+                "status": drone.status.value,
+            }
+            for drone in outcome.drones
+        ],
+        "log": outcome.log,
+        **({"crashed_drones": outcome.crashed} if outcome.crashed else {}),
+        **({"given_up": outcome.given_up} if outcome.given_up else {}),
+    }
+
+
+def trips_data(outcome: Outcome) -> dict[str, int]:
+    """Return how many flights there were, and how they ended."""
+    return {
+        "completed": outcome.count("trip.completed"),
+        "failed": outcome.count("trip.failed"),
+        "attempts": outcome.count("trip.launched"),
+    }

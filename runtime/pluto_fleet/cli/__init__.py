@@ -37,11 +37,19 @@ def start(name: str, load: Callable[[], App]) -> int:
     app: App | None = None
     ending = Ending(name)
     with ending:
+        from plutoc_runtime.hooks import loaded
+
         from ..forked import end_if_forked
-        from .loading import bare, loaded
+        from ..hard_exit import refused
+        from ..raised import interrupted_by_a_person
+        from .loading import bare
 
         parent = os.getpid()
-        app = bare(name) if sys.argv[1:2] in _WITHOUT_HOOKS else loaded(load)
+        if sys.argv[1:2] in _WITHOUT_HOOKS:
+            app = bare(name)
+        else:
+            with interrupted_by_a_person(), refused():
+                app = loaded(load)
         end_if_forked(parent)  # as its hooks were loaded
     code = _heard(app) if app is not None else ending.code
     if code == BAD_INPUT and "--supervised" in sys.argv:
