@@ -14,12 +14,12 @@ from threading import Thread
 from types import CoroutineType, coroutine
 from typing import Any, NoReturn, TypeVar, cast
 
-from plutoc_runtime.guard import guarded
+from plutoc_runtime.guard import as_a_fault, guarded
 from plutoc_runtime.kernel import WHATEVER, Call, Kernel, Key, Kind
 from plutoc_runtime.signals import Signal
 
 from .forked import end_if_forked
-from .raised import as_a_fault, by_a_person, guard_hooks
+from .raised import by_a_person, guard_hooks
 from .straight import never_waits
 
 T = TypeVar("T")

@@ -6,8 +6,8 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from .errors import ActionFailed, HookFault
-from .guard import by_a_person
-from .kernel import WHATEVER, Cancelled, Kernel
+from .guard import NOT_ITS_OWN, by_a_person
+from .kernel import WHATEVER, Kernel
 from .words import bounded, class_of, text_of
 
 if TYPE_CHECKING:
@@ -20,7 +20,7 @@ async def call_action(kernel: Kernel, hook: Hook, /, *args: object, **named: obj
     """Call an action; whatever it raises, `ActionFailed` aside, is a fault of the hook."""
     try:
         return await kernel.call_hook(hook, *args, **named)
-    except (ActionFailed, Cancelled, GeneratorExit, KeyboardInterrupt):
+    except (ActionFailed, *NOT_ITS_OWN):
         raise
     except WHATEVER as error:
         raise fault_of(hook, error) from error
