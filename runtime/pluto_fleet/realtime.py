@@ -152,7 +152,7 @@ class RealTime(Kernel):
             self.post(result.set, returned)
 
     async def _in_thread(self, call: Callable[[], object]) -> object:
-        """Call this in a thread of its own: one that never comes back keeps nobody from leaving."""
+        """Call this in a thread of its own: one that never comes back does not keep the app from ending."""
         ended: asyncio.Future[Callable[[], object]] = self._loop.create_future()
 
         def finish(end: Callable[[], object]) -> None:
@@ -160,7 +160,7 @@ class RealTime(Kernel):
                 ended.set_result(end)
 
         def tell(end: Callable[[], object]) -> None:
-            with suppress(RuntimeError):  # the loop is closed: nobody waits any longer
+            with suppress(RuntimeError):  # the loop is closed: the answer is not awaited any longer
                 self._loop.call_soon_threadsafe(finish, end)
 
         parent = os.getpid()

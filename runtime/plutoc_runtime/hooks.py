@@ -27,7 +27,7 @@ async def call_action(kernel: Kernel, hook: Hook, /, *args: object, **named: obj
 
 
 class Held:
-    """What the runtime knows things by, while a hook has them in its hands: nobody may change that."""
+    """What the runtime knows things by, while a hook has them in its hands: it may not change that."""
 
     def __init__(self, of: object, *facts: str) -> None:
         self._of, self._facts = of, {fact: getattr(of, fact) for fact in facts}
