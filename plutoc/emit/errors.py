@@ -35,9 +35,16 @@ def edited(place: Place, path: str, text: str, wanted: str | None) -> Diagnostic
         _first_difference(text, wanted),
         label="differs from what was written here" if wanted is not None else "",
         related=(_made_of(place),),
-        help=f"make this change in `{place.source.path}`, or in `hooks.py` if it is code of your"
-        " own, and undo it here; `--force` throws it away",
+        help=f"make this change in `{place.source.path}`, {_said_there(path)}, and undo it here;"
+        " `--force` throws it away",
     )
+
+
+def _said_there(path: str) -> str:
+    """Return how what is wanted of a file is said in its source, or where else."""
+    if path == "pyproject.toml":
+        return "where `version` and `requires` say what goes into this file"
+    return "or in `hooks.py` if it is code of your own"
 
 
 def somebody_elses_file(place: Place, path: str) -> Diagnostic:

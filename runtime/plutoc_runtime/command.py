@@ -14,11 +14,11 @@ SEAM = (1, 0)
 
 def start(name: str, load: Callable[[], App]) -> int:
     """Run the command that the program was called with, and return its exit code."""
-    code: int = import_module("pluto_fleet").start(name, load, brain=__package__, seam=SEAM)
+    code: int = import_module("pluto_fleet.entry").start(name, load, brain=__package__, seam=SEAM)
     return code
 
 
 def main(app: App, argv: Sequence[str] | None = None) -> int:
     """Run one command of an app that is loaded, and return its exit code."""
-    code: int = import_module("pluto_fleet").main(app, argv, brain=__package__, seam=SEAM)
+    code: int = import_module("pluto_fleet.entry").main(app, argv, brain=__package__, seam=SEAM)
     return code
