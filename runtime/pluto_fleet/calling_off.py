@@ -35,7 +35,7 @@ class CallingOff:
     async def _fail_unless_done(self, state: State, flight: Flight, reason: str) -> None:
         roll = await self._link.call()
         if state.in_flight is not flight or state.task is None:
-            return  # it has ended, or somebody else sees to it
+            return  # it has ended, or its mission was taken out of its graph
         entry = roll.jobs.get(flight.id)
         what = fate(entry, state.core.app.actions[flight.trip.action], begun=False)
         if what is Fate.UNKNOWN:

@@ -1,7 +1,7 @@
 """What a process that a hook forks must not have of its parent: its signals, its locks, its lines.
 
 A forked child is a copy of the app with everything open. What it kept would outlive the app: a lock
-that nobody can take, a connection that looks alive. And no child may go on where the app goes on.
+that is never free again, a connection that looks alive. And no child may go on where the app goes on.
 """
 
 from __future__ import annotations
@@ -85,7 +85,7 @@ def _let_go() -> None:
 
 
 def _put_nothing(descriptor: int) -> None:
-    """Close a file but let its number stay taken: whoever closes it once more closes nothing else."""
+    """Close a file but let its number stay taken: closing it once more closes nothing else."""
     nothing = os.open(os.devnull, os.O_RDWR | os.O_CLOEXEC)
     os.dup2(nothing, descriptor, inheritable=False)
     os.close(nothing)

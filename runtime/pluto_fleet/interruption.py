@@ -104,14 +104,14 @@ def fly_again(state: State, flight: Flight, link: Commanding) -> None:
 
 
 def was_done(state: State, flight: Flight) -> None:
-    """An interrupted trip's action was done after all; nobody knows what it gave."""
+    """An interrupted trip's action was done after all; what it gave is unknown."""
     record_done(state, flight, None)
     flight.set(state.mission.status)
     state.goes_on = True
 
 
 def doubt(state: State, flight: Flight) -> None:
-    """Nobody can say whether the action was done: a drone that may have the item waits, too."""
+    """Whether the action was done is unknown: a drone that may have the item waits, too."""
     trip, drone = flight.trip, flight.flier
     state.core.transitions.doubt(
         state.mission,

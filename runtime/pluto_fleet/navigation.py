@@ -73,7 +73,7 @@ class Commanding(Navigation[Job], Protocol):
         ...
 
     def forget(self, id: str) -> None:
-        """Nobody will ask for a job any more: its id may be given again."""
+        """Forget a job that will not be asked for again: its id may be given anew."""
         ...
 
     async def bring_down(self, how: Down) -> None:
@@ -82,5 +82,5 @@ class Commanding(Navigation[Job], Protocol):
 
 
 def motors_cut(drone: str) -> FlightFailed:
-    """Return how everything fails that a drone did when somebody had its motors cut."""
+    """Return how everything fails that a drone did when its motors were cut on command."""
     return FlightFailed(Failure.CRASH, f"{drone}'s motors were cut")

@@ -1,4 +1,4 @@
-"""Whatever a hook raises is the hook's own fault; only a person's Ctrl-C is nobody's."""
+"""Whatever a hook raises is the hook's own fault; only a person's Ctrl-C is not."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from types import FrameType
 from typing import TypeVar
 
-from plutoc_runtime.guard import Guard, put
+from plutoc_runtime.guard import NOT_ITS_OWN, Guard, as_a_fault, put
 
 from .forked import end_if_forked, in_children
 
@@ -56,14 +56,13 @@ class _InAProcess(Guard):
             raise
         except BaseException as error:
             end_if_forked(parent, error)
-            fault = self.as_a_fault(error)
-            if fault is error:
+            if not issubclass(type(error), NOT_ITS_OWN):
                 raise
-            raise fault from error.__cause__
+            raise as_a_fault(error) from error.__cause__
         end_if_forked(parent)
         return returned
 
-    def is_a_persons(self, error: BaseException) -> bool:
+    def by_a_person(self, error: BaseException) -> bool:
         kind = type(error)  # the error itself is asked nothing: it may be of any class
         if not issubclass(kind, KeyboardInterrupt):
             return False
@@ -73,8 +72,8 @@ class _InAProcess(Guard):
 
 _IN_A_PROCESS = _InAProcess()
 
-by_a_person = _IN_A_PROCESS.is_a_persons
-as_a_fault = _IN_A_PROCESS.as_a_fault
+by_a_person = _IN_A_PROCESS.by_a_person
+"""Say whether an error is a person's Ctrl-C, or, where that cannot be told, may be."""
 
 
 def guard_hooks() -> None:

@@ -14,12 +14,12 @@ from threading import Thread
 from types import CoroutineType, coroutine
 from typing import Any, NoReturn, TypeVar, cast
 
-from plutoc_runtime.guard import guarded
+from plutoc_runtime.guard import as_a_fault, guarded
 from plutoc_runtime.kernel import WHATEVER, Call, Kernel, Key, Kind
 from plutoc_runtime.signals import Signal
 
 from .forked import end_if_forked
-from .raised import as_a_fault, by_a_person, guard_hooks
+from .raised import by_a_person, guard_hooks
 from .straight import never_waits
 
 T = TypeVar("T")
@@ -152,7 +152,7 @@ class RealTime(Kernel):
             self.post(result.set, returned)
 
     async def _in_thread(self, call: Callable[[], object]) -> object:
-        """Call this in a thread of its own: one that never comes back keeps nobody from leaving."""
+        """Call this in a thread of its own: one that never comes back does not keep the app from ending."""
         ended: asyncio.Future[Callable[[], object]] = self._loop.create_future()
 
         def finish(end: Callable[[], object]) -> None:
@@ -160,7 +160,7 @@ class RealTime(Kernel):
                 ended.set_result(end)
 
         def tell(end: Callable[[], object]) -> None:
-            with suppress(RuntimeError):  # the loop is closed: nobody waits any longer
+            with suppress(RuntimeError):  # the loop is closed: the answer is not awaited any longer
                 self._loop.call_soon_threadsafe(finish, end)
 
         parent = os.getpid()

@@ -42,7 +42,7 @@ class Entry:
 
 
 class Over(Protocol):
-    """A job that is over, as whoever keeps it has it."""
+    """A job that is over, wherever it is kept."""
 
     @property
     def state(self) -> JobState:

@@ -1,4 +1,4 @@
-"""Which hooks run straight through: they need no task, and nobody has to drive them."""
+"""Which hooks run straight through: they need no task."""
 
 from __future__ import annotations
 

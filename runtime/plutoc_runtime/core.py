@@ -63,9 +63,9 @@ class Core:
     calls_off: CallsOff | None = None
     """None: drones are in this process, and what was not reported was not done."""
     recorder: Recorder | None = None
-    """Writes down what happens; None: nobody will ever go on from here."""
+    """Writes down what happens; None: nothing will ever go on from here."""
 
     def log(self, text: str, mission: str | None = None) -> None:
-        """Write a line on the console of whoever watches."""
+        """Write a line on the console."""
         if self.trace.live:
             self.trace.note("log", mission=mission, text=bounded(text, LONGEST_LOG))

@@ -32,8 +32,7 @@ class Flight(Signal[Status]):
     __slots__ = ("_own", "called_off", "flier", "launched_at", "retry", "state", "trip")
 
     def __init__(self, state: State, trip: Trip, flier: Drone, retry: bool) -> None:
-        self.is_set = False
-        self.error = self.waiter = self._value = self._watchers = None
+        super().__init__()
         self.state, self.trip, self.flier = state, trip, flier
         self.launched_at = state.core.kernel.now
         self.retry = retry

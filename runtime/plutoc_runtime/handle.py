@@ -58,7 +58,7 @@ class LiveDrone:
         await self._asked(lambda drone: self._navigation.write(drone, name, number), name)
 
     def lets_go(self) -> None:
-        """The action is over: the drone is somebody else's from now on."""
+        """The action is over: the drone is not the action's any more."""
         self._is_over = True
 
     def is_of(self, drone: Drone) -> bool:

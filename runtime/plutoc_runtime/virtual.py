@@ -15,7 +15,7 @@ T = TypeVar("T")
 
 
 class Stuck(RuntimeError):
-    """Nothing will ever happen again, and somebody still waits."""
+    """Nothing will ever happen again, and coroutines still wait."""
 
 
 class VirtualTime(Kernel):
@@ -91,7 +91,9 @@ def _called_off_for_good(hook: Coroutine[Any, Any, T]) -> Generator[Any, Any, T]
             for call in (partial(hook.throw, error), hook.close):
                 try:
                     call()
-                except WHATEVER as its_own:  # whatever it does about it, nobody wants it any longer
+                except (
+                    WHATEVER
+                ) as its_own:  # whatever it does about it, it is not wanted any longer
                     if by_a_person(its_own):
                         raise
             raise
