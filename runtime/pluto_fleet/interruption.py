@@ -17,6 +17,8 @@ from plutoc_runtime.hooks import trace_of
 from plutoc_runtime.kernel import WHATEVER, Cancelled
 from plutoc_runtime.status import STANDBY, UNEXECUTED, Status
 
+from . import interventions
+from .live_fleet import live_fleet
 from .standing import Entry, JobState, outcome
 
 if TYPE_CHECKING:
@@ -84,7 +86,7 @@ def fly_on(state: State, flight: Flight, link: Commanding, entry: Entry) -> None
     """Hear of a flight that was not interrupted after all; of one that has ended, hear now."""
     state.goes_on = True
     state.mission.status = Status.RUNNING
-    state.core.fleet.flies_on(flight.flier)
+    live_fleet(state.core).flies_on(flight.flier)
     hear_end(flight, link, entry)
 
 
@@ -100,7 +102,7 @@ def fly_again(state: State, flight: Flight, link: Commanding) -> None:
     """Put an interrupted trip back: it has not been flown."""
     link.forget(flight.id)  # it shall be flown, whatever was known of it
     state.flight, state.goes_on, state.interrupted = None, False, True
-    state.core.transitions.interrupt(state.mission, flight.trip)
+    interventions.interrupt(state.core, state.mission, flight.trip)
 
 
 def was_done(state: State, flight: Flight) -> None:
@@ -113,7 +115,8 @@ def was_done(state: State, flight: Flight) -> None:
 def doubt(state: State, flight: Flight) -> None:
     """Whether the action was done is unknown: a drone that may have the item waits, too."""
     trip, drone = flight.trip, flight.flier
-    state.core.transitions.doubt(
+    interventions.doubt(
+        state.core,
         state.mission,
         trip,
         drone.id,

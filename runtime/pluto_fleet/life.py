@@ -20,6 +20,7 @@ from .control import Control
 from .files.reading import shortened
 from .journal.careful import Careful
 from .journal.recorder import Recorder, Sink
+from .live_fleet import LiveFleet, live_fleet
 from .raised import guard_hooks
 from .recovery import go_on
 
@@ -59,7 +60,7 @@ class Life:
         if watcher is not None:
             heard.append(partial(self._when_durable, watcher))
         self.session = Session(
-            app, fleet, kernel, navigation, heard, self.recorder, CallingOff(link)
+            app, fleet, kernel, navigation, heard, self.recorder, CallingOff(link), LiveFleet
         )
         self.control = Control(self.session, link)
         self._retired: Sequence[str] = records.retired
@@ -118,7 +119,7 @@ class Life:
         core.trace.note("brain.began", epoch=self._epoch)
         self._retire()
         for drone in core.fleet.drones:
-            core.fleet.take_up(drone, roll.drones[drone.id])
+            live_fleet(core).take_up(drone, roll.drones[drone.id])
         self.session.set_out(missions)
         self.missions = tuple(missions)
         return await self.session.see_through()
@@ -137,7 +138,7 @@ class Life:
 
         Those that somebody has looked after, and that were not back when it ended, are asked anew.
         """
-        fleet = self.session.core.fleet
+        fleet = live_fleet(self.session.core)
         fleet.retired.update(drone for drone in fleet.drones if drone.id in self._retired)
         fleet.lost.update(
             {

@@ -75,6 +75,7 @@ class Session:
         listeners: Sequence[Listener],
         recorder: Recorder | None = None,
         calls_off: CallsOff | None = None,
+        kind_of_fleet: type[Fleet] = Fleet,
     ) -> None:
         self._kernel = kernel
         known = DroneStatus.FREE if recorder is None else DroneStatus.OFFLINE
@@ -101,7 +102,7 @@ class Session:
             results=results,
             transitions=Transitions(kernel, trace, results),
             queue=queue,
-            fleet=Fleet(
+            fleet=kind_of_fleet(
                 kernel, trace, fleet.airspace, navigation, self.drones, queue, fleet.after_trip
             ),
             deadlines=Deadlines(kernel),

@@ -23,6 +23,7 @@ from ..journal.fold import Records
 from ..journal.lock import holder
 from ..journal.place import written
 from ..journal.reader import Reader
+from ..live_fleet import live_fleet
 from ..setting import End, Stops
 from . import rows
 from .feed import Feed
@@ -202,7 +203,7 @@ class Outing:
         life, put, changed = self.life, self.missions.put, False
         if life is not None and life.missions:
             states = {state.mission.name: state for state in life.session.engine.states}
-            now, app, fleet = self.now, self.flight.app, life.session.core.fleet
+            now, app, fleet = self.now, self.flight.app, live_fleet(life.session.core)
             self._waiting.look(fleet)
             why = partial(self._waiting.why, fleet)
             for mission in life.missions:
@@ -222,7 +223,7 @@ class Outing:
 
     def _drones_now(self, life: Life) -> Iterator[rows.Row]:
         work = rows.mission_of_each(life.session.engine.states)
-        fleet = life.session.core.fleet
+        fleet = live_fleet(life.session.core)
         for drone in life.session.drones:
             low = self._waiting.why_low(fleet, drone)
             why, status = low or fleet.unready.get(drone, ""), "LOW" if low else ""
