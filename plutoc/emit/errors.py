@@ -42,7 +42,7 @@ def edited(place: Place, path: str, text: str, wanted: str | None) -> Diagnostic
 
 def _said_there(path: str) -> str:
     """Return how what is wanted of a file is said in its source, or where else."""
-    if path == "pyproject.toml":
+    if Path(path).name == "pyproject.toml":
         return "where `version` and `requires` say what goes into this file"
     return "or in `hooks.py` if it is code of your own"
 
