@@ -29,6 +29,7 @@ from .interruption import (
     what_became,
 )
 from .journal.recorder import Recorder
+from .live_engine import live_engine
 from .live_fleet import live_fleet
 from .standing import Down
 
@@ -50,7 +51,7 @@ class Control:
     """The commands of one running app."""
 
     def __init__(self, session: Session, link: Commanding) -> None:
-        self._link, self._core, self._engine = link, session.core, session.engine
+        self._link, self._core, self._engine = link, session.core, live_engine(session)
         self.stopped: Signal[Down] = Signal()
         """Set when everything was stopped and all drones are down."""
         self.whole: Task[float] | None = None

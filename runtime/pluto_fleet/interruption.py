@@ -25,9 +25,9 @@ if TYPE_CHECKING:
     from plutoc_runtime.actions import Action
     from plutoc_runtime.app import App
     from plutoc_runtime.core import Core
-    from plutoc_runtime.engine import Engine
     from plutoc_runtime.state import State
 
+    from .live_engine import LiveEngine
     from .navigation import Commanding
 
 
@@ -126,7 +126,7 @@ def doubt(state: State, flight: Flight) -> None:
         keep_carrier(state, drone)
 
 
-def settle_doubt(state: State, engine: Engine, link: Commanding, done: bool) -> None:
+def settle_doubt(state: State, engine: LiveEngine, link: Commanding, done: bool) -> None:
     """A person has said whether the action was done: the mission goes on accordingly."""
     flight = state.flight
     if flight is None:

@@ -20,6 +20,7 @@ from .control import Control
 from .files.reading import shortened
 from .journal.careful import Careful
 from .journal.recorder import Recorder, Sink
+from .live_engine import LiveEngine, live_engine
 from .live_fleet import LiveFleet, live_fleet
 from .raised import guard_hooks
 from .recovery import go_on
@@ -60,7 +61,15 @@ class Life:
         if watcher is not None:
             heard.append(partial(self._when_durable, watcher))
         self.session = Session(
-            app, fleet, kernel, navigation, heard, self.recorder, CallingOff(link), LiveFleet
+            app,
+            fleet,
+            kernel,
+            navigation,
+            heard,
+            self.recorder,
+            CallingOff(link),
+            LiveFleet,
+            LiveEngine,
         )
         self.control = Control(self.session, link)
         self._retired: Sequence[str] = records.retired
@@ -103,7 +112,7 @@ class Life:
         for index, mission in enumerate(missions, start=first):
             mission.index = index
         self.missions += tuple(missions)
-        self.session.engine.add(missions)
+        live_engine(self.session).add(missions)
 
     def _set_out(self, whole: Coroutine[Any, Any, float]) -> Task[float]:
         self.control.whole = task = self._kernel.spawn(whole, FLEET, "the session")
@@ -129,7 +138,7 @@ class Life:
         roll = await self._link.call()
         session.core.trace.note("brain.began", epoch=self._epoch)
         self._retire()
-        missions = await go_on(session.core, session.engine, self._link, roll, records)
+        missions = await go_on(session.core, live_engine(session), self._link, roll, records)
         self.missions = tuple(missions)
         return await session.see_through()
 

@@ -20,6 +20,7 @@ from plutoc_runtime.signals import Signal
 from .journal.errors import JournalError
 from .journal.writer import Writer
 from .life import Life
+from .live_engine import live_engine
 from .live_fleet import live_fleet
 from .realtime import RealTime
 from .remote_control import listening, perform, stop_in
@@ -85,7 +86,7 @@ class OneLife:
             listeners=(self._count,),
             watcher=setting.tell,
         )
-        life.session.engine.patient = setting.patient
+        live_engine(life.session).patient = setting.patient
         live_fleet(life.session.core).somebody_comes = setting.sim
         life.control.stopped.watch(lambda _: self._end.set(End.STOPPED))
         stops.stop_now = self._stop

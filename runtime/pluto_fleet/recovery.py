@@ -26,17 +26,17 @@ from .rebuilding import Rebuilt, last_flight, rebuilt, remember, restore_results
 
 if TYPE_CHECKING:
     from plutoc_runtime.core import Core
-    from plutoc_runtime.engine import Engine
     from plutoc_runtime.model import Drone, Mission
     from plutoc_runtime.state import State
 
     from .journal.fold import Records
+    from .live_engine import LiveEngine
     from .navigation import Commanding
     from .standing import RollCall
 
 
 async def go_on(
-    core: Core, engine: Engine, link: Commanding, roll: RollCall, records: Records
+    core: Core, engine: LiveEngine, link: Commanding, roll: RollCall, records: Records
 ) -> list[Mission[Any]]:
     """Take up everything where it was interrupted; return all missions, those that ended too."""
     by_index = sorted(records.missions.items(), key=lambda item: int(item[1]["index"]))
@@ -73,7 +73,7 @@ class _Revival:
     def __init__(
         self,
         core: Core,
-        engine: Engine,
+        engine: LiveEngine,
         link: Commanding,
         roll: RollCall,
         one: Rebuilt,

@@ -76,6 +76,7 @@ class Session:
         recorder: Recorder | None = None,
         calls_off: CallsOff | None = None,
         kind_of_fleet: type[Fleet] = Fleet,
+        kind_of_engine: type[Engine] = Engine,
     ) -> None:
         self._kernel = kernel
         known = DroneStatus.FREE if recorder is None else DroneStatus.OFFLINE
@@ -111,7 +112,7 @@ class Session:
         )
         if recorder is not None:
             recorder.trace, recorder.results = trace, results
-        self.engine = Engine(self.core)
+        self.engine = kind_of_engine(self.core)
 
     def start(self, missions: Sequence[Mission[Any]]) -> Task[float]:
         """Set the missions on their way; the task gives the time at which the last one ended.

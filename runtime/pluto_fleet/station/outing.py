@@ -23,6 +23,7 @@ from ..journal.fold import Records
 from ..journal.lock import holder
 from ..journal.place import written
 from ..journal.reader import Reader
+from ..live_engine import live_engine
 from ..live_fleet import live_fleet
 from ..setting import End, Stops
 from . import rows
@@ -202,7 +203,7 @@ class Outing:
     def _see_missions(self, number: int) -> bool:
         life, put, changed = self.life, self.missions.put, False
         if life is not None and life.missions:
-            states = {state.mission.name: state for state in life.session.engine.states}
+            states = {state.mission.name: state for state in live_engine(life.session).states}
             now, app, fleet = self.now, self.flight.app, live_fleet(life.session.core)
             self._waiting.look(fleet)
             why = partial(self._waiting.why, fleet)
@@ -222,7 +223,7 @@ class Outing:
         return changed
 
     def _drones_now(self, life: Life) -> Iterator[rows.Row]:
-        work = rows.mission_of_each(life.session.engine.states)
+        work = rows.mission_of_each(live_engine(life.session).states)
         fleet = live_fleet(life.session.core)
         for drone in life.session.drones:
             low = self._waiting.why_low(fleet, drone)
