@@ -13,7 +13,9 @@ from plutoc_runtime.words import cut_off, place, printable
 if TYPE_CHECKING:
     from plutoc_runtime.core import Core
     from plutoc_runtime.model import Drone
-    from plutoc_runtime.standing import Standing
+
+    from .navigation import Commanding
+    from .standing import Standing
 
 _HELPLESS = 12.0
 """Seconds after which a drone that stands there will not fly home by itself: it would have begun."""
@@ -21,6 +23,8 @@ _HELPLESS = 12.0
 
 class LiveFleet(Fleet):
     """A fleet whose drones may have been lost, retired or flying before this app began."""
+
+    _navigation: Commanding
 
     def __init__(self, *parts: Any) -> None:
         super().__init__(*parts)

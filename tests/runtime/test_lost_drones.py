@@ -13,11 +13,11 @@ from pluto_fleet.gateway.pilots import Pilots
 from pluto_fleet.journal.fold import Records
 from pluto_fleet.journal.memory import Memory
 from pluto_fleet.live_fleet import live_fleet
+from pluto_fleet.standing import Standing
 from plutoc_runtime.errors import BadInput, Failure
 from plutoc_runtime.kernel import FLEET
 from plutoc_runtime.model import Drone
 from plutoc_runtime.signals import Signal
-from plutoc_runtime.standing import Standing
 from plutoc_runtime.status import DroneStatus
 from tests.runtime import apps
 from tests.runtime.living import Living, enterable, names

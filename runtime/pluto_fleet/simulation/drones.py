@@ -22,10 +22,10 @@ from .deeds import Deed
 if TYPE_CHECKING:
     from plutoc_runtime.airspace import Airspace
     from plutoc_runtime.model import Item, Point, Telemetry
-    from plutoc_runtime.standing import Standing
     from plutoc_runtime.world import World
 
     from ..navigation import Job
+    from ..standing import Standing
 
 __all__ = ["SimulatedDrone", "SimulatedNavigation"]
 
