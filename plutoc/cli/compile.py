@@ -156,7 +156,8 @@ def _refuse(checked: Checked, changes: Changes) -> None:
     if changes.first:
         raise Rejected([never_written(place, folder)])
     if changes.files:
-        raise Rejected([outdated(place, folder, [change.path for change in changes.files])])
+        paths = [change.path for change in changes.files]
+        raise Rejected([outdated(place, folder, paths, settles_merge=changes.settles_merge)])
 
 
 def _outcome(compiled: Compiled, changes: Changes) -> Iterator[str]:
@@ -173,7 +174,8 @@ def _outcome(compiled: Compiled, changes: Changes) -> Iterator[str]:
         if printable(path) == path:  # else a shell would need it otherwise than can be shown
             yield from _installing(graph, path)
     elif changes.files:
-        yield f"{folder}: {counted(len(changes.files), 'file')} changed"
+        settled = ", and a merge is settled" if changes.settles_merge else ""
+        yield f"{folder}: {counted(len(changes.files), 'file')} changed{settled}"
         for change in changes.files:
             mark = "+" if change.before is None else "-" if change.after is None else "~"
             yield f"  {mark} {shown(Path(change.path))}"
