@@ -35,8 +35,8 @@ def edited(place: Place, path: str, text: str, wanted: str | None) -> Diagnostic
         _first_difference(text, wanted),
         label="differs from what was written here" if wanted is not None else "",
         related=(_made_of(place),),
-        help=f"make this change in `{place.source.path}`, or in `hooks.py` if it is code of your"
-        " own, and undo it here; `--force` throws it away",
+        help=f"make this change in `{place.source.path}`, {_said_there(path)}, and undo it here;"
+        " `--force` throws it away",
     )
 
 
@@ -51,13 +51,20 @@ def merged_with_an_edit(place: Place, folder: Path, path: str, text: str) -> Dia
         label="the merge begins here",
         related=(_made_of(place),),
         help=f"{_both_sides_again(folder / 'pluto.lock')}, and `compile` settles the rest; where a"
-        " side was edited by hand, make that change in the app, or in `hooks.py` if it is code of"
-        " your own, and take the other side here; `--force` throws both away",
+        f" side was edited by hand, make that change in `{place.source.path}`, {_said_there(path)},"
+        " and take the other side here; `--force` throws both away",
     )
 
 
 def _both_sides_again(lock: Path) -> str:
     return f"`git checkout --merge {quote(str(lock))}` brings both sides of the lock back"
+
+
+def _said_there(path: str) -> str:
+    """Return how what is wanted of a file is said in its source, or where else."""
+    if Path(path).name == "pyproject.toml":
+        return "where `version` and `requires` say what goes into this file"
+    return "or in `hooks.py` if it is code of your own"
 
 
 def somebody_elses_file(place: Place, path: str) -> Diagnostic:

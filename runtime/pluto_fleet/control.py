@@ -12,7 +12,13 @@ from typing import TYPE_CHECKING
 
 from plutoc_runtime.errors import BadInput
 from plutoc_runtime.flight import keep_carrier
-from plutoc_runtime.interruption import (
+from plutoc_runtime.kernel import FLEET, Task, mission_key
+from plutoc_runtime.signals import Signal
+from plutoc_runtime.status import DroneStatus, Status
+from plutoc_runtime.transitions import PRIORITY
+from plutoc_runtime.words import counted, quoted
+
+from .interruption import (
     Fate,
     doubt,
     fly_again,
@@ -22,23 +28,17 @@ from plutoc_runtime.interruption import (
     was_done,
     what_became,
 )
-from plutoc_runtime.kernel import FLEET, Task, mission_key
-from plutoc_runtime.signals import Signal
-from plutoc_runtime.standing import Down
-from plutoc_runtime.status import DroneStatus, Status
-from plutoc_runtime.transitions import PRIORITY
-from plutoc_runtime.words import counted, quoted
-
 from .journal.recorder import Recorder
+from .standing import Down
 
 if TYPE_CHECKING:
     from plutoc_runtime.flight import Flight
     from plutoc_runtime.model import Drone, Trip
-    from plutoc_runtime.navigation import Commanding
     from plutoc_runtime.session import Session
     from plutoc_runtime.state import State
 
     from .journal.fold import Record
+    from .navigation import Commanding
 
     Then = Callable[[State], None]
 

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from json.encoder import encode_basestring_ascii
 from math import isfinite
 from typing import TYPE_CHECKING, Any
 
+from plutoc_runtime.trace import dumped
 from plutoc_runtime.words import shown
 
 if TYPE_CHECKING:
@@ -22,26 +23,6 @@ def line(event: Event) -> str:
 def exact(event: Event) -> str:
     """Return an event as a line of JSON with every number as it is: what the journal keeps."""
     return _TEMPLATES[tuple(event)] % tuple([_EXACT[type(fact)](fact) for fact in event.values()])
-
-
-def dumped(value: object) -> str:
-    """Write plain data as JSON on one line."""
-    return json.dumps(rounded(value), allow_nan=False)
-
-
-def rounded(value: object) -> object:
-    """Return plain data with every number rounded to three decimals; what is no number is null."""
-    match value:
-        case float():
-            return round(value, 3) + 0.0 if isfinite(value) else None  # + 0.0: never -0.0
-        case Mapping():
-            return {str(key): rounded(element) for key, element in value.items()}
-        case list() | tuple():
-            return [rounded(element) for element in value]
-        case None | bool() | int() | str():
-            return value
-        case _:
-            return str(value)
 
 
 class _Templates(dict[tuple[str, ...], str]):

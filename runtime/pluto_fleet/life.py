@@ -15,21 +15,23 @@ from plutoc_runtime.kernel import FLEET, Kernel, Task
 from plutoc_runtime.session import Listener, Session
 from plutoc_runtime.words import of, quoted
 
+from .calling_off import CallingOff
 from .control import Control
 from .files.reading import shortened
 from .journal.careful import Careful
 from .journal.recorder import Recorder, Sink
+from .raised import guard_hooks
 from .recovery import go_on
 
 if TYPE_CHECKING:
     from plutoc_runtime.app import App
     from plutoc_runtime.model import Mission
-    from plutoc_runtime.navigation import Commanding
-    from plutoc_runtime.standing import RollCall
     from plutoc_runtime.trace import Event
 
     from .files.fleet import FleetFile
     from .journal.fold import Records
+    from .navigation import Commanding
+    from .standing import RollCall
 
 
 class Life:
@@ -49,13 +51,16 @@ class Life:
         watcher: Listener | None = None,
     ) -> None:
         """Begin; `watcher` is told of an event only when it is durable, `listeners` at once."""
+        guard_hooks()
         self._kernel, self._link, self._epoch = kernel, link, epoch
         self.recorder = Recorder(app, kernel, sink, records)
         navigation = Careful(link, self.recorder)
         heard: list[Listener] = [self.recorder.take, self._forget, *listeners]
         if watcher is not None:
             heard.append(partial(self._when_durable, watcher))
-        self.session = Session(app, fleet, kernel, navigation, heard, self.recorder, link)
+        self.session = Session(
+            app, fleet, kernel, navigation, heard, self.recorder, CallingOff(link)
+        )
         self.control = Control(self.session, link)
         self._retired: Sequence[str] = records.retired
         self._mended: Sequence[str] = records.mended

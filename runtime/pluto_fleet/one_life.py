@@ -16,7 +16,6 @@ from typing import TYPE_CHECKING, Any
 from plutoc_runtime.errors import BadInput
 from plutoc_runtime.kernel import FLEET, Cancelled
 from plutoc_runtime.signals import Signal
-from plutoc_runtime.standing import Down
 
 from .journal.errors import JournalError
 from .journal.writer import Writer
@@ -24,6 +23,7 @@ from .life import Life
 from .realtime import RealTime
 from .remote_control import listening, perform, stop_in
 from .setting import End, Lived
+from .standing import Down
 
 if TYPE_CHECKING:
     from plutoc_runtime.kernel import Task

@@ -7,7 +7,10 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.flight import Flight, keep_carrier
-from plutoc_runtime.interruption import (
+from plutoc_runtime.status import Status
+
+from .control import CANCELLED
+from .interruption import (
     Fate,
     doubt,
     fly_again,
@@ -17,20 +20,17 @@ from plutoc_runtime.interruption import (
     was_done,
     what_became,
 )
-from plutoc_runtime.status import Status
-
-from .control import CANCELLED
 from .rebuilding import Rebuilt, last_flight, rebuilt, remember, restore_results
 
 if TYPE_CHECKING:
     from plutoc_runtime.core import Core
     from plutoc_runtime.engine import Engine
     from plutoc_runtime.model import Drone, Mission
-    from plutoc_runtime.navigation import Commanding
-    from plutoc_runtime.standing import RollCall
     from plutoc_runtime.state import State
 
     from .journal.fold import Records
+    from .navigation import Commanding
+    from .standing import RollCall
 
 
 async def go_on(

@@ -5,17 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.enough import IDLE, Bound, Enough
-from plutoc_runtime.errors import BadInput
+from plutoc_runtime.enough import Bound, see_through
 from plutoc_runtime.kernel import Kernel
 from plutoc_runtime.model import Mission
 from plutoc_runtime.session import Listener, Outcome, Session
 from plutoc_runtime.trace import Event
-from plutoc_runtime.virtual import Stuck, VirtualTime
-from plutoc_runtime.words import duration
+from plutoc_runtime.virtual import VirtualTime
 from plutoc_runtime.world import World
 
 from .gateway.gateway import Gateway
+from .raised import guard_hooks
 from .simulation.drones import SimulatedDrone, SimulatedNavigation
 
 if TYPE_CHECKING:
@@ -98,6 +97,7 @@ def simulate(
     Without such a time it is given up where missions set out again and again for nothing.
     `around` puts something between the gateway and its drones; `slack` keeps them further apart.
     """
+    guard_hooks()
     kernel, bound = VirtualTime(), Bound(missions)
 
     def listen(event: Event) -> None:
@@ -107,25 +107,5 @@ def simulate(
             kernel.crash(enough)
 
     simulation = Simulation(app, fleet, kernel, seed, faults, listen, around, slack)
-    over = simulation.session.start(missions)
-    try:
-        if until is None:
-            while not kernel.run(over, last := bound.last + IDLE):
-                if bound.last + IDLE <= last:
-                    raise Enough(bound.idle())
-            ended = over.result()
-        else:
-            ended = over.result() if kernel.run(over, until) else kernel.now
-    except Enough as enough:
-        return simulation.outcome(missions, kernel.now, str(enough))
-    except Stuck:
-        queue = simulation.session.core.queue
-        if not queue.waiting:
-            raise
-        raise BadInput(
-            f"{app.name}: the simulation stops at {duration(kernel.now)}: missions wait for ever, "
-            f"because the policy gives them none of the drones ({queue.standing()})"
-        ) from None
-    finally:
-        kernel.close()
-    return simulation.outcome(missions, ended)
+    ended, given_up = see_through(simulation.session, kernel, missions, bound, until)
+    return simulation.outcome(missions, ended, given_up)

@@ -5,16 +5,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import IntEnum
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from .actions import PICK, RELEASE
 from .energy import CLIMB_SPEED, needed
-from .words import mass, percent, place
+from .fields import FieldType
+from .words import mass, percent, place, quoted
 
 if TYPE_CHECKING:
     from .airspace import Airspace
     from .app import App
-    from .model import Category, Point, Trip
+    from .files import FleetData
+    from .model import Category, Item, Mission, Point, Trip
 
 
 class Lacks(IntEnum):
@@ -120,3 +122,45 @@ def _too_far(category: Category, home: Point, share: float) -> Miss:
         reason=f"{category.name} would need {percent(share)} of a full battery from its home "
         f"{place(home)} and back, and {percent(category.reserve)} must be left",
     )
+
+
+def wrong_aboard(trips: Sequence[Trip]) -> tuple[int, str] | None:
+    """Return the first trip with an item that cannot be aboard then, and why; None: all is well."""
+    aboard: Item | None = None
+    for place_, trip in enumerate(trips):
+        if trip.action == PICK and aboard is not None:
+            return place_, f"picks an item while {quoted(aboard.name)} is still aboard"
+        if trip.action == RELEASE and trip.item != aboard:
+            return place_, "releases an item that was not picked just before"
+        if trip.action in (PICK, RELEASE):
+            aboard = trip.item if trip.action == PICK else None
+    if aboard is None:
+        return None
+    return len(trips) - 1, f"{quoted(aboard.name)} is still aboard: no trip releases it"
+
+
+def problems(
+    app: App, missions: Sequence[Mission[Any]], fleet: FleetData, *, forever: bool
+) -> list[str]:
+    """Return a sentence for each trip that no drone could ever fly.
+
+    Unless it may go on `forever`, there is one for each mission that would, too.
+    """
+    kinds = {category.name: category for category in app.categories}
+    found: list[str] = []
+    for mission in missions:
+        trips: Sequence[Trip] = mission.trips
+        while trips:
+            chain = chain_of(trips)
+            trips = trips[len(chain) :]
+            asked = ((kinds[one.category], one.home) for one in fleet.drones)
+            misses = [miss_of(app, fleet.airspace, kind, home, chain) for kind, home in asked]
+            if None not in misses:
+                nearest = min(filter(None, misses), key=lambda miss: (-miss.lacks, miss.by))
+                who = f"mission {quoted(mission.name)}, trip {chain[0].name}"
+                found.append(f"{who}: no drone of the fleet can do it: {nearest.reason}")
+        rounds = [one.name for one in app.fields if one.type is FieldType.ROUNDS]
+        if not forever and any(getattr(mission, name, None) is True for name in rounds):
+            why = "repeats until it is stopped: say when with --until, such as --until 2h"
+            found.append(f"mission {quoted(mission.name)} {why}")
+    return found

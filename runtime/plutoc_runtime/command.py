@@ -1,24 +1,220 @@
-"""The command line of a generated package: the door to the library."""
+"""The command line of a generated package: the door to the library, and what works without it."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import os
+import sys
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from importlib import import_module
-from typing import TYPE_CHECKING
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from .errors import BadInput
+from .status import Status
+from .words import counted, duration, printable
 
 if TYPE_CHECKING:
+    from argparse import ArgumentParser
+    from types import ModuleType
+
     from .app import App
+    from .session import Outcome
+
+T = TypeVar("T")
 
 SEAM = (1, 0)
+_SEAM = ".".join(map(str, SEAM))
+
+_EXTRAS = {"serve": "[station]", "drones": "[crazyflie]", "--plot": "[plot]", "--runs": ""}
+_EXTRAS |= dict.fromkeys(("fly", "resume", "journal", "tell", "decide", "gateway", "crtp"), "")
+"""What needs the library, and with which of its extras."""
+_WORLD = "each drone alone in the air"
 
 
 def start(name: str, load: Callable[[], App]) -> int:
     """Run the command that the program was called with, and return its exit code."""
-    code: int = import_module("pluto_fleet").start(name, load, brain=__package__, seam=SEAM)
+    library = _library()
+    if library is None:
+        return alone(name, load, sys.argv[1:])
+    code: int = library.start(name, load, brain=__package__, seam=SEAM)
     return code
 
 
 def main(app: App, argv: Sequence[str] | None = None) -> int:
     """Run one command of an app that is loaded, and return its exit code."""
-    code: int = import_module("pluto_fleet").main(app, argv, brain=__package__, seam=SEAM)
+    library = _library()
+    if library is None:
+        return alone(app.name, lambda: app, sys.argv[1:] if argv is None else argv)
+    code: int = library.main(app, argv, brain=__package__, seam=SEAM)
     return code
+
+
+def _library() -> ModuleType | None:
+    carried = str(Path(__file__).parents[1] / "_fleet")
+    if os.path.isdir(carried) and carried not in sys.path:
+        sys.path.insert(0, carried)
+    try:
+        return import_module("pluto_fleet.entry")
+    except ModuleNotFoundError as error:
+        if error.name != "pluto_fleet":
+            raise  # it is there, and something of it is missing
+        return None
+
+
+def alone(name: str, load: Callable[[], App], argv: Sequence[str]) -> int:
+    """Run a command without the library, and return its exit code."""
+    try:
+        code = _run(name, load, argv)
+        print(end="", flush=True)
+        return code
+    except BadInput as error:
+        return _tell("\n".join(map(printable, str(error).split("\n"))), 2)
+    except KeyboardInterrupt:
+        return _tell(f"{name}: interrupted", 130)
+    except OSError as error:  # what is wrong with a file has been told: this is the output
+        with suppress(OSError, ValueError):  # Python would try to write the rest at its end
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        if isinstance(error, BrokenPipeError):
+            return 141
+        return _tell(f"{name}: the output cannot be written: {error.strerror or error}", 2)
+    except BaseException as error:  # even a SystemExit: it would pass for a proper end
+        if os.environ.get("PLUTO_DEBUG") == "1":
+            raise
+        what = printable(f"{type(error).__name__}: {error}")
+        how = "please report it (PLUTO_DEBUG=1 shows where it happened)"
+        return _tell(f"{name}: internal error: {what}; {how}", 70)
+
+
+def _tell(text: str, code: int = 0) -> int:
+    with suppress(OSError, ValueError):
+        print(text, file=sys.stderr, flush=True)
+    return code
+
+
+def _run(name: str, load: Callable[[], App], argv: Sequence[str]) -> int:
+    from .hooks import loaded
+
+    if argv[:1] == ["--version"]:
+        print(f"{name} {_version(name)}, seam {_SEAM}, pluto-fleet: not installed")
+        return 0
+    for word in argv if argv[:1] == ["simulate"] else argv[:1]:
+        what = word.partition("=")[0]
+        if what in _EXTRAS:
+            needed = f'pip install "pluto-fleet{_EXTRAS[what]}>={_SEAM}"'
+            sources = f'without an index, from Pluto\'s sources: pip install "PLUTO/runtime{_EXTRAS[what]}"'
+            raise BadInput(
+                f"{name}: {what} needs pluto-fleet, the library that flies: {needed} ({sources})"
+            )
+    app = loaded(load)
+    try:
+        options = _parser(app).parse_args(argv)
+    except SystemExit as end:  # argparse has printed the help, or what is wrong
+        return end.code if isinstance(end.code, int) else 2
+    return _checked(app, options)
+
+
+def _version(name: str) -> str:
+    from importlib.metadata import PackageNotFoundError, version
+
+    try:
+        return version(name.rstrip("_"))
+    except PackageNotFoundError:
+        return "(not installed)"
+
+
+def _checked(app: App, options: Any) -> int:
+    from .alone import simulate
+    from .capability import problems
+    from .faults import Faults
+    from .files import default_fleet, load_fleet, load_missions
+
+    beside = options.missions.parent / "fleet.toml"
+    if options.fleet is None and os.path.lexists(beside):
+        options.fleet = beside
+        _tell(f"fleet: {printable(str(beside))}, beside the missions; or name one: --fleet")
+    fleet = load_fleet(options.fleet, app) if options.fleet else default_fleet(app)
+    missions = load_missions(options.missions, app, fleet.airspace)
+    forever = options.command == "check" or options.until is not None
+    if found := problems(app, missions, fleet, forever=forever):
+        raise BadInput("\n".join(f"{options.missions}: {problem}" for problem in found[:50]))
+    if options.command == "check":
+        trips = counted(sum(len(mission.trips) for mission in missions), "trip")
+        drones = counted(len(fleet.drones), "drone")
+        print(f"{counted(len(missions), 'mission')} with {trips}: a fleet of {drones} can fly them")
+        return 0
+    seed, faults, until = options.seed, Faults(**options.fail), options.until
+    outcome = simulate(app, missions, fleet, seed=seed, faults=faults, until=until, on_event=None)
+    return _told(app.name, outcome, options)
+
+
+def _told(name: str, outcome: Outcome, options: Any) -> int:
+    from .session import outcome_data
+    from .trace import dumped
+
+    if options.trace is not None:
+        try:
+            lines = [dumped(event) + "\n" for event in outcome.events]
+            options.trace.write_text("".join(lines), "utf-8")
+        except (OSError, ValueError) as error:
+            raise BadInput(f"{options.trace}: the trace cannot be written: {error}") from None
+    if options.json:
+        print(dumped({**outcome_data(name, options.seed, outcome), "world": _WORLD}))
+    else:
+        print("\n".join(map(printable, _report(outcome))))
+    statuses = {mission.status for mission in outcome.missions}
+    if statuses & {Status.UNCERTAIN, Status.HELD}:
+        return 4
+    return 1 if outcome.given_up or statuses & {Status.FAILED, Status.CANCELLED} else 0
+
+
+def _report(outcome: Outcome) -> Iterator[str]:
+    yield from outcome.log
+    for mission in outcome.missions:
+        reason = mission.reason and f": {mission.reason}"
+        yield f"{mission.name}: {mission.status.value}{reason}"
+    if outcome.given_up:
+        yield f"given up: {outcome.given_up}"
+    completed = sum(mission.status is Status.COMPLETED for mission in outcome.missions)
+    done = f"{completed} of {counted(len(outcome.missions), 'mission')} completed"
+    flights = counted(outcome.count("trip.launched"), "flight")
+    drones = f"{counted(len(outcome.drones), 'drone')}, {outcome.crashed} crashed"
+    yield f"{done} in {duration(outcome.duration)} ({flights}; {drones})"
+    yield f"flown with {_WORLD}; with pluto-fleet they keep apart"
+
+
+def _parser(app: App) -> ArgumentParser:
+    from argparse import ArgumentParser
+
+    from .faults import shares
+    from .quantities import time_from
+
+    parser = ArgumentParser(prog=app.name, description=app.title, allow_abbrev=False)
+    parser.add_argument("--version", action="store_true", help="say which app and seam this is")
+    commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
+    check = commands.add_parser("check", help="say whether the fleet can fly the missions")
+    simulate = commands.add_parser("simulate", help=f"fly the missions, {_WORLD}")
+    check.add_argument("missions", metavar="M.toml", type=Path, nargs="?", default="missions.toml")
+    simulate.add_argument("missions", metavar="M.toml", type=Path)
+    for one in (check, simulate):
+        one.add_argument("--fleet", metavar="F.toml", type=Path, help="the map and the drones")
+    add = simulate.add_argument
+    add("--seed", metavar="N", type=int, default=0, help="what chance depends on (default 0)")
+    add("--fail", metavar="WHAT=SHARE,…", type=typed(shares), default={}, help="such as crash=2%%")
+    add("--until", metavar="TIME", type=typed(time_from), help='stop then, such as "2 h"')
+    add("--trace", metavar="FILE", type=Path, help="write every event there, as a JSON object")
+    add("--json", action="store_true", help="print one JSON object instead")
+    return parser
+
+
+def typed(read: Callable[[str], T]) -> Callable[[str], T]:
+    """Return the same for argparse, which then says what is wrong as it was said."""
+    from argparse import ArgumentTypeError
+
+    def converted(text: str) -> T:
+        try:
+            return read(text)
+        except ValueError as error:
+            raise ArgumentTypeError(str(error)) from None
+
+    return converted

@@ -6,9 +6,9 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from .blame import as_crash, blame, blamed
-from .calling_off import abort_now
 from .errors import HookFault, MissionFailed
 from .fields import Entity, wrong_field
+from .flight import fail
 from .kernel import Cancelled, Task, mission_key
 from .run import Run
 from .signals import Signal
@@ -135,14 +135,14 @@ class Engine:
                 state.task.cancel()
 
     def doomed(self, state: State) -> None:
-        """End a doomed mission, once whoever found out has finished its turn."""
+        """End a doomed mission, once the coroutine that found out has finished its turn."""
         mission = state.mission
         self._core.kernel.spawn(
             self._call_off(state), mission_key(mission.index), f"{mission.name} is doomed"
         )
 
     async def _call_off(self, state: State) -> None:
-        """Take its turn among the coroutines of this instant: before whoever is woken later."""
+        """Take its turn among the coroutines of this instant: before those that are woken later."""
         if state.task is not None:
             state.task.cancel()
         elif state.mission.name in self._aside:
@@ -190,12 +190,14 @@ class Engine:
 
     def _end(self, state: State, status: Status, reason: str) -> None:
         mission, fleet = state.mission, self._core.fleet
-        if state.in_flight is not None:
-            abort_now(state, f"its mission ended: {reason or status.value}")
+        flight = state.in_flight
+        if flight is not None:
+            flight.break_off()
+            fail(state, flight, f"its mission ended: {reason or status.value}")
         if state.allocated is not None:
             fleet.never_flew(state.allocated)
         if state.carrier is not None:
-            fleet.recover(state.carrier)  # somebody must take off what it carries
+            fleet.recover(state.carrier)  # what it carries must be taken off
         state.allocated = state.carrier = state.carries = None
         self._core.transitions.end(mission, status, reason)
         if not self._living:

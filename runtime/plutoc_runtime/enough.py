@@ -6,11 +6,16 @@ Flights are counted and not hours: a plan may well last for months.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+from .errors import BadInput
 from .model import Mission
 from .trace import Event
-from .words import counted, quoted
+from .virtual import Stuck, VirtualTime
+from .words import counted, duration, quoted
+
+if TYPE_CHECKING:
+    from .session import Session
 
 FLIGHTS = 1_000
 """So many flights a planned trip, in one planned round of its mission, and no more."""
@@ -60,3 +65,36 @@ class Bound:
     def idle(self) -> str:
         """Return what is said where nothing has set out for too long."""
         return f"nothing has set out for {IDLE / 86_400:.0f} days, and missions are not at their end; {MORE}"
+
+
+def see_through(
+    session: Session,
+    kernel: VirtualTime,
+    missions: Sequence[Mission[Any]],
+    bound: Bound,
+    until: float | None,
+) -> tuple[float, str]:
+    """Fly the missions until the last one has ended or a time is reached.
+
+    Return when that was, and why it was given up, if it was: without such a time a bound holds.
+    """
+    over = session.start(missions)
+    last = bound.last + IDLE if until is None else until
+    try:
+        while not kernel.run(over, last) and until is None:
+            if bound.last + IDLE <= last:
+                raise Enough(bound.idle())
+            last = bound.last + IDLE
+        return (over.result() if over.is_set else kernel.now), ""
+    except Enough as enough:
+        return kernel.now, str(enough)
+    except Stuck:
+        queue, name = session.core.queue, session.core.app.name
+        if not queue.waiting:
+            raise
+        raise BadInput(
+            f"{name}: the simulation stops at {duration(kernel.now)}: missions wait for ever, "
+            f"because the policy gives them none of the drones ({queue.standing()})"
+        ) from None
+    finally:
+        kernel.close()

@@ -4,6 +4,19 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from random import Random
+from typing import TYPE_CHECKING
+
+from .errors import Failure, FlightFailed
+from .quantities import Type, parse_quantity
+from .words import place, quoted
+
+if TYPE_CHECKING:
+    from .model import Point
+
+OUTAGE = 20.0
+"""Seconds until a drone that lost its link can be reached again."""
+CARRYING_HOME = 300.0
+"""Seconds until a person has carried a drone home."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -35,6 +48,15 @@ class Drawn:
     battery: float | None = None
     action: bool = False
 
+    def moments(self, began: float) -> list[tuple[float, Failure | None]]:
+        """Return when, on a flight that began then, what comes to pass."""
+        drawn = (
+            (self.crash, Failure.CRASH),
+            (self.link, Failure.LINK),
+            (self.battery, Failure.BATTERY),
+        )
+        return [(began + after, what) for after, what in drawn if after is not None]
+
 
 def draw(faults: Faults, seed: int, order: Order | None) -> Drawn:
     """Draw what goes wrong on a flight. The way home, which has no order, goes well."""
@@ -53,3 +75,45 @@ def draw(faults: Faults, seed: int, order: Order | None) -> Drawn:
         battery=moment(faults.battery),
         action=chance.random() < faults.action,
     )
+
+
+def befell(drone: str, what: Failure, at: Point) -> FlightFailed:
+    """Return how everything fails that a drone does after this has happened to it."""
+    return FlightFailed(what, f"{drone} {_SAID[what]} at {place(at)}")
+
+
+def action_failed(what: str, why: str, at: Point) -> FlightFailed:
+    """Return the failure of an action, with its place."""
+    return FlightFailed(Failure.ACTION, f"{what}: {why} at {place(at)}")
+
+
+_SAID = {
+    Failure.CRASH: "crashed",
+    Failure.LINK: "lost its link",
+    Failure.BATTERY: "ran out of battery",
+}
+
+
+FAULTS = ("crash", "link", "action", "battery")
+"""What `--fail` can make go wrong."""
+
+
+def shares(text: str) -> dict[str, float]:
+    """Read crash=10%,link=5%."""
+    found: dict[str, float] = {}
+    for part in text.split(","):
+        what, equals, amount = (piece.strip() for piece in part.partition("="))
+        if not equals:
+            raise ValueError(f"{quoted(part)} is not written like crash=10%")
+        if what not in FAULTS:
+            raise ValueError(f"{quoted(what)} cannot go wrong; what can: {', '.join(FAULTS)}")
+        if what in found:
+            raise ValueError(f"{what} is given twice")
+        try:
+            found[what] = parse_quantity(amount, Type.PERCENT)
+        except ValueError:
+            wrong = f"{what}={amount} is not a percentage: write it like {what}=10%"
+            raise ValueError(wrong) from None
+        if not 0 <= found[what] <= 1:
+            raise ValueError(f"{what}={amount} is not between 0% and 100%")
+    return found

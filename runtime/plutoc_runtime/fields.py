@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Container, Iterable
 from dataclasses import dataclass
+from datetime import time
 from enum import Enum
 from math import isfinite, nan
 from operator import index
@@ -85,4 +87,14 @@ def number_of(value: object) -> float | None:
         return None
 
 
+def time_of_day(value: object) -> float:
+    """Read "08:00", or TOML's own 08:00:00, as seconds since midnight."""
+    written = f"{value:%H:%M:%S}" if isinstance(value, time) else value
+    match = _TIME_OF_DAY.fullmatch(written) if isinstance(written, str) else None
+    if match is None:
+        raise ValueError('is not a time of day: write it like "08:00"')
+    return int(match[1]) * 3600.0 + int(match[2]) * 60.0 + int(match[3] or 0)
+
+
 _LARGEST, _LONGEST = 1e12, 100
+_TIME_OF_DAY = re.compile(r"([01]?\d|2[0-3]):([0-5]\d)(?::([0-5]\d))?")

@@ -1,18 +1,35 @@
-"""What a fleet file says: the map, the drones on it, and what a simulation makes them see."""
+"""The two files that a user writes: the fleet, with its map and its world, and the missions."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any, TypeVar
 
-from .model import AfterTrip
+from .actions import PICK, RELEASE
+from .airspace import Airspace
+from .capability import wrong_aboard
+from .dotted import read_toml
+from .errors import BadInput
+from .fields import Entity, time_of_day
+from .model import NOTHING, AfterTrip, Item
+from .quantities import QUANTITIES, Type, number_from
+from .spots import HOME_SIZE, first_crowded
+from .words import cut_off, number, quoted, shown
+from .world import Feature, Source, WorldData
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+    from pathlib import Path
 
-    from .airspace import Airspace
-    from .model import Point
-    from .world import WorldData
+    from .app import App
+    from .geometry import Corner
+    from .model import Mission, Point, Trip
+
+T = TypeVar("T")
+_Read = Callable[[Any], Any]
+"""Converts a value; or raises a `ValueError` that goes on after the key and the value."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -35,3 +52,205 @@ class FleetData:
     max_airborne: int | None = None
     world: WorldData | None = None
     """None: a simulation makes up a world from its seed."""
+
+
+def default_fleet(app: App) -> FleetData:
+    """Return the fleet where there is no file: five drones on an empty plain."""
+    kinds = [category.name for category in app.categories] * 5
+    drones = [
+        DroneData(id=f"cf{place}", category=kind, home=(float(place), 0.5, 0.0))
+        for place, kind in enumerate(kinds[:5], 1)
+    ]
+    return FleetData(airspace=Airspace(), drones=drones)
+
+
+def load_fleet(path: Path, app: App) -> FleetData:
+    """Return what a fleet file says, but for what only real flights need."""
+    schema = "map:table? fleet:table? drone:tables world:table? navigation:any? localization:any?"
+    top = _table(read_toml(path), f"{path}", schema)
+    schema = "size:size? image:any? cruise_height:height? ceiling:height? no_fly:areas?"
+    area, plain = _table(top.get("map", {}), f"{path}: map", schema), Airspace()
+    cruise = area.get("cruise_height", plain.cruise_height)
+    ceiling = area.setdefault("ceiling", max(plain.ceiling, cruise))
+    if cruise > ceiling:
+        raise BadInput(f"{path}: map: cruise_height is above the ceiling, {number(ceiling)} m")
+    airspace = Airspace(**area)
+    schema = "after_trip:after? max_airborne:count? apart:any? navigation:any? localization:any?"
+    return FleetData(
+        airspace=airspace,
+        **_table(top.get("fleet", {}), f"{path}: fleet", schema),
+        drones=_drones(top["drone"], f"{path}: drone", app, airspace),
+        world=_world(top["world"], f"{path}: world") if "world" in top else None,
+    )
+
+
+def load_missions(path: Path, app: App, airspace: Airspace) -> list[Mission[Any]]:
+    """Return the missions of a file, each of the app's own class."""
+    missions: dict[str, Mission[Any]] = {}
+    schema, evaluator = f"name:name? trip:tables {_fields(app, Entity.MISSION)}", _one_of(
+        app.evaluators
+    )
+    for index, entry in enumerate(_table(read_toml(path), f"{path}", "mission:tables")["mission"]):
+        name = entry.get("name") if isinstance(entry, dict) else None
+        who = f"{path}: mission {quoted(name) if isinstance(name, str) else index + 1}"
+        given = {"name": f"{index + 1}", **_table(entry, who, schema, EVALUATOR=evaluator)}
+        trips = _trips(given.pop("trip"), f"{who}, trip", app, airspace)
+        _keep(app.mission(index=index, trips=trips, **given), given["name"], missions, who)
+    return [*missions.values()]
+
+
+def _table(data: object, who: str, schema: str, **kinds: _Read) -> dict[str, Any]:
+    """Return what a table holds: `key:kind` for each, with `?` if it may be missing."""
+    if not isinstance(data, dict):
+        raise BadInput(f"{who}: is not a table")
+    values, keys = dict[str, Any](), dict(one.split(":") for one in schema.split())
+    for key in data:
+        if key not in keys:
+            raise BadInput(f"{who}: unknown key {quoted(key)}; there may be {', '.join(keys)}")
+    for key, kind in keys.items():
+        if key in data and kind != "any?":
+            try:
+                values[key] = {**_KINDS, **kinds}[kind.rstrip("?")](data[key])
+            except ValueError as error:
+                raise BadInput(f"{who}: {key} {cut_off(shown(data[key]), 60)} {error}") from None
+        elif not kind.endswith("?"):
+            raise BadInput(f"{who}: has no {key}")
+    return values
+
+
+def _keep(one: T, name: str, others: dict[str, T], who: str) -> None:
+    if name in others:
+        raise BadInput(f"{who}: there is another {quoted(name)}: names must differ")
+    others[name] = one
+
+
+def _drones(entries: list[Any], who: str, app: App, airspace: Airspace) -> list[DroneData]:
+    names = [category.name for category in app.categories]
+    only = {"category": names[0]} if len(names) == 1 else {}  # then there is nothing to choose
+    schema = f"id:name category:category{'?' if only else ''} home:point uri:any? navigation:any?"
+    kinds = {"category": _one_of(names), "point": _point(airspace, 0.0)}
+    drones: dict[str, DroneData] = {}
+    for place, entry in enumerate(entries, 1):
+        given = _table(entry, f"{who} {place}", f"{schema} options:any?", **kinds)
+        _keep(DroneData(**{**only, **given}), given["id"], drones, f"{who} {place}")
+    found = first_crowded([drone.home for drone in drones.values()], HOME_SIZE)
+    if found is not None:
+        raise BadInput(f"{who} {found + 1}: home is where another drone has its own")
+    return [*drones.values()]
+
+
+def _world(data: object, who: str) -> WorldData:
+    top = _table(data, who, "background:levels? feature:list? source:list?")
+    schema, other = (
+        "kind:name at:corner radius:radius?",
+        "quantity:name at:corner peak:float radius:radius",
+    )
+    features = [Feature(**_table(one, f"{who}.feature", schema)) for one in top.get("feature", [])]
+    sources = [Source(**_table(one, f"{who}.source", other)) for one in top.get("source", [])]
+    background = top.get("background", {})
+    return WorldData(features=tuple(features), sources=tuple(sources), background=background)
+
+
+def _trips(entries: list[Any], who: str, app: App, airspace: Airspace) -> list[Trip]:
+    schema = "name:name? action:action target:point source:point? parameters:table? item:table?"
+    schema = f"{schema} {_fields(app, Entity.TRIP)}"
+    kinds = {"action": _one_of(app.actions), "EVALUATOR": _one_of(app.evaluators)}
+    kinds["point"] = _point(airspace, airspace.cruise_height)
+    trips: dict[str, Trip] = {}
+    for index, entry in enumerate(entries):
+        called = f"{who} {index + 1}"
+        given = {"name": f"{index + 1}", **_table(entry, called, schema, **kinds)}
+        action, item = app.actions[given["action"]], given.pop("item", None)
+        keys = [
+            f"{p.name}:{p.type.value}{'?' * (p.default is not None)}" for p in action.parameters
+        ]
+        found = _table(given.get("parameters", {}), f"{called}, parameters", " ".join(keys))
+        filled = {one.name: found.get(one.name, one.default) for one in action.parameters}
+        if (item is None) == (action.name in (PICK, RELEASE)):
+            raise BadInput(f"{called}: {action.name} {'takes no' if item else 'needs an'} item")
+        if item is not None:
+            item = Item(**_table(item, f"{called}, item", "name:name mass:weight"))
+        given |= {"parameters": filled or NOTHING, "item": item, "index": index}
+        _keep(app.trip(**given), given["name"], trips, called)
+    if wrong_one := wrong_aboard([*trips.values()]):
+        raise BadInput(f"{who} {wrong_one[0] + 1}: {wrong_one[1]}")
+    return [*trips.values()]
+
+
+def _fields(app: App, entity: Entity) -> str:
+    return " ".join(f"{one.name}:{one.type.name}?" for one in app.fields if one.on is entity)
+
+
+def _point(airspace: Airspace, height: float) -> _Read:
+    def read(value: object) -> Point:
+        x, y, *z = _lengths(value, (2, 3), -1e5, 1e5)
+        point = x, y, z[0] if z else height
+        if problem := airspace.problem(point):
+            raise ValueError(f"is no place for a drone: {problem}")
+        return point
+
+    return read
+
+
+def _lengths(value: object, counts: Sequence[int], least: float, most: float) -> list[float]:
+    if not isinstance(value, list) or len(value) not in counts:
+        raise ValueError(f"is not a list of {' or '.join(map(str, counts))} numbers")
+    return [number_from(Type.LENGTH, least, most)(one) for one in value]
+
+
+def _areas(value: list[Any]) -> tuple[tuple[Corner, ...], ...]:
+    areas = [[*map(_KINDS["corner"], _KINDS["tables"](one))] for one in _KINDS["list"](value)]
+    for area in areas:
+        turns = pairwise([*area, area[0]])
+        if abs(sum(a[0] * b[1] - b[0] * a[1] for a, b in turns)) < 1e-9:
+            raise ValueError("has an area that covers no ground")
+    return tuple(map(tuple, areas))
+
+
+def _is(what: str, test: Callable[[Any], object]) -> _Read:
+    def read(value: object) -> object:
+        if not test(value):
+            raise ValueError(f"is not {what}")
+        return value
+
+    return read
+
+
+def _one_of(words: Iterable[str]) -> _Read:
+    return _is(f"one of: {', '.join(words)}", [*words].__contains__)
+
+
+def _whole(least: float) -> _Read:
+    return _is(
+        f"a whole number from {least:.0f} on", lambda v: type(v) is int and least <= v <= 1e9
+    )
+
+
+_KINDS: dict[str, _Read] = {
+    **{kind.value: number_from(kind) for kind in (*QUANTITIES, Type.FLOAT)},
+    "text": _is("a text in quotes", lambda value: isinstance(value, str)),
+    "bool": _is("true or false", lambda value: isinstance(value, bool)),
+    "int": _whole(-1e9),
+    "INT": _whole(-1e9),
+    "ROUNDS": lambda value: value is True or _whole(0)(value),
+    "TIME": number_from(Type.TIME, 0.001, or_none=True),
+    "TIME_OF_DAY": time_of_day,
+    "name": _is(
+        "a name: 1 to 200 characters that can be seen, and no blanks around them",
+        lambda v: isinstance(v, str) and v.isprintable() and 0 < len(v.strip()) == len(v) <= 200,
+    ),
+    "list": _is("a list", lambda value: isinstance(value, list)),
+    "table": _is("a table", lambda value: isinstance(value, dict)),
+    "tables": _is("a list with something in it", lambda value: isinstance(value, list) and value),
+    "levels": lambda value: {
+        key: number_from(Type.FLOAT)(value[key]) for key in _KINDS["table"](value)
+    },
+    "corner": lambda value: tuple(_lengths(value, (2,), -1e5, 1e5)),
+    "size": lambda value: tuple(_lengths(value, (2,), 0.1, 1e4)),
+    "areas": _areas,
+    "height": number_from(Type.LENGTH, 0.1, 1000.0),
+    "radius": number_from(Type.LENGTH, 0.01, 1e5),
+    "weight": number_from(Type.MASS, 0.0, 1000.0),
+    "count": _whole(1),
+    "after": lambda value: AfterTrip(_one_of([one.value for one in AfterTrip])(value)),
+}

@@ -35,7 +35,7 @@ class Fleet:
         kernel: Kernel,
         trace: Trace,
         airspace: Airspace,
-        navigation: Navigation,
+        navigation: Navigation[Any],
         drones: Sequence[Drone],
         queue: Queue,
         after_trip: AfterTrip,

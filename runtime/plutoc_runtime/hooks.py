@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import PurePath
+from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
-from .errors import ActionFailed, HookFault
-from .kernel import WHATEVER, Cancelled, Kernel
-from .raised import by_a_person
+from .errors import ActionFailed, BadInput, HookFault
+from .guard import NOT_ITS_OWN, by_a_person
+from .kernel import WHATEVER, Kernel
 from .words import bounded, class_of, text_of
 
 if TYPE_CHECKING:
+    from .app import App
     from .model import Mission
 
 Hook = Callable[..., object]
@@ -20,14 +23,14 @@ async def call_action(kernel: Kernel, hook: Hook, /, *args: object, **named: obj
     """Call an action; whatever it raises, `ActionFailed` aside, is a fault of the hook."""
     try:
         return await kernel.call_hook(hook, *args, **named)
-    except (ActionFailed, Cancelled, GeneratorExit, KeyboardInterrupt):
+    except (ActionFailed, *NOT_ITS_OWN):
         raise
     except WHATEVER as error:
         raise fault_of(hook, error) from error
 
 
 class Held:
-    """What the runtime knows things by, while a hook has them in its hands: nobody may change that."""
+    """What the runtime knows things by, while a hook has them in its hands: it may not change that."""
 
     def __init__(self, of: object, *facts: str) -> None:
         self._of, self._facts = of, {fact: getattr(of, fact) for fact in facts}
@@ -101,3 +104,38 @@ def trace_of(error: BaseException) -> str:
 
 LONGEST_REASON, LONGEST_LOG = 2_000, 20_000
 """Characters of what a hook says of a failure, and of a line that it has logged."""
+
+
+def loaded(load: Callable[[], App]) -> App:
+    """Return the app; raise `BadInput` with the place where its hooks cannot be loaded."""
+    try:
+        return load()
+    except BaseException as error:  # even a SystemExit: it would pass for a proper end
+        said = None if by_a_person(error) else _explained(error)
+        if said is None:
+            raise
+        raise BadInput(said) from error
+
+
+def _explained(error: BaseException) -> str | None:
+    """Return what is wrong with the hooks; None: something else is wrong."""
+    from traceback import extract_tb  # not needed by those who only declare blocks
+
+    if isinstance(error, AttributeError) and isinstance(error.obj, ModuleType):
+        file = error.obj.__file__ or ""
+        if PurePath(file).name == _HOOKS:
+            return f"{file} has no {error.name}: write it; plutoc compile --add-stubs adds a stub"
+    if isinstance(error, SyntaxError) and PurePath(error.filename or "").name == _HOOKS:
+        return f"{error.filename}:{error.lineno}: {error.msg}"
+    frames = [f for f in extract_tb(error.__traceback__) if _is_hooks(f.filename)]
+    if not frames:
+        return None
+    place = f"{frames[-1].filename}:{frames[-1].lineno}"
+    return f"{place}: the hooks cannot be loaded: {said(error)}"
+
+
+def _is_hooks(filename: str) -> bool:
+    return PurePath(filename).name == _HOOKS and filename != __file__  # this file is called so, too
+
+
+_HOOKS = "hooks.py"

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
 
 from .errors import HookFault
-from .forked import end_if_forked
+from .guard import by_a_person, guarded
 from .hooks import hook_name, said, trace_of
 from .model import Drone
-from .raised import by_a_person
 from .words import class_of
 
 if TYPE_CHECKING:
@@ -28,7 +27,7 @@ Choice = tuple["Drone", Why]
 
 
 class Pool(Protocol):
-    """The free drones, kept so that a policy finds the one it wants fast."""
+    """The free drones, from which a policy chooses."""
 
     def add(self, drone: Drone) -> None:
         """A drone is free; it stays where it is while it is."""
@@ -56,6 +55,21 @@ Policy = Callable[[], Pool]
 """Makes the pool from which the drones are chosen."""
 
 
+class FreeDrones:
+    """What every pool of ours keeps: the free drones, in the order in which they came."""
+
+    def __init__(self) -> None:
+        self.free: dict[Drone, None] = {}
+
+    def add(self, drone: Drone) -> None:
+        """A drone is free."""
+        self.free[drone] = None
+
+    def remove(self, drone: Drone) -> None:
+        """A drone is not free any more."""
+        self.free.pop(drone, None)
+
+
 def own_policy(hook: Callable[[Any, Sequence[Drone]], Drone | None]) -> Policy:
     """Make a policy of the app's own hook: it is asked trip by trip."""
     return OwnPolicy(hook)
@@ -72,33 +86,22 @@ class OwnPolicy:
         return Asked(self.hook)
 
 
-class Asked:
+class Asked(FreeDrones):
     """The free drones, in the fleet's order, for a hook to choose from."""
 
     def __init__(self, hook: Callable[[Any, Sequence[Drone]], Drone | None]) -> None:
+        super().__init__()
         self._hook, self._name = hook, hook_name(hook)
-        self._free: dict[Drone, None] = {}
-
-    def add(self, drone: Drone) -> None:
-        """A drone is free."""
-        self._free[drone] = None
-
-    def remove(self, drone: Drone) -> None:
-        """A drone is not free any more."""
-        self._free.pop(drone, None)
 
     def choose(self, trip: Trip, able: Able) -> Choice | None:
         """Ask the hook; raise `HookFault` for what it may not answer."""
-        free = sorted(self._free, key=lambda drone: drone.index)
+        free = sorted(self.free, key=lambda drone: drone.index)
         candidates = tuple(drone for drone in free if able(drone))
         if not candidates:
             return None
-        parent = os.getpid()
         try:
-            drone = self._hook(trip, candidates)
-            end_if_forked(parent)
+            drone = guarded(partial(self._hook, trip, candidates))
         except BaseException as error:
-            end_if_forked(parent, error)
             if by_a_person(error):
                 raise
             raise HookFault(f"policy {self._name} raised {said(error)}", trace_of(error)) from error

@@ -7,8 +7,11 @@ is a number from 0 to 1. `m` is the metre, never the minute.
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from enum import Enum
 from math import isfinite, pi
+
+from .words import quoted
 
 
 class Type(Enum):
@@ -93,3 +96,38 @@ def parse_quantity(text: str, kind: Type) -> float:
     if UNITS[unit][0] is not kind:
         raise ValueError(f"is a {UNITS[unit][0].value}, not a {kind.value}: it takes {wanted}")
     return to_si(number, unit)
+
+
+LARGEST = 1e9
+"""No plan needs more, and nothing that is computed from less overflows: 30 years, for a time."""
+
+
+def number_from(
+    kind: Type, least: float = -LARGEST, most: float = LARGEST, *, or_none: bool = False
+) -> Callable[[object], float]:
+    """Return what reads a number of a plan, with a unit or in SI units, within limits.
+
+    `or_none`: 0 is as good.
+    """
+
+    def read(value: object) -> float:
+        has_unit = isinstance(value, str) and kind in QUANTITIES
+        amount = parse_quantity(str(value), kind) if has_unit else value
+        if not isinstance(amount, int | float) or isinstance(amount, bool):
+            raise ValueError("is not a number")  # noqa: TRY004
+        if not (least <= amount <= most or (or_none and amount == 0)):
+            raise ValueError(f"is not from {least:,} to {most:,}")
+        return float(amount)
+
+    return read
+
+
+def time_from(text: str) -> float:
+    """Read a time that is more than nothing: 7200, "2 h"."""
+    try:
+        seconds = parse_quantity(text, Type.TIME)
+    except ValueError as error:
+        raise ValueError(f"{quoted(text)} {error}") from None
+    if seconds <= 0:
+        raise ValueError(f"{quoted(text)} is not more than 0")
+    return seconds

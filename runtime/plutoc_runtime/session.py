@@ -8,7 +8,7 @@ from gc import freeze
 from typing import TYPE_CHECKING, Any
 
 from .allocation import Queue
-from .core import Core, Recorder
+from .core import CallsOff, Core, Recorder
 from .eligibility import Reach
 from .engine import Engine
 from .fleet import Fleet
@@ -23,7 +23,8 @@ from .watching import Deadlines
 if TYPE_CHECKING:
     from .app import App
     from .files import FleetData
-    from .navigation import Commanding, Navigation
+    from .flight import Flight
+    from .navigation import Navigation
 
 Listener = Callable[[Event], object]
 
@@ -70,10 +71,10 @@ class Session:
         app: App,
         fleet: FleetData,
         kernel: Kernel,
-        navigation: Navigation,
+        navigation: Navigation[Flight],
         listeners: Sequence[Listener],
         recorder: Recorder | None = None,
-        link: Commanding | None = None,
+        calls_off: CallsOff | None = None,
     ) -> None:
         self._kernel = kernel
         known = DroneStatus.FREE if recorder is None else DroneStatus.OFFLINE
@@ -105,7 +106,7 @@ class Session:
             ),
             deadlines=Deadlines(kernel),
             recorder=recorder,
-            link=link,
+            calls_off=calls_off,
         )
         if recorder is not None:
             recorder.trace, recorder.results = trace, results
@@ -136,3 +137,46 @@ class Session:
             await self.core.fleet.all_down()
             if engine.done.is_set:  # and nobody has let a mission go on meanwhile
                 return ended
+
+
+def outcome_data(name: str, seed: int, outcome: Outcome) -> dict[str, object]:
+    """Return the object that `simulate --json` prints."""
+    return {
+        "app": name,
+        "seed": seed,
+        "duration_s": outcome.duration,
+        "missions": [
+            {
+                "name": mission.name,
+                "status": mission.status.value,
+                "reason": mission.reason,
+                "completed_trips": [trip.name for trip in mission.completed_trips],
+                "rounds": mission.round + 1,
+                "attempts": mission.attempts,
+            }
+            for mission in outcome.missions
+        ],
+        "trips": trips_data(outcome),
+        "drones": [
+            {
+                "id": drone.id,
+                "trips": drone.trips,
+                "flown_m": outcome.flown[drone.id],
+                "battery_level": drone.battery_level,
+                "status": drone.status.value,
+            }
+            for drone in outcome.drones
+        ],
+        "log": outcome.log,
+        **({"crashed_drones": outcome.crashed} if outcome.crashed else {}),
+        **({"given_up": outcome.given_up} if outcome.given_up else {}),
+    }
+
+
+def trips_data(outcome: Outcome) -> dict[str, int]:
+    """Return how many flights there were, and how they ended."""
+    return {
+        "completed": outcome.count("trip.completed"),
+        "failed": outcome.count("trip.failed"),
+        "attempts": outcome.count("trip.launched"),
+    }

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Mapping, Sequence
+from math import isfinite
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -30,3 +32,23 @@ class Trace:
         noted = {"t": self._t, "event": event, **facts}
         for listener in self._listeners:
             listener(noted)
+
+
+def dumped(value: object) -> str:
+    """Write plain data as JSON on one line."""
+    return json.dumps(rounded(value), allow_nan=False)
+
+
+def rounded(value: object) -> object:
+    """Return plain data with every number rounded to three decimals; what is no number is null."""
+    match value:
+        case float():
+            return round(value, 3) + 0.0 if isfinite(value) else None  # + 0.0: never -0.0
+        case Mapping():
+            return {str(key): rounded(element) for key, element in value.items()}
+        case list() | tuple():
+            return [rounded(element) for element in value]
+        case None | bool() | int() | str():
+            return value
+        case _:
+            return str(value)

@@ -8,9 +8,11 @@ from math import exp, inf
 from random import Random
 from typing import TYPE_CHECKING
 
+from .actions import BUILT_IN, MEASURE
 from .photos import take
 
 if TYPE_CHECKING:
+    from .actions import Plain
     from .airspace import Airspace
     from .geometry import Corner
     from .model import Photo, Point
@@ -83,6 +85,15 @@ class World:
         self.background = {**BACKGROUND, **data.background}
         self._seed = seed
         self._by_x = sorted((*feature.at, feature.kind) for feature in self.features)
+
+    def gives(
+        self, action: str, parameters: Mapping[str, Plain], point: Point, time: float
+    ) -> object:
+        """Return what a built-in action gives that is done at a point."""
+        if action == MEASURE:
+            quantity = parameters.get("quantity", BUILT_IN[MEASURE].parameters[0].default)
+            return self.measure(str(quantity), point, time)
+        return self.photo(point, time) if action == "take_photo" else None
 
     def measure(self, quantity: str, point: Point, time: float) -> float:
         """Return what a sensor reads at a point, its small error included."""

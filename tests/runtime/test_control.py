@@ -7,12 +7,12 @@ from dataclasses import replace
 
 import pytest
 
+from pluto_fleet.standing import Down
 from pluto_fleet.testing.invariants import violations
 from plutoc_runtime.actions import Action
 from plutoc_runtime.context import Context
 from plutoc_runtime.errors import BadInput
 from plutoc_runtime.model import Drone, Trip
-from plutoc_runtime.standing import Down
 
 from . import apps
 from .living import Living, enterable, names

@@ -8,19 +8,18 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet import rebuilding, recovery
+from pluto_fleet import interruption, rebuilding, recovery
 from pluto_fleet.gateway.gateway import Gateway
 from pluto_fleet.gateway.given import Given
 from pluto_fleet.gateway.link import Link
+from pluto_fleet.interruption import Fate
 from pluto_fleet.journal import values
 from pluto_fleet.journal.careful import Careful
 from pluto_fleet.journal.fold import Records
+from pluto_fleet.standing import JobState
 from pluto_fleet.testing.book import Book
-from plutoc_runtime import interruption
 from plutoc_runtime.engine import Engine
 from plutoc_runtime.fleet import Fleet
-from plutoc_runtime.interruption import Fate
-from plutoc_runtime.standing import JobState
 from plutoc_runtime.status import DroneStatus
 from tests.equivalence import mistakes
 

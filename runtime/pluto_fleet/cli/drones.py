@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from plutoc_runtime.errors import BadInput
+from plutoc_runtime.trace import dumped
 from plutoc_runtime.words import counted, quoted
 
 from ..crazyflie.borrowed import require
@@ -18,7 +19,6 @@ from ..files.fleet import load_fleet
 from ..files.reading import shortened
 from ..files.real import navigation_of, not_real, options_of
 from ..journal import place
-from ..journal_line import dumped
 from . import output
 from .drone_answers import Asked, answers, found, identified
 from .drone_file import write_fleet

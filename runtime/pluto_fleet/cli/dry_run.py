@@ -72,7 +72,7 @@ def dry_run(app: App, options: Options) -> int:
         around=around,
         slack=0.0 if options.sim else SLACK,
     )
-    for line in _lines(plan.app, outcome, given[0].commands):
+    for line in _lines(plan, outcome, given[0].commands):
         output.line(line)
     output.flush()
     refused = [] if options.sim else list(_refused(app, options, plan))
@@ -126,7 +126,7 @@ def _refuse_what_does_not_go_together(options: Options) -> None:
             raise BadInput(f"{flag} is for a flight, and --dry-run is none: leave one out")
 
 
-def _lines(app: App, outcome: Outcome, commands: Sequence[Command]) -> Iterator[str]:
+def _lines(plan: Plan, outcome: Outcome, commands: Sequence[Command]) -> Iterator[str]:
     yield from table(
         ("time", "drone", "command", "to", "at most"),
         [
@@ -147,7 +147,7 @@ def _lines(app: App, outcome: Outcome, commands: Sequence[Command]) -> Iterator[
         yield "refused, or not done:"
         yield from filter(None, map(line_of, failed))
         yield ""
-    yield from report(app, outcome)
+    yield from report(plan.app, outcome, plan.fleet.apart)
     yield f"{counted(len(commands), 'command')}; nothing has flown"
 
 

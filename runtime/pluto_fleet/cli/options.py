@@ -8,8 +8,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from plutoc_runtime.command import typed
 from plutoc_runtime.errors import BadInput
-from plutoc_runtime.quantities import Type, parse_quantity
+from plutoc_runtime.faults import FAULTS, shares
+from plutoc_runtime.quantities import time_from
 from plutoc_runtime.words import quoted
 
 from . import output
@@ -19,9 +21,6 @@ from .station_options import add_station
 
 if TYPE_CHECKING:
     from plutoc_runtime.app import App
-
-FAULTS = ("crash", "link", "action", "battery")
-"""What `--fail` can make go wrong."""
 
 
 @dataclass
@@ -118,7 +117,7 @@ def parse(app: App, argv: Sequence[str] | None) -> Options:
         type=Path,
         help="where to write down what happens; default: a new file in the user's own folder",
     )
-    add_dry_run(fly, time)
+    add_dry_run(fly, typed(time_from))
     serve = command("serve", "Open the ground station: draw, fly and watch missions in a browser.")
     _fleet(serve)
     how_it_flies(serve)
@@ -192,7 +191,7 @@ def _chance(parser: ArgumentParser, only: str = "") -> None:
     parser.add_argument(
         "--fail",
         metavar="WHAT=SHARE,…",
-        type=faults,
+        type=typed(shares),
         default={},
         help=f"{only}let flights go wrong: {', '.join(FAULTS)}; such as crash=2%%,link=1%%",
     )
@@ -210,7 +209,10 @@ def _simulation(parser: ArgumentParser) -> None:
         help="draw how the runs lie, into an .svg or a .png; needs matplotlib",
     )
     parser.add_argument(
-        "--until", metavar="TIME", type=time, help='stop at this simulated time, such as "2 h"'
+        "--until",
+        metavar="TIME",
+        type=typed(time_from),
+        help='stop at this simulated time, such as "2 h"',
     )
     parser.add_argument(
         "--trace", metavar="FILE", type=Path, help="write every event there, a JSON object a line"
@@ -231,44 +233,4 @@ def count(text: str) -> int:
     number = whole(text)
     if number < 1:
         raise ArgumentTypeError(f"{quoted(text)} is less than 1")
-    return number
-
-
-def time(text: str) -> float:
-    """Read a time that is more than nothing: 7200, "2 h"."""
-    try:
-        seconds = parse_quantity(text, Type.TIME)
-    except ValueError as error:
-        raise ArgumentTypeError(f"{quoted(text)} {error}") from None
-    if seconds <= 0:
-        raise ArgumentTypeError(f"{quoted(text)} is not more than 0")
-    return seconds
-
-
-def faults(text: str) -> dict[str, float]:
-    """Read crash=10%,link=5%."""
-    shares: dict[str, float] = {}
-    for part in text.split(","):
-        what, equals, amount = (piece.strip() for piece in part.partition("="))
-        if not equals:
-            raise ArgumentTypeError(f"{quoted(part)} is not written like crash=10%")
-        if what not in FAULTS:
-            known = ", ".join(FAULTS)
-            raise ArgumentTypeError(f"{quoted(what)} cannot go wrong; what can: {known}")
-        if what in shares:
-            raise ArgumentTypeError(f"{what} is given twice")
-        shares[what] = share(what, amount)
-    return shares
-
-
-def share(what: str, text: str) -> float:
-    """Read 10% or 0.1."""
-    try:
-        number = parse_quantity(text, Type.PERCENT)
-    except ValueError:
-        raise ArgumentTypeError(
-            f"{what}={text} is not a percentage: write it like {what}=10%"
-        ) from None
-    if not 0 <= number <= 1:
-        raise ArgumentTypeError(f"{what}={text} is not between 0% and 100%")
     return number

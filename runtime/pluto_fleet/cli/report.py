@@ -6,10 +6,9 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from plutoc_runtime.fields import FieldType
+from plutoc_runtime.session import trips_data
 from plutoc_runtime.status import Status
 from plutoc_runtime.words import counted, duration, number, percent, printable
-
-from .as_json import trips_data
 
 if TYPE_CHECKING:
     from plutoc_runtime.app import App
@@ -31,8 +30,8 @@ class MissionRow(NamedTuple):
     reason: str
 
 
-def report(app: App, outcome: Outcome) -> Iterator[str]:
-    """Yield the lines of the report."""
+def report(app: App, outcome: Outcome, apart: float) -> Iterator[str]:
+    """Yield the lines of the report; the last one says in which world it was flown."""
     yield from mission_table(app, map(row_of, outcome.missions))
     yield ""
     yield from drone_table(outcome.drones, outcome.flown)
@@ -40,6 +39,11 @@ def report(app: App, outcome: Outcome) -> Iterator[str]:
     if outcome.given_up:
         yield f"given up: {printable(outcome.given_up)}"
     yield last_line(outcome)
+    yield (
+        f"flown with traffic: drones keep {number(apart)} m apart from each other"
+        if apart
+        else "flown without traffic: with apart = 0 drones pass through each other"
+    )
 
 
 def row_of(mission: Mission[Any]) -> MissionRow:

@@ -8,15 +8,13 @@ from typing import TYPE_CHECKING
 
 from plutoc_runtime.errors import BadInput
 from plutoc_runtime.faults import Faults
-from plutoc_runtime.raised import Interrupted
-from plutoc_runtime.session import Outcome
-from plutoc_runtime.trace import Event
+from plutoc_runtime.session import Outcome, outcome_data
+from plutoc_runtime.trace import Event, dumped
 from plutoc_runtime.words import duration
 
-from ..journal_line import dumped
+from ..raised import Interrupted
 from ..simulate import simulate as simulated
 from . import output
-from .as_json import outcome_data
 from .events import line_of
 from .plans import Plan, load
 from .progress import Progress, on_terminal
@@ -79,7 +77,7 @@ def _once(app: App, options: Options, plan: Plan, progress: Progress) -> int:
             output.line(dumped(outcome_data(app.name, options.seed, outcome)))
         else:
             output.line()
-            for line in report(app, outcome):
+            for line in report(app, outcome, plan.fleet.apart):
                 output.line(line)
         output.flush()
     return exit_code(outcome)

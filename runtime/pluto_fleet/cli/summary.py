@@ -8,10 +8,10 @@ from math import ceil, floor
 from statistics import mean, median
 from typing import TYPE_CHECKING
 
+from plutoc_runtime.session import trips_data
 from plutoc_runtime.status import COMPLETED
 
 from ..testing.invariants import ENDS, Invariants
-from .as_json import trips_data
 from .verdict import exit_code
 
 if TYPE_CHECKING:

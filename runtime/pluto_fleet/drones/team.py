@@ -31,8 +31,8 @@ if TYPE_CHECKING:
     from plutoc_runtime.errors import FlightFailed
     from plutoc_runtime.kernel import Kernel
     from plutoc_runtime.model import Item, Point, Telemetry
-    from plutoc_runtime.navigation import Job
 
+    from ..navigation import Job
     from .feeding import Feeding
     from .real_fleet import Wanted
 

@@ -8,6 +8,7 @@ from math import dist
 from typing import TYPE_CHECKING
 
 from plutoc_runtime.files import DroneData
+from plutoc_runtime.spots import HOME_SIZE
 from plutoc_runtime.words import quoted
 
 from . import errors, values
@@ -18,9 +19,6 @@ if TYPE_CHECKING:
     from plutoc_runtime.app import App
 
     from .table import Table
-
-HOME_SIZE = 0.1
-"""Metres that a drone takes up where it stands."""
 
 Cell = tuple[int, int]
 """A square of the map with sides of that length."""

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable
-from datetime import time
 from functools import partial
 from math import isfinite
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.fields import FieldType
+from plutoc_runtime.fields import FieldType, time_of_day
 from plutoc_runtime.quantities import QUANTITIES, Type, parse_quantity, units_of
 
 from .limits import PLACE, TIME, Limit
@@ -137,19 +135,6 @@ def rounds(value: object) -> int | bool:
     if value is False or not isinstance(value, int) or value < 0:
         raise Wrong("is neither a whole number from 0 on nor true")
     return integer(value)
-
-
-_TIME_OF_DAY = re.compile(r"([01]?\d|2[0-3]):([0-5]\d)(?::([0-5]\d))?")
-
-
-def time_of_day(value: object) -> float:
-    """Read "08:00", or TOML's own 08:00:00, as seconds since midnight."""
-    if isinstance(value, time):
-        return value.hour * 3600.0 + value.minute * 60.0 + value.second
-    match = _TIME_OF_DAY.fullmatch(value) if isinstance(value, str) else None
-    if match is None:
-        raise Wrong('is not a time of day: write it like "08:00"')
-    return int(match[1]) * 3600.0 + int(match[2]) * 60.0 + int(match[3] or 0)
 
 
 def field_reader(kind: FieldType) -> Callable[[object], object]:

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from plutoc_runtime.errors import Failure, FlightFailed
-from plutoc_runtime.navigation import permitted_way
+from plutoc_runtime.navigation import way_from
 from plutoc_runtime.words import number
 
 if TYPE_CHECKING:
@@ -55,8 +55,4 @@ class Envelope:
 
     def way(self, drone: str, start: Point, end: Point) -> tuple[Point, ...]:
         """Return the points of the shortest permitted way; who has drifted out flies back in first."""
-        airspace = self._airspace
-        if airspace.problem(start) is None or airspace.problem(end) is not None:
-            return permitted_way(airspace, drone, start, end)
-        back = airspace.way_back(start)
-        return (back, *permitted_way(airspace, drone, back, end))
+        return way_from(self._airspace, drone, start, end)

@@ -14,12 +14,11 @@ from typing import TYPE_CHECKING
 
 from plutoc_runtime.energy import CLIMB_SPEED, docked
 from plutoc_runtime.errors import Failure, FlightFailed
-from plutoc_runtime.faults import Drawn
+from plutoc_runtime.faults import Drawn, befell
 from plutoc_runtime.kernel import FLEET, Key
 from plutoc_runtime.motion import Charge, Leg, standing
 from plutoc_runtime.signals import Signal
 from plutoc_runtime.standing import Standing
-from plutoc_runtime.words import place
 
 if TYPE_CHECKING:
     from plutoc_runtime.model import Category, Item, Point
@@ -257,35 +256,24 @@ class Body:
         empty = self._charge.empty_at, Failure.BATTERY
         if self.down is not None or self.left_alone:  # it has lost its link, and lands
             return min((self._leg.arrives, None), empty, key=_moment)
-        drawn = (
-            (self._drawn.crash, Failure.CRASH),
-            (self._drawn.link, Failure.LINK),
-            (self._drawn.battery, Failure.BATTERY),
-        )
-        moments = [(self._began + after, what) for after, what in drawn if after is not None]
-        return min((*moments, empty), key=_moment)
+        return min((*self._drawn.moments(self._began), empty), key=_moment)
 
     def _happen(self, when: float, what: Failure | None) -> None:
         x, y, z = self._leg.at(when)
-        who, where = self.drone.id, f"at {place((x, y, z))}"
         if what is None:
             self.touch_down(when)
-        elif what is Failure.LINK:
-            self._fail(what, f"{who} lost its link {where}", when)
+            return
+        self.down, self.down_since = befell(self.drone.id, what, (x, y, z)), when
+        self._drawn = Drawn()
+        if what is Failure.LINK:
             self.move((x, y, 0.0), when, when + z / CLIMB_SPEED)
-        elif what is Failure.BATTERY:
-            self._fail(what, f"{who} ran out of battery {where}", when)
-            self._rest(when)
+            return
+        self._rest(when)
+        if what is Failure.BATTERY:
             self._charge = Charge(0.0, when)
         else:
-            self._fail(what, f"{who} crashed {where}", when)
-            self._rest(when)
             self._charge = self._charge.changing(when, 0.0)
             self.carries = None
-
-    def _fail(self, what: Failure, reason: str, when: float) -> None:
-        self.down, self.down_since = FlightFailed(what, reason), when
-        self._drawn = Drawn()
 
     def _rest(self, when: float) -> None:
         x, y, _ = self._leg.at(when)

@@ -7,31 +7,27 @@ from functools import partial
 from math import dist, inf
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.actions import BUILT_IN, PICK, RELEASE, Plain
+from plutoc_runtime.actions import BUILT_IN, PICK, RELEASE, Plain, grip_problem
 from plutoc_runtime.energy import CLIMB_SPEED
 from plutoc_runtime.errors import Failure, FlightFailed
-from plutoc_runtime.faults import Faults, Order, draw
+from plutoc_runtime.faults import CARRYING_HOME, OUTAGE, Faults, Order, action_failed, draw
 from plutoc_runtime.kernel import Kernel, Kind
-from plutoc_runtime.navigation import motors_cut
 from plutoc_runtime.signals import Signal
 from plutoc_runtime.words import place
 
+from ..navigation import motors_cut
 from .body import Body, SimulatedDrone
-from .deeds import Deed, action_failed, grip_problem
+from .deeds import Deed
 
 if TYPE_CHECKING:
     from plutoc_runtime.airspace import Airspace
     from plutoc_runtime.model import Item, Point, Telemetry
-    from plutoc_runtime.navigation import Job
     from plutoc_runtime.standing import Standing
     from plutoc_runtime.world import World
 
-__all__ = ["SimulatedDrone", "SimulatedNavigation"]
+    from ..navigation import Job
 
-OUTAGE = 20.0
-"""Seconds until a drone that lost its link can be reached again."""
-CARRYING_HOME = 300.0
-"""Seconds until somebody has carried a drone home."""
+__all__ = ["SimulatedDrone", "SimulatedNavigation"]
 
 
 class SimulatedNavigation:
@@ -145,13 +141,13 @@ class SimulatedNavigation:
         body = self._in_the_air(drone)
         if action not in BUILT_IN:
             raise FlightFailed(Failure.REFUSED, f"{drone} has no action {action}")
-        problem = grip_problem(body, action, item)
+        problem = grip_problem(drone, body.drone.category, body.carries, action, item)
         if problem is None:
             await self._pass(body, BUILT_IN[action].seconds, f"to {action}")
             problem = f"{drone} could not do it" if body.fails_to_act else None
         if problem is not None:
-            raise action_failed(body, f"{action} failed", problem)
-        value = self._value(body, action, parameters)
+            raise action_failed(f"{action} failed", problem, body.location)
+        value = self._world.gives(action, parameters, body.location, self._kernel.now)
         aboard = item if action == PICK else None if action == RELEASE else body.carries
         if self.record is not None:
             deed = Deed(
@@ -173,7 +169,7 @@ class SimulatedNavigation:
         """Hover until something goes wrong or nobody wants it any longer."""
         body = self._in_the_air(drone)
         if body.fails_to_act:
-            raise action_failed(body, "the action failed", f"{drone} could not do it")
+            raise action_failed("the action failed", f"{drone} could not do it", body.location)
         await self._pass(body, inf, "to hover")
 
     async def read(self, drone: str, name: str) -> float:
@@ -286,14 +282,6 @@ class SimulatedNavigation:
             reason = f"{drone} is on the ground at {where}: it must take off first"
             raise FlightFailed(Failure.REFUSED, reason)
         return body
-
-    def _value(self, body: Body, action: str, parameters: Mapping[str, Plain]) -> object:
-        if action in (PICK, RELEASE):
-            return None
-        if action == "take_photo":
-            return self._world.photo(body.location, self._kernel.now)
-        quantity = parameters.get("quantity", BUILT_IN["measure"].parameters[0].default)
-        return self._world.measure(str(quantity), body.location, self._kernel.now)
 
 
 def broken_off(drone: str) -> FlightFailed:

@@ -11,11 +11,11 @@ from pluto_fleet.seam import meet
 
 def run(name: str, words: list[str]) -> int:
     """Try the app of this package, and return the exit code."""
-    from plutoc_runtime.hard_exit import refused
-    from plutoc_runtime.raised import interrupted_by_a_person
+    from plutoc_runtime.hooks import loaded
 
     from ..cli import Ending, output
-    from ..cli.loading import loaded
+    from ..hard_exit import refused
+    from ..raised import interrupted_by_a_person
     from .command import test
 
     def by_itself(words: list[str]) -> int:
@@ -26,9 +26,9 @@ def run(name: str, words: list[str]) -> int:
     output.prepare()
     ending = Ending(name)
     with ending:
-        app = loaded(lambda: import_module(f"{name}.flow").APP)
         # a hook may raise a KeyboardInterrupt, or end the process, and is found then
         with interrupted_by_a_person(), refused():
+            app = loaded(lambda: import_module(f"{name}.flow").APP)
             ending.code = test(app, words, by_itself)
         output.flush()
     return ending.code

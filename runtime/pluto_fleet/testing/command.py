@@ -13,13 +13,13 @@ from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.errors import BadInput
 from plutoc_runtime.fields import Entity, FieldType
+from plutoc_runtime.trace import dumped
 from plutoc_runtime.words import counted
 
 from ..cli import output
 from ..files.fleet import DroneEntry, FleetFile, default_fleet, load_fleet
 from ..files.fleet_text import fleet_text
 from ..files.missions import load_missions
-from ..journal_line import dumped
 from ..plan_check import idle_actions, problems
 from .alike import first_the_same, shows_the_same
 from .case import FAIR, Case

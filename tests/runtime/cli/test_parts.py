@@ -10,11 +10,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pluto_fleet.cli.events import line_of
-from pluto_fleet.cli.options import faults
 from pluto_fleet.cli.progress import Progress
 from pluto_fleet.cli.report import table
 from pluto_fleet.cli.summary import Run, spread, summary
-from pluto_fleet.journal_line import dumped
+from plutoc_runtime.faults import shares
+from plutoc_runtime.trace import dumped
 from plutoc_runtime.words import duration, mass, number, quoted
 
 
@@ -67,7 +67,7 @@ def test_any_plain_data_is_valid_json_of_three_decimals(data: object) -> None:
 
 def test_faults_are_read_with_or_without_blanks() -> None:
     """A percentage, or a share of 1."""
-    assert faults("crash=10%, link = 5 %,action=0.01") == {
+    assert shares("crash=10%, link = 5 %,action=0.01") == {
         "crash": 0.1,
         "link": 0.05,
         "action": 0.01,

@@ -9,9 +9,8 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet.cli.options import FAULTS
 from plutoc_runtime.app import App
-from plutoc_runtime.faults import Faults
+from plutoc_runtime.faults import FAULTS, Faults
 from tests.runtime.cli.conftest import Command
 from tests.runtime.files.an_app import APP, POLLINATE
 
@@ -27,7 +26,8 @@ def test_the_log_is_told_as_it_happens_then_two_tables_and_a_last_line(
     """A person reads it from top to bottom."""
     code, out, err = command("simulate", missions)
     assert (code, err) == (0, "")
-    log, table, drones, last = out.split("\n\n")
+    log, table, drones, end = out.split("\n\n")
+    last, world = end.splitlines()
     assert log.startswith("     0.0 s  North: trip A launched (cf1)\n")
     assert log.endswith("North: COMPLETED")
     assert table.split("\n") == [
@@ -38,7 +38,8 @@ def test_the_log_is_told_as_it_happens_then_two_tables_and_a_last_line(
     assert drones.startswith("drone  category  trips")
     assert len(drones.split("\n")) == 6
     assert last.startswith("2 of 2 missions completed in ")
-    assert last.endswith(" s (3 flights)\n")
+    assert last.endswith(" s (3 flights)")
+    assert world == "flown with traffic: drones keep 0.5 m apart from each other"
 
 
 def test_an_app_that_repeats_nothing_has_no_column_for_rounds(

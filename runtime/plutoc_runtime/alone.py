@@ -1,0 +1,55 @@
+"""An app in virtual time, over drones that fly alone."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+from .enough import Bound, see_through
+from .ideal import IdealNavigation
+from .session import Listener, Outcome, Session
+from .virtual import VirtualTime
+
+if TYPE_CHECKING:
+    from .app import App
+    from .faults import Faults
+    from .files import FleetData
+    from .model import Mission
+    from .trace import Event
+
+
+def simulate(
+    app: App,
+    missions: Sequence[Mission[Any]],
+    fleet: FleetData,
+    *,
+    seed: int,
+    faults: Faults,
+    until: float | None,
+    on_event: Listener | None,
+) -> Outcome:
+    """Fly the missions until the last one has ended or a time is reached.
+
+    Without such a time it is given up where missions set out again and again for nothing.
+    """
+    kernel, bound = VirtualTime(), Bound(missions)
+    navigation = IdealNavigation(kernel, app, fleet, faults, seed)
+    events: list[Event] = []
+
+    def listen(event: Event) -> None:
+        events.append(event)
+        if on_event is not None:
+            on_event(event)
+        if until is None and (enough := bound.look(event)) is not None:
+            kernel.crash(enough)
+
+    session = Session(app, fleet, kernel, navigation, [listen])
+    ended, given_up = see_through(session, kernel, missions, bound, until)
+    return Outcome(
+        duration=ended,
+        missions=tuple(missions),
+        drones=session.drones,
+        flown={drone.id: drone.flown for drone in navigation.drones.values()},
+        events=tuple(events),
+        given_up=given_up,
+    )
