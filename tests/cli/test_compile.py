@@ -155,11 +155,12 @@ def test_a_library_that_is_written_into_the_project_belongs_into_the_source(
 def test_every_hand_edit_is_named(plutoc: Call, app: Path) -> None:
     """A phase tells all that it found."""
     plutoc("compile", app)
-    for path in (FLOW, Path("crop/README.md")):
+    for path in (FLOW, Path("crop/README.md"), Path("crop/pyproject.toml")):
         path.write_text(path.read_text() + "\nmore\n")
     said = plutoc("compile", app)
     assert "flow.py` was edited" in said.err
     assert "README.md` was edited" in said.err
+    assert "where `version` and `requires` say what goes into this file" in said.err
 
 
 def test_a_file_that_went_missing_is_written_again(plutoc: Call, app: Path) -> None:
