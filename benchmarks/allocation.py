@@ -1,7 +1,7 @@
 """What does it cost to choose drones, and how does that grow with the fleet and with the queue?
 
 `python benchmarks/allocation.py` prints three tables. *A choice*: microseconds for a drone that is
-given away and comes back, by policy and by the size of the fleet, beside a look at every free drone.
+given away and comes back, by policy and by the size of the fleet.
 *All at once*: milliseconds in which `batch_optimal` shares drones out. *The queue*: whole plans, of
 which most missions wait; seconds of CPU, and how much more a mission costs than in the first plan.
 Drones that must charge between flights are measured apart: somebody waits whom they can serve soon.
@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import os
 import subprocess
 import sys
 import tempfile
@@ -21,11 +22,10 @@ import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from importlib import import_module
 from math import sqrt
 from pathlib import Path
 from random import Random
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from measuring.options import at_least_one
 from plutoc_runtime.model import Category, Drone, Point, Trip
@@ -35,7 +35,7 @@ from plutoc_runtime.policies.least_used import least_used
 from plutoc_runtime.policies.nearest import nearest
 
 if TYPE_CHECKING:
-    from plutoc_runtime.policy import Able, Choice, Policy, Pool
+    from plutoc_runtime.policy import Policy, Pool
 
 FLEETS = (10, 100, 1_000, 10_000)
 SHARES = ((10, 10), (30, 30), (100, 100), (300, 300), (1_000, 1_000), (1_000, 1_100), (1_000, 1))
@@ -81,32 +81,7 @@ class Standing:
     silence: float = 0.0
 
 
-class EveryDrone:
-    """The closest drone, by a look at every one that is free: what squares are measured against."""
-
-    def __init__(self, key: Callable[[Trip, Drone], tuple[float, int]]) -> None:
-        self._free: dict[Drone, None] = {}
-        self._key = key
-
-    def add(self, drone: Drone) -> None:
-        """A drone is free."""
-        self._free[drone] = None
-
-    def remove(self, drone: Drone) -> None:
-        """A drone is not free any more."""
-        del self._free[drone]
-
-    def choose(self, trip: Trip, able: Able) -> Choice | None:
-        """Return the best by the key."""
-        drone = min(filter(able, self._free), key=partial(self._key, trip))
-        return drone, lambda: f"of {len(self._free)} free"
-
-
-POLICIES: Mapping[str, tuple[Policy, Callable[[Trip, Drone], tuple[float, int]]]] = {
-    "nearest": (nearest, lambda trip, drone: (drone.distance(trip.target), drone.index)),
-    "first": (first, lambda trip, drone: (drone.index, 0)),
-    "least_used": (least_used, lambda trip, drone: (drone.trips, drone.index)),
-}
+POLICIES: Mapping[str, Policy] = {"nearest": nearest, "first": first, "least_used": least_used}
 
 
 def field(count: int, seed: int = 0, height: float = 0.0) -> Iterator[Point]:
@@ -145,8 +120,8 @@ def least(rounds: int, *works: Callable[[], object]) -> list[float]:
     return [min(times) for times in took]
 
 
-def choices(rounds: int, fleets: Sequence[int]) -> Iterator[tuple[str, int, float, float]]:
-    """Give policy, drones, microseconds a choice, and by a look at every drone."""
+def choices(rounds: int, fleets: Sequence[int]) -> Iterator[tuple[str, int, float]]:
+    """Give policy, drones, and microseconds a choice."""
 
     def filled(pool: Pool, drones: Sequence[Drone]) -> Pool:
         for drone in drones:
@@ -160,16 +135,11 @@ def choices(rounds: int, fleets: Sequence[int]) -> Iterator[tuple[str, int, floa
                 pool.remove(choice[0])
                 pool.add(choice[0])
 
-    for name, (policy, key) in POLICIES.items():
+    for name, policy in POLICIES.items():
         for count in fleets:
-            drones, asked = fleet(count), trips(CHOICES, count)
-            few = asked[: max(10, min(CHOICES, 100_000 // count))]
-            times = least(
-                rounds,
-                partial(given, filled(policy(), drones), asked),
-                partial(given, filled(EveryDrone(key), drones), few),
-            )
-            yield name, count, times[0] / len(asked) * 1e6, times[1] / len(few) * 1e6
+            asked = trips(max(10, min(CHOICES, 100_000 // count)), count)
+            (seconds,) = least(rounds, partial(given, filled(policy(), fleet(count)), asked))
+            yield name, count, seconds / len(asked) * 1e6
 
 
 def shares(rounds: int, sizes: Sequence[tuple[int, int]]) -> Iterator[tuple[int, int, float]]:
@@ -188,72 +158,64 @@ def queues(rounds: int, plans: Sequence[int]) -> Iterator[tuple[str, int, float]
     with tempfile.TemporaryDirectory() as folder:
         for name, policy, flight_time in QUEUES:
             app = compiled(Path(folder), name.replace(", ", "_"), policy, flight_time)
-            flown(app, 1)  # imports what flies
+            start = min(flown(app, 1) for _ in range(rounds))
             for missions in plans:
-                (seconds,) = least(rounds, partial(flown, app, missions))
-                yield name, missions, seconds
+                yield name, missions, min(flown(app, missions) for _ in range(rounds)) - start
 
 
-def compiled(folder: Path, name: str, policy: str, flight_time: str) -> str:
+def compiled(folder: Path, name: str, policy: str, flight_time: str) -> Path:
     """Compile the app, and return its package."""
     source = folder / f"queue_{name}.pluto"
     text = SOURCE.format(name=source.stem, policy=policy, flight_time=flight_time)
     source.write_text(text)
     command = [sys.executable, "-m", "plutoc", "compile", str(source)]
     subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
-    sys.path.insert(0, str(folder / source.stem / "src"))
-    return source.stem
+    return folder / source.stem
 
 
-def flown(package: str, missions: int) -> None:
-    """Simulate a plan of so many missions."""
-
-    def part(name: str) -> Any:
-        return import_module(f"{package}.{name}")
-
+def flown(package: Path, missions: int) -> float:
+    """Simulate a plan of so many missions, as its user would; return the seconds of CPU."""
     goals = field(missions * TRIPS, seed=2, height=1.5)
-    places = [(0.05 * x, 0.05 * y, z) for x, y, z in goals]
-    model, files = part("model"), import_module("pluto_fleet.files.fleet")
-    plan = [
-        model.Mission(
-            name=str(number),
-            index=number,
-            trips=[
-                model.Trip(name=str(n), index=n, action="take_photo", target=(x % 20, y % 20, z))
-                for n, (x, y, z) in enumerate(places[number * TRIPS : (number + 1) * TRIPS])
-            ],
-        )
-        for number in range(missions)
-    ]
-    homes = [(2.0 * (n % 10) + 1.0, 2.0 * (n // 10) + 1.0, 0.0) for n in range(DRONES)]
-    entries = (
-        files.DroneEntry(id=str(n), category="quick", home=home) for n, home in enumerate(homes)
+    places = [(0.05 * x % 20, 0.05 * y % 20, z) for x, y, z in goals]
+    plan, fleet = package / "missions.toml", package / "fleet.toml"
+    plan.write_text("".join(map(mission, range(missions), _in_parts(places))))
+    homes = [(2.0 * (n % 10) + 1.0, 2.0 * (n // 10) + 1.0) for n in range(DRONES)]
+    # it is not their traffic that is measured
+    fleet.write_text("[fleet]\napart = 0.0\n" + "".join(map(entry, range(DRONES), homes)))
+    words = ["simulate", str(plan), "--fleet", str(fleet), "--json"]
+    before = os.times()
+    subprocess.run(
+        [sys.executable, "-m", package.name, *words],
+        check=True,
+        stdout=subprocess.DEVNULL,
+        env={**os.environ, "PYTHONPATH": str(package / "src")},
     )
-    ground = files.FleetFile(
-        airspace=import_module("plutoc_runtime.airspace").Airspace(),
-        drones=tuple(entries),
-        apart=0.0,  # it is not their traffic that is measured
-    )
-    outcome = import_module("pluto_fleet.simulate").simulate(
-        part("flow").APP,
-        plan,
-        ground,
-        seed=0,
-        faults=part("_runtime.faults").Faults(),
-        until=None,
-        on_event=None,
-    )
-    if not outcome.completed:
-        raise SystemExit(f"{package}: not every mission was completed")
+    after = os.times()
+    return after.children_user + after.children_system - before[2] - before[3]
+
+
+def _in_parts(places: Sequence[Point]) -> Iterator[Sequence[Point]]:
+    return (places[start : start + TRIPS] for start in range(0, len(places), TRIPS))
+
+
+def mission(number: int, places: Sequence[Point]) -> str:
+    """Return a mission of a missions file."""
+    trips = (f'[[mission.trip]]\naction = "take_photo"\ntarget = {list(one)}\n' for one in places)
+    return f'[[mission]]\nname = "{number}"\n' + "".join(trips)
+
+
+def entry(number: int, home: tuple[float, float]) -> str:
+    """Return a drone of a fleet file."""
+    return f'[[drone]]\nid = "{number}"\ncategory = "quick"\nhome = {list(home)}\n'
 
 
 def measure(given: argparse.Namespace, say: Callable[[str], None]) -> dict[str, Numbers]:
     """Measure everything, line by line."""
-    told: dict[str, Numbers] = {"choice_us": {}, "every_us": {}, "share_ms": {}, "queue_s": {}}
-    say(f"{'a choice':16}{'drones':>8}{'µs':>10}{'a look at every one':>22}{'ratio':>9}")
-    for name, count, ours, every in choices(given.rounds, given.fleets):
-        told["choice_us"][f"{name} {count}"], told["every_us"][f"{name} {count}"] = ours, every
-        say(f"{name:16}{count:8,}{ours:10.1f}{every:19.1f} µs{every / ours:9.1f}")
+    told: dict[str, Numbers] = {"choice_us": {}, "share_ms": {}, "queue_s": {}}
+    say(f"{'a choice':16}{'drones':>8}{'µs':>10}")
+    for name, count, took in choices(given.rounds, given.fleets):
+        told["choice_us"][f"{name} {count}"] = took
+        say(f"{name:16}{count:8,}{took:10.1f}")
     say(f"\n{'all at once':16}{'trips':>8}{'drones':>8}{'ms':>12}")
     for waiting, free, took in shares(given.rounds, given.shares):
         told["share_ms"][f"{waiting} x {free}"] = took

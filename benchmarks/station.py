@@ -28,7 +28,7 @@ from watching.tabs import Tab, browser, first_visit, main_threads, opened
 
 Numbers = dict[str, float]
 
-PAGES = Path(__file__).parents[1] / "runtime" / "plutoc_runtime" / "station" / "pages"
+PAGES = Path(__file__).parents[1] / "runtime" / "pluto_fleet" / "station" / "pages"
 SETTLE = 5.0
 """Seconds until what has just begun is steady; never longer than what is measured then."""
 

@@ -92,11 +92,10 @@ def _ours() -> object:
 
 def _theirs(package: str, value: str, load: Callable[[], object]) -> object:
     """Load a package's own code, which may raise anything, or end Python: neither passes for ours."""
-    from plutoc_runtime.hard_exit import refused
+    from plutoc.strangers import by_a_person, kept_apart
     from plutoc_runtime.hooks import said
-    from plutoc_runtime.raised import by_a_person, interrupted_by_a_person
 
-    with interrupted_by_a_person(), refused():
+    with kept_apart():
         try:
             declared = load()
             return tuple(declared) if isinstance(declared, Iterable) else declared

@@ -11,6 +11,7 @@ mishaps and with them. What a mission does, and when, is the same since.
 from __future__ import annotations
 
 import json
+import os
 import subprocess
 import sys
 from argparse import ArgumentParser
@@ -22,6 +23,8 @@ from plutoc.cli import main as plutoc
 
 HERE = Path(__file__).parent
 EXAMPLES = HERE.parent / "examples"
+LIBRARY = HERE.parent / "runtime"
+"""This checkout's, whichever is installed."""
 KEPT = HERE / "as_before.json"
 MISHAPS = {"nothing goes wrong": "", "mishaps": "crash=10%,link=5%,action=5%,battery=5%"}
 
@@ -54,7 +57,7 @@ def hashes(example: Path, package: Path, mishaps: str, seeds: int) -> list[str]:
     done = subprocess.run(
         [*command, str(package / "trace.jsonl")],
         cwd=example,
-        env={"PYTHONPATH": str(package / "src"), "PYTHONHASHSEED": "0"},
+        env={"PYTHONPATH": f"{package / 'src'}{os.pathsep}{LIBRARY}", "PYTHONHASHSEED": "0"},
         capture_output=True,
         text=True,
         check=False,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from plutoc.block import HookKind
 from plutoc.diff.both import Both
@@ -11,7 +11,7 @@ from plutoc.diff.model import Change
 from plutoc.diff.settings import same
 from plutoc.diff.words import declared as words
 from plutoc.graph.categories import PARAMS
-from plutoc.graph.model import Action, Category, Hook
+from plutoc.graph.model import Action, Category, Graph, Hook, Library
 from plutoc_runtime.actions import BUILT_IN
 
 
@@ -22,6 +22,41 @@ def app(both: Both) -> Iterator[Change]:
         yield words.app_renamed(old, new)
     if old.title != new.title:
         yield words.title_changed(old, new)
+    if old.version != new.version:
+        yield words.version_changed(old, new)
+    yield from _libraries(old, new)
+
+
+def _libraries(old: Graph, new: Graph) -> Iterator[Change]:
+    """Compare what must be installed; under several conditions, a library is there several times."""
+    before, after = _by_name(old), _by_name(new)
+    for name, now in after.items():
+        was = before.get(name, ())
+        if not was:
+            yield words.library_added(now)
+        elif not _same_libraries(was, now):
+            yield words.library_changed(was, now)
+    for name, was in before.items():
+        if name not in after:
+            yield words.library_removed(was)
+
+
+def _by_name(graph: Graph) -> dict[str, tuple[Library, ...]]:
+    found: dict[str, tuple[Library, ...]] = {}
+    for library in graph.libraries:
+        found[library.name] = (*found.get(library.name, ()), library)
+    return found
+
+
+def _same_libraries(was: Sequence[Library], now: Sequence[Library]) -> bool:
+    """Say whether the same is required, however it is written."""
+    written = [{library.requirement for library in each} for each in (was, now)]
+    if written[0] == written[1]:
+        return True
+    from packaging.requirements import Requirement  # slow to import, and seldom asked
+
+    one, other = ({Requirement(text) for text in each} for each in written)
+    return one == other
 
 
 def categories(both: Both) -> Iterator[Change]:

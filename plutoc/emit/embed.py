@@ -1,7 +1,6 @@
 """What a generated package carries along: the runtime's modules and the blocks' steps.
 
-A module of the runtime is copied byte for byte, and with a package of it come the pages for browsers
-that lie in its folder. A module of a block is copied with its imports bent to where things are now,
+A module of the runtime is copied byte for byte. A module of a block is copied with its imports bent to where things are now,
 and not a byte more: `plutoc_runtime` becomes dots, and a module of the block's own package, however
 it was imported, the file beside it.
 """
@@ -14,7 +13,7 @@ from dataclasses import field
 from typing import Any
 
 from plutoc.emit.memory import all_remembered
-from plutoc.emit.modules import RUNTIME, EmbedError, Module, data_of, imports_from, is_within, load
+from plutoc.emit.modules import RUNTIME, EmbedError, Module, imports_from, is_within, load
 from plutoc.frozen import filled, frozen
 from plutoc.installed import facts_of_package
 from plutoc.registry import STD
@@ -104,9 +103,6 @@ class _Embedding:
         self.sources[path] = name
         if is_within(name, RUNTIME):
             self.files[path] = module.text
-            if module.is_package:
-                folder = path.rpartition("/")[0]
-                self.files.update((f"{folder}/{one}", text) for one, text in data_of(module))
             needed = _of_runtime(module)
         else:
             self.files[path] = _moved(module, package)

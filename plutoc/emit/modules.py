@@ -18,8 +18,6 @@ from plutoc.installed import files_in
 
 RUNTIME = plutoc_runtime.__name__
 _HOME = os.path.dirname(plutoc_runtime.__file__)
-_DATA = (".css", ".html", ".js", ".svg")
-"""What a package of the runtime has beside its modules: pages for browsers."""
 _START = "__init__.py"
 
 
@@ -99,29 +97,6 @@ def _of_runtime(name: str) -> Module | None:
 def _files_of_runtime() -> frozenset[str]:
     """Return the path of each file of the runtime, from its folder on."""
     return frozenset(path.removeprefix(_HOME).replace(os.sep, "/") for path in files_in(_HOME))
-
-
-def data_of(package: Module) -> Iterator[tuple[str, str]]:
-    """Yield the path and the text of each file of a package that is no Python, in order of path.
-
-    Those in folders within it count, unless they are packages themselves.
-    """
-    for path in sorted(_data(os.path.dirname(package.file), "")):
-        file = os.path.join(os.path.dirname(package.file), *path.split("/"))
-        with open(file, "rb") as opened:
-            yield path, opened.read().decode("utf-8")
-
-
-def _data(folder: str, path: str) -> Iterator[str]:
-    with os.scandir(folder) as found:
-        entries = list(found)
-    if path and any(entry.name == _START for entry in entries):
-        return
-    for entry in entries:
-        if entry.is_dir():
-            yield from _data(entry.path, f"{path}{entry.name}/")
-        elif entry.name.endswith(_DATA):
-            yield path + entry.name
 
 
 def is_within(name: str, package: str) -> bool:

@@ -43,7 +43,10 @@ class Project:
     header: str
     app: str
     distribution: str
+    version: str
     description: str
+    libraries: list[str]
+    direct: bool
     seam: str
     carry: bool
 
@@ -67,7 +70,7 @@ def main_file(graph: Graph) -> str:
     return render("main.py", Entry(app=graph.name))
 
 
-def project_file(graph: Graph, source_name: str, *, carry: bool) -> str:
+def project_file(graph: Graph, source_name: str, *, carry: bool = False) -> str:
     """Return the text of `pyproject.toml`; `carry`: the library is inside the package."""
     return render(
         "pyproject.toml",
@@ -75,7 +78,10 @@ def project_file(graph: Graph, source_name: str, *, carry: bool) -> str:
             header=header(source_name),
             app=graph.name,
             distribution=toml_text(graph.name.rstrip("_")),  # a distribution cannot end with one
+            version=toml_text(graph.version),
             description=toml_text(one_line(graph.title) or graph.name),
+            libraries=[toml_text(library.requirement) for library in graph.libraries],
+            direct=any(library.direct for library in graph.libraries),
             seam=".".join(map(str, SEAM)),
             carry=carry,
         ),

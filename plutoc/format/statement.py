@@ -23,6 +23,8 @@ from plutoc.syntax.newlines import ARROW, CLOSING, EQUAL, NAME, OPENING
 
 _TIGHT_BEFORE = frozenset({"COLON", "DOT", "LPAR", *CLOSING})
 _TIGHT_BEHIND = frozenset({"DOT", *OPENING})
+_LISTED = frozenset({NAME, "TEXT"})
+"""What lists without brackets consist of: a comma before anything else ends one, and is left out."""
 
 
 def statement(words: Sequence[Word]) -> Document:
@@ -65,7 +67,7 @@ def _run(words: Sequence[Word], *, in_brackets: bool = False, goes_on: bool = Fa
             rest = (_comments(word), NEWLINE, _run(words[i:], in_brackets=True, goes_on=True))
             parts.append(rest if goes_on else Indent(rest))
             break
-        if word.comma and then.kind == NAME:
+        if word.comma and then.kind in _LISTED:
             parts.append(",")
         if then.kind not in _TIGHT_BEFORE and word.kind not in _TIGHT_BEHIND:
             parts.append(" ")

@@ -49,7 +49,7 @@ _NEEDED = frozenset(
 
 _OURS = frozenset(
     {
-        *("pluto", "plutoc", "plutoc_runtime", "plutoc_blocks", "plutoc_grammar"),
+        *("pluto", "plutoc", "plutoc_runtime", "plutoc_blocks", "plutoc_grammar", "pluto_fleet"),
         *("src", "tests", "test", "docs", "dist", "conftest"),
     }
 )

@@ -14,7 +14,23 @@ from plutoc_runtime.status import Status
 START = "start"
 END = "end"
 
+FIRST_VERSION = "0.1.0"
+"""The version of an app that names none."""
+
 Plain = bool | int | float | str
+
+
+@frozen
+class Library:
+    """What must be installed beside an app, since its hooks import it."""
+
+    name: str
+    """As installers compare names: `PyYAML` is `pyyaml`."""
+    requirement: str
+    """As written: `numpy>=2`."""
+    direct: bool
+    """It is named by its address: `numpy @ https://…`."""
+    span: Span
 
 
 @frozen
@@ -137,6 +153,11 @@ class Graph:
     hooks: tuple[Hook, ...]
     nodes: tuple[Node, ...]
     edges: tuple[Edge, ...]
+    version: str = FIRST_VERSION
+    """As PEP 440 writes it: of `1.2.0-beta`, `1.2.0b0`."""
+    version_span: Span | None = None
+    """None where the source names none."""
+    libraries: tuple[Library, ...] = ()
 
     @cached_property
     def node(self) -> dict[str, Node]:

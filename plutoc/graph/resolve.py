@@ -9,15 +9,17 @@ from plutoc.block import HookKind, HookParam
 from plutoc.diagnostic import Diagnostic, Severity, accept_or_raise
 from plutoc.graph import categories, errors, hooks
 from plutoc.graph.edges import edges
-from plutoc.graph.model import Action, Graph, Hook, Node
+from plutoc.graph.model import FIRST_VERSION, Action, Graph, Hook, Node
 from plutoc.graph.neighbours import told_once
 from plutoc.graph.nodes import Place, node
 from plutoc.graph.once import each_name_once
 from plutoc.graph.packages import packages_of, unused_packages
+from plutoc.graph.requires import libraries
 from plutoc.graph.scope import check_app_name, scope_of, spoilt_names
 from plutoc.graph.stops import meant_to_declare
 from plutoc.graph.unclear import bad_statements, unclear
 from plutoc.graph.values import written
+from plutoc.graph.version import version
 from plutoc.registry import STD, Blocks
 from plutoc.source import Source
 from plutoc.syntax.tree import (
@@ -82,6 +84,7 @@ def resolved(file: File, blocks: Blocks) -> tuple[Graph, list[Diagnostic]]:
     slips = meant_to_declare(source, flows, scope, kinds, found)
     flows = [flow for flow in flows if flow not in slips.values()]
     unsure = replace(unsure, names=unsure.names | slips.keys())
+    number = version(file, found)
     graph = Graph(
         source=source,
         name=file.app.name.text,
@@ -96,6 +99,9 @@ def resolved(file: File, blocks: Blocks) -> tuple[Graph, list[Diagnostic]]:
         hooks=tuple(app_hooks),
         nodes=tuple(nodes),
         edges=edges(source, flows, scope, by_name, unsure, found),
+        version=number.value if number else FIRST_VERSION,
+        version_span=number.span if number else None,
+        libraries=libraries(file, found),
     )
     if not bad_statements(file) and not any(d.severity is Severity.ERROR for d in found):
         # Else a mistake may be what keeps it from being used.

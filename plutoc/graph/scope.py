@@ -20,6 +20,8 @@ from plutoc.syntax.tree import (
     FlowDecl,
     HookDecl,
     Name,
+    RequiresDecl,
+    VersionDecl,
 )
 from plutoc_runtime.actions import BUILT_IN
 
@@ -83,7 +85,7 @@ def _declarations(file: File) -> list[Declared]:
                 declared.append(Declared(name=statement.name, role=HOOK_ROLES[statement.kind]))
             case BlockDecl():
                 declared.append(Declared(name=statement.name, role=BLOCK))
-            case FlowDecl() | BadStatement():
+            case VersionDecl() | RequiresDecl() | FlowDecl() | BadStatement():
                 pass
     return declared
 

@@ -11,8 +11,11 @@ from itertools import chain
 
 from plutoc.frozen import frozen
 from plutoc.graph.names import Style, has_style, reserved
+from plutoc.syntax.newlines import SETTINGS
 from plutoc.syntax.tree import BadStatement, BlockDecl, File
 
+_DECLARE_NOTHING = frozenset({"flow", *SETTINGS})
+"""No name comes from them, whatever is wrong with them."""
 _WORD = re.compile(r"\w+")
 _ALIKE = 0.6
 _MANY = 20
@@ -53,8 +56,7 @@ def bad_statements(file: File) -> list[BadStatement]:
 
 def unclear(file: File, spoilt: Sequence[str]) -> Unclear:
     """Collect what may be declared in a file; `spoilt` are declared names that are wrong."""
-    # An edge declares nothing, whatever is wrong with it.
-    bad = [each for each in bad_statements(file) if each.kind != "flow"]
+    bad = [each for each in bad_statements(file) if each.kind not in _DECLARE_NOTHING]
     words = [_WORD.findall(file.source.quote(each.span)) for each in bad]
     return Unclear(
         names=frozenset((*chain.from_iterable(words), *_in_place_of_a_kind(file))),

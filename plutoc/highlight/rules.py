@@ -11,7 +11,7 @@ from enum import Enum
 
 from plutoc.frozen import frozen
 from plutoc.graph.model import END, START
-from plutoc.syntax.newlines import WORDS
+from plutoc.syntax.newlines import SETTINGS, WORDS
 from plutoc_runtime.quantities import UNITS, Type
 from plutoc_runtime.status import IN_GRAPH
 
@@ -54,6 +54,7 @@ RULES = (
     Rule(kind=Kind.PARAMETER, pattern=r"\b[A-Za-z]\w*(?=[ \t]*:)"),
     Rule(kind=Kind.DECLARED, pattern=r"^[ \t]*[A-Za-z]\w*(?=[ \t]*=)"),
     Rule(kind=Kind.WORD, pattern=_one_of(WORDS)),
+    Rule(kind=Kind.WORD, pattern=rf'(?<!app ){_one_of(SETTINGS)}(?=[ \t]*")'),
     Rule(kind=Kind.CONSTANT, pattern=_one_of(("yes", "no", "safe", "once", "ask"))),
     Rule(kind=Kind.STATUS, pattern=_one_of(tuple(status.value for status in IN_GRAPH))),
     Rule(kind=Kind.TYPE, pattern=_one_of(tuple(kind.value for kind in Type))),

@@ -6,7 +6,7 @@ import re
 
 from plutoc.source import Source
 from plutoc.syntax.lines import Line
-from plutoc.syntax.newlines import BEGINNERS, EQUAL, NAME
+from plutoc.syntax.newlines import BEGINNERS, EQUAL, NAME, SETTING_KINDS
 from plutoc.syntax.tokens import Token, span
 from plutoc.syntax.tree import BadStatement, Name
 
@@ -31,6 +31,8 @@ def _declared(source: Source, line: Line) -> tuple[str | None, Name | None, str 
     """Return the kind of a statement, the name that it declares, or else what stands there."""
     tokens = line.tokens
     second = tokens[1].type if len(tokens) > 1 else ""
+    if line.first in SETTING_KINDS:
+        return line.first.lower(), None, None
     if line.first in (*BEGINNERS, "USE", "APP") and second != EQUAL:
         kind = line.first.lower()
         rest = source.quote(line.span)[len(tokens[0]) :].strip()

@@ -45,6 +45,10 @@ def _app(node: Node) -> tree.AppDecl:
 
 def _statement(node: Node) -> tree.Statement:
     match node.data:
+        case "version":
+            return tree.VersionDecl(version=_text(_token(node.children[0])), span=_span(node))
+        case "requires":
+            return _requires(node)
         case "category":
             return _category(node)
         case "action":
@@ -55,6 +59,11 @@ def _statement(node: Node) -> tree.Statement:
             return _flow(node)
         case _:
             return _hook(node)
+
+
+def _requires(node: Node) -> tree.RequiresDecl:
+    libraries = tuple(_text(_token(child)) for child in node.children)
+    return tree.RequiresDecl(libraries=libraries, span=_span(node))
 
 
 def _category(node: Node) -> tree.CategoryDecl:

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from plutoc.diagnostic import Diagnostic, Fix
 from plutoc.source import Source, Span
 from plutoc.syntax import errors
 from plutoc.syntax.hints import conflict, hint, role_of_a_name
-from plutoc.syntax.newlines import CLOSING, END, EQUAL, NAME, NEWLINE, OPENING, WORDS
+from plutoc.syntax.newlines import CLOSING, END, EQUAL, NAME, NEWLINE, OPENING, SETTINGS, WORDS
 from plutoc.syntax.slips import slip
 from plutoc.syntax.state import State, would_feed
 from plutoc.syntax.texts import written_out
@@ -43,6 +43,11 @@ _OTHER_WORDS = {
     **dict.fromkeys(("program", "application", "mission"), "app"),
 }
 """What other languages say."""
+_OTHER_SETTINGS = {
+    **dict.fromkeys(("require", "depends", "dependencies", "needs", "install"), "requires"),
+    **dict.fromkeys(("release", "revision"), "version"),
+}
+"""The same before a text: there `require` is no `use`."""
 
 
 def explain(
@@ -133,8 +138,11 @@ def _help(
         if word:
             return _meant(state, token, word, rest)
     if i == 1 and first.type == NAME:
-        word = _word(first, [*_STATEMENT_WORDS, *_LINE_WORDS])
-        if word and (token.type == NAME or word.upper() == token.type):
+        if token.type == "TEXT":
+            word = _word(first, SETTINGS, _OTHER_SETTINGS)
+        else:
+            word = _word(first, [*_STATEMENT_WORDS, *_LINE_WORDS])
+        if word and (token.type in (NAME, "TEXT") or word.upper() == token.type):
             return _meant(base, first, word, tokens[1:])
     for given, wanted in (("COLON", EQUAL), (EQUAL, "COLON")):
         text = _ADDABLE[wanted]
@@ -180,9 +188,11 @@ def _missing(
     return None, None
 
 
-def _word(token: Token, possible: Sequence[str]) -> str | None:
-    """Return which of the language's words somebody meant."""
-    other = _OTHER_WORDS.get(token.casefold())
+def _word(
+    token: Token, possible: Sequence[str], others: Mapping[str, str] = _OTHER_WORDS
+) -> str | None:
+    """Return which of the language's words was meant; `others` are those of other languages."""
+    other = others.get(token.casefold())
     if other in possible:
         return other
     near = difflib.get_close_matches(token.casefold(), possible, 1, 0.7)
@@ -191,7 +201,8 @@ def _word(token: Token, possible: Sequence[str]) -> str | None:
 
 def _meant(state: State, token: Token, word: str, rest: Sequence[Token]) -> tuple[str, Fix | None]:
     line = [made_up(word.upper(), word), *rest]
-    certain = token.casefold() == word or token.casefold() in _OTHER_WORDS
+    given = token.casefold()
+    certain = given == word or given in (_OTHER_SETTINGS if word in SETTINGS else _OTHER_WORDS)
     fix = _certain(state, line, span(token), word) if certain else None
     return f"did you mean `{word}`?", fix
 

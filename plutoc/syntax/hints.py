@@ -6,12 +6,13 @@ from collections.abc import Sequence
 from itertools import pairwise
 
 from plutoc.source import Source
-from plutoc.syntax.newlines import ARROW, EQUAL, NAME, NEWLINE
+from plutoc.syntax.newlines import ARROW, EQUAL, NAME, NEWLINE, SETTING_KINDS, SETTINGS
 from plutoc.syntax.tokens import Token
 
 _AMOUNTS = frozenset({"NUMBER", "QUANTITY"})
 _OPENING = frozenset({"LPAR", "LSQB", "LBRACE"})
 _LISTS = frozenset({"WHEN", "EMITS", "CAN", "WRITES"})
+_AS_WRITTEN = {"version": '`version "1.2.0"`', "requires": '`requires "numpy>=2", "requests"`'}
 _GUARDED = frozenset({"WHEN", "EMITS"})
 _TYPED = frozenset({"ACTION", "MODIFIER"})
 _ALONE = frozenset({"EVALUATOR", "POLICY"})
@@ -27,7 +28,8 @@ def hint(source: Source, tokens: Sequence[Token], i: int, accepts: set[str]) -> 
     if i == len(tokens) - 1 and i == 1 and _follows_a_comma(source, tokens[0]):
         return "a list ends with its line: go on in the line above, behind the comma"
     return (
-        _of_values(tokens, i)
+        _of_settings(tokens, i)
+        or _of_values(tokens, i)
         or _of_guards(tokens, i, accepts)
         or _of_flows(tokens, i)
         or _of_declarations(tokens, i, accepts)
@@ -38,6 +40,19 @@ def conflict(text: str, start: int) -> str | None:
     """Say what to do with the marks that a merge leaves."""
     if text.startswith(_CONFLICT, start) and text[start - 1 : start] in ("", "\n"):
         return "two versions were merged here: keep one, and remove the lines that mark them"
+    return None
+
+
+def _of_settings(tokens: Sequence[Token], i: int) -> str | None:
+    token, first = tokens[i], tokens[0]
+    if first.type in SETTING_KINDS and (i == 1 or tokens[i - 1].type == "COMMA"):
+        if token.type in _OPENING:
+            return f"the texts behind `{first}` stand there without brackets"
+        return f"it stands in quotes, as in {_AS_WRITTEN[first]}"
+    if first.type == "VERSION" and token.type == "COMMA":
+        return "an app has one version"
+    if first in SETTINGS and i == 2 and tokens[1].type == EQUAL and token.type in ("TEXT", "LSQB"):
+        return f"write it without the `=`: {_AS_WRITTEN[first]}"
     return None
 
 

@@ -1,7 +1,8 @@
 """From the lexer's tokens to the parser's: which newlines end a statement, which words are names.
 
 A newline ends a statement, except inside brackets and before a line that begins with `->`. Inside
-brackets the language's words are ordinary names. A bracket that was forgotten must not swallow the
+brackets the language's words are ordinary names; so are `version` and `requires` wherever they do
+not begin a statement of theirs, for apps have blocks of such names. A bracket that was forgotten must not swallow the
 rest of the file: a line that can only be the beginning of a statement closes what was left open.
 """
 
@@ -22,10 +23,17 @@ WORDS = (
 )
 """The language's own words. Each is a terminal of the grammar, named in capitals."""
 
-_WORDS = frozenset(word.upper() for word in WORDS)
-BEGINNERS = frozenset({"CATEGORY", "ACTION", "EVALUATOR", "MODIFIER", "POLICY"})
-_LINE_BEGINNERS = BEGINNERS | {"USE", "APP"}
-_FOLLOWS_A_FIRST_NAME = frozenset({EQUAL, ARROW, NAME})
+SETTINGS = ("version", "requires")
+"""Words too, but only where they begin a statement: elsewhere they are names like any other."""
+
+SETTING_KINDS = frozenset(word.upper() for word in SETTINGS)
+_WORDS = SETTING_KINDS | {word.upper() for word in WORDS}
+BEGINNERS = SETTING_KINDS | {"CATEGORY", "ACTION", "EVALUATOR", "MODIFIER", "POLICY"}
+_LINE_BEGINNERS = BEGINNERS - SETTING_KINDS | {"USE", "APP"}
+_NAMES = SETTING_KINDS | {NAME}
+"""What may turn out to be a name, of tokens that lie ahead."""
+_FOLLOWS_A_FIRST_NAME = _NAMES | {EQUAL, ARROW}
+_FOLLOWS_A_NAME = CLOSING | {EQUAL, ARROW, "COMMA"}
 
 
 def ended(tokens: Sequence[Token]) -> Iterator[Token]:
@@ -50,12 +58,18 @@ def ended(tokens: Sequence[Token]) -> Iterator[Token]:
             depth = 0
             if last not in (NEWLINE, "LBRACE"):
                 yield _newline(tokens[i - 1])  # `}` on the line of the last statement
-        elif depth and token.type in _WORDS:
+        elif token.type in _WORDS and (depth or _is_a_name(last, token.type, following[i])):
             token = token.of_type(NAME)
         last = token.type
         yield token
     if last not in (NEWLINE, "LBRACE", "RBRACE"):
         yield _newline(tokens[-1])
+
+
+def _is_a_name(before: str, word: str, behind: str) -> bool:
+    """Say whether a word outside of brackets is a name: a setting's that begins no statement."""
+    begins = before in (NEWLINE, "LBRACE") and behind not in _FOLLOWS_A_NAME
+    return word in SETTING_KINDS and not begins
 
 
 def _following(tokens: Sequence[Token]) -> list[str]:
@@ -75,11 +89,13 @@ def _ends_line(tokens: Sequence[Token], i: int) -> bool:
 def _begins_a_statement(tokens: Sequence[Token], i: int) -> bool:
     """Say whether the line whose first token is the i-th cannot go on with what is in brackets."""
     first, second = (*(t.type for t in tokens[i : i + 2]), END, END)[:2]
-    if first == NAME:
+    if first in SETTING_KINDS and second == "TEXT":
+        return True
+    if first in _NAMES:
         return second in _FOLLOWS_A_FIRST_NAME
     if first == "LSQB":
         return _is_followed_by_an_arrow(tokens, i)
-    return first == "RBRACE" or (first in _LINE_BEGINNERS and second == NAME)
+    return first == "RBRACE" or (first in _LINE_BEGINNERS and second in _NAMES)
 
 
 def _is_followed_by_an_arrow(tokens: Sequence[Token], i: int) -> bool:
@@ -87,7 +103,7 @@ def _is_followed_by_an_arrow(tokens: Sequence[Token], i: int) -> bool:
     for at in range(i + 1, len(tokens)):
         if tokens[at].type == "RSQB":
             return at + 1 < len(tokens) and tokens[at + 1].type == ARROW
-        if tokens[at].type not in (NAME, "COMMA"):
+        if tokens[at].type != "COMMA" and tokens[at].type not in _NAMES:
             return False
     return False
 

@@ -87,6 +87,22 @@ class Use:
 
 
 @frozen
+class VersionDecl:
+    """`version "1.2.0"`."""
+
+    version: Text
+    span: Span
+
+
+@frozen
+class RequiresDecl:
+    """`requires "numpy>=2", "requests>=2.32"`: at least one text."""
+
+    libraries: tuple[Text, ...]
+    span: Span
+
+
+@frozen
 class CategoryDecl:
     """`category scout(payload: 5 g) can take_photo`."""
 
@@ -169,7 +185,10 @@ class BadStatement:
     span: Span
 
 
-Statement = CategoryDecl | ActionDecl | HookDecl | BlockDecl | FlowDecl | BadStatement
+Setting = VersionDecl | RequiresDecl
+"""What stands once in an app, and has no name."""
+
+Statement = Setting | CategoryDecl | ActionDecl | HookDecl | BlockDecl | FlowDecl | BadStatement
 
 
 @frozen

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from plutoc.syntax.newlines import END, NEWLINE, WORDS
+from plutoc.syntax.newlines import END, NEWLINE, SETTING_KINDS, SETTINGS, WORDS
 from plutoc.syntax.tokens import Token
 
 _NAMED = {
@@ -23,7 +23,7 @@ _NAMED = {
     "RSQB": "`]`",
     "LBRACE": "`{`",
     "RBRACE": "`}`",
-    **{word.upper(): f"`{word}`" for word in WORDS},
+    **{word.upper(): f"`{word}`" for word in (*WORDS, *SETTINGS)},
     NEWLINE: "the end of the line",
     END: "the end of the file",
 }
@@ -34,7 +34,7 @@ _GROUPS = (
 )
 """What is too long to tell one by one."""
 
-_IN_A_STATEMENT = frozenset({"ACTION", "EVALUATOR", "POLICY"})
+_IN_A_STATEMENT = SETTING_KINDS | {"ACTION", "EVALUATOR", "POLICY"}
 
 
 def expected(types: Iterable[str], name: str = "a name") -> str:

@@ -15,21 +15,25 @@ from plutoc_runtime.kernel import FLEET, Kernel, Task
 from plutoc_runtime.session import Listener, Session
 from plutoc_runtime.words import of, quoted
 
+from .calling_off import CallingOff
 from .control import Control
 from .files.reading import shortened
 from .journal.careful import Careful
 from .journal.recorder import Recorder, Sink
+from .live_engine import LiveEngine, live_engine
+from .live_fleet import LiveFleet, live_fleet
+from .raised import guard_hooks
 from .recovery import go_on
 
 if TYPE_CHECKING:
     from plutoc_runtime.app import App
     from plutoc_runtime.model import Mission
-    from plutoc_runtime.navigation import Commanding
-    from plutoc_runtime.standing import RollCall
     from plutoc_runtime.trace import Event
 
     from .files.fleet import FleetFile
     from .journal.fold import Records
+    from .navigation import Commanding
+    from .standing import RollCall
 
 
 class Life:
@@ -49,13 +53,24 @@ class Life:
         watcher: Listener | None = None,
     ) -> None:
         """Begin; `watcher` is told of an event only when it is durable, `listeners` at once."""
+        guard_hooks()
         self._kernel, self._link, self._epoch = kernel, link, epoch
         self.recorder = Recorder(app, kernel, sink, records)
         navigation = Careful(link, self.recorder)
         heard: list[Listener] = [self.recorder.take, self._forget, *listeners]
         if watcher is not None:
             heard.append(partial(self._when_durable, watcher))
-        self.session = Session(app, fleet, kernel, navigation, heard, self.recorder, link)
+        self.session = Session(
+            app,
+            fleet,
+            kernel,
+            navigation,
+            heard,
+            self.recorder,
+            CallingOff(link),
+            LiveFleet,
+            LiveEngine,
+        )
         self.control = Control(self.session, link)
         self._retired: Sequence[str] = records.retired
         self._mended: Sequence[str] = records.mended
@@ -97,7 +112,7 @@ class Life:
         for index, mission in enumerate(missions, start=first):
             mission.index = index
         self.missions += tuple(missions)
-        self.session.engine.add(missions)
+        live_engine(self.session).add(missions)
 
     def _set_out(self, whole: Coroutine[Any, Any, float]) -> Task[float]:
         self.control.whole = task = self._kernel.spawn(whole, FLEET, "the session")
@@ -113,7 +128,7 @@ class Life:
         core.trace.note("brain.began", epoch=self._epoch)
         self._retire()
         for drone in core.fleet.drones:
-            core.fleet.take_up(drone, roll.drones[drone.id])
+            live_fleet(core).take_up(drone, roll.drones[drone.id])
         self.session.set_out(missions)
         self.missions = tuple(missions)
         return await self.session.see_through()
@@ -123,7 +138,7 @@ class Life:
         roll = await self._link.call()
         session.core.trace.note("brain.began", epoch=self._epoch)
         self._retire()
-        missions = await go_on(session.core, session.engine, self._link, roll, records)
+        missions = await go_on(session.core, live_engine(session), self._link, roll, records)
         self.missions = tuple(missions)
         return await session.see_through()
 
@@ -132,7 +147,7 @@ class Life:
 
         Those that somebody has looked after, and that were not back when it ended, are asked anew.
         """
-        fleet = self.session.core.fleet
+        fleet = live_fleet(self.session.core)
         fleet.retired.update(drone for drone in fleet.drones if drone.id in self._retired)
         fleet.lost.update(
             {

@@ -5,19 +5,22 @@ from __future__ import annotations
 import asyncio
 import os
 import time
-from collections.abc import Callable, Coroutine
+from collections.abc import Callable, Coroutine, Generator
 from contextlib import suppress
 from functools import partial
 from inspect import iscoroutinefunction
 from math import inf
 from threading import Thread
+from types import CoroutineType, coroutine
 from typing import Any, NoReturn, TypeVar, cast
 
-from plutoc_runtime.forked import alone, end_if_forked
+from plutoc_runtime.guard import as_a_fault, guarded
 from plutoc_runtime.kernel import WHATEVER, Call, Kernel, Key, Kind
-from plutoc_runtime.raised import as_a_fault, by_a_person, refuse_if_not_its_own
 from plutoc_runtime.signals import Signal
-from plutoc_runtime.straight import is_coroutine, never_waits
+
+from .forked import end_if_forked
+from .raised import by_a_person, guard_hooks
+from .straight import never_waits
 
 T = TypeVar("T")
 
@@ -31,6 +34,7 @@ class RealTime(Kernel):
 
     def __init__(self, speed: float = 1.0, begin: float = 0.0) -> None:
         super().__init__()
+        guard_hooks()
         self.now = self._begin = begin
         self._loop, self._speed = asyncio.get_running_loop(), speed
         self._start = self._loop.time()
@@ -121,18 +125,10 @@ class RealTime(Kernel):
     ) -> object:
         """Run a hook beside the missions: `async def` as a task, `def` in a thread.
 
-        One that never waits needs no task: it is over as soon as it is called.
+        One that never waits needs no task: it is over as soon as it is called, as in virtual time.
         """
         if never_waits(hook):
-            parent = os.getpid()
-            try:
-                answer = await cast("Coroutine[Any, Any, object]", hook(*args, **named))
-            except BaseException as error:
-                refuse_if_not_its_own(error, parent)
-                raise
-            if os.getpid() != parent:
-                end_if_forked(parent)
-            return answer
+            return await _alone(cast("Coroutine[Any, Any, object]", hook(*args, **named)))
         result: Signal[object] = Signal()
         running = asyncio.ensure_future(self._answer(hook, partial(hook, *args, **named), result))
         try:
@@ -146,8 +142,8 @@ class RealTime(Kernel):
         """Wait for a hook, and post what it ends with, whatever that is."""
         try:
             returned = call() if iscoroutinefunction(hook) else await self._in_thread(call)
-            if is_coroutine(returned):
-                returned = await alone(returned)
+            if issubclass(type(returned), CoroutineType):  # it may be anything
+                returned = await _alone(cast("Coroutine[Any, Any, object]", returned))
         except WHATEVER as error:
             if by_a_person(error):
                 raise
@@ -156,7 +152,7 @@ class RealTime(Kernel):
             self.post(result.set, returned)
 
     async def _in_thread(self, call: Callable[[], object]) -> object:
-        """Call this in a thread of its own: one that never comes back keeps nobody from leaving."""
+        """Call this in a thread of its own: one that never comes back does not keep the app from ending."""
         ended: asyncio.Future[Callable[[], object]] = self._loop.create_future()
 
         def finish(end: Callable[[], object]) -> None:
@@ -164,7 +160,7 @@ class RealTime(Kernel):
                 ended.set_result(end)
 
         def tell(end: Callable[[], object]) -> None:
-            with suppress(RuntimeError):  # the loop is closed: nobody waits any longer
+            with suppress(RuntimeError):  # the loop is closed: the answer is not awaited any longer
                 self._loop.call_soon_threadsafe(finish, end)
 
         parent = os.getpid()
@@ -203,3 +199,19 @@ def _nothing() -> None:
 
 def _raise(error: BaseException) -> NoReturn:
     raise error
+
+
+@coroutine
+def _alone(hook: Coroutine[Any, Any, T]) -> Generator[Any, Any, T]:
+    """Let a hook run inside this coroutine, guarded: a copy of the process does not go on."""
+    step: Callable[[], object] = partial(hook.send, None)
+    while True:
+        try:
+            waits_for = guarded(step)
+        except StopIteration as end:
+            returned: T = end.value
+            return returned
+        try:
+            step = partial(hook.send, (yield waits_for))
+        except WHATEVER as error:  # the hook hears of it
+            step = partial(hook.throw, error)

@@ -14,12 +14,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
 from plutoc_runtime.errors import BadInput
-from plutoc_runtime.forked import not_for_children
-from plutoc_runtime.standing import Down
 
 from .asking import LONGEST
+from .forked import not_for_children
 from .journal.errors import why
 from .private import new_address, publish, withdraw
+from .standing import Down
 
 if TYPE_CHECKING:
     from asyncio import StreamReader, StreamWriter

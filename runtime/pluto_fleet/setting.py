@@ -12,13 +12,13 @@ if TYPE_CHECKING:
 
     from plutoc_runtime.app import App
     from plutoc_runtime.model import Drone, Mission
-    from plutoc_runtime.standing import Down
     from plutoc_runtime.trace import Event
 
     from .files.fleet import FleetFile
     from .gateway.commanding import Reached
     from .journal.fold import Records
     from .realtime import RealTime
+    from .standing import Down
 
     Connect = Callable[[RealTime, int, Callable[[], object]], Awaitable[Reached]]
 

@@ -1,28 +1,16 @@
-"""In which block a mission is: `flow.py` quotes a block's declaration above each call of it.
-
-So it can be told of an error that arose, and of a coroutine that waits.
-"""
+"""In which block an error arose: `flow.py` quotes a block's declaration above each call of it."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from types import CodeType, FrameType, TracebackType
+from collections.abc import Callable
+from types import FrameType
 from typing import Any
 
 from .hooks import said
 
-_KNOWN: dict[tuple[CodeType, int], str] = {}
-"""Comments that were found before, by the line below them."""
-
 
 def blame(error: BaseException, flow: Callable[..., Any]) -> None:
-    """Add to an error that escapes from a flow in which block it arose.
-
-    A traceback then ends like this:
-
-        ZeroDivisionError: division by zero
-        in block launch = TripLauncher
-    """
+    """Add to an error that escapes from a flow in which block it arose: `in block watch = TripMonitor`."""
     block = blamed(error, flow)
     if block:
         error.add_note(f"in block {block}")
@@ -40,46 +28,24 @@ def blamed(error: BaseException, flow: Callable[..., Any]) -> str:
 
     Of a fork and its gate it is what stands in their place: `launch -> [a, b] -> first = GateFIFO`.
     """
-    file = getattr(flow, "__code__", None)
-    found = ""
-    for frame, line in _frames(error.__traceback__):
-        if file is not None and frame.f_code.co_filename == file.co_filename:
-            found = _above(frame, line) or found
+    from traceback import walk_tb  # only where something has gone wrong
+
+    code, found = getattr(flow, "__code__", None), ""
+    for frame, line in walk_tb(error.__traceback__):
+        if code is not None and frame.f_code.co_filename == code.co_filename:
+            found = declaration_above(frame, line) or found
     return found
 
 
-def waiting_at(coroutine: object, flow: Callable[..., Any]) -> str:
-    """Return the declaration of the block at which a mission's coroutine waits; empty: at none."""
-    file, found = flow.__code__.co_filename, ""
-    while coroutine is not None:
-        frame: FrameType | None = getattr(coroutine, "cr_frame", None)
-        if frame is not None and frame.f_code.co_filename == file:
-            place = frame.f_code, frame.f_lineno
-            if place not in _KNOWN:
-                _KNOWN[place] = _above(frame, frame.f_lineno)
-            found = _KNOWN[place] or found
-        coroutine = getattr(coroutine, "cr_await", None)
-    return found
-
-
-def _frames(trace: TracebackType | None) -> Iterator[tuple[FrameType, int]]:
-    """Yield where an error came through, the place where it arose last."""
-    while trace is not None:
-        yield trace.tb_frame, trace.tb_lineno
-        trace = trace.tb_next
-
-
-def _above(frame: FrameType, line: int) -> str:
+def declaration_above(frame: FrameType, line: int) -> str:
     """Return the nearest comment above a line of a function that is not within an arm before it."""
-    import linecache  # only where something has gone wrong
+    import linecache
 
     margin = None
     for number in range(line, frame.f_code.co_firstlineno, -1):
         text = linecache.getline(frame.f_code.co_filename, number, frame.f_globals)
-        if not text.strip():
-            continue
         indent = len(text) - len(text.lstrip())
-        if margin is not None and indent > margin:
+        if not text.strip() or (margin is not None and indent > margin):
             continue
         margin = indent
         if text.lstrip().startswith("# "):

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from math import isfinite, log10
+from typing import TYPE_CHECKING, Any, cast
 
 from .fields import Entity
-from .plain import Data, value_data
 from .status import TripStatus
-from .words import shown
+from .words import MOST_DIGITS, shown
 
 if TYPE_CHECKING:
     from .app import App
     from .model import Mission, Trip
+
+Data = dict[str, Any]
+"""Plain data, as JSON can hold it."""
 
 
 def fields_of(app: App, entity: Entity, of: object) -> Data:
@@ -61,13 +64,21 @@ def trip_data(app: App, trip: Trip) -> Data:
 
 def _plain(value: object) -> object:
     """Return what its user or a hook gave a field, as text if a hook gave it something odd."""
-    if type(value) in _SIMPLE:
+    kind = type(value)
+    if kind in _SIMPLE:
         return value
-    kept = value_data(value)
-    return kept if kept is None or isinstance(kept, (bool, int, float, str)) else shown(value)
+    if issubclass(kind, int):
+        number = int.__pos__(cast("int", value))
+        return number if number.bit_length() <= MOST_BITS else shown(value)
+    if issubclass(kind, float):
+        real = float.__pos__(cast("float", value))
+        return real if isfinite(real) else shown(value)
+    return str.__str__(cast("str", value)) if issubclass(kind, str) else shown(value)
 
 
 _SIMPLE = (type(None), bool, float, str)
+MOST_BITS = int(MOST_DIGITS / log10(2))
+"""A number with more is kept as text."""
 
 
 def _place(point: Sequence[float]) -> list[object]:

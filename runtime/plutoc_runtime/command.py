@@ -53,7 +53,7 @@ def _library() -> ModuleType | None:
     if os.path.isdir(carried) and carried not in sys.path:
         sys.path.insert(0, carried)
     try:
-        return import_module("pluto_fleet")
+        return import_module("pluto_fleet.entry")
     except ModuleNotFoundError as error:
         if error.name != "pluto_fleet":
             raise  # it is there, and something of it is missing
@@ -62,17 +62,13 @@ def _library() -> ModuleType | None:
 
 def alone(name: str, load: Callable[[], App], argv: Sequence[str]) -> int:
     """Run a command without the library, and return its exit code."""
-    from .hard_exit import refused
-    from .raised import interrupted_by_a_person
-
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, TextIOWrapper):  # a terminal may not know all letters of a name
             stream.reconfigure(errors="backslashreplace")
     try:
-        with interrupted_by_a_person(), refused():
-            code = _run(name, load, argv)
-            print(end="", flush=True)
-            return code
+        code = _run(name, load, argv)
+        print(end="", flush=True)
+        return code
     except BadInput as error:
         return _tell("\n".join(map(printable, str(error).split("\n"))), 2)
     except KeyboardInterrupt:
@@ -109,11 +105,9 @@ def _run(name: str, load: Callable[[], App], argv: Sequence[str]) -> int:
     for word in argv if argv[:1] == ["simulate"] else argv[:1]:
         what = word.partition("=")[0]
         if what in _EXTRAS:
-            needed = f'pip install "pluto-fleet{_EXTRAS[what]}>={_SEAM}"'
-            sources = f'without an index, from Pluto\'s sources: pip install "PLUTO/runtime{_EXTRAS[what]}"'
-            raise BadInput(
-                f"{name}: {what} needs pluto-fleet, the library that flies: {needed} ({sources})"
-            )
+            said = f"{name}: {what} needs pluto-fleet, the library that flies: "
+            said += f'pip install "pluto-fleet{_EXTRAS[what]}>={_SEAM}" (without an index, from '
+            raise BadInput(said + f'Pluto\'s sources: pip install "PLUTO/runtime{_EXTRAS[what]}")')
     app = loaded(load)
     try:
         options = _parser(app).parse_args(argv)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -13,13 +14,19 @@ if TYPE_CHECKING:
     from .allocation import Queue
     from .app import App
     from .fleet import Fleet
+    from .flight import Flight
     from .kernel import Kernel
     from .model import Mission
-    from .navigation import Commanding, Navigation
+    from .navigation import Navigation
     from .results import ResultStore
+    from .state import State
     from .trace import Trace
     from .transitions import Transitions
     from .watching import Deadlines
+
+
+CallsOff = Callable[["State", "Flight", str], object]
+"""Fails the trip of a flight that was broken off, once it is known that its action was not done."""
 
 
 class Recorder(Protocol):
@@ -46,19 +53,19 @@ class Core:
     app: App
     kernel: Kernel
     airspace: Airspace
-    navigation: Navigation
+    navigation: Navigation[Flight]
     trace: Trace
     results: ResultStore
     transitions: Transitions
     queue: Queue
     fleet: Fleet
     deadlines: Deadlines
-    link: Commanding | None = None
-    """What the gateway can be asked through; None: it is in this process, and answers at once."""
+    calls_off: CallsOff | None = None
+    """None: drones are in this process, and what was not reported was not done."""
     recorder: Recorder | None = None
-    """Writes down what happens; None: nobody will ever go on from here."""
+    """Writes down what happens; None: nothing will ever go on from here."""
 
     def log(self, text: str, mission: str | None = None) -> None:
-        """Write a line on the console of whoever watches."""
+        """Write a line on the console."""
         if self.trace.live:
             self.trace.note("log", mission=mission, text=bounded(text, LONGEST_LOG))

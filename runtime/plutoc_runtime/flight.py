@@ -32,8 +32,7 @@ class Flight(Signal[Status]):
     __slots__ = ("_own", "called_off", "flier", "launched_at", "retry", "state", "trip")
 
     def __init__(self, state: State, trip: Trip, flier: Drone, retry: bool) -> None:
-        self.is_set = False
-        self.error = self.waiter = self._value = self._watchers = None
+        super().__init__()
         self.state, self.trip, self.flier = state, trip, flier
         self.launched_at = state.core.kernel.now
         self.retry = retry
@@ -228,16 +227,34 @@ def _lose(state: State, reason: str) -> None:
 
 def fail(state: State, flight: Flight, reason: str, *, mends: bool = True) -> None:
     """A trip is over, and went wrong. With an item aboard, no retry can mend it."""
+    of_drone = reason  # why it is lost, if it is, has nothing to do with what it carries
     if state.carries is not None:
         reason = f"{reason}, with {state.carries.name} aboard"
         mends = False
     state.carries = state.carrier = None
     state.core.transitions.fail(state.mission, flight.trip, reason)
-    state.core.fleet.recover(flight.flier, reason)
+    state.core.fleet.recover(flight.flier, of_drone)
     if mends:
         flight.set(state.mission.status)
     else:
         state.end(reason)
+
+
+def abort(state: State, reason: str) -> None:
+    """Fail the trip that flies now: its limit is over, or a hook wants it so.
+
+    Elsewhere an action may be done by the time that its drone hears of it: one that must not be
+    repeated is looked up first.
+    """
+    core, flight = state.core, state.in_flight
+    if flight is None or flight.called_off:
+        return
+    flight.break_off()
+    repeatable = flight.action is None or core.app.actions[flight.action].repeat == "safe"
+    if core.calls_off is None or repeatable:
+        fail(state, flight, reason)
+    else:
+        core.calls_off(state, flight, reason)
 
 
 _EXECUTING = TripStatus.EXECUTING

@@ -30,7 +30,7 @@ class LiveDrone:
 
     __slots__ = ("_drone", "_is_over", "_kernel", "_key", "_navigation")
 
-    def __init__(self, kernel: Kernel, navigation: Navigation, drone: Drone, key: Key) -> None:
+    def __init__(self, kernel: Kernel, navigation: Navigation[Any], drone: Drone, key: Key) -> None:
         self._kernel, self._navigation, self._drone, self._key = kernel, navigation, drone, key
         self._is_over = False
 
@@ -58,7 +58,7 @@ class LiveDrone:
         await self._asked(lambda drone: self._navigation.write(drone, name, number), name)
 
     def lets_go(self) -> None:
-        """The action is over: the drone is somebody else's from now on."""
+        """The action is over: the drone is not the action's any more."""
         self._is_over = True
 
     def is_of(self, drone: Drone) -> bool:

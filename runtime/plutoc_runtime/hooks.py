@@ -8,8 +8,8 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 from .errors import ActionFailed, BadInput, HookFault
-from .kernel import WHATEVER, Cancelled, Kernel
-from .raised import by_a_person
+from .guard import NOT_ITS_OWN, by_a_person
+from .kernel import WHATEVER, Kernel
 from .words import bounded, class_of, text_of
 
 if TYPE_CHECKING:
@@ -23,14 +23,14 @@ async def call_action(kernel: Kernel, hook: Hook, /, *args: object, **named: obj
     """Call an action; whatever it raises, `ActionFailed` aside, is a fault of the hook."""
     try:
         return await kernel.call_hook(hook, *args, **named)
-    except (ActionFailed, Cancelled, GeneratorExit, KeyboardInterrupt):
+    except (ActionFailed, *NOT_ITS_OWN):
         raise
     except WHATEVER as error:
         raise fault_of(hook, error) from error
 
 
 class Held:
-    """What the runtime knows things by, while a hook has them in its hands: nobody may change that."""
+    """What the runtime knows things by, while a hook has them in its hands: it may not change that."""
 
     def __init__(self, of: object, *facts: str) -> None:
         self._of, self._facts = of, {fact: getattr(of, fact) for fact in facts}

@@ -18,14 +18,13 @@ from .kernel import FLEET, Kernel, Key, Kind, Task
 from .motion import Charge, Leg, standing
 from .navigation import way_from
 from .signals import Signal
-from .standing import Standing
 from .world import World
 
 if TYPE_CHECKING:
     from .app import App
     from .files import DroneData, FleetData
+    from .flight import Flight
     from .model import Category, Item, Point
-    from .navigation import Job
 
 
 class IdealDrone:
@@ -165,7 +164,7 @@ class IdealNavigation:
         """Return what is known of a drone; the value stays current."""
         return self.drones[drone]
 
-    def fly(self, job: Job, report: Callable[[object], None]) -> None:
+    def fly(self, job: Flight, report: Callable[[object], None]) -> None:
         """Take off, fly to the job's stops and do its action; then report."""
         drone = self.drones[job.drone]
 
@@ -178,7 +177,7 @@ class IdealNavigation:
 
         drone.job = self._kernel.spawn(fly(), drone.key, f"{drone.id} flies {job.id}")
 
-    async def _flown(self, drone: IdealDrone, job: Job) -> object:
+    async def _flown(self, drone: IdealDrone, job: Flight) -> object:
         airspace, start = self._airspace, drone.location
         for problem in filter(None, map(airspace.problem, job.stops)):
             raise FlightFailed(Failure.REFUSED, problem)
@@ -248,11 +247,6 @@ class IdealNavigation:
             await self._move(one, (*one.location[:2], 0.0), CLIMB_SPEED)
             one.touch_down(self._kernel.now)
 
-    def mended(self, drone: str) -> None:
-        """A person has repaired a lost drone, and put it into its dock."""
-        if self.drones[drone].down is not None:
-            self.drones[drone].dock()
-
     async def recover(self, drone: str) -> bool:
         """Bring a drone home after a failed flight, landed; False: it has crashed, and is lost."""
         one = self.drones[drone]
@@ -277,21 +271,6 @@ class IdealNavigation:
             way = way_from(self._airspace, drone.id, start, (*drone.home[:2], start[2]))
             await self._follow(drone, [start, *way])
             await self.land(drone.id)
-
-    async def roll_call(self, drone: str) -> Standing:
-        """Tell where a drone is; one that takes no commands does not answer."""
-        one = self.drones[drone]
-        return Standing(
-            drone=drone,
-            reached=one.down is None,
-            location=one.location,
-            landed=one.landed,
-            battery_level=one.battery_level,
-            boot=0,
-            carrying=None if one.carries is None else one.carries.name,
-            done=None,
-            problems=() if one.down is None else (str(one.down),),
-        )
 
     def _above(self, drone: IdealDrone) -> Point:
         x, y, z = drone.location

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any, cast
 from .actions import PICK, RELEASE
 from .capability import why_not
 from .errors import HookFault
+from .guard import by_a_person
 from .hooks import hook_name, said
 from .kernel import WHATEVER
-from .raised import by_a_person
 from .soundness import unsound, unsound_mission
 from .status import COMPLETED, FAILED, STANDBY, Status, TripStatus
 from .verdict import Verdict

@@ -6,9 +6,9 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from .calling_off import abort
 from .changes import change_data
 from .errors import HookFault
+from .flight import abort
 from .hooks import hook_name, look
 from .soundness import unsound, unsound_mission
 from .status import Status, TripStatus

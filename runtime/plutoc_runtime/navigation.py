@@ -9,73 +9,29 @@ from another.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Protocol
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Protocol, TypeVar
 
 from .errors import Failure, FlightFailed
 from .words import place
 
 if TYPE_CHECKING:
-    from .actions import Plain
     from .airspace import Airspace
-    from .model import Item, Point, Telemetry
-    from .standing import Down, RollCall, Standing
+    from .model import Point, Telemetry
 
 
-class Job(Protocol):
-    """What a drone is to do for a trip."""
-
-    @property
-    def id(self) -> str:
-        """`mission/trip/round/attempt`: the same flight has the same id in every run."""
-        ...
-
-    @property
-    def drone(self) -> str:
-        """Who flies."""
-        ...
-
-    @property
-    def stops(self) -> tuple[Point, ...]:
-        """Where to fly, in order; which way is navigation's to find."""
-        ...
-
-    @property
-    def action(self) -> str | None:
-        """Which of the built-in actions to do at the last stop; None: hover there."""
-        ...
-
-    @property
-    def parameters(self) -> Mapping[str, Plain]:
-        """How to do it."""
-        ...
-
-    @property
-    def item(self) -> Item | None:
-        """What to pick or to release."""
-        ...
-
-    @property
-    def seconds(self) -> float:
-        """How long the action is expected to take."""
-        ...
-
-    def begins(self) -> None:
-        """Hear that the action is about to be done: told right before it, never for none.
-
-        If this raises `FlightFailed`, it must not be done.
-        """
-        ...
+J_contra = TypeVar("J_contra", contravariant=True)
+"""What a drone is to do for a trip: the brain gives a `Flight`."""
 
 
-class Navigation(Protocol):
+class Navigation(Protocol[J_contra]):
     """A team of drones that can be flown, by their ids."""
 
     def telemetry(self, drone: str) -> Telemetry:
         """Return what is known of a drone; the value stays current."""
         ...
 
-    def fly(self, job: Job, report: Callable[[object], None]) -> None:
+    def fly(self, job: J_contra, report: Callable[[object], None]) -> None:
         """Take off, fly to the job's stops and do its action.
 
         `report` is told once, and never from within this call, what the action gave or the
@@ -115,42 +71,9 @@ class Navigation(Protocol):
         """Land here."""
         ...
 
-    def mended(self, drone: str) -> None:
-        """A person has looked after a lost drone: it can be recovered once more."""
-        ...
-
     async def recover(self, drone: str) -> bool:
         """Bring a drone home after a failed flight, landed; False: it is lost."""
         ...
-
-    async def roll_call(self, drone: str) -> Standing:
-        """Ask a drone where it is and what it has done; say so if it does not answer."""
-        ...
-
-
-class Commanding(Navigation, Protocol):
-    """A navigation that remembers every job, for as long as it listens to this brain."""
-
-    async def call(self) -> RollCall:
-        """Ask all drones and the ledger how everything stands; from now on the brain is heard."""
-        ...
-
-    def attach(self, id: str, report: Callable[[object], None]) -> None:
-        """Hear of a job that was given before: when it ends, or now if it has."""
-        ...
-
-    def forget(self, id: str) -> None:
-        """Nobody will ask for a job any more: its id may be given again."""
-        ...
-
-    async def bring_down(self, how: Down) -> None:
-        """Break off everything and bring all drones down; return when all that can are down."""
-        ...
-
-
-def motors_cut(drone: str) -> FlightFailed:
-    """Return how everything fails that a drone did when somebody had its motors cut."""
-    return FlightFailed(Failure.CRASH, f"{drone}'s motors were cut")
 
 
 def permitted_way(airspace: Airspace, drone: str, start: Point, end: Point) -> tuple[Point, ...]:

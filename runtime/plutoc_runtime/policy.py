@@ -2,20 +2,11 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
-
-from .errors import HookFault
-from .forked import end_if_forked
-from .hooks import hook_name, said, trace_of
-from .model import Drone
-from .raised import by_a_person
-from .words import class_of
+from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 if TYPE_CHECKING:
-    from .model import Trip
+    from .model import Drone, Trip
 
 Able = Callable[["Drone"], bool]
 """Says whether a drone may fly the trip now."""
@@ -28,7 +19,7 @@ Choice = tuple["Drone", Why]
 
 
 class Pool(Protocol):
-    """The free drones, kept so that a policy finds the one it wants fast."""
+    """The free drones, from which a policy chooses."""
 
     def add(self, drone: Drone) -> None:
         """A drone is free; it stays where it is while it is."""
@@ -56,61 +47,16 @@ Policy = Callable[[], Pool]
 """Makes the pool from which the drones are chosen."""
 
 
-def own_policy(hook: Callable[[Any, Sequence[Drone]], Drone | None]) -> Policy:
-    """Make a policy of the app's own hook: it is asked trip by trip."""
-    return OwnPolicy(hook)
+class FreeDrones:
+    """What every pool of ours keeps: the free drones, in the order in which they came."""
 
-
-@dataclass(frozen=True, slots=True)
-class OwnPolicy:
-    """A policy of the app's own. Two that ask the same hook are equal."""
-
-    hook: Callable[[Any, Sequence[Drone]], Drone | None]
-
-    def __call__(self) -> Pool:
-        """Return an empty pool."""
-        return Asked(self.hook)
-
-
-class Asked:
-    """The free drones, in the fleet's order, for a hook to choose from."""
-
-    def __init__(self, hook: Callable[[Any, Sequence[Drone]], Drone | None]) -> None:
-        self._hook, self._name = hook, hook_name(hook)
-        self._free: dict[Drone, None] = {}
+    def __init__(self) -> None:
+        self.free: dict[Drone, None] = {}
 
     def add(self, drone: Drone) -> None:
         """A drone is free."""
-        self._free[drone] = None
+        self.free[drone] = None
 
     def remove(self, drone: Drone) -> None:
         """A drone is not free any more."""
-        self._free.pop(drone, None)
-
-    def choose(self, trip: Trip, able: Able) -> Choice | None:
-        """Ask the hook; raise `HookFault` for what it may not answer."""
-        free = sorted(self._free, key=lambda drone: drone.index)
-        candidates = tuple(drone for drone in free if able(drone))
-        if not candidates:
-            return None
-        parent = os.getpid()
-        try:
-            drone = self._hook(trip, candidates)
-            end_if_forked(parent)
-        except BaseException as error:
-            end_if_forked(parent, error)
-            if by_a_person(error):
-                raise
-            raise HookFault(f"policy {self._name} raised {said(error)}", trace_of(error)) from error
-        if drone is None:
-            return None
-        if not any(drone is candidate for candidate in candidates):
-            raise HookFault(
-                f"policy {self._name} must return one of the candidates or None, not {_named(drone)}"
-            )
-        return drone, lambda: f"chosen by {self._name}"
-
-
-def _named(answer: object) -> str:
-    """Name what a hook answered, in a word or two."""
-    return f"drone {answer.id}" if type(answer) is Drone else class_of(answer)
+        self.free.pop(drone, None)

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from .context import Context
 from .errors import MissionFailed
+from .guard import NOT_ITS_OWN
 from .hooks import Held, changed, fault_of, hook_name, look
-from .kernel import WHATEVER, Cancelled, branch_key
+from .kernel import WHATEVER, branch_key
 from .model import Mission
 from .state import MOST_CALLS
 from .status import UNEXECUTED, Status
@@ -58,7 +59,7 @@ class Run(Generic[M]):
         held = None if flying is None else Held(flying.trip, "name", "action")
         try:
             answer = await self.core.kernel.call_hook(hook, *args)
-        except (Cancelled, GeneratorExit, KeyboardInterrupt):
+        except NOT_ITS_OWN:
             raise
         except WHATEVER as error:
             raise fault_of(hook, error) from error

@@ -8,7 +8,7 @@ from gc import freeze
 from typing import TYPE_CHECKING, Any
 
 from .allocation import Queue
-from .core import Core, Recorder
+from .core import CallsOff, Core, Recorder
 from .eligibility import Reach
 from .engine import Engine
 from .fleet import Fleet
@@ -23,7 +23,8 @@ from .watching import Deadlines
 if TYPE_CHECKING:
     from .app import App
     from .files import FleetData
-    from .navigation import Commanding, Navigation
+    from .flight import Flight
+    from .navigation import Navigation
 
 Listener = Callable[[Event], object]
 
@@ -70,10 +71,12 @@ class Session:
         app: App,
         fleet: FleetData,
         kernel: Kernel,
-        navigation: Navigation,
+        navigation: Navigation[Flight],
         listeners: Sequence[Listener],
         recorder: Recorder | None = None,
-        link: Commanding | None = None,
+        calls_off: CallsOff | None = None,
+        kind_of_fleet: type[Fleet] = Fleet,
+        kind_of_engine: type[Engine] = Engine,
     ) -> None:
         self._kernel = kernel
         known = DroneStatus.FREE if recorder is None else DroneStatus.OFFLINE
@@ -100,16 +103,16 @@ class Session:
             results=results,
             transitions=Transitions(kernel, trace, results),
             queue=queue,
-            fleet=Fleet(
+            fleet=kind_of_fleet(
                 kernel, trace, fleet.airspace, navigation, self.drones, queue, fleet.after_trip
             ),
             deadlines=Deadlines(kernel),
             recorder=recorder,
-            link=link,
+            calls_off=calls_off,
         )
         if recorder is not None:
             recorder.trace, recorder.results = trace, results
-        self.engine = Engine(self.core)
+        self.engine = kind_of_engine(self.core)
 
     def start(self, missions: Sequence[Mission[Any]]) -> Task[float]:
         """Set the missions on their way; the task gives the time at which the last one ended.

@@ -6,11 +6,11 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, cast
 
 from .fields import number_of
+from .guard import by_a_person
 from .hooks import said
 from .kernel import WHATEVER
 from .model import Item
 from .plain import keepable
-from .raised import by_a_person
 from .status import Status, TripStatus
 from .words import class_of, shown
 

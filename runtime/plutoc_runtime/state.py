@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Generic, TypeVar
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 from .status import Status, TripStatus
 
@@ -13,8 +14,6 @@ if TYPE_CHECKING:
     from .kernel import Task
     from .model import Drone, Item, Mission
 
-T = TypeVar("T")
-
 Place = tuple[str, str, int, int]
 """A delay: block, trip, round, attempt."""
 
@@ -23,89 +22,46 @@ MOST_CALLS = 100_000
 whether they answer at once or sleep in between."""
 
 
-class Seldom(Generic[T]):
-    """What most missions never have: it takes no room in their states until it is set."""
-
-    def __init__(self, usual: T) -> None:
-        self._usual, self._name = usual, ""
-
-    def __set_name__(self, _: type[State], name: str) -> None:
-        self._name = name
-
-    def __get__(self, state: State, _: type[State] | None = None) -> T:
-        if state.seldom is None:
-            return self._usual
-        value: T = state.seldom.get(self._name, self._usual)
-        return value
-
-    def __set__(self, state: State, value: T) -> None:
-        if state.seldom is not None:
-            state.seldom[self._name] = value
-        elif value is not self._usual:
-            state.seldom = {self._name: value}
-
-
+@dataclass(slots=True, eq=False)
 class State:
-    """One living mission. There may be very many: so it is small."""
+    """One living mission."""
 
-    __slots__ = (
-        "allocated",
-        "at",
-        "calls",
-        "carrier",
-        "core",
-        "engine",
-        "flight",
-        "goes_on",
-        "last_action_end",
-        "mission",
-        "seldom",
-        "task",
-    )
-
-    interrupted = Seldom(False)
+    core: Core
+    mission: Mission[Any]
+    engine: Engine
+    """Who sees it to its end."""
+    task: Task[Status] | None = None
+    """The coroutine that takes it through its graph."""
+    at: str | None = None
+    """The last block it has met at which it can go on when it is interrupted."""
+    goes_on: bool = False
+    """It was interrupted after a launch: until it is back there, it is given no drone."""
+    interrupted: bool = False
     """A flight of it was interrupted and does not count."""
-    delay: Seldom[tuple[Place, float, float] | None] = Seldom(None)
-    """Where it waits, when its delay is over, and its round begins."""
-    waited: Seldom[set[Place] | None] = Seldom(None)
-    """Every delay that is over."""
-    first_start: Seldom[float | None] = Seldom(None)
-    """When its first trip was let go."""
-    carries: Seldom[Item | None] = Seldom(None)
+    allocated: Drone | None = None
+    """The drone that waits to be launched."""
+    flight: Flight | None = None
+    """The flight that was launched last."""
+    carrier: Drone | None = None
+    """The drone that the mission keeps while it carries an item."""
+    carries: Item | None = None
     """The item aboard `carrier`, from `pick_item` to `release_item`."""
-    doom: Seldom[str | None] = Seldom(None)
+    last_action_end: float | None = None
+    """When its previous action in this round was done."""
+    calls: int = 0
+    """How often its hooks were called since its last launch."""
+    delay: tuple[Place, float, float] | None = None
+    """Where it waits, when its delay is over, and its round begins."""
+    waited: set[Place] | None = None
+    """Every delay that is over."""
+    first_start: float | None = None
+    """When its first trip was let go."""
+    doom: str | None = None
     """Why it must end whatever its graph says: a failure that no retry can mend."""
-
-    def __init__(self, core: Core, mission: Mission[Any], engine: Engine) -> None:
-        self.core, self.mission = core, mission
-        self.engine = engine
-        """Who sees it to its end."""
-        self.seldom: dict[str, Any] | None = None
-        """What is not as usual, by its name."""
-        self.task: Task[Status] | None = None
-        """The coroutine that takes it through its graph."""
-        self.at: str | None = None
-        """The last block it has met at which it can go on when it is interrupted."""
-        self.goes_on = False
-        """It was interrupted after a launch: until it is back there, it is given no drone."""
-        self.allocated: Drone | None = None
-        """The drone that waits to be launched."""
-        self.flight: Flight | None = None
-        """The flight that was launched last."""
-        self.carrier: Drone | None = None
-        """The drone that the mission keeps while it carries an item."""
-        self.last_action_end: float | None = None
-        """When its previous action in this round was done."""
-        self.calls = 0
-        """How often its hooks were called since its last launch."""
 
     def __call__(self, task: Task[Status]) -> None:
         """Hear that its coroutine is over."""
         self.engine.ended(self, task)
-
-    def wait_for_a_person(self) -> None:
-        """Take it out of its graph until a person has said how it goes on."""
-        self.engine.waits(self)
 
     def end(self, reason: str) -> None:
         """Take it out of its graph, FAILED; only the first reason counts."""

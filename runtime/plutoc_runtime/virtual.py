@@ -2,23 +2,20 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Coroutine, Generator
 from functools import partial
-from types import coroutine
-from typing import Any, TypeVar
+from types import CoroutineType, coroutine
+from typing import Any, TypeVar, cast
 
-from .forked import end_if_forked
+from .guard import by_a_person, guarded
 from .kernel import WHATEVER, ForeignAwait, Kernel
-from .raised import by_a_person, refuse_if_not_its_own
 from .signals import Signal
-from .straight import is_coroutine, never_waits
 
 T = TypeVar("T")
 
 
 class Stuck(RuntimeError):
-    """Nothing will ever happen again, and somebody still waits."""
+    """Nothing will ever happen again, and coroutines still wait."""
 
 
 class VirtualTime(Kernel):
@@ -56,22 +53,10 @@ class VirtualTime(Kernel):
         self, hook: Callable[..., object], /, *args: object, **named: object
     ) -> object:
         """Run a hook here and now; an `async def` may await only what its context offers."""
-        parent = os.getpid()
-        waiting: Coroutine[Any, Any, object] | None = None
-        try:
-            result = hook(*args, **named)
-            if is_coroutine(result):
-                if never_waits(hook):
-                    result = await result
-                else:
-                    waiting = result
-        except BaseException as error:
-            refuse_if_not_its_own(error, parent)
-            raise
-        if os.getpid() != parent:
-            end_if_forked(parent)
-        if waiting is None:
+        result = guarded(partial(hook, *args, **named))
+        if not issubclass(type(result), CoroutineType):  # it is asked nothing: it may be anything
             return result
+        waiting = cast("Coroutine[Any, Any, object]", result)
         try:
             return await _called_off_for_good(waiting)
         except RuntimeError as error:
@@ -90,19 +75,13 @@ class VirtualTime(Kernel):
 @coroutine
 def _called_off_for_good(hook: Coroutine[Any, Any, T]) -> Generator[Any, Any, T]:
     """Let a hook run inside this coroutine; one that is called off cannot hold on, or go on."""
-    parent = os.getpid()
     step: Callable[[], object] = partial(hook.send, None)
     while True:
         try:
-            waits_for = step()
+            waits_for = guarded(step)
         except StopIteration as end:
-            end_if_forked(parent)
             returned: T = end.value
             return returned
-        except BaseException as error:
-            refuse_if_not_its_own(error, parent)
-            raise
-        end_if_forked(parent)
         try:
             yield waits_for
             step = partial(hook.send, None)
@@ -112,7 +91,9 @@ def _called_off_for_good(hook: Coroutine[Any, Any, T]) -> Generator[Any, Any, T]
             for call in (partial(hook.throw, error), hook.close):
                 try:
                     call()
-                except WHATEVER as its_own:  # whatever it does about it, nobody wants it any longer
+                except (
+                    WHATEVER
+                ) as its_own:  # whatever it does about it, it is not wanted any longer
                     if by_a_person(its_own):
                         raise
             raise

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from .calling_off import abort
+from .flight import abort
 from .kernel import Kernel, Kind
 
 if TYPE_CHECKING:

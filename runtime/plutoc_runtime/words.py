@@ -132,7 +132,7 @@ def class_of(value: object) -> str:
 
 def unless_by_a_person(error: BaseException) -> None:
     """Raise a person's Ctrl-C on; all else is that of an object that was asked something."""
-    from .raised import by_a_person  # it is needed where something is wrong
+    from .guard import by_a_person  # it is needed where something is wrong
 
     if by_a_person(error):
         raise error

@@ -7,7 +7,7 @@ from copy import deepcopy
 from dataclasses import dataclass, field, replace
 from functools import partial
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import pytest
 
@@ -30,6 +30,7 @@ from tests.runtime import apps
 if TYPE_CHECKING:
     from plutoc_runtime.app import App
     from plutoc_runtime.context import Context
+    from plutoc_runtime.flight import Flight
 
 ROUGH = Faults(crash=0.03, link=0.15, action=0.15, battery=0.1)
 SEEDS = range(6)
@@ -159,7 +160,7 @@ def reported(job: Told, faults: Faults = NO_FAULTS) -> tuple[object, IdealNaviga
     """Fly one job, and return what was reported of it."""
     kernel, over = VirtualTime(), Signal[object]()
     navigation = IdealNavigation(kernel, apps.app(apps.flow()), apps.fleet(), faults, 3)
-    navigation.fly(job, over.set)
+    navigation.fly(cast("Flight", job), over.set)
     assert kernel.run(over)
     return over.result(), navigation
 
@@ -271,28 +272,16 @@ def test_a_command_that_is_cancelled_leaves_the_drone_hovering() -> None:
     assert not navigation.telemetry("cf1").landed
 
 
-def test_a_lost_drone_that_was_mended_can_be_recovered() -> None:
-    """It stands in its dock, answers, and its settings are gone."""
-    kernel, tested = VirtualTime(), apps.app(apps.flow())
-    navigation = IdealNavigation(kernel, tested, apps.fleet(), Faults(crash=1.0), 3)
-
-    async def life() -> list[object]:
-        done: list[object] = []
-        navigation.fly(Told(stops=((4.0, 0.5, 1.2),)), done.append)
-        await kernel.sleep(60.0)
-        done.append((await navigation.roll_call("cf1")).reached)
-        done.append(await navigation.recover("cf1"))
-        navigation.mended("cf1")
-        done.append((await navigation.roll_call("cf1")).reached)
-        done.append(await navigation.recover("cf1"))
-        return done
-
-    task = kernel.spawn(life(), FLEET, "life")
-    assert kernel.run(task)
-    crash, *rest = task.result()
-    assert isinstance(crash, FlightFailed) and crash.failure is Failure.CRASH
-    assert rest == [False, False, True, True]
-    assert navigation.telemetry("cf1").location == (0.5, 0.5, 0.0)
+def test_a_drone_that_has_crashed_is_lost() -> None:
+    """It lies where it fell, and cannot be brought home."""
+    said, navigation = reported(Told(stops=((4.0, 0.5, 1.2),)), Faults(crash=1.0))
+    assert isinstance(said, FlightFailed) and said.failure is Failure.CRASH
+    with pytest.raises(StopIteration, match="False"):
+        navigation.recover("cf1").send(None)
+    where = navigation.telemetry("cf1")
+    assert (where.landed, where.location[2]) == (True, 0.0)
+    with pytest.raises(FlightFailed, match="cf1 crashed at"):
+        navigation.takeoff("cf1", 1.2).send(None)
 
 
 async def turn_on(drone: Drone, trip: Trip, context: Context) -> tuple[float, float]:

@@ -250,9 +250,9 @@ def test_the_library_is_called_where_there_is_one(monkeypatch: pytest.MonkeyPatc
         told.append((given, named))
         return 2 + len(told)
 
-    library = ModuleType("pluto_fleet")
+    library = ModuleType("pluto_fleet.entry")
     vars(library).update(main=called, start=called)
-    monkeypatch.setitem(sys.modules, "pluto_fleet", library)
+    monkeypatch.setitem(sys.modules, "pluto_fleet.entry", library)
     assert command.main(APP, ["check"]) == 3
     assert command.start("alfalfa", lambda: APP) == 4
     named = {"brain": "plutoc_runtime", "seam": command.SEAM}
@@ -301,7 +301,8 @@ def test_a_library_that_the_package_carries_is_found(package: Path, tmp_path: Pa
     """It lies beside the brain; one that is broken shows itself."""
     carried = package / "src" / package.name / "_fleet"
     (carried / "pluto_fleet").mkdir(parents=True)
-    file = carried / "pluto_fleet" / "__init__.py"
+    (carried / "pluto_fleet" / "__init__.py").touch()
+    file = carried / "pluto_fleet" / "entry.py"
     try:
         file.write_text(
             "def start(name, load, brain, seam):\n    print(name, brain, seam)\n    return 7\n"
@@ -320,8 +321,6 @@ HOOKS = [
     ("import no_such_module\n", "hooks.py:1: the hooks cannot be loaded: ModuleNotFoundError"),
     ("def f():\n  return 1 +\n", "hooks.py:2: invalid syntax"),
     ("raise SystemExit(0)\n", "hooks.py:1: the hooks cannot be loaded: SystemExit: 0"),
-    ("import os\nos._exit(0)\n", "hooks.py:2: the hooks cannot be loaded: SystemExit"),
-    ("raise KeyboardInterrupt\n", "hooks.py:1: the hooks cannot be loaded: KeyboardInterrupt"),
     ("x = 1\n", "hooks.py has no "),
 ]
 

@@ -405,7 +405,7 @@ def test_cflib_s_tracebacks_become_reasons(cflib: str, we: str) -> None:
 
 def test_without_cflib_it_is_said_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(borrowed, "find_spec", lambda _: None)
-    with pytest.raises(BadInput, match=r"cflib is needed: pip install cflib$"):
+    with pytest.raises(BadInput, match=r"cflib is needed: pip install 'pluto-fleet\[crazyflie\]'$"):
         borrowed.require()
     assert words.no_cflib("alfalfa").endswith("pip install 'alfalfa[crazyflie]'")
 

@@ -66,7 +66,8 @@ def test_the_page_shows_what_is_really_said() -> None:
 def test_every_kind_of_change_that_can_be_told_has_a_case(changes: list[Change]) -> None:
     """No sentence goes unread."""
     words = "".join(_read(path) for path in (ROOT / "plutoc/diff/words").glob("*.py"))
-    kinds = re.findall(r'(?:kind=|_set\(|_said\(|_fields\(|_route\(|_branch\()\s*"(\w+)"', words)
+    told_by = r"(?:kind=|_set\(|_said\(|_fields\(|_library\(|_route\(|_branch\()"
+    kinds = re.findall(rf'{told_by}\s*"(\w+)"', words)
     assert len(kinds) > 40
     assert {*kinds} == {change.kind for change in changes}
 

@@ -13,8 +13,7 @@ import pytest
 
 import plutoc_runtime
 from plutoc.emit.embed import Carried, embed
-from plutoc.emit.modules import EmbedError, Module, data_of
-from plutoc.installed import facts_of_package
+from plutoc.emit.modules import EmbedError
 from plutoc.registry import STD
 from plutoc_blocks.clock.step import wait_for_time
 from plutoc_blocks.gate_fifo.step import pass_first
@@ -50,63 +49,32 @@ def carried(function: Callable[..., Any], package: str = STD) -> Carried:
 
 def test_modules_of_the_runtime_are_copied_byte_for_byte() -> None:
     """What is embedded is what is installed."""
-    for path, text in embed([carried(wait_for_time)], ["pluto_fleet.cli"]).items():
+    for path, text in embed([carried(wait_for_time)], ["plutoc_runtime.command"]).items():
         if not path.startswith("_runtime/blocks/"):
             assert (RUNTIME / path.removeprefix("_runtime/")).read_bytes() == text.encode()
 
 
 def test_only_what_is_needed_is_carried() -> None:
     """A block that nobody uses, and a policy that nobody chose, stay behind."""
-    files = embed([carried(wait_for_time), carried(nearest)], ["pluto_fleet.cli"])
+    files = embed([carried(wait_for_time), carried(nearest)], ["plutoc_runtime.command"])
     blocks = [path for path in files if path.startswith("_runtime/blocks/")]
     policies = [path for path in files if path.startswith("_runtime/policies/")]
     assert blocks == ["_runtime/blocks/__init__.py", "_runtime/blocks/clock.py"]
-    names = ("__init__", "grid", "nearest", "strips")
+    names = ("__init__", "nearest")
     assert policies == [f"_runtime/policies/{name}.py" for name in names]
 
 
 def test_imports_inside_functions_count() -> None:
     """The command line loads its commands when they are asked for: they are carried all the same."""
-    assert "_runtime/cli/simulate.py" in embed([], ["pluto_fleet.cli"])
+    assert "_runtime/alone.py" in embed([], ["plutoc_runtime.command"])
 
 
 def test_packages_are_whole() -> None:
     """Every folder has its `__init__.py`, and paths are in order."""
-    files = embed([carried(pass_first)], ["pluto_fleet.cli"])
+    files = embed([carried(pass_first)], ["plutoc_runtime.command"])
     folders = {path.rpartition("/")[0] for path in files if path.endswith(".py")}
     assert all(f"{folder}/__init__.py" in files for folder in folders)
     assert list(files) == sorted(files)
-
-
-def test_pages_for_browsers_come_along_byte_for_byte() -> None:
-    """Whatever lies in the runtime's folders besides modules; `py.typed` every package has itself."""
-    kept = {".py", ".pyc"}
-    pages = [path for path in RUNTIME.rglob("*") if path.is_file() and path.suffix not in kept]
-    names = {path.relative_to(RUNTIME).as_posix() for path in pages} - {"py.typed"}
-    modules = [f"plutoc_runtime.{one.parent.name}" for one in RUNTIME.glob("*/__init__.py")]
-    files = embed([], modules)
-    assert {path for path in files if not path.endswith(".py")} == {
-        f"_runtime/{one}" for one in names
-    }
-    for name in names:
-        assert files[f"_runtime/{name}"].encode() == (RUNTIME / name).read_bytes()
-
-
-def test_a_page_that_has_changed_is_noticed() -> None:
-    """What is remembered between two compiles hangs on each page, as on each module."""
-    facts = {fact.split()[0] for fact in facts_of_package(plutoc_runtime.__name__)}
-    pages = {str(path) for path in RUNTIME.rglob("pages/*") if path.is_file()}
-    assert pages and pages <= facts
-
-
-def test_pages_of_another_package_stay_there(tmp_path: Path) -> None:
-    """A folder with modules of its own is carried when one of them is needed; notes never are."""
-    for path in ("b.js", "a.css", "pages/x.html", "pages/notes.txt", "deeper/y.js"):
-        (tmp_path / path).parent.mkdir(exist_ok=True)
-        (tmp_path / path).write_text(path)
-    (tmp_path / "deeper/__init__.py").touch()
-    package = Module(name="some", file=str(tmp_path / "__init__.py"), text="", is_package=True)
-    assert list(data_of(package)) == [(one, one) for one in ("a.css", "b.js", "pages/x.html")]
 
 
 def test_only_the_imports_of_a_block_change() -> None:

@@ -189,9 +189,13 @@ def test_project_has_a_name_that_a_distribution_can_have() -> None:
 
 def test_no_app_has_the_name_of_what_its_extras_bring() -> None:
     """Nor of anything that those or the compiler need: by its distribution, and as it is imported."""
-    project = tomllib.loads(package_of(PLAIN).owned["pyproject.toml"])["project"]
-    needed = [one for extra in project["optional-dependencies"].values() for one in extra]
-    names = {_normal(re.split("[<>=]", one)[0]) for one in needed}
+    projects = (
+        package_of(PLAIN).owned["pyproject.toml"],
+        (ROOT / "runtime/pyproject.toml").read_text("utf-8"),  # which the first one's extras bring
+    )
+    extras = [tomllib.loads(text)["project"]["optional-dependencies"] for text in projects]
+    needed = [one for some in extras for extra in some.values() for one in extra]
+    names = {_normal(re.split(r"[<>=\[]", one)[0]) for one in needed}
     assert {"starlette", "uvicorn", "websockets", "matplotlib", "cflib", "pytest"} <= names
     brought = _with_all_they_need(names | {"plutoc"})
     assert len(brought) > 2 * len(names)

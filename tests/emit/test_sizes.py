@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ast
 import itertools
-import pkgutil
 import re
 from importlib import import_module
 from pathlib import Path
@@ -13,7 +12,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-import plutoc_runtime
 from pluto_fleet.files.fleet import default_fleet
 from pluto_fleet.files.missions import load_missions
 from plutoc.compile import compile_source
@@ -171,59 +169,40 @@ def test_the_basic_app_is_small() -> None:
     assert sum(lines.values()) <= 250, lines
 
 
-OTHER_POLICIES = {
-    "batch_optimal": "policies.first policies.least_used policies.nearest policies.ordered",
-    "least_used": "policies.assignment policies.batch_optimal policies.first policies.grid"
-    " policies.nearest policies.strips",
-    "nearest": "policies.assignment policies.batch_optimal policies.first policies.least_used"
-    " policies.ordered",
-    "own": "policies.assignment policies.batch_optimal policies.first policies.grid"
-    " policies.least_used policies.nearest policies.ordered policies.strips",
+ONLY_WITH = {
+    "judgement": "MissionEvaluator",
+    "modification": "MissionModifier",
 }
-"""The modules of the policies that were not chosen; some share one."""
-
-LEFT_OUT = {
-    "aerial_mapping": f"modification {OTHER_POLICIES['batch_optimal']}",
-    "alfalfa": f"modification {OTHER_POLICIES['nearest']}",
-    "drugs_distribution": f"judgement modification {OTHER_POLICIES['least_used']} soundness",
-    "drugs_distribution_retry": (
-        f"judgement modification {OTHER_POLICIES['batch_optimal']} soundness"
-    ),
-    "drugs_distribution_timer": f"judgement {OTHER_POLICIES['batch_optimal']}",
-    "object_finder": f"modification {OTHER_POLICIES['nearest']}",
-    "pm10": f"modification {OTHER_POLICIES['nearest']}",
-    "warehouse_item_finder": f"judgement modification {OTHER_POLICIES['own']} soundness",
-}
-"""The modules of the runtime that an example does not carry: what applies verdicts and what settles
-a modifier's status, what both ask, and other policies. Blocks' steps are looked at above."""
-
-
-FOR_TESTS = ("files.fleet_text", "gateway.line", "journal.memory", "simulation.radio")
-"""What only the simulation of crashes needs, beside all of `testing` but the invariants."""
-FOR_AUTHORS = "drones.conformance."
-"""The kit for whoever writes a navigation, who has plutoc installed."""
+"""Modules of the runtime that a kind of block alone needs."""
 OF_STRANGERS = ("declared",)
 """What holds blocks of other packages to what they declare: no example has one."""
-INVARIANTS = re.compile(r"testing\.(invariants|.*_rules?)")
 
 
 @pytest.mark.parametrize("example", sorted(path.name for path in EXAMPLES.iterdir()))
 def test_modules_that_nothing_needs_stay_behind(example: str) -> None:
-    """They are named for every example, and there are no others."""
+    """A module that some app carries is carried by those that need it, and by no other."""
     text = (EXAMPLES / example / "app.pluto").read_text(encoding="utf-8")
-    carried = {path.partition("/_runtime/")[2] for path in package_of(text).owned}
-    left_out = [name for name in modules() if f"{name.replace('.', '/')}.py" not in carried]
-    of_tests = [
-        name for name in left_out if name.startswith(("testing.", FOR_AUTHORS)) or name in FOR_TESTS
-    ]
-    kept = [name for name in left_out if name not in (*of_tests, *OF_STRANGERS)]
-    assert kept == LEFT_OUT[example].split()
-    assert all(name in left_out for name in (*FOR_TESTS, *OF_STRANGERS))
-    assert not any(INVARIANTS.fullmatch(name) for name in of_tests)
+    carried = carried_by(text)
+    for module, kind in ONLY_WITH.items():
+        assert (module in carried) == (kind in text)
+    assert not carried & set(OF_STRANGERS)
+    policies = {name.removeprefix("policies.") for name in carried if name.startswith("policies.")}
+    chosen = re.search(r"policy: (\w+)", text)
+    needed = SHARED.get(chosen[1] if chosen else "nearest", set())
+    assert policies == needed
 
 
-def modules() -> list[str]:
-    """Return the runtime's modules, without those that only hold others."""
-    prefix = f"{plutoc_runtime.__name__}."
-    found = pkgutil.walk_packages(plutoc_runtime.__path__, prefix)
-    return sorted(one.name.removeprefix(prefix) for one in found if not one.ispkg)
+SHARED = {
+    "batch_optimal": {"assignment", "batch_optimal"},
+    "first": {"first", "ordered"},
+    "least_used": {"least_used", "ordered"},
+    "nearest": {"nearest", "ordered"},
+}
+"""What each policy of ours needs; a hook of the app's own needs none."""
+
+
+def carried_by(text: str) -> set[str]:
+    """Return the modules of the runtime that an app carries, its blocks' steps aside."""
+    paths = [path.partition("/_runtime/")[2] for path in package_of(text).owned]
+    names = {path.removesuffix(".py").replace("/", ".") for path in paths if path.endswith(".py")}
+    return {name for name in names if not name.startswith("blocks.") and "__init__" not in name}

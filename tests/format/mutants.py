@@ -23,6 +23,8 @@ use pluto_weather as weather
 
 # Every construct of the language, each in every form.
 app everything "Texts \\"in\\" \\\\ # { -> texts" {
+  version "1.2.0"
+  requires "numpy>=2", "requests[socks] >= 2.32; python_version < '3.14'", "tools @ https://example.org/a,b"
   category plain can measure
   category big(payload: 5 g, speed: 0.8 m/s, reserve: 20 %) can pick_item, release_item, measure,
 
@@ -37,6 +39,7 @@ app everything "Texts \\"in\\" \\\\ # { -> texts" {
   wide = SomeKindOfBlock(first: "a text that takes much of a line", second: [10, 20, 30], third: no)
   empty = Kind()
   [a, use] -> b
+  version -> requires -> [version, requires] -> version when requires, otherwise_not
   [
     a,  # one
     # two

@@ -39,6 +39,9 @@ def body(text: str) -> str:
         ("category  c(payload:5g)can x,y,", "category c(payload: 5 g) can x, y"),
         ("action a(b:mass=5g)once", "action a(b: mass = 5 g) once"),
         ("modifier m()emits A,B,writes c,", "modifier m() emits A, B writes c"),
+        ('version"1.2.0"', 'version "1.2.0"'),
+        ('requires  "a,b"  ,"c" ,', 'requires "a,b", "c"'),
+        ("version=K", "version = K"),
         ("a\n-> b\n\n->c", "a -> b -> c"),
         ("a = K(\n\nx: 1\n,y: 2)", "a = K(x: 1, y: 2)"),
     ],
@@ -57,6 +60,7 @@ def test_a_statement_has_one_form(text: str, form: str) -> None:
         f"a\n  -> [\n    {LONG}_1,\n    {LONG}_2,\n    {LONG}_3,\n    {LONG}_4,\n  ]\n  -> b",
         f"category c can {LONG}_1, {LONG}_2, {LONG}_3, {LONG}_4, {LONG}_5",
         f'a = K(\n  x: "{LONG * 5}",\n)',
+        f'requires "{LONG}>=1", "{LONG}_2[extra]>=2.32,<3", "{LONG}_3", "{LONG}_4"  # behind it',
     ],
 )
 def test_what_is_too_long_is_broken_where_it_can_be(form: str) -> None:

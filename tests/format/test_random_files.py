@@ -7,11 +7,11 @@ from random import Random
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from plutoc.syntax.newlines import WORDS
+from plutoc.syntax.newlines import SETTINGS, WORDS
 from tests.format.layouts import Liberty, laid_out, words_of
 from tests.format.promises import keep, meaning
 
-NAMES = st.sampled_from(["a", "b_1", "STANDBY", "Kind", "ünï", "x" * 30, "yes", "m"])
+NAMES = st.sampled_from(["a", "b_1", "STANDBY", "Kind", "ünï", "x" * 30, "yes", "m", *SETTINGS])
 """The grammar takes any name anywhere; what it means is for later."""
 INSIDE = NAMES | st.sampled_from(WORDS)
 """In brackets the language's words are names."""
@@ -43,6 +43,8 @@ PARAMETERS = optional(joined(PARAMETER).map("({})".format))
 LISTED = joined(NAMES, least=1)
 STOPS = NAMES | joined(INSIDE, least=1).map("[{}]".format)
 STATEMENTS = st.one_of(
+    st.builds("version {}".format, TEXTS),
+    st.builds("requires {}{}".format, joined(TEXTS, least=1), optional(st.just(","))),
     st.builds("category {}{} can {}".format, NAMES, ARGUMENTS, LISTED),
     st.builds("action {}{}{}".format, NAMES, PARAMETERS, optional(NAMES.map(" {}".format))),
     st.builds(

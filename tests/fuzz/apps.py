@@ -7,13 +7,19 @@ from random import Random
 
 from tests.fuzz.texts import HOSTILE, legal
 
+VERSIONS = ("1.2.0", "0.1.0", "2!1.0rc1+here", "1.2.0-beta", "1.x", "", "1" * 5000)
+REQUIREMENTS = (
+    *("numpy>=2", "NumPy", "requests[socks]>=2.32,<3", "a_b; python_version < '3.13'"),
+    *("tools @ https://example.org/tools.whl", "numpy=>2", "pluto-fleet", "grown", "a, b", "", "("),
+)
 NAMES = (
+    *("version", "requires"),
     *("watch", "first", "retry", "a", "b1", "list", "print", "status", "run", "mission", "hooks"),
     *("dict", "float", "int", "str", "builtins", "partial", "at", "trip", "flow", "app_2", "odd_"),
     *("x" * 63, "type_", "object", "annotations", "model", "results", "func", "none", "true"),
     *("Watch", "when", "class", "end", "self", "é", "_a", "match", "x" * 64, "a__b", "True"),
 )
-GOOD_NAMES = NAMES[:26]
+GOOD_NAMES = NAMES[:28]
 TYPES = (
     *("int", "float", "bool", "text", "mass", "length", "time", "angle", "percent", "speed"),
     "temperature",
@@ -94,6 +100,8 @@ def text(random: Random) -> str:
 def grown(random: Random) -> str:
     """Return an app."""
     app = Growth(random=random)
+    if app.chance(0.2):
+        _settings(app)
     if app.chance(0.5):
         _categories(app)
     _graph(app)
@@ -112,6 +120,17 @@ def grown(random: Random) -> str:
 
 def _comment(app: Growth) -> str:
     return f"  # {app.random.choice(HOSTILE)}" if app.chance(0.05) else ""
+
+
+def _settings(app: Growth) -> None:
+    """Most are good; a text of any characters is hardly ever a requirement."""
+    if app.chance(0.6):
+        app.declared.append(f'version "{app.random.choice(VERSIONS)}"')
+    if app.chance(0.6):
+        many = app.random.choice((1, 1, 2, 6))
+        required = [f'"{one}"' for one in app.random.choices(REQUIREMENTS, k=many)]
+        required += [text(app.random)] * app.chance(0.1)
+        app.declared.append(f"requires {', '.join(required)}")
 
 
 def _categories(app: Growth) -> None:

@@ -15,9 +15,9 @@ from pluto_fleet.gateway.line import LOST, Line
 from pluto_fleet.gateway.link import Link
 from pluto_fleet.simulation.deeds import Deed
 from pluto_fleet.simulation.radio import Radio
+from pluto_fleet.standing import Down, JobState
 from plutoc_runtime.errors import Failure, FlightFailed
 from plutoc_runtime.kernel import FLEET
-from plutoc_runtime.standing import Down, JobState
 from plutoc_runtime.virtual import VirtualTime
 from tests.gateway.flights import Field, Task
 from tests.runtime.simulation.flights import fly

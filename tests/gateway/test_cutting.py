@@ -13,9 +13,9 @@ from pluto_fleet.gateway.file_ledger import FileLedger
 from pluto_fleet.gateway.process import LEDGER
 from pluto_fleet.gateway.starting import cut_directly
 from pluto_fleet.simulation.keeping import DRONES
+from pluto_fleet.standing import Down
 from plutoc_runtime.errors import BadInput, Failure, FlightFailed
 from plutoc_runtime.kernel import FLEET
-from plutoc_runtime.standing import Down
 from tests.gateway.flights import THERE, Field, Task
 from tests.gateway.processes import Brain, pid, played
 from tests.runtime.simulation.flights import failure, fly

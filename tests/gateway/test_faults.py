@@ -6,9 +6,9 @@ import pytest
 
 from pluto_fleet.gateway.line import LOST, Line
 from pluto_fleet.simulation.radio import ANSWER, COMMAND, Radio
+from pluto_fleet.standing import Down, JobState
 from plutoc_runtime.errors import Failure, FlightFailed
 from plutoc_runtime.kernel import FLEET
-from plutoc_runtime.standing import Down, JobState
 from plutoc_runtime.virtual import VirtualTime
 from tests.gateway.flights import Field, Task
 from tests.runtime.simulation.flights import failure, fly

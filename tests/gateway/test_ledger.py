@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 
 from pluto_fleet.gateway.file_ledger import FileLedger
+from pluto_fleet.standing import Entry, JobState
 from plutoc_runtime.errors import Failure, FlightFailed
 from plutoc_runtime.model import Photo
-from plutoc_runtime.standing import Entry, JobState
 from plutoc_runtime.virtual import VirtualTime
 from tests.gateway.flights import Field, Task
 from tests.runtime.simulation.flights import fly

@@ -20,7 +20,7 @@ from pluto_fleet.gateway.process import LOG, NOTE
 from pluto_fleet.gateway.starting import start, stop_directly
 from pluto_fleet.gateway.wire import LONGEST_TOLD
 from pluto_fleet.private import address_in
-from plutoc_runtime.standing import Down
+from pluto_fleet.standing import Down
 from tests.gateway.processes import COMMAND, pid
 from tests.gateway.processes import settings as gateway_settings
 

@@ -47,6 +47,7 @@ def test_parameters_are_a_namespace_of_their_own() -> None:
 def test_free_names_are_free() -> None:
     """Names of Python's functions and modules are not refused."""
     assert codes("pause = Pass\nlimit = Pass\nprint = Pass\nsafe = Pass\nasyncio = Pass") == []
+    assert codes("version = Pass\nrequires = Pass\nstart -> version -> requires -> end") == []
 
 
 def test_all_errors_are_told_at_once() -> None:

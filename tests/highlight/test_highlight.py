@@ -14,7 +14,7 @@ from pygments import token
 from plutoc.highlight.pygments_lexer import PlutoLexer
 from plutoc.highlight.rules import RULES
 from plutoc.highlight.textmate import SCOPES, grammar
-from plutoc.syntax.newlines import WORDS
+from plutoc.syntax.newlines import SETTINGS, WORDS
 from plutoc_runtime.quantities import UNITS
 
 ROOT = Path(__file__).parents[2]
@@ -39,6 +39,14 @@ def test_an_example_is_coloured_whole(path: Path) -> None:
 @pytest.mark.parametrize("word", WORDS)
 def test_each_word_of_the_language_is_a_keyword(word: str) -> None:
     assert tokens(f"{word} x") == [(token.Keyword, word), (token.Name, "x")]
+
+
+@pytest.mark.parametrize("word", SETTINGS)
+def test_the_word_of_a_setting_is_a_keyword_only_there(word: str) -> None:
+    """Anywhere else it may be the name of a block."""
+    assert (token.Keyword, word) in tokens(f'app a {{\n  {word} "1"\n}}')
+    assert (token.Keyword, word) not in tokens(f'app {word} "A title" {{')
+    assert token.Keyword not in {kind for kind, _ in tokens(f"{word} = K\n{word} -> [a, {word}]")}
 
 
 @pytest.mark.parametrize("unit", UNITS)

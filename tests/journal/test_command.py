@@ -154,7 +154,7 @@ def test_of_a_damaged_journal_the_rest_is_printed_and_it_ends_with_1(
 
 def noted() -> Iterator[str]:
     """Yield every kind of event that anything in the runtime or in a block can note."""
-    for folder in ("runtime/plutoc_runtime", "stdlib_blocks/plutoc_blocks"):
+    for folder in ("runtime", "stdlib_blocks/plutoc_blocks"):
         for file in sorted((ROOT / folder).rglob("*.py")):
             if file.parent.name not in ("testing", "files"):
                 yield from re.findall(KIND, file.read_text())

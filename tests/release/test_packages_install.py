@@ -1,21 +1,44 @@
-"""Every example becomes a package that stands alone: installed in a fresh environment, it flies."""
+"""Every example becomes a package that stands alone; with the library beside it, it flies."""
 
 from __future__ import annotations
 
 import json
+import signal
+import subprocess
 import sys
 from pathlib import Path
+from typing import Any
+from urllib.request import urlopen
 
 import pytest
 
-from tests.release.environments import ROOT, compile_app, fresh, succeed
+from tests.release.environments import ROOT, Finished, compile_app, fresh, run, succeed
 
 EXAMPLES = sorted(path.parent for path in ROOT.glob("examples/*/app.pluto"))
+OURS = str(Path(pytest.__file__).parents[1])
+"""Where pytest and what the extras bring are installed for these tests; the library is not there."""
+
+NEEDING = (
+    ["fly", "missions.toml", "--sim"],
+    ["serve", "--sim"],
+    ["resume"],
+    ["drones"],
+    ["journal"],
+)
+
+
+@pytest.fixture(scope="module")
+def library(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The library, built once."""
+    wheels = tmp_path_factory.mktemp("wheels")
+    succeed(sys.executable, "-m", "pip", "wheel", "-q", "--no-deps", "-w", wheels, ROOT / "runtime")
+    (wheel,) = wheels.iterdir()
+    return wheel
 
 
 @pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.name)
-def test_an_example_installs_alone_is_clean_and_completes_its_missions(
-    example: Path, tmp_path: Path
+def test_an_example_stands_alone_and_flies_with_the_library(
+    example: Path, library: Path, tmp_path: Path
 ) -> None:
     package = compile_app(example / "app.pluto", tmp_path / example.name)
     programs = fresh(tmp_path / "venv")
@@ -23,11 +46,120 @@ def test_an_example_installs_alone_is_clean_and_completes_its_missions(
     succeed(programs / "pip", "install", "--quiet", package)
     assert installed(programs) - before == {example.name.replace("_", "-")}
 
+    alone = simulated(programs / example.name, example)
+    assert {mission["status"] for mission in alone["missions"]} == {"COMPLETED"}
+    assert "alone" in alone["world"]
     plan: list[str | Path] = [example / "missions.toml", "--fleet", example / "fleet.toml"]
-    flown = json.loads(succeed(programs / example.name, "simulate", *plan, "--json"))
-    assert {mission["status"] for mission in flown["missions"]} == {"COMPLETED"}
     assert succeed(programs / example.name, "check", *plan)
+    own_tests_pass(programs, package)
+    for words in NEEDING:
+        missing(run(programs / example.name, *words, cwd=example), words[0])
+    is_clean(package)
 
+    succeed(programs / "pip", "install", "--quiet", "--no-deps", library)
+    together = simulated(programs / example.name, example)
+    assert {mission["status"] for mission in together["missions"]} == {"COMPLETED"}
+    assert "world" not in together
+    state = str(tmp_path / "state")
+    fast = ("--sim", "--speed", "200")
+    flown = run(programs / example.name, "fly", *map(str, plan), *fast, XDG_STATE_HOME=state)
+    assert flown.code == 0, flown.err
+    told = run(programs / example.name, "journal", XDG_STATE_HOME=state)
+    assert (told.code, "COMPLETED" in told.out) == (0, True), told.err
+
+    succeed(programs / "pip", "uninstall", "--quiet", "--yes", "pluto-fleet")
+    assert simulated(programs / example.name, example) == alone
+    missing(run(programs / example.name, "fly", "missions.toml", cwd=example), "fly")
+
+
+def test_with_the_library_every_command_works(library: Path, tmp_path: Path) -> None:
+    """Also those that want an extra, where what it brings is there."""
+    example = ROOT / "examples/drugs_distribution"
+    package = compile_app(example / "app.pluto", tmp_path / "package")
+    programs = fresh(tmp_path / "venv")
+    succeed(programs / "pip", "install", "--quiet", "--no-deps", package, library)
+    program = programs / "drugs_distribution"
+    state = str(tmp_path / "state")
+
+    def told(*words: str | Path) -> Finished:
+        return run(program, *words, PYTHONPATH=OURS, XDG_STATE_HOME=state)
+
+    assert "seam 1.0, pluto-fleet 1.0.0" in told("--version").out
+
+    fleet = ("--fleet", str(example / "fleet.toml"))
+    flight = ("fly", str(example / "missions.toml"), *fleet, "--sim", "--speed", "50")
+    journal = tmp_path / "one.journal"
+    words = [str(program), *flight, "--journal", str(journal)]
+    with subprocess.Popen(words, stdout=subprocess.PIPE, text=True) as flying:
+        assert flying.stdout is not None
+        flying.stdout.readline()
+        flying.send_signal(signal.SIGINT)  # lands them all
+        flying.stdout.read()
+    resumed = told("resume", journal)
+    assert resumed.code == 0, resumed.err
+    assert "3 of 3 missions completed" in resumed.out
+
+    looked = told("drones", *fleet)
+    assert "uri" in looked.err + looked.out  # its drones are none that a radio reaches
+    serve = ["serve", "--sim", "--port", "0", "--folder", str(tmp_path / "kept"), *fleet]
+    with subprocess.Popen(
+        [str(program), *serve], stdout=subprocess.PIPE, text=True, env={"PYTHONPATH": OURS}
+    ) as serving:
+        try:
+            assert serving.stdout is not None
+            address = serving.stdout.readline().removeprefix("station: ").strip()
+            with urlopen(address) as page:
+                assert page.status == 200
+        finally:
+            serving.send_signal(signal.SIGINT)
+            serving.wait(timeout=30)
+
+
+def test_a_package_that_carries_the_library_flies_alone(tmp_path: Path) -> None:
+    """`compile --carry fleet`: one distribution, and all commands."""
+    example = ROOT / "examples/drugs_distribution"
+    package = tmp_path / "package"
+    compiler: list[str | Path] = [sys.executable, "-m", "plutoc", "compile", example / "app.pluto"]
+    succeed(*compiler, "--carry", "fleet", "-o", package, cwd=ROOT)
+    programs = fresh(tmp_path / "venv")
+    before = installed(programs)
+    succeed(programs / "pip", "install", "--quiet", f"{package}[fleet]")
+    assert installed(programs) - before == {"drugs-distribution"}
+    program = programs / "drugs_distribution"
+    assert "pluto-fleet 1.0.0" in succeed(program, "--version")
+    plan: list[str | Path] = [example / "missions.toml", "--fleet", example / "fleet.toml"]
+    flown = run(program, "fly", *plan, "--sim", "--speed", "200", XDG_STATE_HOME=str(tmp_path))
+    assert flown.code == 0, flown.err
+    succeed(sys.executable, "-m", "mypy", "--strict", "src", "tests", cwd=package)
+
+
+def simulated(program: Path, example: Path) -> dict[str, Any]:
+    """Return what `simulate --json` says of an example's own files."""
+    plan: list[str | Path] = [example / "missions.toml", "--fleet", example / "fleet.toml"]
+    outcome: dict[str, Any] = json.loads(succeed(program, "simulate", *plan, "--json"))
+    return outcome
+
+
+def own_tests_pass(programs: Path, package: Path) -> None:
+    """Run the package's tests where nothing but it is installed, by the pytest of these tests."""
+    found = run(programs / "python", "-c", "import pluto_fleet", PYTHONPATH=OURS)
+    assert "No module named 'pluto_fleet'" in found.err
+    words = ["-m", "pytest", "-q", "-p", "no:cacheprovider"]
+    done = run(programs / "python", *words, cwd=package, PYTHONPATH=OURS)
+    assert done.code == 0, done.out
+
+
+def missing(done: Finished, command: str) -> None:
+    """A command that needs the library says so in one line, and how to come by it."""
+    assert (done.code, done.out) == (2, ""), done.err
+    (line,) = done.err.splitlines()
+    assert command in line
+    assert "pluto-fleet" in line
+    assert "pip install" in line
+
+
+def is_clean(package: Path) -> None:
+    """No checker has anything to say, and none was told to be silent."""
     python = sys.executable
     succeed(python, "-m", "mypy", "--strict", "src", "tests", cwd=package)
     succeed(python, "-m", "ruff", "check", "--isolated", ".", cwd=package)

@@ -15,13 +15,13 @@ from pluto_fleet.journal.memory import Memory
 from pluto_fleet.life import Life
 from pluto_fleet.simulation.deeds import Deed
 from pluto_fleet.simulation.drones import SimulatedDrone, SimulatedNavigation
+from pluto_fleet.standing import Down
 from plutoc_runtime.app import App
 from plutoc_runtime.faults import Faults
 from plutoc_runtime.fields import Entity, Field, FieldType
 from plutoc_runtime.kernel import FLEET, Kind
 from plutoc_runtime.model import Mission
 from plutoc_runtime.signals import Signal
-from plutoc_runtime.standing import Down
 from plutoc_runtime.trace import Event
 from plutoc_runtime.virtual import VirtualTime
 from plutoc_runtime.world import World

@@ -23,11 +23,11 @@ from pluto_fleet.journal.store import Store
 from pluto_fleet.realtime import RealTime
 from pluto_fleet.setting import End, Lived, Setting, Stops
 from pluto_fleet.simulation.drones import SimulatedDrone, SimulatedNavigation
+from pluto_fleet.standing import Down
 from plutoc_runtime.airspace import Airspace
 from plutoc_runtime.errors import BadInput
 from plutoc_runtime.faults import Faults
 from plutoc_runtime.model import Category
-from plutoc_runtime.standing import Down
 from plutoc_runtime.status import Status
 from plutoc_runtime.trace import Event
 from plutoc_runtime.world import World

@@ -10,6 +10,7 @@ from typing import Any
 
 import pytest
 
+from pluto_fleet.raised import Interrupted, interrupted_by_a_person
 from plutoc_blocks.gate_funnel.step import wait_for_all
 from plutoc_blocks.mission_creator.step import create_mission
 from plutoc_blocks.mission_evaluator.step import evaluate_mission
@@ -21,7 +22,6 @@ from plutoc_runtime.context import Context
 from plutoc_runtime.errors import ActionFailed
 from plutoc_runtime.kernel import Cancelled
 from plutoc_runtime.model import Mission
-from plutoc_runtime.raised import Interrupted, interrupted_by_a_person
 from plutoc_runtime.run import Run
 from plutoc_runtime.status import Status
 from plutoc_runtime.verdict import Verdict

@@ -12,12 +12,12 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from pluto_fleet.journal.fold import Records
-from pluto_fleet.journal.values import value_of
+from pluto_fleet.journal.values import value_data, value_of
 from plutoc_runtime.actions import Action
 from plutoc_runtime.context import Context
 from plutoc_runtime.errors import ActionFailed
 from plutoc_runtime.model import Mission, Photo
-from plutoc_runtime.plain import keepable, value_data
+from plutoc_runtime.plain import keepable
 from plutoc_runtime.status import Status
 from plutoc_runtime.verdict import Verdict
 from plutoc_runtime.words import LONGEST_VALUE, shown

@@ -10,12 +10,12 @@ from typing import Any
 import pytest
 
 from pluto_fleet.journal.fold import Records
+from pluto_fleet.standing import Down
 from plutoc_runtime.actions import Action
 from plutoc_runtime.context import Context
 from plutoc_runtime.faults import Faults
 from plutoc_runtime.model import Drone, Trip
 from plutoc_runtime.results import Results
-from plutoc_runtime.standing import Down
 from plutoc_runtime.status import Status
 from plutoc_runtime.verdict import Verdict
 

@@ -15,8 +15,8 @@ import pytest
 from pluto_fleet.asking import LONGEST, Ended, Nobody, Silent, ask, note_of
 from pluto_fleet.private import address_in, new_address, publish, withdraw
 from pluto_fleet.remote_control import listening, perform
+from pluto_fleet.standing import Down
 from plutoc_runtime.errors import BadInput
-from plutoc_runtime.standing import Down
 
 
 class Told:

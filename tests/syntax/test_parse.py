@@ -10,7 +10,7 @@ import pytest
 
 from plutoc.source import Source
 from plutoc.syntax import grammar
-from plutoc.syntax.newlines import WORDS
+from plutoc.syntax.newlines import SETTINGS, WORDS
 from plutoc.syntax.parse import parse
 from plutoc.syntax.tree import (
     ActionDecl,
@@ -24,9 +24,11 @@ from plutoc.syntax.tree import (
     Name,
     Number,
     Quantity,
+    RequiresDecl,
     Statement,
     Text,
     Value,
+    VersionDecl,
 )
 
 SAMPLE = (Path(__file__).parent.parent / "cases" / "alfalfa" / "app.pluto").read_text("utf-8")
@@ -133,7 +135,26 @@ def test_prefix() -> None:
     assert isinstance(block, BlockDecl) and block.prefix and block.prefix.text == "survey"
 
 
-@pytest.mark.parametrize("word", WORDS)
+def test_settings() -> None:
+    """A version, and a list without brackets; its last comma may be there."""
+    version, requires = statements('version "1.2.0"\nrequires "numpy>=2", "requests",')
+    assert isinstance(version, VersionDecl) and version.version.value == "1.2.0"
+    assert isinstance(requires, RequiresDecl)
+    assert [text.value for text in requires.libraries] == ["numpy>=2", "requests"]
+
+
+@pytest.mark.parametrize("word", SETTINGS)
+def test_words_of_settings_are_names_wherever_no_setting_begins(word: str) -> None:
+    """Apps have blocks of such names: they stay as they are."""
+    text = f"{word} = K\n{word} -> a\n{word}\n-> a\na -> {word}\na = {word}.K\naction {word} {word}"
+    assert [type(each) for each in statements(f"{text}\n[\n{word}, {word}]\n-> a -> {word}")] == [
+        *(BlockDecl, FlowDecl, FlowDecl, FlowDecl, BlockDecl, ActionDecl, FlowDecl),
+    ]
+    file = parsed(f"pluto 1\nuse {word} as {word}\napp {word} {{\n{word} = K }}\n")
+    assert (file.app.name.text, file.uses[0].package.text) == (word, word)
+
+
+@pytest.mark.parametrize("word", [*WORDS, *SETTINGS])
 def test_words_are_names_inside_brackets(word: str) -> None:
     """A parameter, a value and a stop in brackets may be called so."""
     (block,) = statements(f"a = K({word}: {word})")

@@ -50,6 +50,8 @@ def test_statements_around_a_bad_one_are_there() -> None:
         ("a: K(x)", "block", "a"),
         ("category s(x: ) can y", "category", "s"),
         ("evaluator e x", "evaluator", "e"),
+        ("version 1", "version", None),
+        ("requires a", "requires", None),
         ("a -> -> b", "flow", None),
         ("when = K", "block", None),
         ("a b = K", "block", None),

@@ -9,7 +9,7 @@ from plutoc.diff.amounts import amount, code
 from plutoc.diff.match_hooks import Declared, kind_of
 from plutoc.diff.model import Change, Fact, Importance
 from plutoc.diff.phrases import listed, named
-from plutoc.graph.model import Action, Category, Graph, Hook, Node, Parameter
+from plutoc.graph.model import Action, Category, Graph, Hook, Library, Node, Parameter
 from plutoc.source import Span
 from plutoc_runtime.fields import Entity, Field
 
@@ -57,6 +57,64 @@ def title_changed(old: Graph, new: Graph) -> Change:
         old.name_span,
         new.name_span,
         Importance.FORM,
+    )
+
+
+def version_changed(old: Graph, new: Graph) -> Change:
+    """The app's package has another version."""
+    return _said(
+        "version_changed",
+        f"the version is now {new.version}; before, {old.version}",
+        (old.version, new.version),
+        old.version_span or old.name_span,
+        new.version_span or new.name_span,
+        Importance.FORM,
+    )
+
+
+# What must be installed
+
+
+def library_added(now: Sequence[Library]) -> Change:
+    """The package needs a library more."""
+    return _library(
+        "library_added", f"the package now requires {_required(now)}: pip installs it, too", (), now
+    )
+
+
+def library_removed(was: Sequence[Library]) -> Change:
+    """The package needs a library less."""
+    return _library(
+        "library_removed",
+        f"the package no longer requires {_required(was)}: hooks.py cannot count on it",
+        was,
+        (),
+    )
+
+
+def library_changed(was: Sequence[Library], now: Sequence[Library]) -> Change:
+    """The package needs a library in other versions, or under another condition."""
+    return _library(
+        "library_changed",
+        f"the package now requires {_required(now)}; before, {_required(was)}",
+        was,
+        now,
+    )
+
+
+def _required(libraries: Sequence[Library]) -> str:
+    return listed([code(library.requirement) for library in libraries])
+
+
+def _library(kind: str, sentence: str, was: Sequence[Library], now: Sequence[Library]) -> Change:
+    return Change(
+        kind=kind,
+        importance=Importance.PEOPLE,
+        sentence=sentence,
+        before=tuple(library.requirement for library in was) or None,
+        after=tuple(library.requirement for library in now) or None,
+        was=tuple(library.span for library in was),
+        now=tuple(library.span for library in now),
     )
 
 

@@ -37,11 +37,11 @@ def start(name: str, load: Callable[[], App]) -> int:
     app: App | None = None
     ending = Ending(name)
     with ending:
-        from plutoc_runtime.forked import end_if_forked
-        from plutoc_runtime.hard_exit import refused
         from plutoc_runtime.hooks import loaded
-        from plutoc_runtime.raised import interrupted_by_a_person
 
+        from ..forked import end_if_forked
+        from ..hard_exit import refused
+        from ..raised import interrupted_by_a_person
         from .loading import bare
 
         parent = os.getpid()
@@ -65,8 +65,8 @@ def start(name: str, load: Callable[[], App]) -> int:
 
 def _heard(app: App) -> int:
     """Run the program's command; hooks neither interrupt it for a person nor end it as if it were over."""
-    from plutoc_runtime.hard_exit import instead_of, refused
-    from plutoc_runtime.raised import interrupted_by_a_person
+    from ..hard_exit import instead_of, refused
+    from ..raised import interrupted_by_a_person
 
     command = sys.argv[1:2]
     if command == ["simulate"]:
@@ -82,7 +82,7 @@ def _heard(app: App) -> int:
 
 def _ended_by_hooks(name: str, status: int) -> NoReturn:
     """End as after a crash: drones may fly, and `--supervise` starts the app again."""
-    from plutoc_runtime.hard_exit import leave
+    from ..hard_exit import leave
 
     output.tell(f"{name}: something in the app's own code ends it by os._exit({status})")
     leave(INTERNAL)

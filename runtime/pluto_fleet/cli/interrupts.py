@@ -17,12 +17,12 @@ from types import FrameType
 from typing import Protocol
 
 from plutoc_runtime.errors import BadInput
-from plutoc_runtime.forked import in_children
-from plutoc_runtime.hard_exit import leave
-from plutoc_runtime.standing import Down
 
+from ..forked import in_children
 from ..gateway.starting import stop_directly
+from ..hard_exit import leave
 from ..journal.place import gateway_folder
+from ..standing import Down
 from . import output, stop_mark
 
 AT_ONCE = 1.0

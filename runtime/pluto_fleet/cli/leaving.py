@@ -10,11 +10,11 @@ import time
 from collections.abc import Coroutine
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
-from plutoc_runtime.hard_exit import leave
 from plutoc_runtime.hooks import said
 from plutoc_runtime.kernel import WHATEVER
-from plutoc_runtime.raised import by_a_person
 
+from ..hard_exit import leave
+from ..raised import by_a_person
 from . import output
 
 if TYPE_CHECKING:

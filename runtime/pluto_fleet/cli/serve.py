@@ -12,13 +12,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from plutoc_runtime.errors import BadInput
-from plutoc_runtime.forked import not_for_children
-from plutoc_runtime.standing import Down
 
 from .. import again
 from ..files.reading import text_of
 from ..files.real import as_flown
+from ..forked import not_for_children
 from ..journal import place
+from ..standing import Down
 from ..station.phase import Phase
 from ..station.plan.plan import Plan
 from ..station.settings import Settings

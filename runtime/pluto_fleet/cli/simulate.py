@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 
 from plutoc_runtime.errors import BadInput
 from plutoc_runtime.faults import Faults
-from plutoc_runtime.raised import Interrupted
 from plutoc_runtime.session import Outcome, outcome_data
 from plutoc_runtime.trace import Event, dumped
 from plutoc_runtime.words import duration
 
+from ..raised import Interrupted
 from ..simulate import simulate as simulated
 from . import output
 from .events import line_of

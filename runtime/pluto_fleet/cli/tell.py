@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from plutoc_runtime.errors import BadInput
-from plutoc_runtime.standing import Down
 from plutoc_runtime.words import in_shell
 
 from ..asking import Ended, Nobody, Silent, ask, note_of
@@ -18,6 +17,7 @@ from ..gateway.starting import cut_directly, stop_directly
 from ..journal.errors import missing
 from ..journal.lock import holder
 from ..journal.place import gateway_folder
+from ..standing import Down
 from . import output, stop_mark
 from .looked_after import looked_after
 

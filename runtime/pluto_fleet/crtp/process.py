@@ -19,10 +19,10 @@ from pathlib import Path
 from typing import Any
 
 from plutoc_runtime.errors import BadInput
-from plutoc_runtime.forked import deaf, in_children, not_for_children
 
 from .. import again
 from ..asking import Nobody, ask
+from ..forked import deaf, in_children, not_for_children
 from ..remote_control import listening
 from .camera import camera, port_of
 from .drone import Build, SimulatedCrazyflie

@@ -13,8 +13,8 @@ from functools import partial
 from typing import TYPE_CHECKING, NoReturn
 
 from plutoc_runtime.actions import BUILT_IN, Plain
-from plutoc_runtime.standing import Standing
 
+from ..standing import Standing
 from . import acting, flying
 from .cargo import Cargo
 from .closing import close
@@ -31,8 +31,8 @@ if TYPE_CHECKING:
     from plutoc_runtime.errors import FlightFailed
     from plutoc_runtime.kernel import Kernel
     from plutoc_runtime.model import Item, Point, Telemetry
-    from plutoc_runtime.navigation import Job
 
+    from ..navigation import Job
     from .feeding import Feeding
     from .real_fleet import Wanted
 

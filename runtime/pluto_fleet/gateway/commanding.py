@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Protocol
 
-from plutoc_runtime.navigation import Commanding
+from ..navigation import Commanding
 
 
 class Reached(Commanding, Protocol):

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Any, Protocol
 from plutoc_runtime.energy import docked
 from plutoc_runtime.errors import FlightFailed
 from plutoc_runtime.kernel import FLEET, Kernel, Task
-from plutoc_runtime.standing import Down
 
+from ..standing import Down
 from .traffic.choosing import Goer
 from .traffic.courses import Course, course
 from .traffic.timetable import Timetable, timetable

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from plutoc_runtime.kernel import FLEET, Kind
-from plutoc_runtime.standing import Down
+
+from ..standing import Down
 
 if TYPE_CHECKING:
     from plutoc_runtime.signals import Signal

@@ -9,10 +9,8 @@ from contextlib import suppress
 from pathlib import Path
 from zlib import crc32
 
-from plutoc_runtime.plain import value_data
-from plutoc_runtime.standing import Entry, JobState
-
-from ..journal.values import value_of
+from ..journal.values import value_data, value_of
+from ..standing import Entry, JobState
 from .ledger import Written
 
 _SPARE = 1000

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING
 
 from plutoc_runtime.errors import BadInput, FlightFailed
 from plutoc_runtime.kernel import FLEET, Cancelled, Kernel, Kind, Task
-from plutoc_runtime.standing import Down, RollCall, Standing
 
+from ..standing import Down, RollCall, Standing
 from .descent import Craft, Descent
 from .envelope import Envelope
 from .jobs import Jobs

@@ -6,13 +6,14 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING
 
 from plutoc_runtime.errors import Failure, FlightFailed
-from plutoc_runtime.standing import Entry, JobState
+
+from ..standing import Entry, JobState
 
 if TYPE_CHECKING:
     from plutoc_runtime.actions import Plain
     from plutoc_runtime.model import Item
-    from plutoc_runtime.navigation import Job
 
+    from ..navigation import Job
     from .jobs import Jobs
 
 Report = Callable[[object], object]

@@ -16,9 +16,9 @@ from hashlib import sha256
 from pathlib import Path
 
 from plutoc_runtime.errors import BadInput
-from plutoc_runtime.forked import not_for_children
 from plutoc_runtime.words import quoted
 
+from ..forked import not_for_children
 from ..private import is_private
 
 LEAVING = 8.0

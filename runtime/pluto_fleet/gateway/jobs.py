@@ -9,13 +9,14 @@ from typing import TYPE_CHECKING
 
 from plutoc_runtime.errors import Failure, FlightFailed
 from plutoc_runtime.kernel import Kernel, Key, Kind
-from plutoc_runtime.standing import Entry, JobState, Standing, outcome
 
+from ..standing import Entry, JobState, Standing, outcome
 from .given import Given, Report
 
 if TYPE_CHECKING:
-    from plutoc_runtime.navigation import Job, Navigation
+    from plutoc_runtime.navigation import Navigation
 
+    from ..navigation import Job
     from .envelope import Envelope
     from .ledger import Ledger
 
@@ -26,7 +27,7 @@ class Jobs:
     def __init__(
         self,
         kernel: Kernel,
-        navigation: Navigation,
+        navigation: Navigation[Job],
         keys: Mapping[str, Key],
         envelope: Envelope,
         ledger: Ledger | None,

@@ -11,9 +11,9 @@ from plutoc_runtime.signals import Signal
 
 if TYPE_CHECKING:
     from plutoc_runtime.model import Point, Telemetry
-    from plutoc_runtime.navigation import Job
-    from plutoc_runtime.standing import Down, RollCall, Standing
 
+    from ..navigation import Job
+    from ..standing import Down, RollCall, Standing
     from .gateway import Gateway
     from .given import Report
 

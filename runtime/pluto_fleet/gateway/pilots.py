@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from plutoc_runtime.energy import docked, flight_seconds
 from plutoc_runtime.errors import Failure, FlightFailed
 from plutoc_runtime.kernel import FLEET, WHATEVER, Cancelled, Kernel, Task
-from plutoc_runtime.navigation import motors_cut
 
+from ..navigation import motors_cut
 from .cutting import CutMotors
 from .envelope import Envelope
 from .traffic.detours import Section
@@ -20,10 +20,10 @@ from .traffic.detours import Section
 if TYPE_CHECKING:
     from plutoc_runtime.airspace import Airspace
     from plutoc_runtime.model import Point, Telemetry
-    from plutoc_runtime.navigation import Job
-    from plutoc_runtime.standing import Standing
 
     from ..controls import Controls
+    from ..navigation import Job
+    from ..standing import Standing
     from .descent import Craft
     from .ledger import Ledger
     from .traffic.traffic import Traffic, Ways

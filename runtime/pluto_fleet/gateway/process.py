@@ -16,12 +16,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from plutoc_runtime.errors import BadInput
-from plutoc_runtime.forked import deaf, in_children, not_for_children
 from plutoc_runtime.signals import Signal
 from plutoc_runtime.words import printable
 from plutoc_runtime.world import World
 
 from ..drones.real_fleet import SLACK
+from ..forked import deaf, in_children, not_for_children
 from ..private import new_address, publish, withdraw
 from ..realtime import RealTime
 from ..simulation.drones import SimulatedNavigation

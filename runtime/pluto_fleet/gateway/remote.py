@@ -19,9 +19,9 @@ if TYPE_CHECKING:
 
     from plutoc_runtime.kernel import Kernel
     from plutoc_runtime.model import Point, Telemetry
-    from plutoc_runtime.navigation import Job
-    from plutoc_runtime.standing import Down, RollCall, Standing
 
+    from ..navigation import Job
+    from ..standing import Down, RollCall, Standing
     from .given import Report
 
 SILENCE = 5.0

@@ -7,9 +7,9 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.errors import BadInput
-from plutoc_runtime.standing import Down
 from plutoc_runtime.words import shown
 
+from ..standing import Down
 from .wire import Message, roll_data, standing_data
 
 if TYPE_CHECKING:

@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.errors import BadInput, FlightFailed
 from plutoc_runtime.kernel import FLEET, Cancelled, Task
-from plutoc_runtime.standing import Down
 from plutoc_runtime.words import quoted, shown
 
+from ..standing import Down
 from .link import Busy
 from .requests import asked
 from .wire import (

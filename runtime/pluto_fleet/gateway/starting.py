@@ -14,12 +14,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from plutoc_runtime.errors import BadInput
-from plutoc_runtime.forked import not_for_children
-from plutoc_runtime.standing import Down
 
 from .. import again
 from ..asking import ask
+from ..forked import not_for_children
 from ..private import address_in
+from ..standing import Down
 from .process import ANOTHER_RUNS, LOCK, LOG, NO_ROOM, NOTE, SETTINGS
 from .remote import SILENCE, RemoteLink
 from .settings import Settings, data_of

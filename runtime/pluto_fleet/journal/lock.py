@@ -8,8 +8,7 @@ import time
 from contextlib import suppress
 from pathlib import Path
 
-from plutoc_runtime.forked import not_for_children
-
+from ..forked import not_for_children
 from . import errors
 from .place import beside
 

@@ -14,12 +14,11 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from plutoc_runtime.changes import change_data, fields_of, trip_data
 from plutoc_runtime.fields import Entity
-from plutoc_runtime.plain import value_data
 from plutoc_runtime.signals import Signal
 
 from ..journal_line import exact
 from .fold import Record, Records
-from .values import mission_data
+from .values import mission_data, value_data
 
 if TYPE_CHECKING:
     from plutoc_runtime.app import App

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from math import isfinite
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.changes import fields_of, trip_data
+from plutoc_runtime.changes import MOST_BITS, Data, fields_of, trip_data
 from plutoc_runtime.fields import Entity
 from plutoc_runtime.model import NOTHING, Item, Photo
-from plutoc_runtime.plain import Data
+from plutoc_runtime.plain import are_named, keepable
 from plutoc_runtime.status import TripStatus
+from plutoc_runtime.words import shown
 
 if TYPE_CHECKING:
     from plutoc_runtime.app import App
@@ -60,6 +62,52 @@ def item_of(data: Mapping[str, Any] | None) -> Item | None:
 def item_data(item: Item | None) -> Data | None:
     """Return an item as plain data."""
     return None if item is None else {"name": item.name, "mass": item.mass}
+
+
+def value_data(value: object) -> object:
+    """Return what an action gave as plain data; what is no plain data is kept as text.
+
+    A photo, and what is not plain, becomes an object with one key that no result of plain data is
+    mistaken for. What is too large, too deep or goes round in a circle is text as a whole.
+    """
+    kept = keepable(value)
+    return _data(value) if kept is value else {"$text": kept}
+
+
+def _data(value: Any) -> object:
+    """Return what can be kept; its class may be any, and is asked nothing."""
+    kind = type(value)
+    if value is None or kind is bool:
+        return value
+    if issubclass(kind, int):
+        number = int.__pos__(value)
+        return {"$text": shown(number)} if number.bit_length() > MOST_BITS else number
+    if issubclass(kind, float):
+        real = float.__pos__(value)
+        return real if isfinite(real) else {"$number": repr(real)}
+    if issubclass(kind, str):
+        return str.__str__(value)
+    if issubclass(kind, list):
+        return [_data(part) for part in list.__iter__(value)]
+    if issubclass(kind, tuple):
+        return {"$tuple": [_data(part) for part in tuple.__iter__(value)]}
+    if issubclass(kind, dict) and are_named(items := tuple(dict.items(value))):
+        return {str.__str__(name): _data(part) for name, part in items}
+    return _photo_data(value) if kind is Photo else {"$text": shown(value)}
+
+
+def _photo_data(photo: Photo) -> object:
+    x, y, z = (float(number) for number in photo.position)
+    data: Data = {
+        "position": [x, y, z],
+        "width": float(photo.width),
+        "height": float(photo.height),
+        "sees": [str(what) for what in photo.sees],
+        "sharpness": float(photo.sharpness),
+    }
+    if photo.file is not None:  # journals from before know no such thing
+        data["file"] = str(photo.file)
+    return {"$photo": data}
 
 
 def value_of(data: object) -> object:

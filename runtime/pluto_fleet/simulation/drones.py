@@ -12,19 +12,20 @@ from plutoc_runtime.energy import CLIMB_SPEED
 from plutoc_runtime.errors import Failure, FlightFailed
 from plutoc_runtime.faults import CARRYING_HOME, OUTAGE, Faults, Order, draw, failed
 from plutoc_runtime.kernel import Kernel, Kind
-from plutoc_runtime.navigation import motors_cut
 from plutoc_runtime.signals import Signal
 from plutoc_runtime.words import place
 
+from ..navigation import motors_cut
 from .body import Body, SimulatedDrone
 from .deeds import Deed
 
 if TYPE_CHECKING:
     from plutoc_runtime.airspace import Airspace
     from plutoc_runtime.model import Item, Point, Telemetry
-    from plutoc_runtime.navigation import Job
-    from plutoc_runtime.standing import Standing
     from plutoc_runtime.world import World
+
+    from ..navigation import Job
+    from ..standing import Standing
 
 __all__ = ["SimulatedDrone", "SimulatedNavigation"]
 

@@ -17,9 +17,8 @@ from typing import Any
 from plutoc_runtime.errors import Failure, FlightFailed
 from plutoc_runtime.faults import Drawn
 from plutoc_runtime.motion import Charge, Leg
-from plutoc_runtime.plain import value_data
 
-from ..journal.values import item_data, item_of, point_of, value_of
+from ..journal.values import item_data, item_of, point_of, value_data, value_of
 from .body import Body, Snapshot
 from .deeds import Deed
 from .moments import Moment

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.errors import BadInput
 from plutoc_runtime.faults import Faults
-from plutoc_runtime.standing import Down
 from plutoc_runtime.words import counted
 
 from ..asking import Nobody, Silent
@@ -27,6 +26,7 @@ from ..journal.header import header
 from ..journal.store import Store
 from ..remote_control import perform
 from ..setting import End
+from ..standing import Down
 from . import leftover
 from .commands import checked
 from .describe import described

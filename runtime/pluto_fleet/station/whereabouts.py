@@ -5,9 +5,10 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 from functools import cache
+from types import CodeType, FrameType
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.blame import waiting_at
+from plutoc_runtime.blame import declaration_above
 from plutoc_runtime.status import Status
 
 if TYPE_CHECKING:
@@ -30,7 +31,25 @@ def blocks_of(state: State, flow: Callable[..., Any]) -> tuple[str, ...]:
     """
     if state.task is None:
         return (state.at,) if state.at is not None else ()
-    return _named(waiting_at(state.task.coroutine, flow))
+    return _named(_waiting_at(state.task.coroutine, flow))
+
+
+_KNOWN: dict[tuple[CodeType, int], str] = {}
+"""Comments that were found before, by the line below them."""
+
+
+def _waiting_at(coroutine: object, flow: Callable[..., Any]) -> str:
+    """Return the declaration of the block at which a mission's coroutine waits; empty: at none."""
+    file, found = flow.__code__.co_filename, ""
+    while coroutine is not None:
+        frame: FrameType | None = getattr(coroutine, "cr_frame", None)
+        if frame is not None and frame.f_code.co_filename == file:
+            place = frame.f_code, frame.f_lineno
+            if place not in _KNOWN:
+                _KNOWN[place] = declaration_above(frame, frame.f_lineno)
+            found = _KNOWN[place] or found
+        coroutine = getattr(coroutine, "cr_await", None)
+    return found
 
 
 @cache

@@ -11,11 +11,11 @@ from pluto_fleet.seam import meet
 
 def run(name: str, words: list[str]) -> int:
     """Try the app of this package, and return the exit code."""
-    from plutoc_runtime.hard_exit import refused
     from plutoc_runtime.hooks import loaded
-    from plutoc_runtime.raised import interrupted_by_a_person
 
     from ..cli import Ending, output
+    from ..hard_exit import refused
+    from ..raised import interrupted_by_a_person
     from .command import test
 
     def by_itself(words: list[str]) -> int:

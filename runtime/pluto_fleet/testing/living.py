@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 
 from plutoc_runtime.errors import BadInput, Failure
 from plutoc_runtime.kernel import Cancelled
-from plutoc_runtime.standing import Down
 
 from ..life import Life
+from ..standing import Down
 from .blows import BY_HAND, DEATHS, STOPS, Blow, Kind
 from .brain import BrainTime
 from .case import fresh

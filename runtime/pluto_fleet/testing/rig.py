@@ -13,16 +13,16 @@ from typing import TYPE_CHECKING
 from plutoc_runtime.faults import Faults
 from plutoc_runtime.kernel import FLEET, WHATEVER
 from plutoc_runtime.kernel import Kind as When
-from plutoc_runtime.raised import by_a_person
-from plutoc_runtime.standing import Down
 from plutoc_runtime.virtual import VirtualTime
 from plutoc_runtime.world import World
 
 from ..gateway.gateway import Gateway
 from ..gateway.ledger import MemoryLedger
 from ..gateway.line import LOST, Line
+from ..raised import by_a_person
 from ..simulation.drones import SimulatedDrone, SimulatedNavigation
 from ..simulation.radio import Radio
+from ..standing import Down
 from .blows import Blow, Kind
 from .book import Book, Trial
 from .living import THINKS, Living

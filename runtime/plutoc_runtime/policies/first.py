@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from operator import attrgetter
 from typing import TYPE_CHECKING
 
-from .ordered import Ordered, Rank
+from .ordered import Ordered
 
 if TYPE_CHECKING:
     from ..policy import Pool
@@ -13,8 +12,8 @@ if TYPE_CHECKING:
 
 def first() -> Pool:
     """Give each trip, in turn, the first free drone of the fleet."""
-    return Ordered(attrgetter("index"), _why)
+    return Ordered(lambda drone, _: drone.index, _why)
 
 
-def _why(free: int, _: Rank) -> str:
+def _why(free: int, _: float) -> str:
     return f"first of {free} free in the fleet's order"

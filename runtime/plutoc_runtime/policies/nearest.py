@@ -2,44 +2,24 @@
 
 from __future__ import annotations
 
+from math import dist
 from typing import TYPE_CHECKING
 
-from .grid import Places
+from .ordered import Ordered
 
 if TYPE_CHECKING:
     from ..model import Drone, Trip
-    from ..policy import Able, Choice, Pool
+    from ..policy import Pool
 
 
 def nearest() -> Pool:
     """Give each trip, in turn, the closest free drone."""
-    return Nearest()
+    return Ordered(_away, _why)
 
 
-class Nearest:
-    """The free drones, and where they stand."""
+def _away(drone: Drone, trip: Trip) -> float:
+    return dist(drone.location, trip.source or trip.target)
 
-    def __init__(self) -> None:
-        self._places: Places[Drone] = Places()
-        self._away = 0.0
-        """Of the drone chosen last."""
-        self._say_why = self._why
 
-    def add(self, drone: Drone) -> None:
-        """A drone is free; it stays where it is while it is."""
-        self._places.add(drone, drone.location)
-
-    def remove(self, drone: Drone) -> None:
-        """A drone is not free any more."""
-        self._places.remove(drone)
-
-    def choose(self, trip: Trip, able: Able) -> Choice | None:
-        """Return the closest drone that is able; of equals, the first of the fleet."""
-        away, drone = self._places.closest(trip.source or trip.target, able)
-        if drone is None:
-            return None
-        self._away = away
-        return drone, self._say_why
-
-    def _why(self) -> str:
-        return f"nearest of {len(self._places)} free: {self._away:.1f} m away"
+def _why(free: int, away: float) -> str:
+    return f"nearest of {free} free: {away:.1f} m away"

@@ -1,90 +1,36 @@
-"""Free drones in an order that does not change while they are free: a heap finds the first."""
+"""The free drones, and the first able one by some rank: each is looked at."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from heapq import heapify, heappop, heappush
+from math import inf
 from typing import TYPE_CHECKING
 
-from ..policy import Able, Choice
+from ..policy import Able, Choice, FreeDrones
 
 if TYPE_CHECKING:
     from ..model import Drone, Trip
 
-Rank = int
-"""What drones are compared by: the lowest is first. Its last digits are the place in the fleet."""
-
-PLACE = (1 << 32) - 1
-"""The digits of a rank that are a drone's place in the fleet: no two have the same."""
-
-_SLACK = 64
-"""Ranks of drones that are gone are dropped when there are so many, and as many as others."""
+Rank = Callable[["Drone", "Trip"], float]
+"""What drones are compared by for a trip: the lowest is first."""
 
 
-class Ordered:
-    """A pool that gives each trip the first able drone by rank."""
+class Ordered(FreeDrones):
+    """A pool that gives each trip the able drone of the lowest rank; of equals, the fleet's first."""
 
-    def __init__(self, rank: Callable[[Drone], Rank], why: Callable[[int, Rank], str]) -> None:
+    def __init__(self, rank: Rank, why: Callable[[int, float], str]) -> None:
+        super().__init__()
         self._rank, self._why = rank, why
-        self._ranks: list[Rank] = []
-        """A heap; what is in it of drones that are gone is dropped when it comes up."""
-        self._free: list[Drone | None] = []
-        """Those that are free, each at its place in the fleet."""
-        self._count = 0
-        self._most = _SLACK
-        self._chosen = 0
-        """The rank of whom was chosen last."""
-        self._say_why = self._why_chosen
-
-    def add(self, drone: Drone) -> None:
-        """A drone is free."""
-        rank, ranks = self._rank(drone), self._ranks
-        try:
-            self._free[rank & PLACE] = drone
-        except IndexError:
-            self._free += [None] * (1 + (rank & PLACE) - len(self._free))
-            self._free[rank & PLACE] = drone
-        self._count += 1
-        heappush(ranks, rank)
-        if len(ranks) > self._most:
-            self._tidy()
-
-    def remove(self, drone: Drone) -> None:
-        """A drone is not free any more."""
-        rank, ranks = self._rank(drone), self._ranks
-        self._free[rank & PLACE] = None
-        self._count -= 1
-        if ranks and ranks[0] == rank:
-            heappop(ranks)
 
     def choose(self, trip: Trip, able: Able) -> Choice | None:
         """Return the first drone that is able."""
-        ranks = self._ranks
-        while ranks:
-            rank = ranks[0]
-            drone = self._free[rank & PLACE]
-            if drone is None or self._rank(drone) != rank:
-                heappop(ranks)
-            elif able(drone):
-                self._chosen = rank
-                return drone, self._say_why
-            else:
-                return self._next(able)
-        return None
-
-    def _next(self, able: Able) -> Choice | None:
-        """Return the first able drone behind one that is not."""
-        for rank in sorted(self._ranks):
-            drone = self._free[rank & PLACE]
-            if drone is not None and self._rank(drone) == rank and able(drone):
-                self._chosen = rank
-                return drone, self._say_why
-        return None
-
-    def _why_chosen(self) -> str:
-        return self._why(self._count, self._chosen)
-
-    def _tidy(self) -> None:
-        self._ranks = [self._rank(drone) for drone in self._free if drone is not None]
-        heapify(self._ranks)
-        self._most = 2 * len(self._ranks) + _SLACK
+        least = inf
+        found: Drone | None = None
+        for drone in self.free:
+            rank = self._rank(drone, trip)
+            better = rank < least or (rank == least and found and drone.index < found.index)
+            if better and able(drone):
+                least, found = rank, drone
+        if found is None:
+            return None
+        return found, lambda: self._why(len(self.free), least)

@@ -9,12 +9,12 @@ from math import dist, inf, sqrt
 from pluto_fleet.files.real import PACE
 from pluto_fleet.simulation.body import Body
 from pluto_fleet.simulation.drones import SimulatedDrone, SimulatedNavigation
+from pluto_fleet.standing import Down
 from plutoc_runtime.airspace import Airspace
 from plutoc_runtime.faults import Faults
 from plutoc_runtime.kernel import Kernel
 from plutoc_runtime.model import Point
 from plutoc_runtime.motion import Leg
-from plutoc_runtime.standing import Down
 from plutoc_runtime.world import World
 from tests.gateway.traffic.skies import ENDURING, Sky
 

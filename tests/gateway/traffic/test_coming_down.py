@@ -7,9 +7,9 @@ from random import Random
 
 import pytest
 
+from pluto_fleet.standing import Down
 from plutoc_runtime.airspace import Airspace
 from plutoc_runtime.model import Point
-from plutoc_runtime.standing import Down
 from tests.gateway.traffic.skies import Sky, is_home
 
 TEN = 10

@@ -12,9 +12,9 @@ from pluto_fleet.gateway.traffic.courses import course
 from pluto_fleet.gateway.traffic.timetable import Timetable, timetable
 from pluto_fleet.gateway.traffic.ways_home import ways_home
 from pluto_fleet.simulation.drones import SimulatedDrone
+from pluto_fleet.standing import Down
 from plutoc_runtime.airspace import Airspace
 from plutoc_runtime.model import Point
-from plutoc_runtime.standing import Down
 from tests.gateway.traffic.real_skies import FLIES_ON, late
 from tests.gateway.traffic.skies import ENDURING, Sky, is_home
 

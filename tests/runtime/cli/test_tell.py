@@ -16,8 +16,8 @@ from pluto_fleet.gateway.process import NOTE
 from pluto_fleet.journal.lock import Lock
 from pluto_fleet.journal.place import gateway_folder
 from pluto_fleet.remote_control import listening
+from pluto_fleet.standing import Down
 from plutoc_runtime.errors import BadInput
-from plutoc_runtime.standing import Down
 from tests.runtime.cli.conftest import Command
 
 

@@ -12,7 +12,7 @@ import pytest
 import plutoc_runtime
 from tests.runtime.cli.conftest import Command
 
-INSTALL = "'carrier[crazyflie]'" if "PLUTO_EMBEDDED" in os.environ else "cflib"
+INSTALL = f"'{'carrier' if 'PLUTO_EMBEDDED' in os.environ else 'pluto-fleet'}[crazyflie]'"
 """What is to be installed: within a package it is an extra of that package."""
 SAID = f"to fly Crazyflies, cflib is needed: pip install {INSTALL}\n"
 

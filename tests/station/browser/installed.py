@@ -51,4 +51,4 @@ def _install(names: Sequence[str], folder: Path) -> None:
         wanted.append(f"{package}[station]")
     venv.create(folder / "venv", with_pip=False)
     pip = (sys.executable, "-m", "pip", "--python", folder / "venv", "install", "--quiet")
-    succeed(*pip, *wanted)
+    succeed(*pip, ROOT / "runtime", *wanted)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from tests.release.environments import ROOT
 
-PAGES = ROOT / "runtime" / "plutoc_runtime" / "station" / "pages"
+PAGES = ROOT / "runtime" / "pluto_fleet" / "station" / "pages"
 MOST = 60_000
 
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import json
 from typing import Any
 
+from pluto_fleet.journal.values import value_data
 from pluto_fleet.station.feed import FACTS, Feed
 from plutoc_runtime.actions import BUILT_IN, Action, Parameter
 from plutoc_runtime.model import Photo
-from plutoc_runtime.plain import value_data
 from plutoc_runtime.quantities import Type
 from plutoc_runtime.world import UNITS
 from tests.station.browser.serving import Station, until

@@ -1,0 +1,36 @@
+"""Where an app's program comes in: the app's brain hands over its command line."""
+
+from __future__ import annotations
+
+TYPE_CHECKING = False  # `typing` itself is slow to import
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from plutoc_runtime.app import App
+
+    from .seam import Seam
+
+
+def start(name: str, load: Callable[[], App], *, brain: str, seam: Seam) -> int:
+    """Run the command that an app's program was called with, and return its exit code.
+
+    `brain` is the name of the package that the app carries as its runtime, `seam` what that speaks.
+    """
+    from .seam import meet
+
+    if not meet(name, brain, seam):
+        return 2
+    from .cli import start as begin
+
+    return begin(name, load)
+
+
+def main(app: App, argv: Sequence[str] | None = None, *, brain: str, seam: Seam) -> int:
+    """Run one command of an app that is loaded, and return its exit code."""
+    from .seam import meet
+
+    if not meet(app.name, brain, seam):
+        return 2
+    from .cli import main as run
+
+    return run(app, argv)

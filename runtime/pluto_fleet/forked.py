@@ -1,0 +1,109 @@
+"""What a process that a hook forks must not have of its parent: its signals, its locks, its lines.
+
+A forked child is a copy of the app with everything open. What it kept would outlive the app: a lock
+that is never free again, a connection that looks alive. And no child may go on where the app goes on.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+import threading
+from collections.abc import Callable
+from contextlib import suppress
+from typing import TypeVar
+
+from .hard_exit import leave
+
+T = TypeVar("T")
+
+_lets_go: dict[object, Callable[[], object]] = {}
+"""What a child does first, by a key for each."""
+
+_files: dict[int, tuple[int, int]] = {}
+"""Open files that no child may have, and which they are: a number may be another's by then."""
+
+
+def in_children(call: Callable[[], object]) -> Callable[[], None]:
+    """Have each child that is forked from now on do this first; return what ends that."""
+    key = object()
+    _lets_go[key] = call
+
+    def no_more() -> None:
+        _lets_go.pop(key, None)
+
+    return no_more
+
+
+def not_for_children(descriptor: int) -> None:
+    """Keep an open file, a lock or a connection from all children that are forked from now on."""
+    _files[descriptor] = _identity(descriptor)
+
+
+def deaf() -> None:
+    """Hear no signals for the parent: what arrives at a child must not wake the parent's loop."""
+    signal.set_wakeup_fd(-1)
+    for number in _SIGNALS:
+        signal.signal(number, signal.SIG_DFL)
+
+
+def _identity(descriptor: int) -> tuple[int, int]:
+    found = os.fstat(descriptor)
+    return found.st_dev, found.st_ino
+
+
+_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+_RAISES = signal.default_int_handler
+
+
+def _wait_for_signals() -> None:
+    """Take no signal in this thread while it forks: a child drops what its parent's handlers hear."""
+    _before.mask = signal.pthread_sigmask(signal.SIG_BLOCK, _SIGNALS)
+
+
+def _take_signals() -> None:
+    signal.pthread_sigmask(signal.SIG_SETMASK, _before.mask)
+
+
+_before = threading.local()
+
+
+def _let_go() -> None:
+    """In the child, before anything else runs in it."""
+    for call in reversed(tuple(_lets_go.values())):  # what was set last is put back first
+        call()
+    for descriptor, which in _files.items():
+        with suppress(OSError):  # it is closed already
+            if _identity(descriptor) == which:
+                _put_nothing(descriptor)
+    _lets_go.clear()
+    _files.clear()
+    if signal.SIGINT in signal.sigpending() and signal.getsignal(signal.SIGINT) is _RAISES:
+        signal.signal(signal.SIGINT, signal.SIG_DFL)  # what is raised in here, Python drops
+    _take_signals()
+
+
+def _put_nothing(descriptor: int) -> None:
+    """Close a file but let its number stay taken: closing it once more closes nothing else."""
+    nothing = os.open(os.devnull, os.O_RDWR | os.O_CLOEXEC)
+    os.dup2(nothing, descriptor, inheritable=False)
+    os.close(nothing)
+
+
+os.register_at_fork(before=_wait_for_signals, after_in_parent=_take_signals, after_in_child=_let_go)
+
+
+def end_if_forked(parent: int, error: BaseException | None = None) -> None:
+    """End this process if it is not the one of this number but its copy: no app goes on twice.
+
+    `error`: what the hook raised in the copy.
+    """
+    if os.getpid() == parent:
+        return
+    code: object = error.code if isinstance(error, SystemExit) else error
+    if code is not None and not isinstance(code, int):
+        with suppress(OSError):
+            print(f"a process that a hook has forked ends: {type(code).__name__}", file=sys.stderr)
+        code = 1
+    leave((code or 0) & 0xFF)

@@ -1,0 +1,113 @@
+"""Apps and libraries of unlike versions: they fly, or one sentence says what to install."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import pluto_fleet
+from pluto_fleet.seam import NEWEST, OLDEST, problem
+from plutoc_runtime.command import SEAM
+from tests.flying import EXAMPLES, compiled
+
+NAME = "drugs_distribution"
+LIBRARY = Path(pluto_fleet.__path__[0]).parent
+EXAMPLE = EXAMPLES / NAME
+SIMULATE = ("simulate", str(EXAMPLE / "missions.toml"))
+
+
+def said(package: Path, library: Path, *words: str) -> subprocess.CompletedProcess[str]:
+    """Run a command of a package beside a library."""
+    paths = os.pathsep.join([str(package / "src"), str(library)])
+    return subprocess.run(
+        [sys.executable, "-m", NAME, *words],
+        env={**os.environ, "PYTHONPATH": paths},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+
+
+def library_that_speaks(folder: Path, oldest: str, newest: str, version: str) -> Path:
+    """Return today's library, made to say that it speaks other seams."""
+    shutil.copytree(LIBRARY, folder, ignore=shutil.ignore_patterns("__pycache__"))
+    edit(folder / "pluto_fleet/seam.py", r"= \(\d+, \d+\), \(\d+, \d+\)", f"= {oldest}, {newest}")
+    edit(folder / "pluto_fleet/__init__.py", '__version__ = ".*"', f'__version__ = "{version}"')
+    return folder
+
+
+def edit(file: Path, old: str, new: str) -> None:
+    """Change one place in a file."""
+    text, count = re.subn(old, new, file.read_text(encoding="utf-8"), count=1)
+    assert count == 1, file
+    file.write_text(text, encoding="utf-8")
+
+
+def app_that_speaks(folder: Path, seam: str) -> Path:
+    """Return a package, made to say that it speaks another seam."""
+    package = compiled(NAME, folder)
+    (home,) = [
+        path
+        for path in (package / "src").rglob("_runtime/*.py")
+        if re.search(r"^SEAM = ", path.read_text("utf-8"), re.MULTILINE)
+    ]
+    edit(home, r"SEAM = \(\d+, \d+\)", f"SEAM = {seam}")
+    return package
+
+
+def test_the_library_speaks_the_seam_of_todays_apps() -> None:
+    assert SEAM == NEWEST
+    assert OLDEST[0] in (NEWEST[0], NEWEST[0] - 1)
+    assert pluto_fleet.__version__.split(".")[:2] == [str(number) for number in NEWEST]
+
+
+@pytest.mark.parametrize(
+    ("oldest", "newest", "version"),
+    [("(1, 0)", "(1, 3)", "1.3.0"), ("(1, 0)", "(2, 1)", "2.1.4")],
+)
+def test_an_older_app_flies_with_a_newer_library(
+    oldest: str, newest: str, version: str, tmp_path: Path
+) -> None:
+    package = compiled(NAME, tmp_path)
+    library = library_that_speaks(tmp_path / "library", oldest, newest, version)
+    assert f"pluto-fleet {version}" in said(package, library, "--version").stdout
+    flown = said(package, library, *SIMULATE)
+    assert flown.returncode == 0, flown.stderr
+
+
+@pytest.mark.parametrize("command", [SIMULATE, ("fly", "x.toml"), ("gateway",), ("--version",)])
+def test_an_app_newer_than_its_library_is_refused_first_of_all(
+    command: tuple[str, ...], tmp_path: Path
+) -> None:
+    package = app_that_speaks(tmp_path, "(1, 4)")
+    library = library_that_speaks(tmp_path / "library", "(1, 0)", "(1, 2)", "1.2.0")
+    done = said(package, library, *command)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr == (
+        "drugs_distribution speaks seam 1.4, pluto-fleet 1.2.0 speaks 1.0 to 1.2:"
+        ' pip install --upgrade "pluto-fleet>=1.4"\n'
+    )
+
+
+def test_an_app_that_is_too_old_is_told_to_be_compiled_anew(tmp_path: Path) -> None:
+    package = compiled(NAME, tmp_path)
+    library = library_that_speaks(tmp_path / "library", "(2, 0)", "(3, 0)", "3.0.0")
+    done = said(package, library, *SIMULATE)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr == (
+        "drugs_distribution speaks seam 1.0, pluto-fleet 3.0.0 speaks 2.0 to 3.0:"
+        ' compile drugs_distribution anew, or pip install "pluto-fleet<3"\n'
+    )
+
+
+def test_what_is_said_of_a_seam_depends_on_nothing_but_the_two() -> None:
+    assert problem("some", NEWEST) is None
+    assert problem("some", OLDEST) is None
+    assert problem("some", (NEWEST[0], NEWEST[1] + 1)) is not None
+    assert problem("some", (OLDEST[0] - 1, 9)) is not None
