@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from .actions import BUILT_IN, PICK, RELEASE, grip_problem
 from .energy import CLIMB_SPEED, docked, flight_seconds
 from .errors import Failure, FlightFailed
-from .faults import CARRYING_HOME, OUTAGE, Drawn, Faults, Order, action_failed, befell, draw
+from .faults import CARRYING_HOME, OUTAGE, Drawn, Faults, Order, befell, draw, failed
 from .kernel import FLEET, Kernel, Key, Kind, Task
 from .motion import Charge, Leg, standing
 from .navigation import way_from
@@ -195,7 +195,7 @@ class IdealNavigation:
             await self._pass(drone, BUILT_IN[job.action].seconds)
             why = f"{drone.id} could not do it" if drone.drawn.action else None
         if why is not None:
-            raise action_failed(f"{job.action} failed", why, drone.location)
+            raise failed(f"{job.action} failed", why, drone.location)
         if job.action in (PICK, RELEASE):
             drone.carries = job.item if job.action == PICK else None
         return self._world.gives(job.action, job.parameters, drone.location, self._kernel.now)
@@ -214,7 +214,7 @@ class IdealNavigation:
         one = self.drones[drone]
         one.check()
         if one.drawn.action:
-            raise action_failed("the action failed", f"{drone} could not do it", one.location)
+            raise failed("the action failed", f"{drone} could not do it", one.location)
         await self._pass(one, inf)
 
     async def read(self, drone: str, name: str) -> float:
