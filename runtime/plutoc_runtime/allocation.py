@@ -70,6 +70,7 @@ class Queue:
 
     def enter(self, trips: Sequence[Trip], policy: Policy, priority: int) -> Request:
         """Wait for a drone for the first trip; the answer comes at the end of this instant or later."""
+        rank = +priority  # raises here, in its mission, if a hook has left something odd there
         pool = self._pools.get(policy)
         if pool is None:
             pool = self._pools[policy] = policy()
@@ -80,7 +81,7 @@ class Queue:
         request = Request(self._reach, trips, pool)
         self._waiting += 1
         self._arrivals += 1
-        insort(self._entries, (priority, -self._arrivals, request))
+        insort(self._entries, (rank, -self._arrivals, request))
         if self._low or request.levels is not self._sure:
             self._fresh.append(request)
         self._kernel.last = self._serving
