@@ -8,7 +8,6 @@ import sys
 from contextlib import contextmanager
 from errno import ENAMETOOLONG
 
-from plutoc.cli import output
 from plutoc.cli.endings import (
     CLEAN,
     CLOSED_PIPE,
@@ -20,6 +19,7 @@ from plutoc.cli.endings import (
     Unusable,
 )
 from plutoc.terminated import Terminated
+from plutoc_runtime import output
 
 TYPE_CHECKING = False  # `typing` itself is slow to import, and `--version` does without
 if TYPE_CHECKING:

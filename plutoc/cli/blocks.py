@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from plutoc.block import Block
-from plutoc.cli import output
 from plutoc.cli.endings import CLEAN, ERRORS, Unusable
 from plutoc.cli.options import Options
 from plutoc.graph.names import near
 from plutoc.registry import STD, RegistryError, blocks_of, installed_packages
 from plutoc.report.block_page import first_line, page
+from plutoc_runtime import output
 
 
 def blocks(options: Options) -> int:

@@ -14,7 +14,6 @@ from tempfile import TemporaryDirectory
 
 from plutoc.cache import cache_folder
 from plutoc.check.model import Checked
-from plutoc.cli import output
 from plutoc.cli.endings import Unusable
 from plutoc.cli.files import default_folder, find_hooks, hooks_path, read_module, shown
 from plutoc.cli.options import Options
@@ -26,6 +25,7 @@ from plutoc.emit.package import Package
 from plutoc.emit.write import CannotWrite, compare, write
 from plutoc.source import Source
 from plutoc.terminated import Terminated
+from plutoc_runtime import output
 from plutoc_runtime.words import printable
 
 FLEET = "fleet.toml"

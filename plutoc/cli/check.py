@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 from pathlib import Path
 
-from plutoc.cli import output
 from plutoc.cli.endings import CLEAN, ERRORS, USAGE, Unusable
 from plutoc.cli.files import (
     STANDARD_INPUT,
@@ -20,6 +19,7 @@ from plutoc.compile import analyse, check_hooks
 from plutoc.diagnostic import Diagnostic, Rejected, Severity
 from plutoc.frozen import frozen
 from plutoc.source import Source
+from plutoc_runtime import output
 
 
 def check(options: Options) -> int:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from plutoc.cli import output
 from plutoc.cli.colour import in_colour
 from plutoc.cli.endings import CLEAN, ERRORS, Unusable
 from plutoc.cli.files import STANDARD_INPUT, read_app, read_standard_input, shown
@@ -16,6 +15,7 @@ from plutoc.diff.model import Difference, Version
 from plutoc.diff.run import compare
 from plutoc.report.changes import json, markdown, text
 from plutoc.source import Source
+from plutoc_runtime import output
 
 _APP = "app.pluto"
 

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import sys
 
-from plutoc.cli import output
 from plutoc.cli.colour import in_colour
 from plutoc.cli.endings import CLEAN, Unusable
 from plutoc.cli.options import Options
 from plutoc.explain.pages import code_meant, codes, page
 from plutoc.explain.text import render, render_list
 from plutoc.graph.names import near
+from plutoc_runtime import output
 from plutoc_runtime.words import printable
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from plutoc.cli import output
 from plutoc.cli.endings import CLEAN, ERRORS, USAGE, Unusable
 from plutoc.cli.files import STANDARD_INPUT, read_app, read_standard_input, shown
 from plutoc.cli.options import Options
@@ -17,6 +16,7 @@ from plutoc.emit.write import Change, Changes
 from plutoc.format.run import Outgrown, format_source
 from plutoc.source import Source
 from plutoc.syntax.parse import LARGEST
+from plutoc_runtime import output
 
 
 def fmt(options: Options) -> int:

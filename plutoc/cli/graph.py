@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from plutoc.check.model import Checked
-from plutoc.cli import output
 from plutoc.cli.endings import CLEAN, Unusable
 from plutoc.cli.files import read_app
 from plutoc.cli.options import Options
 from plutoc.cli.say import say
 from plutoc.compile import analyse
 from plutoc.report.graph import NoGraphviz, dot, dot_to_svg, json, mermaid
+from plutoc_runtime import output
 
 
 def graph(options: Options) -> int:

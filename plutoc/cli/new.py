@@ -6,7 +6,6 @@ import os
 from importlib.resources import files
 from pathlib import Path
 
-from plutoc.cli import output
 from plutoc.cli.endings import CLEAN, Unusable
 from plutoc.cli.options import Options
 from plutoc.diagnostic import Diagnostic
@@ -14,6 +13,7 @@ from plutoc.emit.write import CannotWrite, create
 from plutoc.graph.scope import check_app_name
 from plutoc.source import Source, Span
 from plutoc.syntax.tree import Name
+from plutoc_runtime import output
 from plutoc_runtime.words import printable
 
 _IN_STARTER = "my_app"

@@ -17,10 +17,10 @@ import sys
 from hashlib import sha256
 
 from plutoc import cache
-from plutoc.cli import output
 from plutoc.cli.colour import in_colour
 from plutoc.cli.compiler import identity
 from plutoc.installed import digest, fact, last_facts_of_package
+from plutoc_runtime import output
 
 TYPE_CHECKING = False  # `typing` itself is slow to import
 if TYPE_CHECKING:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from plutoc import __version__
-from plutoc.cli import output
+from plutoc_runtime import output
 
 
 def tell_version() -> None:

@@ -34,6 +34,7 @@ def bind(brain: str) -> None:
         raise RuntimeError(f"{_bound} is this process's brain already: it cannot be {brain}, too")
     _bound = brain
     sys.meta_path.insert(0, _Brain())
+    sys.meta_path.append(_Copy())
 
 
 def app_package() -> str:
@@ -42,25 +43,34 @@ def app_package() -> str:
 
 
 class _Brain(MetaPathFinder):
-    """Finds the brain's modules where they are."""
+    """Finds the library's `plutoc_runtime` where the app has it."""
 
     def find_spec(
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
     ) -> ModuleSpec | None:
-        if fullname != BRAIN and not fullname.startswith(f"{BRAIN}."):
+        if not f"{fullname}.".startswith(f"{BRAIN}."):
             return None
-        inner = fullname.removeprefix(BRAIN)
-        if find_spec(_bound + inner) is not None:
-            return ModuleSpec(fullname, _SameModule(_bound + inner))
-        parts = inner.removeprefix(".").split(".")
+        same = _bound + fullname.removeprefix(BRAIN)
+        return None if find_spec(same) is None else ModuleSpec(fullname, _SameModule(same))
+
+
+class _Copy(MetaPathFinder):
+    """Finds what the app does not carry; asked last."""
+
+    def find_spec(
+        self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
+    ) -> ModuleSpec | None:
+        if not fullname.startswith(f"{_bound}."):
+            return None
         folder = _COPY if _COPY.is_dir() else _HERE.parent / BRAIN
-        file = folder.joinpath(*parts)
-        package = file / "__init__.py"
-        if package.is_file():
+        place = folder.joinpath(*fullname.removeprefix(f"{_bound}.").split("."))
+        if (place / "__init__.py").is_file():
+            home = [str(place)]
             return spec_from_file_location(
-                fullname, package, submodule_search_locations=[str(file)]
+                fullname, place / "__init__.py", submodule_search_locations=home
             )
-        return spec_from_file_location(fullname, file.with_suffix(".py"))
+        file = place.with_suffix(".py")
+        return spec_from_file_location(fullname, file) if file.is_file() else None
 
 
 class _SameModule(Loader):

@@ -7,9 +7,8 @@ import sys
 from errno import ENAMETOOLONG
 from functools import partial
 
+from plutoc_runtime import output
 from plutoc_runtime.errors import BadInput
-
-from . import output
 
 TYPE_CHECKING = False  # `typing` itself is slow to import, and plutoc's `--version` does without
 if TYPE_CHECKING:

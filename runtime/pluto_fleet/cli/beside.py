@@ -6,9 +6,8 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from plutoc_runtime import output
 from plutoc_runtime.words import printable
-
-from . import output
 
 if TYPE_CHECKING:
     from .options import Options

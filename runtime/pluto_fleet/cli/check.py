@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from plutoc_runtime import output
 from plutoc_runtime.words import counted
 
 from ..files.real import too_fast
 from ..plan_check import idle_actions
-from . import output
 from .plans import load
 
 if TYPE_CHECKING:

@@ -7,12 +7,12 @@ from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from plutoc_runtime import output
 from plutoc_runtime.errors import BadInput
 from plutoc_runtime.words import in_shell, printable, quoted
 
 from ..asking import Nobody
 from ..journal.store import Store
-from . import output
 from .flown import ANSWERS, records_in, waiting, waiting_lines
 from .tell import asked as asked_of_app
 

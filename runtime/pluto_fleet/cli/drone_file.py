@@ -8,6 +8,7 @@ from math import dist
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from plutoc_runtime import output
 from plutoc_runtime.airspace import Airspace
 from plutoc_runtime.errors import BadInput
 from plutoc_runtime.words import counted, number, place, printable
@@ -16,7 +17,6 @@ from ..files.behaviour import APART, CRAZYFLIE
 from ..files.fleet import fleet_of
 from ..files.reading import parsed
 from ..files.toml_text import numbers, text
-from . import output
 from .drone_answers import heard
 
 if TYPE_CHECKING:

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from plutoc_runtime import output
 from plutoc_runtime.errors import BadInput
 from plutoc_runtime.trace import dumped
 from plutoc_runtime.words import counted, quoted
@@ -19,7 +20,6 @@ from ..files.fleet import load_fleet
 from ..files.reading import shortened
 from ..files.real import navigation_of, not_real, options_of
 from ..journal import place
-from . import output
 from .drone_answers import Asked, answers, found, identified
 from .drone_file import write_fleet
 from .drone_table import drones_data, drones_table

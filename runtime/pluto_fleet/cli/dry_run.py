@@ -12,6 +12,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
+from plutoc_runtime import output
 from plutoc_runtime.energy import CLIMB_SPEED
 from plutoc_runtime.errors import BadInput
 from plutoc_runtime.faults import Faults
@@ -21,7 +22,6 @@ from ..drones.member import CLIMB_LIMIT
 from ..drones.protocol import Acts
 from ..drones.real_fleet import SLACK, real_fleet
 from ..simulate import simulate
-from . import output
 from .events import line_of
 from .given import Given
 from .plans import load

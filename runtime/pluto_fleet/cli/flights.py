@@ -11,6 +11,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from plutoc_runtime import output
 from plutoc_runtime.errors import BadInput
 from plutoc_runtime.words import in_shell, place
 
@@ -23,7 +24,7 @@ from ..gateway.starting import connect
 from ..journal.place import gateway_folder
 from ..journal.store import Store
 from ..setting import End, Lived, Setting, Stops
-from . import leaving, output, stop_mark
+from . import leaving, stop_mark
 from .events import line_of
 from .flown import finished, has_ended, records_in, report_of, waiting_lines
 from .interrupts import Interrupts

@@ -7,6 +7,7 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from plutoc_runtime import output
 from plutoc_runtime.errors import BadInput
 from plutoc_runtime.faults import Faults
 from plutoc_runtime.words import printable
@@ -15,7 +16,6 @@ from ..journal import place
 from ..journal.errors import exists
 from ..journal.header import header
 from ..journal.store import Store
-from . import output
 from .flight_options import how_it_flies_in
 from .flights import Flight, see_through, supervised
 from .plans import load

@@ -16,6 +16,7 @@ from threading import Timer
 from types import FrameType
 from typing import Protocol
 
+from plutoc_runtime import output
 from plutoc_runtime.errors import BadInput
 
 from ..forked import in_children
@@ -23,7 +24,7 @@ from ..gateway.starting import stop_directly
 from ..hard_exit import leave
 from ..journal.place import gateway_folder
 from ..standing import Down
-from . import output, stop_mark
+from . import stop_mark
 
 AT_ONCE = 1.0
 """Seconds that the app may take to stop its drones, before they are told without it."""

@@ -10,12 +10,12 @@ from collections.abc import Iterator
 from contextlib import closing, suppress
 from typing import TYPE_CHECKING, Any
 
+from plutoc_runtime import output
 from plutoc_runtime.words import counted
 
 from ..journal import place
 from ..journal.mending import mend
 from ..journal.reader import Reader
-from . import output
 from .told import told
 
 if TYPE_CHECKING:

@@ -10,12 +10,12 @@ import time
 from collections.abc import Coroutine
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
+from plutoc_runtime import output
 from plutoc_runtime.hooks import said
 from plutoc_runtime.kernel import WHATEVER
 
 from ..hard_exit import leave
 from ..raised import by_a_person
-from . import output
 
 if TYPE_CHECKING:
     from multiprocessing.process import BaseProcess

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
+from plutoc_runtime import output
 from plutoc_runtime.session import outcome_data
 from plutoc_runtime.trace import dumped
 from plutoc_runtime.words import counted, duration, in_shell, number, percent, printable
 
 from ..testing.invariants import items_of
-from . import output
 from .plot import drawing, kind_of, plot
 from .report import last_line, table
 from .summary import ENOUGH, Run, run_of, spread, summary

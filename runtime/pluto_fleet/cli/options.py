@@ -8,12 +8,12 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from plutoc_runtime import output
 from plutoc_runtime.errors import BadInput
 from plutoc_runtime.faults import FAULTS, shares
 from plutoc_runtime.quantities import time_from, typed
 from plutoc_runtime.words import quoted
 
-from . import output
 from .drone_options import add_drones, add_dry_run
 from .flight_options import add_flights, how_it_flies
 from .station_options import add_station

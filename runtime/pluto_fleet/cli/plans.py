@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from plutoc_runtime import output
 from plutoc_runtime.errors import BadInput
 
 from ..files.fleet import DEFAULT_SIZE, FleetFile, default_fleet, fleet_of
@@ -14,7 +15,6 @@ from ..files.reading import parsed, shortened, text_of
 from ..files.real import as_flown
 from ..look_alikes import look_alikes
 from ..plan_check import endless, problems
-from . import output
 from .stand_ins import who_is_missing, with_stand_ins
 
 if TYPE_CHECKING:

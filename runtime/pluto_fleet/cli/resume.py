@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from plutoc_runtime import output
 from plutoc_runtime.errors import BadInput
 from plutoc_runtime.words import printable
 
 from ..journal import place
 from ..journal.header import fingerprint
-from . import output, stop_mark
+from . import stop_mark
 from .flights import reported, see_through, supervised
 from .real import check_real
 from .taken_up import TakenUp, take_up

@@ -11,6 +11,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from plutoc_runtime import output
 from plutoc_runtime.errors import BadInput
 
 from .. import again
@@ -30,7 +31,6 @@ from ..station.web.guard import Guard, needs_token, proper_name
 from ..station.web.listening import address, listening, port_of
 from ..station.web.server import serve as serve_web
 from ..station.web.static import floor_plan
-from . import output
 from .flight_options import how_it_flies_in
 from .flown import finished, records_in
 from .interrupts import Interrupts

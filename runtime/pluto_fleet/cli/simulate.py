@@ -6,6 +6,7 @@ from collections.abc import Callable
 from copy import deepcopy
 from typing import TYPE_CHECKING
 
+from plutoc_runtime import output
 from plutoc_runtime.errors import BadInput
 from plutoc_runtime.faults import Faults
 from plutoc_runtime.session import Outcome, outcome_data
@@ -14,7 +15,6 @@ from plutoc_runtime.words import duration
 
 from ..raised import Interrupted
 from ..simulate import simulate as simulated
-from . import output
 from .events import line_of
 from .plans import Plan, load
 from .progress import Progress, on_terminal

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 
-from . import output
+from plutoc_runtime import output
 
 GIVES_UP_AFTER = 6
 """Crashes in a row, with nothing finished in between."""

@@ -9,6 +9,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from plutoc_runtime import output
 from plutoc_runtime.errors import BadInput
 from plutoc_runtime.words import in_shell
 
@@ -18,7 +19,7 @@ from ..journal.errors import missing
 from ..journal.lock import holder
 from ..journal.place import gateway_folder
 from ..standing import Down
-from . import output, stop_mark
+from . import stop_mark
 from .looked_after import looked_after
 
 if TYPE_CHECKING:

@@ -5,9 +5,9 @@ from __future__ import annotations
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
+from plutoc_runtime import output
 from plutoc_runtime.errors import BadInput
 
-from ..cli import output
 from ..cli.flights import how_to_go_on
 from ..cli.taken_up import TakenUp, take_up
 from ..journal import place

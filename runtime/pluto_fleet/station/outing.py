@@ -12,11 +12,11 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from plutoc_runtime import output
 from plutoc_runtime.errors import BadInput
 from plutoc_runtime.kernel import WHATEVER
 from plutoc_runtime.world import UNITS
 
-from ..cli import output
 from ..cli.flights import Flight, Watcher, lives
 from ..cli.flown import records_in
 from ..journal.fold import Records

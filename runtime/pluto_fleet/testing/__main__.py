@@ -11,9 +11,10 @@ from pluto_fleet.seam import meet
 
 def run(name: str, words: list[str]) -> int:
     """Try the app of this package, and return the exit code."""
+    from plutoc_runtime import output
     from plutoc_runtime.hooks import loaded
 
-    from ..cli import Ending, output
+    from ..cli import Ending
     from ..hard_exit import refused
     from ..raised import guard_hooks, interrupted_by_a_person
     from .command import test

@@ -11,12 +11,12 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
+from plutoc_runtime import output
 from plutoc_runtime.errors import BadInput
 from plutoc_runtime.fields import Entity, FieldType
 from plutoc_runtime.trace import dumped
 from plutoc_runtime.words import counted
 
-from ..cli import output
 from ..files.fleet import DroneEntry, FleetFile, default_fleet, load_fleet
 from ..files.fleet_text import fleet_text
 from ..files.missions import load_missions

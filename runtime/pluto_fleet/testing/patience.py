@@ -6,7 +6,8 @@ import sys
 import time
 from collections.abc import Callable
 
-from ..cli import output
+from plutoc_runtime import output
+
 from ..cli.progress import Progress
 
 EVERY = 10.0
