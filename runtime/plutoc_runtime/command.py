@@ -53,11 +53,12 @@ def _library() -> ModuleType | None:
     if os.path.isdir(carried) and carried not in sys.path:
         sys.path.insert(0, carried)
     try:
-        return import_module("pluto_fleet.entry")
+        import_module("pluto_fleet")
     except ModuleNotFoundError as error:
         if error.name != "pluto_fleet":
             raise  # it is there, and something of it is missing
         return None
+    return import_module("pluto_fleet.entry")
 
 
 def alone(name: str, load: Callable[[], App], argv: Sequence[str]) -> int:
