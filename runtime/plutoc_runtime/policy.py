@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from functools import partial
-from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
+from functools import partial, update_wrapper
+from math import inf
+from typing import TYPE_CHECKING, Any
 
 from .errors import HookFault
 from .guard import by_a_person, guarded
@@ -17,103 +17,69 @@ if TYPE_CHECKING:
     from .model import Trip
 
 Able = Callable[["Drone"], bool]
-"""Says whether a drone may fly the trip now."""
+"""Says whether a drone may fly the trip now. It can take a route: ask of as few as will do."""
 
-Why = Callable[[], str]
-"""Says why a drone was chosen, if it is asked at once: before the drone leaves the pool."""
-
-Choice = tuple["Drone", Why]
+Choice = tuple["Drone", str]
 """The drone that gets a trip, and why it was chosen."""
 
+OneByOne = Callable[["Trip", Sequence["Drone"], Able], Choice | None]
+"""Chooses one of the free drones, which come in the fleet's order, for a trip; None: none of them."""
 
-class Pool(Protocol):
-    """The free drones, from which a policy chooses."""
-
-    def add(self, drone: Drone) -> None:
-        """A drone is free; it stays where it is while it is."""
-        ...
-
-    def remove(self, drone: Drone) -> None:
-        """A drone is not free any more."""
-        ...
-
-    def choose(self, trip: Trip, able: Able) -> Choice | None:
-        """Return the drone that the policy wants for a trip; None: it has none for it."""
-        ...
+AllAtOnce = Callable[[Sequence[tuple["Trip", Able]], Sequence["Drone"]], Sequence[Choice | None]]
+"""Chooses a free drone, or None, for each of the trips that wait with one priority; none twice."""
 
 
-@runtime_checkable
-class BatchPool(Pool, Protocol):
-    """A pool whose policy looks at all trips that wait at once."""
+class Batch:
+    """A policy that looks at all trips at once: what decorates the function that does."""
 
-    def share(self, offers: Sequence[tuple[Trip, Able]]) -> Sequence[Choice | None]:
-        """Return a drone, or None, for each trip of one priority; no drone twice."""
-        ...
+    def __init__(self, policy: AllAtOnce) -> None:
+        self._policy = policy
+        update_wrapper(self, policy)
 
-
-Policy = Callable[[], Pool]
-"""Makes the pool from which the drones are chosen."""
-
-
-class FreeDrones:
-    """What every pool of ours keeps: the free drones, in the order in which they came."""
-
-    def __init__(self) -> None:
-        self.free: dict[Drone, None] = {}
-
-    def add(self, drone: Drone) -> None:
-        """A drone is free."""
-        self.free[drone] = None
-
-    def remove(self, drone: Drone) -> None:
-        """A drone is not free any more."""
-        self.free.pop(drone, None)
+    def __call__(
+        self, offers: Sequence[tuple[Trip, Able]], free: Sequence[Drone]
+    ) -> Sequence[Choice | None]:
+        """Return a drone, or None, for each trip."""
+        return self._policy(offers, free)
 
 
-def own_policy(hook: Callable[[Any, Sequence[Drone]], Drone | None]) -> Policy:
-    """Make a policy of the app's own hook: it is asked trip by trip."""
-    return OwnPolicy(hook)
+Policy = OneByOne | Batch
 
 
-@dataclass(frozen=True, slots=True)
-class OwnPolicy:
-    """A policy of the app's own. Two that ask the same hook are equal."""
+def lowest(
+    free: Sequence[Drone], able: Able, rank: Callable[[Drone], float]
+) -> tuple[Drone, float] | None:
+    """Return the able drone of the lowest rank, and that rank; of equals, the fleet's first."""
+    found: Drone | None = None
+    least = inf
+    for drone in free:
+        here = rank(drone)
+        if here < least and able(drone):
+            found, least = drone, here
+    return None if found is None else (found, least)
 
-    hook: Callable[[Any, Sequence[Drone]], Drone | None]
 
-    def __call__(self) -> Pool:
-        """Return an empty pool."""
-        return Asked(self.hook)
+def own_policy(hook: Callable[[Any, Sequence[Drone]], Drone | None]) -> OneByOne:
+    """Make a policy of the app's own hook; it raises `HookFault` for what that may not answer."""
 
-
-class Asked(FreeDrones):
-    """The free drones, in the fleet's order, for a hook to choose from."""
-
-    def __init__(self, hook: Callable[[Any, Sequence[Drone]], Drone | None]) -> None:
-        super().__init__()
-        self._hook, self._name = hook, hook_name(hook)
-
-    def choose(self, trip: Trip, able: Able) -> Choice | None:
-        """Ask the hook; raise `HookFault` for what it may not answer."""
-        free = sorted(self.free, key=lambda drone: drone.index)
-        candidates = tuple(drone for drone in free if able(drone))
+    def choose(trip: Trip, free: Sequence[Drone], able: Able) -> Choice | None:
+        candidates = tuple(filter(able, free))
         if not candidates:
             return None
+        name = hook_name(hook)
         try:
-            drone = guarded(partial(self._hook, trip, candidates))
+            drone = guarded(partial(hook, trip, candidates))
         except BaseException as error:
             if by_a_person(error):
                 raise
-            raise HookFault(f"policy {self._name} raised {said(error)}", trace_of(error)) from error
+            raise HookFault(f"policy {name} raised {said(error)}", trace_of(error)) from error
         if drone is None:
             return None
         if not any(drone is candidate for candidate in candidates):
+            answer = f"drone {drone.id}" if type(drone) is Drone else class_of(drone)
             raise HookFault(
-                f"policy {self._name} must return one of the candidates or None, not {_named(drone)}"
+                f"policy {name} must return one of the candidates or None, not {answer}"
             )
-        return drone, lambda: f"chosen by {self._name}"
+        return drone, f"chosen by {name}"
 
-
-def _named(answer: object) -> str:
-    """Name what a hook answered, in a word or two."""
-    return f"drone {answer.id}" if type(answer) is Drone else class_of(answer)
+    return choose

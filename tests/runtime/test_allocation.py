@@ -219,6 +219,20 @@ def test_a_drone_that_was_not_given_is_offered_again() -> None:
     assert asked[:3] == [["cf1", "cf2", "cf3"], ["cf2", "cf3"], ["cf2", "cf3"]]
 
 
+def test_candidates_come_in_the_fleets_order_whenever_they_came_free() -> None:
+    asked: list[list[str]] = []
+
+    def last(trip: Trip, candidates: Sequence[Drone]) -> Drone:
+        asked.append([drone.id for drone in candidates])
+        return candidates[-1]
+
+    far = apps.mission("far", *(apps.trip(str(n), 1.0) for n in range(3)))
+    near = apps.mission("near", *(apps.trip(str(n), 9.0) for n in range(6)))
+    assert fly(own_policy(last), far, near).completed
+    assert all(ids == sorted(ids) for ids in asked)
+    assert {len(ids) for ids in asked} == {1, 2, 3}
+
+
 def test_a_policy_that_never_gives_a_drone_stops_the_simulation_with_the_reason() -> None:
     with pytest.raises(BadInput, match=r"gives them none of the drones \(3 free\)"):
         fly(own_policy(lambda trip, drones: None), apps.mission("a", apps.trip("A", 3.0)))

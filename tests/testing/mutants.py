@@ -115,7 +115,7 @@ def nobody_is_asked(patch: pytest.MonkeyPatch) -> None:
 
     def take_up(self: Fleet, drone: Any, _: object) -> None:
         drone.status = DroneStatus.FREE
-        self.queue.moved(drone, DroneStatus.OFFLINE, DroneStatus.FREE)
+        self.queue.moved(drone, DroneStatus.OFFLINE)
 
     patch.setattr(Fleet, "take_up", take_up)
 
