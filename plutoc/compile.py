@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from plutoc.check.model import Checked
@@ -21,6 +22,9 @@ if TYPE_CHECKING:
 Warnings = tuple[Diagnostic, ...]
 FindHooks = Callable[[Checked], Source | None]
 """Returns the hooks.py that is there already, if there is one."""
+KnownHooks = Callable[[Checked], Mapping[str, str]]
+"""Returns the hooks that the app is known to declare, or to have declared before, with their kinds."""
+_NONE: Mapping[str, str] = MappingProxyType({})
 
 
 @frozen
@@ -40,15 +44,21 @@ def compile_source(
     find_hooks: FindHooks,
     optimise: bool = True,
     carry: bool = False,
+    known_hooks: KnownHooks = lambda _: _NONE,
 ) -> Compiled:
     """Return a source's package; raise `Rejected` with all errors of the first phase that fails.
 
     `carry`: the library that flies goes into the package, too; `NoLibrary` where there is none.
     """
     checked, warnings = analyse(source)
+    known = known_hooks(checked)
     hooks = find_hooks(checked)
     warnings += check_hooks(checked, hooks)
-    package = package_of(checked, source_name=source_name, optimise=optimise, carry=carry)
+    former, left = left_over(checked, hooks, known)
+    warnings += left
+    package = package_of(
+        checked, source_name=source_name, optimise=optimise, carry=carry, former=former
+    )
     return Compiled(checked=checked, hooks=hooks, package=package, warnings=warnings)
 
 
@@ -70,6 +80,20 @@ def check_hooks(checked: Checked, hooks: Source | None) -> Warnings:
     return check_hooks(checked, hooks)
 
 
+def left_over(
+    checked: Checked, hooks: Source | None, known: Mapping[str, str]
+) -> tuple[Mapping[str, str], Warnings]:
+    """Return the hooks that hooks.py still defines and the app does not declare any more.
+
+    With warnings of those that are of no use there.
+    """
+    if hooks is None or not known:
+        return _NONE, ()
+    from plutoc.hooks.former import left_over
+
+    return left_over(checked, hooks, known)
+
+
 def planned(checked: Checked, *, optimise: bool = True) -> Plan:
     """Return the plan of a checked graph: as good as we can make it, or as plain as it is built."""
     from plutoc.plan.build import build
@@ -79,7 +103,12 @@ def planned(checked: Checked, *, optimise: bool = True) -> Plan:
 
 
 def package_of(
-    checked: Checked, *, source_name: str, optimise: bool = True, carry: bool = False
+    checked: Checked,
+    *,
+    source_name: str,
+    optimise: bool = True,
+    carry: bool = False,
+    former: Mapping[str, str] = _NONE,
 ) -> Package:
     """Return the files of a checked graph's package."""
     from plutoc.emit.errors import not_embeddable, place_of
@@ -89,6 +118,8 @@ def package_of(
 
     plan = planned(checked, optimise=optimise)
     try:
-        return emit(plan, source_name=source_name, picture=mermaid(checked), carry=carry)
+        return emit(
+            plan, source_name=source_name, picture=mermaid(checked), carry=carry, former=former
+        )
     except EmbedError as error:  # a block that somebody else made
         raise Rejected([not_embeddable(place_of(checked.graph), str(error))]) from error

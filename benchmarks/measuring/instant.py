@@ -10,7 +10,7 @@ from typing import Any
 from pluto_fleet.files.fleet import DroneEntry, FleetFile
 from pluto_fleet.navigation import Job
 from pluto_fleet.realtime import RealTime
-from pluto_fleet.standing import Down, RollCall
+from pluto_fleet.standing import Down, RollCall, Standing
 from plutoc_blocks.clock.step import wait_for_time
 from plutoc_blocks.drone_allocator.step import allocate_drone
 from plutoc_blocks.mission_creator.step import create_mission
@@ -25,7 +25,6 @@ from plutoc_runtime.kernel import FLEET, Kernel, Kind
 from plutoc_runtime.model import Category, Point
 from plutoc_runtime.policies.first import first
 from plutoc_runtime.run import Run
-from plutoc_runtime.standing import Standing
 from plutoc_runtime.status import Status
 
 HOME: Point = (1.0, 1.0, 0.0)

@@ -4,14 +4,21 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from plutoc.check.model import Checked
 from plutoc.cli.endings import CLEAN, ERRORS, REFUSED, Unusable
-from plutoc.cli.files import default_folder, find_hooks, hooks_path, read_app, shown
+from plutoc.cli.files import (
+    default_folder,
+    find_hooks,
+    hooks_path,
+    passed_over,
+    read_app,
+    shown,
+)
 from plutoc.cli.options import Options
 from plutoc.cli.record import record
 from plutoc.cli.say import say, worded
@@ -20,7 +27,9 @@ from plutoc.compile import Compiled, analyse, compile_source, planned
 from plutoc.diagnostic import Diagnostic, Rejected
 from plutoc.emit.carry import NoLibrary
 from plutoc.emit.errors import never_written, outdated, place_of
-from plutoc.emit.write import CannotWrite, Changes, Refused, compare, write
+from plutoc.emit.lock import NAME as LOCK
+from plutoc.emit.recorded import only_forgets
+from plutoc.emit.write import CannotWrite, Changes, Refused, compare, record_of, write
 from plutoc.frozen import filled
 from plutoc.source import Source
 from plutoc_runtime.words import counted, printable
@@ -36,6 +45,8 @@ class _Said:
 
     found: list[Diagnostic] = field(default_factory=list)
     lines: list[str] = field(default_factory=list)
+    beside: Source | None = None
+    """The hooks.py beside the app, where the package's own is the one that counts."""
     done: tuple[Compiled, Changes] | None = None
     """What was compiled, where the package is as it shall be now."""
 
@@ -60,7 +71,8 @@ def compile_(options: Options) -> int:
     if said.done is not None:
         compiled, changes = said.done
         again = _again(changes) if text and not options.diff else []
-        record(options, begun, compiled, changes, [*found, *((text, line) for line in again)])
+        words = [*found, *((text, line) for line in again)]
+        record(options, begun, compiled, changes, said.beside, words)
     return code
 
 
@@ -69,21 +81,27 @@ def _compile(options: Options, said: _Said) -> None:
     if options.show is not None:
         _show(source, options, options.show, said)
         return
-    compiled = compile_source(
-        source,
-        source_name=options.file.name,
-        find_hooks=lambda checked: _hooks(options, checked),
-        optimise=not options.plain,
-        carry=options.carry is not None,
-    )
-    said.found += compiled.warnings
     try:
+        compiled = compile_source(
+            source,
+            source_name=options.file.name,
+            find_hooks=lambda checked: _hooks(options, checked),
+            optimise=not options.plain,
+            carry=options.carry is not None,
+            known_hooks=lambda checked: _known_hooks(options, checked),
+        )
+        said.found += compiled.warnings
+        said.beside = passed_over(
+            compiled.checked, options.file, _folder(options, compiled.checked)
+        )
+        said.found += _of_hooks_beside(said.beside, compiled.hooks)
         changes = _changes(options, compiled)
         if options.diff:
             from plutoc.cli.patch import diff
 
             said.lines += diff(changes)
         if options.check:
+            changes = _drift(changes)
             _refuse(compiled.checked, changes)
         elif not options.diff:
             write(changes)
@@ -138,6 +156,21 @@ def _hooks(options: Options, checked: Checked) -> Source | None:
     return Source(hooks.path, with_stubs(checked, hooks))
 
 
+def _known_hooks(options: Options, checked: Checked) -> Mapping[str, str]:
+    """Return the hooks that the package remembers; refuse one that is not ours to compile."""
+    place = place_of(checked.graph)
+    record = record_of(checked.graph.name, _folder(options, checked), place, force=options.force)
+    return record.hooks if record is not None else {}
+
+
+def _of_hooks_beside(beside: Source | None, hooks: Source | None) -> Iterator[Diagnostic]:
+    """Warn of a hooks.py beside the app that looks like the code that counts, and is not."""
+    if beside is not None and hooks is not None and beside.text != hooks.text:
+        from plutoc.hooks.errors import passed_over as not_read
+
+        yield not_read(beside, hooks)
+
+
 def _changes(options: Options, compiled: Compiled) -> Changes:
     """Say what would change. A hooks.py beside the app becomes the package's first one."""
     folder, path = _folder(options, compiled.checked), hooks_path(compiled.checked)
@@ -150,13 +183,22 @@ def _changes(options: Options, compiled: Compiled) -> Changes:
     return compare(package, folder, place, asked=asked, force=options.force)
 
 
+def _drift(changes: Changes) -> Changes:
+    """Return what makes a package out of date: not that a hook was deleted, as we had asked for."""
+    for change in changes.files if len(changes.files) == 1 else ():
+        if change.path == LOCK and only_forgets(change.before or "", change.after or ""):
+            return replace(changes, files=())
+    return changes
+
+
 def _refuse(checked: Checked, changes: Changes) -> None:
     """`--check`: raise `Rejected` if the package is not what writing would make it."""
     place, folder = place_of(checked.graph), shown(changes.folder)
     if changes.first:
         raise Rejected([never_written(place, folder)])
     if changes.files:
-        raise Rejected([outdated(place, folder, [change.path for change in changes.files])])
+        paths = [change.path for change in changes.files]
+        raise Rejected([outdated(place, folder, paths, settles_merge=changes.settles_merge)])
 
 
 def _outcome(compiled: Compiled, changes: Changes) -> Iterator[str]:
@@ -173,7 +215,8 @@ def _outcome(compiled: Compiled, changes: Changes) -> Iterator[str]:
         if printable(path) == path:  # else a shell would need it otherwise than can be shown
             yield from _installing(graph, path)
     elif changes.files:
-        yield f"{folder}: {counted(len(changes.files), 'file')} changed"
+        settled = ", and a merge is settled" if changes.settles_merge else ""
+        yield f"{folder}: {counted(len(changes.files), 'file')} changed{settled}"
         for change in changes.files:
             mark = "+" if change.before is None else "-" if change.after is None else "~"
             yield f"  {mark} {shown(Path(change.path))}"

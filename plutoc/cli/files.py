@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import stat
 import sys
+from contextlib import suppress
 from pathlib import Path
 from typing import NoReturn
 
@@ -52,6 +53,21 @@ def find_hooks(checked: Checked, file: Path, folder: Path) -> Source | None:
             _refuse_links(checked, path, top)
             return read_module(path)
     return None
+
+
+def passed_over(checked: Checked, file: Path, folder: Path) -> Source | None:
+    """Return the hooks.py beside the app where the package has one of its own, which counts.
+
+    None where there is no such file. What is no plain text has none here: it is only told of, for
+    no command needs it any more, and a link could show any file of the user's.
+    """
+    own, beside = folder / hooks_path(checked), file.parent / HOOKS
+    if not own.is_file() or not beside.is_file() or os.path.samefile(own, beside):
+        return None
+    if not beside.is_symlink():
+        with suppress(Unusable):
+            return read_module(beside)
+    return Source(shown(beside), "")
 
 
 def _is_there(checked: Checked, path: Path) -> bool:

@@ -11,11 +11,12 @@ from pathlib import Path
 
 from plutoc.cli import unchanged
 from plutoc.cli.compiler import OURS
-from plutoc.cli.files import hooks_path, shown
+from plutoc.cli.files import HOOKS, hooks_path, shown
 from plutoc.cli.options import Options
 from plutoc.compile import Compiled
 from plutoc.emit.write import Changes
 from plutoc.installed import files_of
+from plutoc.source import Source
 
 _CLOCK = 50_000_000
 """In ns: by how much the times of files may lag behind the clock."""
@@ -23,18 +24,24 @@ _USE = re.compile(r"^\s*use\b", re.MULTILINE)
 
 
 def record(
-    options: Options, begun: int, compiled: Compiled, changes: Changes, words: unchanged.Words
+    options: Options,
+    begun: int,
+    compiled: Compiled,
+    changes: Changes,
+    beside: Source | None,
+    words: unchanged.Words,
 ) -> None:
     """Remember a compile after which the folder is as it shall be; `words` are those of the next.
 
-    What was found in a hooks.py beside the app would be told of its copy next time: this is not
-    remembered, but compiled once more. So is what was compiled while somebody wrote the blocks: they
-    may have been read before. `begun` is when it began, in ns of the epoch.
+    What was found in a hooks.py beside the app would be told of its copy next time, and that the two
+    differ: this is not remembered, but compiled once more. So is what was compiled while somebody
+    wrote the blocks: they may have been read before. `begun` is when it began, in ns of the epoch;
+    `beside` is the hooks.py beside the app, where it was passed over.
     """
     package, path = compiled.package, hooks_path(compiled.checked)
     own = os.fspath(changes.folder / path)
     hooks = compiled.hooks
-    if hooks is not None and compiled.warnings and hooks.path != shown(Path(own)):
+    if hooks is not None and hooks.path != shown(Path(own)):
         return
     source = compiled.checked.graph.source
     others = _others(compiled) if _USE.search(source.text) else []
@@ -44,6 +51,7 @@ def record(
         options.arguments,
         app=(os.fspath(options.file), source.text),
         hooks=(own, package.once[path] if hooks is None else hooks.text),
+        beside=(os.fspath(options.file.parent / HOOKS), beside.text if beside else None),
         folder=os.fspath(changes.folder),
         written=package.owned,
         there=package.once,

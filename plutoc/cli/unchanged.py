@@ -48,10 +48,10 @@ def said_again(arguments: Sequence[str]) -> bool:
         if record is None:
             return False
         compiler, typed, held, facts, read, written, there, others, words = _apart(record)
-        app, hooks, folder = _texts(read)
+        app, hooks, folder, beside = _texts(read)
         files = _texts(written)
         if (
-            _digest(_typed(app, hooks)) != typed  # first what most likely has changed
+            _digest(_typed(app, hooks, beside)) != typed  # first what most likely has changed
             or identity() != compiler
             or digest(map(fact, _texts(others))) != facts
             or not _is_as_left(folder, files, _texts(there))
@@ -69,6 +69,7 @@ def remember(
     arguments: Sequence[str],
     app: tuple[str, str],
     hooks: tuple[str, str],
+    beside: tuple[str, str | None],
     folder: str,
     written: Mapping[str, str],
     there: Iterable[str],
@@ -77,7 +78,8 @@ def remember(
 ) -> None:
     """Keep what a compile has left, and what it would say next time.
 
-    Of the app and its hooks.py the path and the text that were compiled; of the folder the texts
+    Of the app and its hooks.py the path and the text that were compiled; `beside` is the place of
+    a hooks.py that is passed over for that one, and its text if there is one. Of the folder the texts
     that were written, and what else is there. `others` are files and folders of other packages, on
     which the outcome hangs.
     """
@@ -88,10 +90,10 @@ def remember(
         on = list(others)
         record = [
             identity(last_facts_of_package),  # what was compiled with, whatever came meanwhile
-            _digest(text.encode() for text in (app[1], hooks[1])),
+            _digest(one.encode() for one in (app[1], hooks[1], beside[1]) if one is not None),
             _digest(text.encode() for text in written.values()),
             digest(map(fact, on)),
-            _bytes([app[0], hooks[0], folder]),
+            _bytes([app[0], hooks[0], folder, beside[0]]),
             _bytes(written),
             _bytes(there),
             _bytes(on),
@@ -127,13 +129,19 @@ def _is_as_left(folder: str, written: Iterable[str], there: Iterable[str]) -> bo
     return all(stat.S_ISDIR(os.lstat(one).st_mode) for one in folders)
 
 
-def _typed(app: str, hooks: str) -> Iterator[bytes]:
+def _typed(app: str, hooks: str, beside: str) -> Iterator[bytes]:
     """Yield what people wrote, as the compiler reads it."""
     yield _read(app)
-    own = _read(hooks).removeprefix(b"\xef\xbb\xbf")
+    yield _module(hooks)
+    if os.path.lexists(beside):
+        yield _module(beside)
+
+
+def _module(path: str) -> bytes:
+    own = _read(path).removeprefix(b"\xef\xbb\xbf")
     for end, plain in _LINE_ENDS:
         own = own.replace(end, plain)
-    yield own
+    return own
 
 
 def _held(folder: str, written: Iterable[str]) -> Iterator[bytes]:

@@ -40,9 +40,29 @@ def edited(place: Place, path: str, text: str, wanted: str | None) -> Diagnostic
     )
 
 
+def merged_with_an_edit(place: Place, folder: Path, path: str, text: str) -> Diagnostic:
+    """A file with the marks of a merge, of which a side was never written."""
+    start = text.index("<<<<<<<")
+    return error(
+        "P4001",
+        f"`{folder / path}` has the marks of a merge in it, and not both sides are in `pluto.lock`",
+        Source(str(folder / path), text),
+        Span(start, start + len(text[start:].partition("\n")[0])),
+        label="the merge begins here",
+        related=(_made_of(place),),
+        help=f"{_both_sides_again(folder / 'pluto.lock')}, and `compile` settles the rest; where a"
+        f" side was edited by hand, make that change in `{place.source.path}`, {_said_there(path)},"
+        " and take the other side here; `--force` throws both away",
+    )
+
+
+def _both_sides_again(lock: Path) -> str:
+    return f"`git checkout --merge {quote(str(lock))}` brings both sides of the lock back"
+
+
 def _said_there(path: str) -> str:
     """Return how what is wanted of a file is said in its source, or where else."""
-    if path == "pyproject.toml":
+    if Path(path).name == "pyproject.toml":
         return "where `version` and `requires` say what goes into this file"
     return "or in `hooks.py` if it is code of your own"
 
@@ -92,8 +112,9 @@ def damaged_lock(place: Place, path: str, why: str) -> Diagnostic:
         place.source,
         place.span,
         label="its package",
-        help="it says which files were edited by hand. Take it from your version control again"
-        " (after a merge, either side will do); `--force` writes the whole package anew",
+        help="by it one knows which files were edited by hand. Take it from your version control"
+        f" again (in a merge, {_both_sides_again(Path(path))}); `--force` writes the whole package"
+        " anew",
     )
 
 
@@ -121,18 +142,23 @@ def never_written(place: Place, folder: str) -> Diagnostic:
     )
 
 
-def outdated(place: Place, folder: str, paths: Sequence[str]) -> Diagnostic:
+def outdated(
+    place: Place, folder: str, paths: Sequence[str], *, settles_merge: bool = False
+) -> Diagnostic:
     """`--check` of a package that is not what its source says."""
+    since, settles = "", ""
+    if settles_merge:
+        since, settles = " since a merge", ", which settles the generated files by itself"
     files = "1 file" if len(paths) == 1 else f"{len(paths)} files"
     shown = "\n".join(f"  {path}" for path in paths[:_SHOWN])
     more = f"\n  … and {len(paths) - _SHOWN} more" if len(paths) > _SHOWN else ""
     return error(
         "P4008",
-        f"`{folder}` is out of date: {files} would change",
+        f"`{folder}` is out of date{since}: {files} would change",
         place.source,
         place.span,
         label="its package",
-        help=f"run {_compiling(place, folder)}; `--diff` shows what would change in\n"
+        help=f"run {_compiling(place, folder)}{settles}; `--diff` shows what would change in\n"
         f"{shown}{more}",
     )
 
@@ -164,12 +190,13 @@ def newer(place: Place, folder: str, made_by: str, ours: str) -> Diagnostic:
     """A package that a newer compiler wrote."""
     return error(
         "P4010",
-        f"`{folder}` was made by plutoc {made_by}, and this is plutoc {ours}",
+        f"`{folder}` was made by plutoc {made_by}, which is newer than this plutoc {ours}: upgrade"
+        f" plutoc, or go back to {ours} on purpose with `--force`",
         place.source,
         place.span,
         label="its package",
-        help=f"compile with plutoc {made_by} or newer: what has been mended since would be undone;"
-        " `--force` overwrites it with what this one makes",
+        help="`pip install --upgrade plutoc` brings the newest one; by an older one, what has been"
+        " mended since would be undone",
     )
 
 

@@ -2,22 +2,50 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from hashlib import sha256
 
 from plutoc import __version__
 from plutoc.emit.markup import toml_text
 from plutoc.emit.python import header
+from plutoc.frozen import frozen
+from plutoc.graph.model import Graph
 from plutoc.registry import GROUP, STD
 
 NAME = "pluto.lock"
+HOOKS, FORMER = "hooks", "former_hooks"
+"""The tables of the hooks that the app declares, and of those that it has declared before."""
+PROBE = "probe"
+KINDS = ("action", "evaluator", "modifier", "policy", PROBE)
+"""What a hook was declared as; what tells whether an action was done is declared with that."""
 
 
-def lock(app: str, source_name: str, packages: Iterable[str], files: Mapping[str, str]) -> str:
+@frozen
+class Hooks:
+    """The functions of the developer's that a package knows of, by name, and of what kind each is."""
+
+    declared: Mapping[str, str]
+    former: Mapping[str, str]
+    """Those that are still defined, though the app does not declare them any more."""
+
+
+def hooks_of(graph: Graph) -> dict[str, str]:
+    """Return the names of all hooks that an app declares, actions among them, and their kinds."""
+    kinds = {action.name: "action" for action in graph.actions}
+    return kinds | {hook.name: hook.kind.value for hook in graph.hooks}
+
+
+def lock(
+    app: str,
+    source_name: str,
+    packages: Iterable[str],
+    files: Mapping[str, str],
+    hooks: Hooks | None = None,
+) -> str:
     """Return the record of an app's owned files, made with these packages of blocks.
 
     It has the only facts that change without the source: versions, by the names by which apps use
-    the packages, and the SHA-256 of each file.
+    the packages, the SHA-256 of each file, and which hooks were declared before.
     """
     others = sorted(set(packages) - {STD})
     versions = {"plutoc": __version__, **{package: _of_blocks(package) for package in others}}
@@ -29,10 +57,19 @@ def lock(app: str, source_name: str, packages: Iterable[str], files: Mapping[str
         "[versions]",
         *(f"{package} = {toml_text(of_it)}" for package, of_it in versions.items()),
         "",
+        *(_table(HOOKS, hooks.declared) if hooks else ()),
+        *(_table(FORMER, hooks.former) if hooks else ()),
         "[files]",
         *(f"{toml_text(path)} = {toml_text(digest)}" for path, digest in digests.items()),
     ]
     return "\n".join(lines) + "\n"
+
+
+def _table(name: str, hooks: Mapping[str, str]) -> Iterator[str]:
+    if hooks:
+        yield f"[{name}]"
+        yield from (f"{hook} = {toml_text(kind)}" for hook, kind in sorted(hooks.items()))
+        yield ""
 
 
 def _of_blocks(package: str) -> str:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterable, Iterator, Mapping
+from types import MappingProxyType
 
 from plutoc.emit.callables import carried_functions
 from plutoc.emit.carry import carried_library
 from plutoc.emit.embed import FOLDER, embed
 from plutoc.emit.flow_file import flow_file
 from plutoc.emit.hooks_file import hooks_file, hooks_test
-from plutoc.emit.lock import NAME, lock
+from plutoc.emit.lock import NAME, Hooks, hooks_of, lock
 from plutoc.emit.model_file import model_file
 from plutoc.emit.modules import RUNTIME
 from plutoc.emit.project_files import attributes_file, init_file, main_file, project_file
@@ -34,10 +35,21 @@ class Package:
     """Written where there is no such file yet; the user's from then on."""
 
 
-def emit(plan: Plan, *, source_name: str, picture: str, carry: bool = False) -> Package:
+_NONE: Mapping[str, str] = MappingProxyType({})
+
+
+def emit(
+    plan: Plan,
+    *,
+    source_name: str,
+    picture: str,
+    carry: bool = False,
+    former: Mapping[str, str] = _NONE,
+) -> Package:
     """Return the package of a plan; `picture` is its graph in Mermaid, for the README.
 
-    `carry`: with the library that flies inside it.
+    `carry`: with the library that flies inside it. `former` are hooks that the app does not declare
+    any more, and hooks.py still defines, with their kinds: the lock remembers them.
     """
     graph = plan.checked.graph
     app = f"src/{graph.name}"
@@ -60,7 +72,10 @@ def emit(plan: Plan, *, source_name: str, picture: str, carry: bool = False) -> 
         f"{app}/py.typed": "",
         "tests/test_flow.py": owned(flow_test(graph), source_name),
     }
-    files[NAME] = lock(graph.name, source_name, (node.package for node in graph.nodes), files)
+    packages, hooks = (node.package for node in graph.nodes), hooks_of(graph)
+    files[NAME] = lock(
+        graph.name, source_name, packages, files, Hooks(declared=hooks, former=former)
+    )
     once = {f"{app}/hooks.py": hooks_file(plan.checked)}
     if graph.actions or graph.hooks:
         once["tests/test_hooks.py"] = hooks_test(graph)

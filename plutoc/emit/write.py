@@ -8,9 +8,8 @@ from __future__ import annotations
 
 import errno
 import os
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
-from hashlib import sha256
 from pathlib import Path
 from types import MappingProxyType
 
@@ -20,8 +19,9 @@ from plutoc.emit import errors
 from plutoc.emit.errors import Place
 from plutoc.emit.held import InTheWay, facts_of, held
 from plutoc.emit.lock import NAME as LOCK
+from plutoc.emit.merged import sides, was_merged, was_written
 from plutoc.emit.package import Package
-from plutoc.emit.recorded import DamagedLock, Lock, read_lock
+from plutoc.emit.recorded import DamagedLock, Lock, is_newer, read_lock
 from plutoc.frozen import frozen
 
 _ASIDE = ".plutoc-"
@@ -64,6 +64,8 @@ class Changes:
     first: bool
     """No package was there before."""
     files: tuple[Change, ...]
+    settles_merge: bool = False
+    """What was there is of two branches, which a merge has put together."""
 
 
 def compare(
@@ -79,9 +81,10 @@ def compare(
     `place` is where the app is declared. `asked` are files of the user's that the user wants to
     have changed. With `force`, what was edited by hand is no obstacle.
     """
+    lock = record_of(package.name, folder, place, force=force)
     try:
-        lock = _lock(package.name, folder, place, force=force)
         recorded = lock.files if lock else {}
+        of_two = lock is not None and lock.is_merged
         found: list[Diagnostic] = []
         files: list[Change] = []
         for path, (before, after) in _texts(package, folder, asked, recorded, place, found).items():
@@ -91,7 +94,10 @@ def compare(
             old = None if before is None else before.replace(b"\r\n", b"\n")  # as Git may have it
             if old == new:
                 continue
-            written = old is None or recorded.get(path) == sha256(old).hexdigest()
+            digests = recorded.get(path, frozenset())
+            merged = old is not None and was_merged(old, digests)
+            of_two |= merged
+            written = old is None or merged or was_written(old, digests)
             if written or path == LOCK or path in asked or force:
                 text = None if old is None else old.decode("utf-8", "replace")
                 files.append(Change(path=path, before=text, after=after))
@@ -99,16 +105,32 @@ def compare(
                 found.append(errors.somebody_elses_file(place, str(folder / path)))
             else:
                 text = (old or b"").decode("utf-8", "replace")
-                found.append(errors.edited(place, str(folder / path), text, after))
+                if sides(old or b"") is None:
+                    found.append(errors.edited(place, str(folder / path), text, after))
+                else:
+                    found.append(errors.merged_with_an_edit(place, folder, path, text))
     except OSError as error:
         raise CannotWrite(error, folder) from error
     if found:
         raise Refused(found)
-    return Changes(folder=folder, first=lock is None, files=tuple(files))
+    return Changes(
+        folder=folder, first=lock is None, files=tuple(files), settles_merge=of_two and bool(files)
+    )
 
 
-def _lock(app: str, folder: Path, place: Place, *, force: bool) -> Lock | None:
-    """Return what was recorded about a folder, or None where nothing is there yet."""
+def record_of(app: str, folder: Path, place: Place, *, force: bool = False) -> Lock | None:
+    """Return what was recorded about a folder, or None where nothing is there yet.
+
+    Raise `Refused` where the folder is not one that this compiler may write into. With `force` it
+    may be a newer compiler's, or have a record that cannot be read.
+    """
+    try:
+        return _record_of(app, folder, place, force=force)
+    except OSError as error:
+        raise CannotWrite(error, folder) from error
+
+
+def _record_of(app: str, folder: Path, place: Place, *, force: bool) -> Lock | None:
     if folder.is_symlink() or (folder.exists() and not folder.is_dir()):
         raise Refused([errors.in_the_way(place, str(folder), _kind(folder), "a folder")])
     if not folder.exists() or _is_free(folder):
@@ -121,12 +143,19 @@ def _lock(app: str, folder: Path, place: Place, *, force: bool) -> Lock | None:
     except DamagedLock as error:
         if force:
             return Lock(app=app, files={})
+        _refuse_newer(folder, place, error.made_by)
         raise Refused([errors.damaged_lock(place, str(path), str(error))]) from None
     if lock.app != app:
         raise Refused([errors.another_app(place, str(folder), lock.app)])
-    if lock.made_by is not None and not force and lock.is_by_newer_than(__version__):
-        raise Refused([errors.newer(place, str(folder), lock.made_by, __version__)])
+    if not force:
+        _refuse_newer(folder, place, lock.made_by)
     return lock
+
+
+def _refuse_newer(folder: Path, place: Place, made_by: str | None) -> None:
+    """Refuse what a newer compiler made, also where only that one can read how it did so."""
+    if made_by is not None and is_newer(made_by, __version__):
+        raise Refused([errors.newer(place, str(folder), made_by, __version__)])
 
 
 def _is_free(folder: Path) -> bool:
@@ -138,7 +167,7 @@ def _texts(
     package: Package,
     folder: Path,
     asked: Mapping[str, str],
-    recorded: Mapping[str, str],
+    recorded: Iterable[str],
     place: Place,
     found: list[Diagnostic],
 ) -> dict[str, tuple[bytes | None, str | None]]:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import zip_longest
 
-from plutoc.diagnostic import Diagnostic, Related, error
+from plutoc.diagnostic import Diagnostic, Related, error, warning
+from plutoc.emit.lock import PROBE
 from plutoc.hooks.expected import Expected
 from plutoc.source import Source, Span
 
@@ -254,6 +256,49 @@ def policy_waits(app: Source, hooks: Source, hook: Expected, span: Span) -> Diag
         span,
         label="waits",
     )
+
+
+def passed_over(beside: Source, own: Source) -> Diagnostic:
+    """A hooks.py beside the app that is not read any more, and is not what counts."""
+    return warning(
+        "P3016",
+        f"`{beside.path}` is not read any more: `{own.path}` counts, and the two differ",
+        beside,
+        _first_difference(beside.text, own.text),
+        label="here they begin to differ" if beside.text else "",
+        help=f"edit `{own.path}`, and take over what it lacks; then delete or rename"
+        f" `{beside.path}`",
+    )
+
+
+def left_over(app: Source, hooks: Source, span: Span, name: str, kind: str) -> Diagnostic:
+    """A function of a hook that the app has declared, and does not declare any more."""
+    if kind == PROBE:
+        action = name.removesuffix("_done")
+        was = f"told whether `{action}` was done, and the app has no action `{action}` any more"
+    else:
+        was = f"was {_article(kind)} {kind} of the app, which does not declare it any more"
+    return warning(
+        "P3017",
+        f"`{name}` {was}",
+        hooks,
+        span,
+        label="never called",
+        help=f"delete it, or declare {'that action' if kind == PROBE else 'it'} in `{app.path}`"
+        " again",
+    )
+
+
+def _first_difference(text: str, other: str) -> Span:
+    """Return the first line of a text that is not as in the other."""
+    start = 0
+    for line, theirs in zip_longest(
+        text.splitlines(keepends=True), other.splitlines(keepends=True)
+    ):
+        if line is None or line != theirs:
+            return Span(start, start + len((line or "").rstrip()))
+        start += len(line)
+    return Span(start, start)
 
 
 def _on_hook(

@@ -11,6 +11,7 @@ from plutoc_runtime.flight import Flight, fail
 from plutoc_runtime.kernel import mission_key
 
 from .interruption import Fate, doubt, fate, hear_end
+from .live_engine import LiveEngine
 
 if TYPE_CHECKING:
     from plutoc_runtime.state import State
@@ -39,7 +40,8 @@ class CallingOff:
         entry = roll.jobs.get(flight.id)
         what = fate(entry, state.core.app.actions[flight.trip.action], begun=False)
         if what is Fate.UNKNOWN:
-            state.wait_for_a_person()
+            assert isinstance(state.engine, LiveEngine)
+            state.engine.waits(state)
             doubt(state, flight)
         elif what is Fate.FLIES_ON and entry is not None:
             hear_end(flight, self._link, entry)

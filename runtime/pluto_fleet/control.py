@@ -15,9 +15,9 @@ from plutoc_runtime.flight import keep_carrier
 from plutoc_runtime.kernel import FLEET, Task, mission_key
 from plutoc_runtime.signals import Signal
 from plutoc_runtime.status import DroneStatus, Status
-from plutoc_runtime.transitions import PRIORITY
 from plutoc_runtime.words import counted, quoted
 
+from . import interventions
 from .interruption import (
     Fate,
     doubt,
@@ -29,6 +29,8 @@ from .interruption import (
     what_became,
 )
 from .journal.recorder import Recorder
+from .live_engine import live_engine
+from .live_fleet import live_fleet
 from .standing import Down
 
 if TYPE_CHECKING:
@@ -49,7 +51,7 @@ class Control:
     """The commands of one running app."""
 
     def __init__(self, session: Session, link: Commanding) -> None:
-        self._link, self._core, self._engine = link, session.core, session.engine
+        self._link, self._core, self._engine = link, session.core, live_engine(session)
         self.stopped: Signal[Down] = Signal()
         """Set when everything was stopped and all drones are down."""
         self.whole: Task[float] | None = None
@@ -65,7 +67,7 @@ class Control:
             return "all missions have ended, and all drones are down"
         if self._stops is None:
             self._engine.halt()
-            core.fleet.halt()
+            live_fleet(core).halt()
             for work in self._steps_out.values():
                 work.cancel()
             if self.whole is not None:
@@ -105,7 +107,7 @@ class Control:
         if unwanted is state.mission.trips[0]:  # it may fly, or be waited for
             self._step_out(state, partial(self._skip, unwanted))
         else:
-            self._core.transitions.skip(state.mission, unwanted)
+            interventions.skip(self._core, state.mission, unwanted)
         return f"mission {quoted(mission)}: trip {quoted(unwanted.name)} is skipped"
 
     def cancel(self, mission: str | None = None) -> str:
@@ -125,7 +127,7 @@ class Control:
             raise BadInput(f"mission {quoted(mission)} is {status.value}: {asked}")
         if answer == "go-on" and not (state.mission.trips or state.mission.completed_trips):
             raise BadInput(f"mission {quoted(mission)} cannot go on in this app: cancel it")
-        self._core.transitions.decide(state.mission, answer)
+        interventions.decide(self._core, state.mission, answer)
         if answer == "cancel":
             self._cancel(state)
         elif answer == "go-on":
@@ -139,26 +141,26 @@ class Control:
     def prioritise(self, mission: str, trip: str, priority: int) -> str:
         """Fly a trip that has not been flown sooner, or later, than others that wait for a drone."""
         state = self._state(mission)
-        if not any(field.name == PRIORITY for field in self._core.app.fields):
+        if not any(field.name == interventions.PRIORITY for field in self._core.app.fields):
             raise BadInput("the trips of this app have no priority")
         wanted = _trip_to_do(state, trip)
-        self._core.transitions.prioritise(state.mission, wanted, priority)
+        interventions.prioritise(self._core, state.mission, wanted, priority)
         self._core.queue.prioritise(wanted, priority)
         return f"mission {quoted(mission)}: trip {quoted(trip)} has priority {priority}"
 
     def retire(self, drone: str) -> str:
         """Let nobody have a drone any more, until it is brought back."""
         who = self._drone(drone)
-        if who in self._core.fleet.retired:
+        if who in live_fleet(self._core).retired:
             return f"{drone} is retired already"
         self._core.trace.note("drone.retired", drone=drone)
         flies = who.status is DroneStatus.BUSY
-        self._core.fleet.retire(who)
+        live_fleet(self._core).retire(who)
         return f"{drone} is retired" + (", once its trip is over" if flies else "")
 
     def bring_back(self, drone: str) -> str:
         """Let a retired drone be handed out again, or one that was lost: a person has looked after it."""
-        who, fleet = self._drone(drone), self._core.fleet
+        who, fleet = self._drone(drone), live_fleet(self._core)
         lost = who.status is DroneStatus.LOST
         asked = lost or who in fleet.unready
         if not asked and who not in fleet.retired:
@@ -243,12 +245,12 @@ class Control:
         then(state)
 
     def _paused(self, state: State) -> None:
-        self._core.transitions.pause(state.mission)
+        interventions.pause(self._core, state.mission)
 
     def _resume(self, state: State) -> None:
         flight = state.flight if state.goes_on else None
         status = standing(state) if flight is None else flight.result()
-        self._core.transitions.go_on(state.mission, status)
+        interventions.resume(self._core, state.mission, status)
         delay = self._record(state)["delay"]
         if state.delay is not None and delay is not None:
             state.delay = state.delay[0], delay[1], delay[2]  # it has not waited meanwhile
@@ -258,7 +260,7 @@ class Control:
         mission = state.mission
         was_paused = self._record(state)["paused"] is not None
         if unwanted in mission.trips:
-            self._core.transitions.skip(mission, unwanted)
+            interventions.skip(self._core, mission, unwanted)
             state.goes_on = False
         if not mission.trips and not state.goes_on:
             self._engine.end(state, Status.COMPLETED, "")

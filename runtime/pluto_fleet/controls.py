@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING, Protocol
 if TYPE_CHECKING:
     from plutoc_runtime.actions import Plain
     from plutoc_runtime.model import Item, Point, Telemetry
-    from plutoc_runtime.standing import Standing
 
     from .navigation import Job
+    from .standing import Standing
 
 
 class Controls(Protocol):

@@ -17,15 +17,17 @@ from plutoc_runtime.hooks import trace_of
 from plutoc_runtime.kernel import WHATEVER, Cancelled
 from plutoc_runtime.status import STANDBY, UNEXECUTED, Status
 
+from . import interventions
+from .live_fleet import live_fleet
 from .standing import Entry, JobState, outcome
 
 if TYPE_CHECKING:
     from plutoc_runtime.actions import Action
     from plutoc_runtime.app import App
     from plutoc_runtime.core import Core
-    from plutoc_runtime.engine import Engine
     from plutoc_runtime.state import State
 
+    from .live_engine import LiveEngine
     from .navigation import Commanding
 
 
@@ -84,7 +86,7 @@ def fly_on(state: State, flight: Flight, link: Commanding, entry: Entry) -> None
     """Hear of a flight that was not interrupted after all; of one that has ended, hear now."""
     state.goes_on = True
     state.mission.status = Status.RUNNING
-    state.core.fleet.flies_on(flight.flier)
+    live_fleet(state.core).flies_on(flight.flier)
     hear_end(flight, link, entry)
 
 
@@ -100,7 +102,7 @@ def fly_again(state: State, flight: Flight, link: Commanding) -> None:
     """Put an interrupted trip back: it has not been flown."""
     link.forget(flight.id)  # it shall be flown, whatever was known of it
     state.flight, state.goes_on, state.interrupted = None, False, True
-    state.core.transitions.interrupt(state.mission, flight.trip)
+    interventions.interrupt(state.core, state.mission, flight.trip)
 
 
 def was_done(state: State, flight: Flight) -> None:
@@ -113,7 +115,8 @@ def was_done(state: State, flight: Flight) -> None:
 def doubt(state: State, flight: Flight) -> None:
     """Whether the action was done is unknown: a drone that may have the item waits, too."""
     trip, drone = flight.trip, flight.flier
-    state.core.transitions.doubt(
+    interventions.doubt(
+        state.core,
         state.mission,
         trip,
         drone.id,
@@ -123,7 +126,7 @@ def doubt(state: State, flight: Flight) -> None:
         keep_carrier(state, drone)
 
 
-def settle_doubt(state: State, engine: Engine, link: Commanding, done: bool) -> None:
+def settle_doubt(state: State, engine: LiveEngine, link: Commanding, done: bool) -> None:
     """A person has said whether the action was done: the mission goes on accordingly."""
     flight = state.flight
     if flight is None:

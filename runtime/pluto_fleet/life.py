@@ -20,6 +20,8 @@ from .control import Control
 from .files.reading import shortened
 from .journal.careful import Careful
 from .journal.recorder import Recorder, Sink
+from .live_engine import LiveEngine, live_engine
+from .live_fleet import LiveFleet, live_fleet
 from .raised import guard_hooks
 from .recovery import go_on
 
@@ -59,7 +61,15 @@ class Life:
         if watcher is not None:
             heard.append(partial(self._when_durable, watcher))
         self.session = Session(
-            app, fleet, kernel, navigation, heard, self.recorder, CallingOff(link)
+            app,
+            fleet,
+            kernel,
+            navigation,
+            heard,
+            self.recorder,
+            CallingOff(link),
+            LiveFleet,
+            LiveEngine,
         )
         self.control = Control(self.session, link)
         self._retired: Sequence[str] = records.retired
@@ -102,7 +112,7 @@ class Life:
         for index, mission in enumerate(missions, start=first):
             mission.index = index
         self.missions += tuple(missions)
-        self.session.engine.add(missions)
+        live_engine(self.session).add(missions)
 
     def _set_out(self, whole: Coroutine[Any, Any, float]) -> Task[float]:
         self.control.whole = task = self._kernel.spawn(whole, FLEET, "the session")
@@ -118,7 +128,7 @@ class Life:
         core.trace.note("brain.began", epoch=self._epoch)
         self._retire()
         for drone in core.fleet.drones:
-            core.fleet.take_up(drone, roll.drones[drone.id])
+            live_fleet(core).take_up(drone, roll.drones[drone.id])
         self.session.set_out(missions)
         self.missions = tuple(missions)
         return await self.session.see_through()
@@ -128,7 +138,7 @@ class Life:
         roll = await self._link.call()
         session.core.trace.note("brain.began", epoch=self._epoch)
         self._retire()
-        missions = await go_on(session.core, session.engine, self._link, roll, records)
+        missions = await go_on(session.core, live_engine(session), self._link, roll, records)
         self.missions = tuple(missions)
         return await session.see_through()
 
@@ -137,7 +147,7 @@ class Life:
 
         Those that somebody has looked after, and that were not back when it ended, are asked anew.
         """
-        fleet = self.session.core.fleet
+        fleet = live_fleet(self.session.core)
         fleet.retired.update(drone for drone in fleet.drones if drone.id in self._retired)
         fleet.lost.update(
             {

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from plutoc_runtime.actions import Plain
     from plutoc_runtime.model import Item, Point
 
-    from .standing import Down, RollCall
+    from .standing import Down, RollCall, Standing
 
 
 class Job(Protocol):
@@ -63,6 +63,14 @@ class Job(Protocol):
 
 class Commanding(Navigation[Job], Protocol):
     """A navigation that remembers every job, for as long as it listens to this brain."""
+
+    def mended(self, drone: str) -> None:
+        """A person has looked after a lost drone: it can be recovered once more."""
+        ...
+
+    async def roll_call(self, drone: str) -> Standing:
+        """Ask a drone where it is and what it has done; say so if it does not answer."""
+        ...
 
     async def call(self) -> RollCall:
         """Ask all drones and the ledger how everything stands; from now on the brain is heard."""

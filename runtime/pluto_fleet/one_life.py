@@ -20,6 +20,8 @@ from plutoc_runtime.signals import Signal
 from .journal.errors import JournalError
 from .journal.writer import Writer
 from .life import Life
+from .live_engine import live_engine
+from .live_fleet import live_fleet
 from .realtime import RealTime
 from .remote_control import listening, perform, stop_in
 from .setting import End, Lived
@@ -84,8 +86,8 @@ class OneLife:
             listeners=(self._count,),
             watcher=setting.tell,
         )
-        life.session.engine.patient = setting.patient
-        life.session.core.fleet.somebody_comes = setting.sim
+        live_engine(life.session).patient = setting.patient
+        live_fleet(life.session.core).somebody_comes = setting.sim
         life.control.stopped.watch(lambda _: self._end.set(End.STOPPED))
         stops.stop_now = self._stop
         async with listening(setting.note, self.answer):

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from plutoc_runtime.flight import Flight, keep_carrier
 from plutoc_runtime.status import Status
 
+from . import interventions
 from .control import CANCELLED
 from .interruption import (
     Fate,
@@ -20,21 +21,22 @@ from .interruption import (
     was_done,
     what_became,
 )
+from .live_fleet import live_fleet
 from .rebuilding import Rebuilt, last_flight, rebuilt, remember, restore_results
 
 if TYPE_CHECKING:
     from plutoc_runtime.core import Core
-    from plutoc_runtime.engine import Engine
     from plutoc_runtime.model import Drone, Mission
     from plutoc_runtime.state import State
 
     from .journal.fold import Records
+    from .live_engine import LiveEngine
     from .navigation import Commanding
     from .standing import RollCall
 
 
 async def go_on(
-    core: Core, engine: Engine, link: Commanding, roll: RollCall, records: Records
+    core: Core, engine: LiveEngine, link: Commanding, roll: RollCall, records: Records
 ) -> list[Mission[Any]]:
     """Take up everything where it was interrupted; return all missions, those that ended too."""
     by_index = sorted(records.missions.items(), key=lambda item: int(item[1]["index"]))
@@ -60,7 +62,7 @@ async def go_on(
             if drone.id in at_work:  # the brain that ended its flight could not say so any more
                 link.break_off(drone.id)
                 found = replace(found, landed=False)  # it may take off before it hears that
-            core.fleet.take_up(drone, found)
+            live_fleet(core).take_up(drone, found)
     engine.look_for_the_end()
     return [one.mission for one in missions.values()]
 
@@ -71,7 +73,7 @@ class _Revival:
     def __init__(
         self,
         core: Core,
-        engine: Engine,
+        engine: LiveEngine,
         link: Commanding,
         roll: RollCall,
         one: Rebuilt,
@@ -103,7 +105,7 @@ class _Revival:
             self._call_off()
             self._check_carrier(engaged)
             engine.set_aside(state)
-            self._core.transitions.hold(self._mission, why_held)
+            interventions.hold(self._core, self._mission, why_held)
         else:
             if state.at is not None and state.at not in self._core.app.resumes:
                 state.at = self._core.app.resumes[0]  # somebody has said so
@@ -149,7 +151,7 @@ class _Revival:
             self._engine.set_aside(state)  # to be ended at once
         elif self._record["paused"] is not None:
             self._engine.set_aside(state)
-            self._core.transitions.pause(mission)
+            interventions.pause(self._core, mission)
         else:
             status = standing(state)
             if not state.goes_on:

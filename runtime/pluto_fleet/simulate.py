@@ -14,6 +14,8 @@ from plutoc_runtime.virtual import VirtualTime
 from plutoc_runtime.world import World
 
 from .gateway.gateway import Gateway
+from .live_engine import LiveEngine
+from .live_fleet import LiveFleet
 from .raised import guard_hooks
 from .simulation.drones import SimulatedDrone, SimulatedNavigation
 
@@ -63,7 +65,15 @@ class Simulation:
         )
         self._events: list[Event] = []
         listeners = [self._events.append, *([listener] if listener else [])]
-        self.session = Session(app, fleet, kernel, gateway.link(1), listeners)
+        self.session = Session(
+            app,
+            fleet,
+            kernel,
+            gateway.link(1),
+            listeners,
+            kind_of_fleet=LiveFleet,
+            kind_of_engine=LiveEngine,
+        )
 
     def outcome(
         self, missions: Sequence[Mission[Any]], ended: float, given_up: str = ""

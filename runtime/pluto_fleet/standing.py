@@ -1,4 +1,4 @@
-"""What the gateway remembers of jobs: the ledger's entries, and all of them in the answer to a roll call."""
+"""What drones answer when the roll is called, and what the gateway remembers of jobs."""
 
 from __future__ import annotations
 
@@ -10,7 +10,30 @@ from typing import TYPE_CHECKING, Protocol
 from plutoc_runtime.errors import Failure, FlightFailed
 
 if TYPE_CHECKING:
-    from plutoc_runtime.standing import Standing
+    from plutoc_runtime.model import Point
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Standing:
+    """What one drone answers when the roll is called."""
+
+    drone: str
+    reached: bool
+    """Whether it answered at all; if not, the rest is what was known of it last."""
+    location: Point
+    landed: bool
+    battery_level: float
+    boot: int
+    """Another number than before: it was switched off in between, and has forgotten."""
+    carrying: str | None
+    """The name of the item aboard."""
+    done: Mapping[str, object] | None
+    """The jobs whose action it did since it was switched on, with what that gave.
+
+    None: this kind of drone cannot tell.
+    """
+    problems: tuple[str, ...] = ()
+    """Why it may not fly now, a sentence each."""
 
 
 class JobState(Enum):

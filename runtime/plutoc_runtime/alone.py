@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
+from .airspace import Airspace
 from .enough import Bound, see_through
+from .files import DroneData, FleetData
 from .ideal import IdealNavigation
 from .session import Listener, Outcome, Session
 from .virtual import VirtualTime
@@ -13,9 +15,18 @@ from .virtual import VirtualTime
 if TYPE_CHECKING:
     from .app import App
     from .faults import Faults
-    from .files import FleetData
     from .model import Mission
     from .trace import Event
+
+
+def default_fleet(app: App) -> FleetData:
+    """Return the fleet where there is no file: five drones on an empty plain."""
+    kinds = [category.name for category in app.categories] * 5
+    drones = [
+        DroneData(id=f"cf{place}", category=kind, home=(float(place), 0.5, 0.0))
+        for place, kind in enumerate(kinds[:5], 1)
+    ]
+    return FleetData(airspace=Airspace(), drones=drones)
 
 
 def simulate(

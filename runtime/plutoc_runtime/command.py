@@ -6,9 +6,11 @@ import os
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
+from functools import partial
 from importlib import import_module
+from io import TextIOWrapper
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
 from .errors import BadInput
 from .status import Status
@@ -20,8 +22,6 @@ if TYPE_CHECKING:
 
     from .app import App
     from .session import Outcome
-
-T = TypeVar("T")
 
 SEAM = (1, 0)
 _SEAM = ".".join(map(str, SEAM))
@@ -37,8 +37,7 @@ def start(name: str, load: Callable[[], App]) -> int:
     library = _library()
     if library is None:
         return alone(name, load, sys.argv[1:])
-    code: int = library.start(name, load, brain=__package__, seam=SEAM)
-    return code
+    return int(library.start(name, load, brain=__package__, seam=SEAM))
 
 
 def main(app: App, argv: Sequence[str] | None = None) -> int:
@@ -46,8 +45,7 @@ def main(app: App, argv: Sequence[str] | None = None) -> int:
     library = _library()
     if library is None:
         return alone(app.name, lambda: app, sys.argv[1:] if argv is None else argv)
-    code: int = library.main(app, argv, brain=__package__, seam=SEAM)
-    return code
+    return int(library.main(app, argv, brain=__package__, seam=SEAM))
 
 
 def _library() -> ModuleType | None:
@@ -64,6 +62,9 @@ def _library() -> ModuleType | None:
 
 def alone(name: str, load: Callable[[], App], argv: Sequence[str]) -> int:
     """Run a command without the library, and return its exit code."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, TextIOWrapper):  # a terminal may not know all letters of a name
+            stream.reconfigure(errors="backslashreplace")
     try:
         code = _run(name, load, argv)
         print(end="", flush=True)
@@ -96,16 +97,17 @@ def _run(name: str, load: Callable[[], App], argv: Sequence[str]) -> int:
     from .hooks import loaded
 
     if argv[:1] == ["--version"]:
-        print(f"{name} {_version(name)}, seam {_SEAM}, pluto-fleet: not installed")
+        from importlib.metadata import distributions  # slow to import
+
+        found = [one.version for one in distributions(name=name.rstrip("_"))]
+        print(f"{name} {[*found, '(not installed)'][0]}, seam {_SEAM}, pluto-fleet: not installed")
         return 0
     for word in argv if argv[:1] == ["simulate"] else argv[:1]:
         what = word.partition("=")[0]
         if what in _EXTRAS:
-            needed = f'pip install "pluto-fleet{_EXTRAS[what]}>={_SEAM}"'
-            sources = f'without an index, from Pluto\'s sources: pip install "PLUTO/runtime{_EXTRAS[what]}"'
-            raise BadInput(
-                f"{name}: {what} needs pluto-fleet, the library that flies: {needed} ({sources})"
-            )
+            said = f"{name}: {what} needs pluto-fleet, the library that flies: "
+            said += f'pip install "pluto-fleet{_EXTRAS[what]}>={_SEAM}" (without an index, from '
+            raise BadInput(said + f'Pluto\'s sources: pip install "PLUTO/runtime{_EXTRAS[what]}")')
     app = loaded(load)
     try:
         options = _parser(app).parse_args(argv)
@@ -114,20 +116,11 @@ def _run(name: str, load: Callable[[], App], argv: Sequence[str]) -> int:
     return _checked(app, options)
 
 
-def _version(name: str) -> str:
-    from importlib.metadata import PackageNotFoundError, version
-
-    try:
-        return version(name.rstrip("_"))
-    except PackageNotFoundError:
-        return "(not installed)"
-
-
 def _checked(app: App, options: Any) -> int:
-    from .alone import simulate
+    from .alone import default_fleet, simulate
     from .capability import problems
     from .faults import Faults
-    from .files import default_fleet, load_fleet, load_missions
+    from .files import load_fleet, load_missions
 
     beside = options.missions.parent / "fleet.toml"
     if options.fleet is None and os.path.lexists(beside):
@@ -187,13 +180,14 @@ def _parser(app: App) -> ArgumentParser:
     from argparse import ArgumentParser
 
     from .faults import shares
-    from .quantities import time_from
+    from .quantities import time_from, typed
 
     parser = ArgumentParser(prog=app.name, description=app.title, allow_abbrev=False)
     parser.add_argument("--version", action="store_true", help="say which app and seam this is")
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
-    check = commands.add_parser("check", help="say whether the fleet can fly the missions")
-    simulate = commands.add_parser("simulate", help=f"fly the missions, {_WORLD}")
+    new = partial(commands.add_parser, allow_abbrev=False)
+    check = new("check", help="say whether the fleet can fly the missions")
+    simulate = new("simulate", help=f"fly the missions in virtual time, {_WORLD}")
     check.add_argument("missions", metavar="M.toml", type=Path, nargs="?", default="missions.toml")
     simulate.add_argument("missions", metavar="M.toml", type=Path)
     for one in (check, simulate):
@@ -205,16 +199,3 @@ def _parser(app: App) -> ArgumentParser:
     add("--trace", metavar="FILE", type=Path, help="write every event there, as a JSON object")
     add("--json", action="store_true", help="print one JSON object instead")
     return parser
-
-
-def typed(read: Callable[[str], T]) -> Callable[[str], T]:
-    """Return the same for argparse, which then says what is wrong as it was said."""
-    from argparse import ArgumentTypeError
-
-    def converted(text: str) -> T:
-        try:
-            return read(text)
-        except ValueError as error:
-            raise ArgumentTypeError(str(error)) from None
-
-    return converted

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from .blame import as_crash, blame, blamed
@@ -27,50 +27,19 @@ class Engine:
         self._core = core
         self._living = 0
         """How many missions are in their graphs."""
-        self._aside: dict[str, State] = {}
-        """The missions that wait for a person: paused, uncertain or held."""
-        self._halted: tuple[State, ...] | None = None
-        """Who was in a graph when all were taken out."""
-        self.patient = False
-        """Whether missions that wait for a person's decision keep it from being over."""
         self.done: Signal[None] = Signal()
-        """Set when the last mission has ended, and none is paused; another one when one goes on."""
-
-    @property
-    def states(self) -> Iterator[State]:
-        """Every mission that has not ended."""
-        yield from self._in_their_graphs()
-        yield from self._aside.values()
-
-    def _in_their_graphs(self) -> tuple[State, ...]:
-        if self._halted is not None:
-            return self._halted
-        tasks = self._core.kernel.under_way()
-        return tuple(task.over for task in tasks if isinstance(task.over, State))
+        """Set when the last mission has ended."""
 
     def start(self, missions: Sequence[Mission[Any]]) -> None:
         """Set the missions on their way, all at once."""
         for mission in missions:
             self._enter(self.new_state(mission), UNEXECUTED)
 
-    def add(self, missions: Sequence[Mission[Any]]) -> None:
-        """Set more missions on their way, while others fly or after all have ended."""
-        if self.done.is_set:
-            self.done = Signal()
-        self.start(missions)
-
     def new_state(self, mission: Mission[Any]) -> State:
         """Return the state of a mission, of which nothing is remembered as yet."""
         if self._core.recorder is not None:
             self._core.recorder.missions[mission.name] = mission
         return State(self._core, mission, self)
-
-    def resume(self, state: State, status: Status) -> None:
-        """Let a mission that was interrupted go on at the block where it can, with this status."""
-        if self.done.is_set:
-            self.done = Signal()
-        self._aside.pop(state.mission.name, None)
-        self._enter(state, status)
 
     def _enter(self, state: State, status: Status) -> None:
         """Send a mission into its graph, at its beginning or where it can go on."""
@@ -80,59 +49,6 @@ class Engine:
         run.task = state.task = task = core.kernel.spawn(core.app.flow(run), key, mission.name)
         task.over = state
         self._living += 1
-
-    def set_aside(self, state: State) -> None:
-        """Take a mission out of its graph, if it is in it, until a person says how it goes on."""
-        self._aside[state.mission.name] = state
-        self._take_out(state)
-
-    def is_aside(self, state: State) -> bool:
-        """Say whether a mission waits for a person."""
-        return self._aside.get(state.mission.name) is state
-
-    def waits(self, state: State) -> None:
-        """Take a mission out of its graph: nothing but a person's decision lets it go on."""
-        self.set_aside(state)
-        self._core.kernel.spawn(
-            self._look(), mission_key(state.mission.index), f"{state.mission.name} waits"
-        )
-
-    async def _look(self) -> None:
-        self.look_for_the_end()
-
-    def _take_out(self, state: State) -> None:
-        task, state.task = state.task, None
-        if task is not None:
-            self._living -= 1
-            task.over = None
-            task.cancel()
-        if state.allocated is not None:
-            if state.allocated is not state.carrier:
-                self._core.fleet.never_flew(state.allocated)
-            state.allocated = None
-
-    def end(self, state: State, status: Status, reason: str) -> None:
-        """End a mission that waits for a person."""
-        self._aside.pop(state.mission.name, None)
-        self._end(state, status, reason)
-
-    def look_for_the_end(self) -> None:
-        """See whether there is nothing left to do."""
-        paused = (state.mission.status is Status.PAUSED for state in self._aside.values())
-        waits = bool(self._aside) if self.patient else any(paused)
-        if not self._living and not waits:
-            self.done.set(None)
-
-    def halt(self) -> None:
-        """Take every mission out of its graph where it is; nothing is launched any more."""
-        self._halted = self._in_their_graphs()
-        for state in self._halted:
-            flight = state.in_flight
-            if flight is not None:
-                flight.break_off()
-            state.flight = None  # whatever is still reported of it is read from the ledger
-            if state.task is not None:
-                state.task.cancel()
 
     def doomed(self, state: State) -> None:
         """End a doomed mission, once the coroutine that found out has finished its turn."""
@@ -145,13 +61,9 @@ class Engine:
         """Take its turn among the coroutines of this instant: before those that are woken later."""
         if state.task is not None:
             state.task.cancel()
-        elif state.mission.name in self._aside:
-            self.end(state, FAILED, state.doom or "it was called off")
 
     def ended(self, state: State, task: Task[Status]) -> None:
         """A mission's coroutine is over: see how it ended."""
-        if self._halted is not None:
-            return
         self._living -= 1
         error, reason = task.error, ""
         if error is None:
@@ -188,6 +100,11 @@ class Engine:
         block = blamed(fault, self._core.app.flow)
         self._core.log(fault.detail + (f"\nin block {block}" if block else ""), mission.name)
 
+    def look_for_the_end(self) -> None:
+        """See whether there is nothing left to do."""
+        if not self._living:
+            self.done.set(None)
+
     def _end(self, state: State, status: Status, reason: str) -> None:
         mission, fleet = state.mission, self._core.fleet
         flight = state.in_flight
@@ -200,5 +117,4 @@ class Engine:
             fleet.recover(state.carrier)  # what it carries must be taken off
         state.allocated = state.carrier = state.carries = None
         self._core.transitions.end(mission, status, reason)
-        if not self._living:
-            self.look_for_the_end()
+        self.look_for_the_end()

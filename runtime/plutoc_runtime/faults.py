@@ -82,7 +82,7 @@ def befell(drone: str, what: Failure, at: Point) -> FlightFailed:
     return FlightFailed(what, f"{drone} {_SAID[what]} at {place(at)}")
 
 
-def action_failed(what: str, why: str, at: Point) -> FlightFailed:
+def failed(what: str, why: str, at: Point) -> FlightFailed:
     """Return the failure of an action, with its place."""
     return FlightFailed(Failure.ACTION, f"{what}: {why} at {place(at)}")
 

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections import Counter
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
 from .actions import PICK, RELEASE
 from .airspace import Airspace
@@ -13,6 +13,7 @@ from .capability import wrong_aboard
 from .dotted import read_toml
 from .errors import BadInput
 from .fields import Entity, time_of_day
+from .geometry import covers_ground
 from .model import NOTHING, AfterTrip, Item
 from .quantities import QUANTITIES, Type, number_from
 from .spots import HOME_SIZE, first_crowded
@@ -20,14 +21,12 @@ from .words import cut_off, number, quoted, shown
 from .world import Feature, Source, WorldData
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
     from pathlib import Path
 
     from .app import App
     from .geometry import Corner
     from .model import Mission, Point, Trip
 
-T = TypeVar("T")
 _Read = Callable[[Any], Any]
 """Converts a value; or raises a `ValueError` that goes on after the key and the value."""
 
@@ -54,16 +53,6 @@ class FleetData:
     """None: a simulation makes up a world from its seed."""
 
 
-def default_fleet(app: App) -> FleetData:
-    """Return the fleet where there is no file: five drones on an empty plain."""
-    kinds = [category.name for category in app.categories] * 5
-    drones = [
-        DroneData(id=f"cf{place}", category=kind, home=(float(place), 0.5, 0.0))
-        for place, kind in enumerate(kinds[:5], 1)
-    ]
-    return FleetData(airspace=Airspace(), drones=drones)
-
-
 def load_fleet(path: Path, app: App) -> FleetData:
     """Return what a fleet file says, but for what only real flights need."""
     schema = "map:table? fleet:table? drone:tables world:table? navigation:any? localization:any?"
@@ -86,17 +75,16 @@ def load_fleet(path: Path, app: App) -> FleetData:
 
 def load_missions(path: Path, app: App, airspace: Airspace) -> list[Mission[Any]]:
     """Return the missions of a file, each of the app's own class."""
-    missions: dict[str, Mission[Any]] = {}
-    schema, evaluator = f"name:name? trip:tables {_fields(app, Entity.MISSION)}", _one_of(
-        app.evaluators
-    )
+    missions, evaluator = list[Any](), _one_of(app.evaluators)
+    schema = f"name:name? trip:tables {_fields(app, Entity.MISSION)}"
     for index, entry in enumerate(_table(read_toml(path), f"{path}", "mission:tables")["mission"]):
         name = entry.get("name") if isinstance(entry, dict) else None
         who = f"{path}: mission {quoted(name) if isinstance(name, str) else index + 1}"
         given = {"name": f"{index + 1}", **_table(entry, who, schema, EVALUATOR=evaluator)}
         trips = _trips(given.pop("trip"), f"{who}, trip", app, airspace)
-        _keep(app.mission(index=index, trips=trips, **given), given["name"], missions, who)
-    return [*missions.values()]
+        missions.append(app.mission(index=index, trips=trips, **given))
+    _differ(f"{path}: mission", (mission.name for mission in missions))
+    return missions
 
 
 def _table(data: object, who: str, schema: str, **kinds: _Read) -> dict[str, Any]:
@@ -118,10 +106,10 @@ def _table(data: object, who: str, schema: str, **kinds: _Read) -> dict[str, Any
     return values
 
 
-def _keep(one: T, name: str, others: dict[str, T], who: str) -> None:
-    if name in others:
-        raise BadInput(f"{who}: there is another {quoted(name)}: names must differ")
-    others[name] = one
+def _differ(who: str, names: Iterable[str]) -> None:
+    for name, count in Counter(names).most_common(1):
+        if count > 1:
+            raise BadInput(f"{who} {quoted(name)}: there are {count} of them: names must differ")
 
 
 def _drones(entries: list[Any], who: str, app: App, airspace: Airspace) -> list[DroneData]:
@@ -129,24 +117,22 @@ def _drones(entries: list[Any], who: str, app: App, airspace: Airspace) -> list[
     only = {"category": names[0]} if len(names) == 1 else {}  # then there is nothing to choose
     schema = f"id:name category:category{'?' if only else ''} home:point uri:any? navigation:any?"
     kinds = {"category": _one_of(names), "point": _point(airspace, 0.0)}
-    drones: dict[str, DroneData] = {}
-    for place, entry in enumerate(entries, 1):
-        given = _table(entry, f"{who} {place}", f"{schema} options:any?", **kinds)
-        _keep(DroneData(**{**only, **given}), given["id"], drones, f"{who} {place}")
-    found = first_crowded([drone.home for drone in drones.values()], HOME_SIZE)
-    if found is not None:
+    drones = [
+        DroneData(**only | _table(entry, f"{who} {place}", f"{schema} options:any?", **kinds))
+        for place, entry in enumerate(entries, 1)
+    ]
+    _differ(who, (drone.id for drone in drones))
+    if (found := first_crowded([drone.home for drone in drones], HOME_SIZE)) is not None:
         raise BadInput(f"{who} {found + 1}: home is where another drone has its own")
-    return [*drones.values()]
+    return drones
 
 
 def _world(data: object, who: str) -> WorldData:
     top = _table(data, who, "background:levels? feature:list? source:list?")
-    schema, other = (
-        "kind:name at:corner radius:radius?",
-        "quantity:name at:corner peak:float radius:radius",
-    )
+    schema = "kind:name at:corner radius:radius?"
     features = [Feature(**_table(one, f"{who}.feature", schema)) for one in top.get("feature", [])]
-    sources = [Source(**_table(one, f"{who}.source", other)) for one in top.get("source", [])]
+    schema = "quantity:name at:corner peak:float radius:radius"
+    sources = [Source(**_table(one, f"{who}.source", schema)) for one in top.get("source", [])]
     background = top.get("background", {})
     return WorldData(features=tuple(features), sources=tuple(sources), background=background)
 
@@ -156,25 +142,27 @@ def _trips(entries: list[Any], who: str, app: App, airspace: Airspace) -> list[T
     schema = f"{schema} {_fields(app, Entity.TRIP)}"
     kinds = {"action": _one_of(app.actions), "EVALUATOR": _one_of(app.evaluators)}
     kinds["point"] = _point(airspace, airspace.cruise_height)
-    trips: dict[str, Trip] = {}
+    trips: list[Trip] = []
     for index, entry in enumerate(entries):
         called = f"{who} {index + 1}"
         given = {"name": f"{index + 1}", **_table(entry, called, schema, **kinds)}
         action, item = app.actions[given["action"]], given.pop("item", None)
-        keys = [
-            f"{p.name}:{p.type.value}{'?' * (p.default is not None)}" for p in action.parameters
-        ]
-        found = _table(given.get("parameters", {}), f"{called}, parameters", " ".join(keys))
-        filled = {one.name: found.get(one.name, one.default) for one in action.parameters}
+        known = action.parameters
+        keys = [f"{one.name}:{one.type.value}{'?' * (one.default is not None)}" for one in known]
+        filled: dict[str, Any] = {one.name: one.default for one in known}
+        filled |= _table(given.get("parameters", {}), f"{called}, parameters", " ".join(keys))
         if (item is None) == (action.name in (PICK, RELEASE)):
-            raise BadInput(f"{called}: {action.name} {'takes no' if item else 'needs an'} item")
+            raise BadInput(
+                f"{called}: {action.name} {'takes no' if item is not None else 'needs an'} item"
+            )
         if item is not None:
             item = Item(**_table(item, f"{called}, item", "name:name mass:weight"))
         given |= {"parameters": filled or NOTHING, "item": item, "index": index}
-        _keep(app.trip(**given), given["name"], trips, called)
-    if wrong_one := wrong_aboard([*trips.values()]):
-        raise BadInput(f"{who} {wrong_one[0] + 1}: {wrong_one[1]}")
-    return [*trips.values()]
+        trips.append(app.trip(**given))
+    _differ(who, (trip.name for trip in trips))
+    if wrong := wrong_aboard(trips):
+        raise BadInput(f"{who} {wrong[0] + 1}: {wrong[1]}")
+    return trips
 
 
 def _fields(app: App, entity: Entity) -> str:
@@ -200,10 +188,8 @@ def _lengths(value: object, counts: Sequence[int], least: float, most: float) ->
 
 def _areas(value: list[Any]) -> tuple[tuple[Corner, ...], ...]:
     areas = [[*map(_KINDS["corner"], _KINDS["tables"](one))] for one in _KINDS["list"](value)]
-    for area in areas:
-        turns = pairwise([*area, area[0]])
-        if abs(sum(a[0] * b[1] - b[0] * a[1] for a, b in turns)) < 1e-9:
-            raise ValueError("has an area that covers no ground")
+    if not all(map(covers_ground, areas)):
+        raise ValueError("has an area that covers no ground")
     return tuple(map(tuple, areas))
 
 
@@ -221,11 +207,10 @@ def _one_of(words: Iterable[str]) -> _Read:
 
 
 def _whole(least: float) -> _Read:
-    return _is(
-        f"a whole number from {least:.0f} on", lambda v: type(v) is int and least <= v <= 1e9
-    )
+    return _is(f"a whole number from {least:.0f}", lambda v: type(v) is int and least <= v <= 1e9)
 
 
+_REAL = number_from(Type.FLOAT)
 _KINDS: dict[str, _Read] = {
     **{kind.value: number_from(kind) for kind in (*QUANTITIES, Type.FLOAT)},
     "text": _is("a text in quotes", lambda value: isinstance(value, str)),
@@ -242,9 +227,7 @@ _KINDS: dict[str, _Read] = {
     "list": _is("a list", lambda value: isinstance(value, list)),
     "table": _is("a table", lambda value: isinstance(value, dict)),
     "tables": _is("a list with something in it", lambda value: isinstance(value, list) and value),
-    "levels": lambda value: {
-        key: number_from(Type.FLOAT)(value[key]) for key in _KINDS["table"](value)
-    },
+    "levels": lambda value: {one: _REAL(of) for one, of in _KINDS["table"](value).items()},
     "corner": lambda value: tuple(_lengths(value, (2,), -1e5, 1e5)),
     "size": lambda value: tuple(_lengths(value, (2,), 0.1, 1e4)),
     "areas": _areas,

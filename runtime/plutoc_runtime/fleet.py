@@ -16,14 +16,13 @@ from .model import AfterTrip
 from .navigation import permitted_way
 from .signals import Signal
 from .status import DroneStatus
-from .words import cut_off, place, printable
+from .words import cut_off, printable
 
 if TYPE_CHECKING:
     from .airspace import Airspace
     from .allocation import Queue
     from .model import Drone
     from .navigation import Navigation
-    from .standing import Standing
     from .trace import Trace
 
 
@@ -48,14 +47,8 @@ class Fleet:
         """What drones do for themselves."""
         self._change: Signal[None] | None = None
         """The next change of any drone, if anybody waits for it."""
-        self.retired: set[Drone] = set()
-        """Those that nobody may have until they are brought back."""
         self.unready: dict[Drone, str] = {}
-        """Those that could not fly when they were asked, or that are lost, and why."""
-        self.lost: dict[Drone, str] = {}
-        """Those that were lost in an earlier life, and that nobody has brought back since."""
-        self.somebody_comes = True
-        """Whether who needs a person is waited for when all missions have ended."""
+        """Those that are lost, or could not fly when they were asked, and why."""
         queue.served = self._fetch_what_is_low
 
     def engage(self, drone: Drone) -> None:
@@ -83,10 +76,7 @@ class Fleet:
     def dismiss(self, drone: Drone) -> None:
         """A drone has done what it was allocated for."""
         telemetry = drone.telemetry
-        if drone in self.retired:
-            if not self._rests(drone):
-                self.send_home(drone)
-        elif (
+        if (
             telemetry.landed
             and telemetry.battery_level > drone.category.reserve
             and (self._stays or docked(telemetry.location, drone.home))
@@ -111,103 +101,10 @@ class Fleet:
         """A drone was allocated and is not needed after all."""
         self._send(drone, DroneStatus.BUSY, self._stay, "is not needed")
 
-    def take_up(self, drone: Drone, standing: Standing) -> None:
-        """Find out what becomes of a drone that nobody needs now, when an app begins or goes on.
-
-        It is handed out only once it stands on the ground, well, with nothing aboard; one that was
-        lost, only once somebody has looked after it, whatever it says of itself.
-        """
-        if drone in self.lost:
-            self._leave_lost(drone, standing)
-            return
-        why = self._say_why_not(drone, standing)
-        well = standing.reached and standing.landed and not standing.problems
-        if not (well and standing.carrying is None and self._rests(drone)):
-            self.recover(drone, why or f"{drone.id} does not answer")
-            if why and standing.landed:
-                self.unready[drone] = why
-
-    def _leave_lost(self, drone: Drone, standing: Standing) -> None:
-        """Let it be where it is, unless it is in the air: then it comes home, and stays lost."""
-        if standing.reached and not standing.landed:
-            down = partial(self._bring_down, reason=self.lost[drone])
-            self._send(drone, DroneStatus.RECOVERING, down, "comes down")
-        else:
-            self._lose(drone, self.lost[drone])
-
-    async def _bring_down(self, drone: Drone, reason: str) -> None:
-        await self._navigation.recover(drone.id)
-        self._lose(drone, reason)
-
-    def _lose(self, drone: Drone, reason: str) -> None:
-        self.unready[drone] = reason
-        self._become(drone, DroneStatus.LOST)
-
-    def _say_why_not(self, drone: Drone, standing: Standing) -> str:
-        """Let people know why a drone may not fly, and return it."""
-        if not standing.problems:
-            return ""
-        why = _in_words(standing)
-        self._trace.note("drone.not_ready", drone=drone.id, reason=why)
-        return why
-
-    def retire(self, drone: Drone) -> None:
-        """Nobody gets this drone any more; what it flies for now it flies to the end."""
-        self.retired.add(drone)
-        if drone.status in (_FREE, DroneStatus.CHARGING) and not self._rests(drone):
-            self.send_home(drone)
-
-    def bring_back(self, drone: Drone) -> None:
-        """A retired drone may be handed out again; one that was lost, once it has come home."""
-        self.retired.discard(drone)
-        self.lost.pop(drone, None)
-        if drone.status is DroneStatus.LOST:
-            self._navigation.mended(drone.id)
-            self._send(drone, DroneStatus.RECOVERING, self._come_back, "comes back")
-            return
-        if drone in self.unready:  # it may wait for just this
-            self._navigation.mended(drone.id)
-        if drone.status is DroneStatus.OFFLINE and not self._rests(drone):
-            self.send_home(drone)
-
-    def flies_on(self, drone: Drone) -> None:
-        """A drone has been flying for a mission since before the app was interrupted."""
-        self._become(drone, DroneStatus.BUSY)
-
-    def halt(self) -> None:
-        """Let go of every drone: somebody else brings them down."""
-        for errand in list(self.errands.values()):
-            errand.cancel()
-        self.errands.clear()
-
     async def all_down(self) -> None:
-        """Wait until every drone has done what it does for itself: return, land, recover.
-
-        One that stands on the ground and needs a person is not waited for, unless somebody comes.
-        """
-        stands_since: dict[Drone, float] = {}
-        while under_way := {one: task for one, task in self.errands.items() if not task.is_set}:
-            if self.somebody_comes:
-                await next(iter(under_way.values())).ended()
-                continue
-            now = self._kernel.now
-            for drone in self.drones:
-                if drone not in under_way or not self._stands(drone):
-                    stands_since.pop(drone, None)
-                else:
-                    stands_since.setdefault(drone, now)
-            if all(now - stands_since.get(drone, now) >= _HELPLESS for drone in under_way):
-                self._leave_to_a_person(tuple(under_way))
-                return
-            await self._kernel.sleep(1.0)
-
-    def _stands(self, drone: Drone) -> bool:
-        return drone.status is DroneStatus.RECOVERING and drone.telemetry.landed
-
-    def _leave_to_a_person(self, drones: Sequence[Drone]) -> None:
-        for drone in drones:
-            text = f"{drone.id} stands at {place(drone.location)} and needs somebody: go and look"
-            self._trace.note("log", mission=None, text=text)
+        """Wait until every drone has done what it does for itself: return, land, recover."""
+        while under_way := [task for task in self.errands.values() if not task.is_set]:
+            await under_way[0].ended()
 
     def _send(
         self,
@@ -301,25 +198,15 @@ class Fleet:
             self.unready.pop(drone, None)
             await self._settle(drone)
         else:
-            standing = await self._navigation.roll_call(drone.id)  # it may have become worse
-            self._lose(
-                drone, _in_words(standing) or cut_off(printable(reason), _LONGEST) or _UNKNOWN
-            )
+            self.unready[drone] = await self._why_lost(drone, reason)
+            self._become(drone, DroneStatus.LOST)
 
-    async def _come_back(self, drone: Drone) -> None:
-        """Bring home whom a person has looked after; if that was in vain, say why."""
-        self._become(drone, DroneStatus.RECOVERING)
-        if await self._navigation.recover(drone.id):
-            await self._settle(drone)
-        else:
-            standing = await self._navigation.roll_call(drone.id)
-            self._lose(drone, self._say_why_not(drone, standing) or _STILL)
+    async def _why_lost(self, drone: Drone, reason: str) -> str:
+        """Return why a drone is lost whose flight failed for this reason."""
+        return cut_off(printable(reason), LONGEST) or "it could not be brought home"
 
     async def _settle(self, drone: Drone) -> None:
-        """It stands on the ground, well: is there enough in its battery to be handed out?
-
-        A retired drone is home then, or goes there.
-        """
+        """It stands on the ground, well: is there enough in its battery to be handed out?"""
         if not self._rests(drone):
             self._become(drone, DroneStatus.RETURNING)
             await self._return(drone)
@@ -327,11 +214,7 @@ class Fleet:
     def _rests(self, drone: Drone) -> bool:
         """Let it be handed out, or charge first; False: it must go home for that."""
         missing = drone.category.reserve - drone.battery_level
-        if drone in self.retired:
-            if not self._is_docked(drone):
-                return False
-            self._become(drone, DroneStatus.OFFLINE)
-        elif missing < 0:
+        if missing < 0:
             self._become(drone, _FREE)
         elif self._is_docked(drone):
             self._become(drone, DroneStatus.CHARGING)
@@ -371,25 +254,13 @@ class Fleet:
         return FLEET + 1 + drone.index
 
 
-def _in_words(standing: Standing) -> str:
-    """Return why a drone may not fly, as it says itself."""
-    return cut_off("; ".join(map(printable, standing.problems)), _LONGEST)
-
-
 _FREE = DroneStatus.FREE
-
-_UNKNOWN = "it could not be brought home"
-_STILL = "it was brought back, and could not be reached"
-"""Why a drone is lost, where nobody has said more."""
 
 _LOOK_AGAIN = 10.0
 """Seconds between two looks at a battery that should be full enough by now."""
 
-_HELPLESS = 12.0
-"""Seconds after which a drone that stands there will not fly home by itself: it would have begun."""
-
-_LONGEST = 500
-"""Characters of why a drone may not fly."""
+LONGEST = 500
+"""Characters of why a drone is lost."""
 
 _EVENT = {status: f"drone.{status.value.lower()}" for status in DroneStatus}
 """What the event is called in which a drone's status becomes this."""

@@ -227,12 +227,13 @@ def _lose(state: State, reason: str) -> None:
 
 def fail(state: State, flight: Flight, reason: str, *, mends: bool = True) -> None:
     """A trip is over, and went wrong. With an item aboard, no retry can mend it."""
+    of_drone = reason  # why it is lost, if it is, has nothing to do with what it carries
     if state.carries is not None:
         reason = f"{reason}, with {state.carries.name} aboard"
         mends = False
     state.carries = state.carrier = None
     state.core.transitions.fail(state.mission, flight.trip, reason)
-    state.core.fleet.recover(flight.flier, reason)
+    state.core.fleet.recover(flight.flier, of_drone)
     if mends:
         flight.set(state.mission.status)
     else:

@@ -22,6 +22,12 @@ _SHARP = 0.5
 """The sine of half an angle below which a corner is walked around in two points, not one."""
 
 
+def covers_ground(corners: Sequence[Corner]) -> bool:
+    """Say whether these corners are those of an area, and do not all lie on one line."""
+    turns = pairwise([*corners, *corners[:1]])
+    return abs(sum(a[0] * b[1] - b[0] * a[1] for a, b in turns)) >= 1e-9
+
+
 def tidy(corners: Sequence[Corner]) -> Polygon:
     """Drop corners that repeat the one before, the last that repeats the first included."""
     kept: list[Corner] = []

@@ -131,7 +131,10 @@ def _explained(error: BaseException) -> str | None:
     if not frames:
         return None
     place = f"{frames[-1].filename}:{frames[-1].lineno}"
-    return f"{place}: the hooks cannot be loaded: {said(error)}"
+    why = f"{place}: the hooks cannot be loaded: {said(error)}"
+    if isinstance(error, ModuleNotFoundError):
+        why += "; install it, and name it in the app's source, by the name that pip knows: requires"
+    return why
 
 
 def _is_hooks(filename: str) -> bool:

@@ -13,12 +13,11 @@ from typing import TYPE_CHECKING
 from .actions import BUILT_IN, PICK, RELEASE, grip_problem
 from .energy import CLIMB_SPEED, docked, flight_seconds
 from .errors import Failure, FlightFailed
-from .faults import CARRYING_HOME, OUTAGE, Drawn, Faults, Order, action_failed, befell, draw
+from .faults import CARRYING_HOME, OUTAGE, Drawn, Faults, Order, befell, draw, failed
 from .kernel import FLEET, Kernel, Key, Kind, Task
 from .motion import Charge, Leg, standing
 from .navigation import way_from
 from .signals import Signal
-from .standing import Standing
 from .world import World
 
 if TYPE_CHECKING:
@@ -196,7 +195,7 @@ class IdealNavigation:
             await self._pass(drone, BUILT_IN[job.action].seconds)
             why = f"{drone.id} could not do it" if drone.drawn.action else None
         if why is not None:
-            raise action_failed(f"{job.action} failed", why, drone.location)
+            raise failed(f"{job.action} failed", why, drone.location)
         if job.action in (PICK, RELEASE):
             drone.carries = job.item if job.action == PICK else None
         return self._world.gives(job.action, job.parameters, drone.location, self._kernel.now)
@@ -215,7 +214,7 @@ class IdealNavigation:
         one = self.drones[drone]
         one.check()
         if one.drawn.action:
-            raise action_failed("the action failed", f"{drone} could not do it", one.location)
+            raise failed("the action failed", f"{drone} could not do it", one.location)
         await self._pass(one, inf)
 
     async def read(self, drone: str, name: str) -> float:
@@ -248,11 +247,6 @@ class IdealNavigation:
             await self._move(one, (*one.location[:2], 0.0), CLIMB_SPEED)
             one.touch_down(self._kernel.now)
 
-    def mended(self, drone: str) -> None:
-        """A person has repaired a lost drone, and put it into its dock."""
-        if self.drones[drone].down is not None:
-            self.drones[drone].dock()
-
     async def recover(self, drone: str) -> bool:
         """Bring a drone home after a failed flight, landed; False: it has crashed, and is lost."""
         one = self.drones[drone]
@@ -277,21 +271,6 @@ class IdealNavigation:
             way = way_from(self._airspace, drone.id, start, (*drone.home[:2], start[2]))
             await self._follow(drone, [start, *way])
             await self.land(drone.id)
-
-    async def roll_call(self, drone: str) -> Standing:
-        """Tell where a drone is; one that takes no commands does not answer."""
-        one = self.drones[drone]
-        return Standing(
-            drone=drone,
-            reached=one.down is None,
-            location=one.location,
-            landed=one.landed,
-            battery_level=one.battery_level,
-            boot=0,
-            carrying=None if one.carries is None else one.carries.name,
-            done=None,
-            problems=() if one.down is None else (str(one.down),),
-        )
 
     def _above(self, drone: IdealDrone) -> Point:
         x, y, z = drone.location

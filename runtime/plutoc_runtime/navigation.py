@@ -18,7 +18,6 @@ from .words import place
 if TYPE_CHECKING:
     from .airspace import Airspace
     from .model import Point, Telemetry
-    from .standing import Standing
 
 
 J_contra = TypeVar("J_contra", contravariant=True)
@@ -72,16 +71,8 @@ class Navigation(Protocol[J_contra]):
         """Land here."""
         ...
 
-    def mended(self, drone: str) -> None:
-        """A person has looked after a lost drone: it can be recovered once more."""
-        ...
-
     async def recover(self, drone: str) -> bool:
         """Bring a drone home after a failed flight, landed; False: it is lost."""
-        ...
-
-    async def roll_call(self, drone: str) -> Standing:
-        """Ask a drone where it is and what it has done; say so if it does not answer."""
         ...
 
 

@@ -3,21 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from functools import partial, update_wrapper
+from functools import update_wrapper
 from math import inf
-from typing import TYPE_CHECKING, Any
-
-from .errors import HookFault
-from .guard import by_a_person, guarded
-from .hooks import hook_name, said, trace_of
-from .model import Drone
-from .words import class_of
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from .model import Trip
+    from .model import Drone, Trip
 
 Able = Callable[["Drone"], bool]
-"""Says whether a drone may fly the trip now. It can take a route: ask of as few as will do."""
+"""Says whether a drone may fly the trip now. It can take a route: ask it of as few as will do."""
 
 Choice = tuple["Drone", str]
 """The drone that gets a trip, and why it was chosen."""
@@ -57,29 +51,3 @@ def lowest(
         if here < least and able(drone):
             found, least = drone, here
     return None if found is None else (found, least)
-
-
-def own_policy(hook: Callable[[Any, Sequence[Drone]], Drone | None]) -> OneByOne:
-    """Make a policy of the app's own hook; it raises `HookFault` for what that may not answer."""
-
-    def choose(trip: Trip, free: Sequence[Drone], able: Able) -> Choice | None:
-        candidates = tuple(filter(able, free))
-        if not candidates:
-            return None
-        name = hook_name(hook)
-        try:
-            drone = guarded(partial(hook, trip, candidates))
-        except BaseException as error:
-            if by_a_person(error):
-                raise
-            raise HookFault(f"policy {name} raised {said(error)}", trace_of(error)) from error
-        if drone is None:
-            return None
-        if not any(drone is candidate for candidate in candidates):
-            answer = f"drone {drone.id}" if type(drone) is Drone else class_of(drone)
-            raise HookFault(
-                f"policy {name} must return one of the candidates or None, not {answer}"
-            )
-        return drone, f"chosen by {name}"
-
-    return choose

@@ -10,8 +10,11 @@ import re
 from collections.abc import Callable
 from enum import Enum
 from math import isfinite, pi
+from typing import TypeVar
 
 from .words import quoted
+
+T = TypeVar("T")
 
 
 class Type(Enum):
@@ -131,3 +134,16 @@ def time_from(text: str) -> float:
     if seconds <= 0:
         raise ValueError(f"{quoted(text)} is not more than 0")
     return seconds
+
+
+def typed(read: Callable[[str], T]) -> Callable[[str], T]:
+    """Return the same for argparse, which then says what is wrong as it was said."""
+    from argparse import ArgumentTypeError
+
+    def converted(text: str) -> T:
+        try:
+            return read(text)
+        except ValueError as error:
+            raise ArgumentTypeError(str(error)) from None
+
+    return converted

@@ -75,6 +75,8 @@ class Session:
         listeners: Sequence[Listener],
         recorder: Recorder | None = None,
         calls_off: CallsOff | None = None,
+        kind_of_fleet: type[Fleet] = Fleet,
+        kind_of_engine: type[Engine] = Engine,
     ) -> None:
         self._kernel = kernel
         known = DroneStatus.FREE if recorder is None else DroneStatus.OFFLINE
@@ -101,7 +103,7 @@ class Session:
             results=results,
             transitions=Transitions(kernel, trace, results),
             queue=queue,
-            fleet=Fleet(
+            fleet=kind_of_fleet(
                 kernel, trace, fleet.airspace, navigation, self.drones, queue, fleet.after_trip
             ),
             deadlines=Deadlines(kernel),
@@ -110,7 +112,7 @@ class Session:
         )
         if recorder is not None:
             recorder.trace, recorder.results = trace, results
-        self.engine = Engine(self.core)
+        self.engine = kind_of_engine(self.core)
 
     def start(self, missions: Sequence[Mission[Any]]) -> Task[float]:
         """Set the missions on their way; the task gives the time at which the last one ended.

@@ -63,10 +63,6 @@ class State:
         """Hear that its coroutine is over."""
         self.engine.ended(self, task)
 
-    def wait_for_a_person(self) -> None:
-        """Take it out of its graph until a person has said how it goes on."""
-        self.engine.waits(self)
-
     def end(self, reason: str) -> None:
         """Take it out of its graph, FAILED; only the first reason counts."""
         if self.doom is None:

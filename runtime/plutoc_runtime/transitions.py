@@ -17,9 +17,6 @@ if TYPE_CHECKING:
 LONGEST = 3_000
 """Characters of a reason: more than one of a hook's, and than any of ours."""
 
-PRIORITY = "priority"
-"""The field of trips that decides who gets a drone first, in apps whose graph has one."""
-
 
 class Transitions:
     """Every change of status there is."""
@@ -148,51 +145,6 @@ class Transitions:
         if self._trace.live:
             self._trace.note("action.begun", mission=mission.name, trip=trip.name, drone=drone.id)
 
-    def interrupt(self, mission: Mission[Any], trip: Trip) -> None:
-        """A flight was interrupted before its action was done: it counts as no attempt."""
-        trip.status, trip.drone, trip.start_time, trip.end_time = _WAITING, None, None, None
-        mission.attempts -= 1
-        self._note(mission, "trip.interrupted", trip=trip.name)
-
-    def skip(self, mission: Mission[Any], trip: Trip) -> None:
-        """Somebody wants a trip not to be flown after all."""
-        trip.status = TripStatus.SKIPPED
-        mission.trips.remove(trip)
-        self._note(mission, "trip.skipped", trip=trip.name)
-
-    def prioritise(self, mission: Mission[Any], trip: Trip, priority: int) -> None:
-        """Somebody wants a trip to be flown sooner, or later, than it would be."""
-        setattr(trip, PRIORITY, priority)
-        self._note(mission, "trip.prioritised", trip=trip.name, priority=priority)
-
-    def pause(self, mission: Mission[Any]) -> None:
-        """Somebody wants a mission to wait until it is told to go on."""
-        mission.status, mission.reason = Status.PAUSED, ""
-        self._note(mission, "mission.paused")
-
-    def go_on(self, mission: Mission[Any], status: Status) -> None:
-        """A mission that was interrupted goes on."""
-        mission.status = status
-        self._note(mission, "mission.resumed", status=status.value)
-
-    def doubt(self, mission: Mission[Any], trip: Trip, drone: str, question: str) -> None:
-        """Nobody but a person can say whether a trip's action was done."""
-        mission.status, mission.reason = Status.UNCERTAIN, question
-        self._note(mission, "mission.uncertain", trip=trip.name, drone=drone, reason=question)
-
-    def hold(self, mission: Mission[Any], reason: str) -> None:
-        """A mission cannot go on in this app: a person must decide."""
-        mission.status, mission.reason = Status.HELD, reason
-        self._note(mission, "mission.held", reason=reason)
-
-    def decide(self, mission: Mission[Any], answer: str) -> None:
-        """A person has decided what only a person can know."""
-        self._note(mission, "mission.decided", answer=answer)
-
-    def _note(self, mission: Mission[Any], event: str, **facts: object) -> None:
-        if self._trace.live:
-            self._trace.note(event, mission=mission.name, **facts)
-
     def modify(self, mission: Mission[Any], status: Status, reason: str) -> None:
         """A modifier says how a mission stands."""
         self._stands(mission, status, reason, "mission.modified")
@@ -218,5 +170,5 @@ class Transitions:
         mission.status, mission.reason = STANDBY, ""
 
 
-_WAITING, _EXECUTING = TripStatus.WAITING, TripStatus.EXECUTING
+_EXECUTING = TripStatus.EXECUTING
 _COMPLETED, _FAILED = TripStatus.COMPLETED, TripStatus.FAILED

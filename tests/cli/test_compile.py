@@ -135,14 +135,32 @@ def test_a_hand_edit_is_refused_with_3(plutoc: Call, app: Path, here: Path) -> N
     assert "import os" not in FLOW.read_text()
 
 
+def test_a_library_that_is_written_into_the_project_belongs_into_the_source(
+    plutoc: Call, app: Path
+) -> None:
+    """It is said how; and said so, it gets there."""
+    plutoc("compile", app)
+    project = Path("crop/pyproject.toml")
+    made = project.read_text()
+    project.write_text(made.replace("dependencies = []", 'dependencies = ["numpy>=2"]'))
+    said = plutoc("compile", app)
+    assert said.code == 3
+    assert "in `crop.pluto`, where `version` and `requires` say what goes into" in said.err
+    project.write_text(made)
+    app.write_text(APP.replace("{\n", '{\n  requires "numpy>=2"\n', 1))
+    assert plutoc("compile", app).code == 0
+    assert 'dependencies = [\n    "numpy>=2",\n]' in project.read_text()
+
+
 def test_every_hand_edit_is_named(plutoc: Call, app: Path) -> None:
     """A phase tells all that it found."""
     plutoc("compile", app)
-    for path in (FLOW, Path("crop/README.md")):
+    for path in (FLOW, Path("crop/README.md"), Path("crop/pyproject.toml")):
         path.write_text(path.read_text() + "\nmore\n")
     said = plutoc("compile", app)
     assert "flow.py` was edited" in said.err
     assert "README.md` was edited" in said.err
+    assert "where `version` and `requires` say what goes into this file" in said.err
 
 
 def test_a_file_that_went_missing_is_written_again(plutoc: Call, app: Path) -> None:

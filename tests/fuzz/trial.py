@@ -111,7 +111,7 @@ def check_package(package: Package) -> None:
     recorded = read_lock(files[LOCK].encode())
     assert recorded.app == package.name
     assert dict(recorded.files) == {
-        path: sha256(text.encode()).hexdigest()
+        path: {sha256(text.encode()).hexdigest()}
         for path, text in package.owned.items()
         if path != LOCK
     }

@@ -19,12 +19,11 @@ from pluto_fleet.gateway.wire import (
     roll_of,
 )
 from pluto_fleet.simulation.body import SimulatedDrone
-from pluto_fleet.standing import Entry, JobState, RollCall
+from pluto_fleet.standing import Entry, JobState, RollCall, Standing
 from plutoc_runtime.airspace import Airspace
 from plutoc_runtime.errors import Failure, FlightFailed
 from plutoc_runtime.faults import Faults
 from plutoc_runtime.model import Category, Photo
-from plutoc_runtime.standing import Standing
 from plutoc_runtime.world import Feature, Source, WorldData
 from tests.gateway.flights import Task
 from tests.gateway.processes import settings

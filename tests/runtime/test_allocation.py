@@ -14,7 +14,8 @@ from plutoc_runtime.policies.batch_optimal import batch_optimal
 from plutoc_runtime.policies.first import first
 from plutoc_runtime.policies.least_used import least_used
 from plutoc_runtime.policies.nearest import nearest
-from plutoc_runtime.policy import Policy, own_policy
+from plutoc_runtime.policies.own import own_policy
+from plutoc_runtime.policy import Policy
 from plutoc_runtime.status import Status
 from tests.runtime import apps
 

@@ -14,7 +14,8 @@ from plutoc_blocks.mission_modifier.step import modify_mission
 from plutoc_blocks.trip_launcher.step import launch_trip
 from plutoc_blocks.trip_monitor.step import watch_trip
 from plutoc_runtime.policies.nearest import nearest
-from plutoc_runtime.policy import Policy, own_policy
+from plutoc_runtime.policies.own import own_policy
+from plutoc_runtime.policy import Policy
 from plutoc_runtime.run import Run
 from plutoc_runtime.session import Outcome
 from plutoc_runtime.status import Status

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import pytest
 
+from pluto_fleet.live_engine import live_engine
 from pluto_fleet.standing import Down
 from pluto_fleet.testing.invariants import violations
 from plutoc_runtime.actions import Action
@@ -200,7 +201,7 @@ def test_where_somebody_watches_the_app_lives_until_they_have_decided() -> None:
 
     def watched_life() -> None:
         living.live_on()
-        living.life.session.engine.patient = True
+        live_engine(living.life.session).patient = True
 
     living.at(10.0, living.die)
     living.at(11.0, watched_life)

@@ -12,11 +12,12 @@ from pluto_fleet.cli.events import line_of
 from pluto_fleet.gateway.pilots import Pilots
 from pluto_fleet.journal.fold import Records
 from pluto_fleet.journal.memory import Memory
+from pluto_fleet.live_fleet import live_fleet
+from pluto_fleet.standing import Standing
 from plutoc_runtime.errors import BadInput, Failure
 from plutoc_runtime.kernel import FLEET
 from plutoc_runtime.model import Drone
 from plutoc_runtime.signals import Signal
-from plutoc_runtime.standing import Standing
 from plutoc_runtime.status import DroneStatus
 from tests.runtime import apps
 from tests.runtime.living import Living, enterable, names
@@ -260,7 +261,7 @@ def test_who_is_not_ready_is_named_and_nobody_waits_for_it_in_the_end(
     monkeypatch.setattr(Pilots, "roll_call", roll_call)
     fleet = living(*"ab")
     vars(fleet.gateway.navigation).update(recover=fetched)
-    fleet.life.session.core.fleet.somebody_comes = False
+    live_fleet(fleet.life.session.core).somebody_comes = False
     assert fleet.run() == ["COMPLETED"] * 2
     assert names(fleet.named("trip.launched"), "drone") == ["cf2", "cf2"]
     assert drone(fleet).status is DroneStatus.RECOVERING
@@ -277,7 +278,7 @@ def test_who_is_not_ready_is_named_and_nobody_waits_for_it_in_the_end(
 def test_who_flies_home_after_a_failure_is_waited_for() -> None:
     """It needs nobody."""
     fleet = living("a", homes=1)
-    fleet.life.session.core.fleet.somebody_comes = False
+    live_fleet(fleet.life.session.core).somebody_comes = False
     fleet.at(8.0, lambda: fleet.life.control.cancel("a"))
     assert fleet.run() == ["CANCELLED"]
     assert names(fleet.named("drone.recovering"), "drone") == ["cf1"]

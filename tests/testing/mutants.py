@@ -16,9 +16,9 @@ from pluto_fleet.interruption import Fate
 from pluto_fleet.journal import values
 from pluto_fleet.journal.careful import Careful
 from pluto_fleet.journal.fold import Records
+from pluto_fleet.live_engine import LiveEngine
 from pluto_fleet.standing import JobState
 from pluto_fleet.testing.book import Book
-from plutoc_runtime.engine import Engine
 from plutoc_runtime.fleet import Fleet
 from plutoc_runtime.status import DroneStatus
 from tests.equivalence import mistakes
@@ -70,13 +70,13 @@ def done_before_the_action(patch: pytest.MonkeyPatch) -> None:
 def cancel_forgets_the_task(patch: pytest.MonkeyPatch) -> None:
     """A mission that is cancelled leaves its timers and its coroutine behind."""
 
-    def set_aside(self: Engine, state: Any) -> None:
+    def set_aside(self: LiveEngine, state: Any) -> None:
         self._aside[state.mission.name] = state
         if state.task is not None:
             self._living -= 1
             state.task.over = lambda _: None
 
-    patch.setattr(Engine, "set_aside", set_aside)
+    patch.setattr(LiveEngine, "set_aside", set_aside)
 
 
 def snapshot_forgets_delays(patch: pytest.MonkeyPatch) -> None:

@@ -41,9 +41,10 @@ def start(name: str, load: Callable[[], App]) -> int:
 
         from ..forked import end_if_forked
         from ..hard_exit import refused
-        from ..raised import interrupted_by_a_person
+        from ..raised import guard_hooks, interrupted_by_a_person
         from .loading import bare
 
+        guard_hooks()
         parent = os.getpid()
         if sys.argv[1:2] in _WITHOUT_HOOKS:
             app = bare(name)

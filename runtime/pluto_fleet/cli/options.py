@@ -8,10 +8,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.command import typed
 from plutoc_runtime.errors import BadInput
 from plutoc_runtime.faults import FAULTS, shares
-from plutoc_runtime.quantities import time_from
+from plutoc_runtime.quantities import time_from, typed
 from plutoc_runtime.words import quoted
 
 from . import output

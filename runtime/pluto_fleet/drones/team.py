@@ -13,8 +13,8 @@ from functools import partial
 from typing import TYPE_CHECKING, NoReturn
 
 from plutoc_runtime.actions import BUILT_IN, Plain
-from plutoc_runtime.standing import Standing
 
+from ..standing import Standing
 from . import acting, flying
 from .cargo import Cargo
 from .closing import close

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from functools import partial
-from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from plutoc_runtime.airspace import Airspace
+from plutoc_runtime.geometry import covers_ground
 from plutoc_runtime.quantities import Type
 
 from . import errors, values
@@ -79,7 +79,6 @@ def _area(value: object) -> tuple[Corner, ...]:
             corners.append(values.corner(element))
         except ValueError as error:
             raise values.Wrong(f"has a corner {place} that {error}") from None
-    closed = [*corners, corners[0]]
-    if abs(sum(a[0] * b[1] - b[0] * a[1] for a, b in pairwise(closed))) < 1e-9:
+    if not covers_ground(corners):
         raise values.Wrong("covers no ground: its corners lie on one line")
     return tuple(corners)

@@ -12,9 +12,8 @@ from typing import TYPE_CHECKING
 
 from plutoc_runtime.errors import BadInput, FlightFailed
 from plutoc_runtime.kernel import FLEET, Cancelled, Kernel, Kind, Task
-from plutoc_runtime.standing import Standing
 
-from ..standing import Down, RollCall
+from ..standing import Down, RollCall, Standing
 from .descent import Craft, Descent
 from .envelope import Envelope
 from .jobs import Jobs

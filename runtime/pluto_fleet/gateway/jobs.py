@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING
 
 from plutoc_runtime.errors import Failure, FlightFailed
 from plutoc_runtime.kernel import Kernel, Key, Kind
-from plutoc_runtime.standing import Standing
 
-from ..standing import Entry, JobState, outcome
+from ..standing import Entry, JobState, Standing, outcome
 from .given import Given, Report
 
 if TYPE_CHECKING:

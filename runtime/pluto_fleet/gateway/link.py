@@ -11,10 +11,9 @@ from plutoc_runtime.signals import Signal
 
 if TYPE_CHECKING:
     from plutoc_runtime.model import Point, Telemetry
-    from plutoc_runtime.standing import Standing
 
     from ..navigation import Job
-    from ..standing import Down, RollCall
+    from ..standing import Down, RollCall, Standing
     from .gateway import Gateway
     from .given import Report
 

@@ -20,10 +20,10 @@ from .traffic.detours import Section
 if TYPE_CHECKING:
     from plutoc_runtime.airspace import Airspace
     from plutoc_runtime.model import Point, Telemetry
-    from plutoc_runtime.standing import Standing
 
     from ..controls import Controls
     from ..navigation import Job
+    from ..standing import Standing
     from .descent import Craft
     from .ledger import Ledger
     from .traffic.traffic import Traffic, Ways

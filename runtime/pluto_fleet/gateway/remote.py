@@ -19,10 +19,9 @@ if TYPE_CHECKING:
 
     from plutoc_runtime.kernel import Kernel
     from plutoc_runtime.model import Point, Telemetry
-    from plutoc_runtime.standing import Standing
 
     from ..navigation import Job
-    from ..standing import Down, RollCall
+    from ..standing import Down, RollCall, Standing
     from .given import Report
 
 SILENCE = 5.0

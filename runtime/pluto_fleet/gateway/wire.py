@@ -10,10 +10,9 @@ from math import isinf
 from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.errors import Failure, FlightFailed
-from plutoc_runtime.standing import Standing
 
 from ..journal.values import item_data, item_of, point_of, value_data, value_of
-from ..standing import Entry, JobState, RollCall
+from ..standing import Entry, JobState, RollCall, Standing
 
 if TYPE_CHECKING:
     from collections.abc import Callable

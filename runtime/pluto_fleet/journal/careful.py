@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from plutoc_runtime.model import Point, Telemetry
-    from plutoc_runtime.standing import Standing
 
     from ..navigation import Commanding, Job
+    from ..standing import Standing
     from .recorder import Recorder
 
 

@@ -18,7 +18,8 @@ from plutoc_runtime.faults import Drawn, befell
 from plutoc_runtime.kernel import FLEET, Key
 from plutoc_runtime.motion import Charge, Leg, standing
 from plutoc_runtime.signals import Signal
-from plutoc_runtime.standing import Standing
+
+from ..standing import Standing
 
 if TYPE_CHECKING:
     from plutoc_runtime.model import Category, Item, Point

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from plutoc_runtime.actions import BUILT_IN, PICK, RELEASE, Plain, grip_problem
 from plutoc_runtime.energy import CLIMB_SPEED
 from plutoc_runtime.errors import Failure, FlightFailed
-from plutoc_runtime.faults import CARRYING_HOME, OUTAGE, Faults, Order, action_failed, draw
+from plutoc_runtime.faults import CARRYING_HOME, OUTAGE, Faults, Order, draw, failed
 from plutoc_runtime.kernel import Kernel, Kind
 from plutoc_runtime.signals import Signal
 from plutoc_runtime.words import place
@@ -22,10 +22,10 @@ from .deeds import Deed
 if TYPE_CHECKING:
     from plutoc_runtime.airspace import Airspace
     from plutoc_runtime.model import Item, Point, Telemetry
-    from plutoc_runtime.standing import Standing
     from plutoc_runtime.world import World
 
     from ..navigation import Job
+    from ..standing import Standing
 
 __all__ = ["SimulatedDrone", "SimulatedNavigation"]
 
@@ -146,7 +146,7 @@ class SimulatedNavigation:
             await self._pass(body, BUILT_IN[action].seconds, f"to {action}")
             problem = f"{drone} could not do it" if body.fails_to_act else None
         if problem is not None:
-            raise action_failed(f"{action} failed", problem, body.location)
+            raise failed(f"{action} failed", problem, body.location)
         value = self._world.gives(action, parameters, body.location, self._kernel.now)
         aboard = item if action == PICK else None if action == RELEASE else body.carries
         if self.record is not None:
@@ -169,7 +169,7 @@ class SimulatedNavigation:
         """Hover until something goes wrong or nobody wants it any longer."""
         body = self._in_the_air(drone)
         if body.fails_to_act:
-            raise action_failed("the action failed", f"{drone} could not do it", body.location)
+            raise failed("the action failed", f"{drone} could not do it", body.location)
         await self._pass(body, inf, "to hover")
 
     async def read(self, drone: str, name: str) -> float:

@@ -15,9 +15,9 @@ from ..controls import Before
 if TYPE_CHECKING:
     from plutoc_runtime.actions import Plain
     from plutoc_runtime.model import Item, Point
-    from plutoc_runtime.standing import Standing
 
     from ..controls import Controls
+    from ..standing import Standing
 
 T = TypeVar("T")
 

@@ -23,6 +23,8 @@ from ..journal.fold import Records
 from ..journal.lock import holder
 from ..journal.place import written
 from ..journal.reader import Reader
+from ..live_engine import live_engine
+from ..live_fleet import live_fleet
 from ..setting import End, Stops
 from . import rows
 from .feed import Feed
@@ -201,8 +203,8 @@ class Outing:
     def _see_missions(self, number: int) -> bool:
         life, put, changed = self.life, self.missions.put, False
         if life is not None and life.missions:
-            states = {state.mission.name: state for state in life.session.engine.states}
-            now, app, fleet = self.now, self.flight.app, life.session.core.fleet
+            states = {state.mission.name: state for state in live_engine(life.session).states}
+            now, app, fleet = self.now, self.flight.app, live_fleet(life.session.core)
             self._waiting.look(fleet)
             why = partial(self._waiting.why, fleet)
             for mission in life.missions:
@@ -221,8 +223,8 @@ class Outing:
         return changed
 
     def _drones_now(self, life: Life) -> Iterator[rows.Row]:
-        work = rows.mission_of_each(life.session.engine.states)
-        fleet = life.session.core.fleet
+        work = rows.mission_of_each(live_engine(life.session).states)
+        fleet = live_fleet(life.session.core)
         for drone in life.session.drones:
             low = self._waiting.why_low(fleet, drone)
             why, status = low or fleet.unready.get(drone, ""), "LOW" if low else ""

@@ -8,12 +8,12 @@ from math import isfinite
 from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.status import Status, TripStatus
-from plutoc_runtime.transitions import PRIORITY
 from plutoc_runtime.words import cut_off
 
 from ..cli.flown import aside
 from ..control import ANSWERS
 from ..gateway.wire import SILENT
+from ..interventions import PRIORITY
 from .whereabouts import END, ENDED, blocks_of
 
 if TYPE_CHECKING:

@@ -15,9 +15,10 @@ from plutoc_runtime.status import DroneStatus
 from plutoc_runtime.words import percent
 
 if TYPE_CHECKING:
-    from plutoc_runtime.fleet import Fleet
     from plutoc_runtime.model import Drone, Trip
     from plutoc_runtime.request import Request
+
+    from ..live_fleet import LiveFleet
 
 EACH = 3.0
 """Seconds after which it is looked at anew."""
@@ -44,7 +45,7 @@ class Waiting:
         self._known: dict[int, tuple[float, str]] = {}
         self._left = AT_ONCE
 
-    def look(self, fleet: Fleet) -> None:
+    def look(self, fleet: LiveFleet) -> None:
         """Somebody looks at all missions and drones now."""
         now, self._left = self._clock(), AT_ONCE
         if now - self._looked >= EACH:
@@ -55,7 +56,7 @@ class Waiting:
                 trip: said for trip, said in self._known.items() if trip in self._requests
             }
 
-    def why(self, fleet: Fleet, trip: Trip) -> str:
+    def why(self, fleet: LiveFleet, trip: Trip) -> str:
         """Say why nobody flies a trip yet; empty: that is found out at one of the next looks."""
         now = self._clock()
         since, said = self._known.get(id(trip), (-EACH, ""))
@@ -66,7 +67,7 @@ class Waiting:
             self._known[id(trip)] = now, said
         return said
 
-    def why_low(self, fleet: Fleet, drone: Drone) -> str:
+    def why_low(self, fleet: LiveFleet, drone: Drone) -> str:
         """Return why a free drone is not ready for all that; empty: it is."""
         if drone.status is not DroneStatus.FREE:
             return ""
@@ -75,7 +76,7 @@ class Waiting:
         return "its battery has little more than its reserve" if fleet.is_low(drone) else ""
 
 
-def why_nobody(fleet: Fleet, request: Request) -> str:
+def why_nobody(fleet: LiveFleet, request: Request) -> str:
     """Say what keeps each drone of the fleet from flying what somebody waits for."""
     queue, able = fleet.queue, 0
     low: list[tuple[float, float, float]] = []

@@ -15,7 +15,7 @@ def run(name: str, words: list[str]) -> int:
 
     from ..cli import Ending, output
     from ..hard_exit import refused
-    from ..raised import interrupted_by_a_person
+    from ..raised import guard_hooks, interrupted_by_a_person
     from .command import test
 
     def by_itself(words: list[str]) -> int:
@@ -24,6 +24,7 @@ def run(name: str, words: list[str]) -> int:
         return subprocess.run(command, capture_output=True, check=False).returncode
 
     output.prepare()
+    guard_hooks()
     ending = Ending(name)
     with ending:
         # a hook may raise a KeyboardInterrupt, or end the process, and is found then

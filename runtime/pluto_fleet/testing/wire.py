@@ -16,12 +16,11 @@ from ..gateway.link import Link
 if TYPE_CHECKING:
     from plutoc_runtime.kernel import Kernel
     from plutoc_runtime.model import Point
-    from plutoc_runtime.standing import Standing
 
     from ..gateway.gateway import Gateway
     from ..gateway.given import Report
     from ..navigation import Job
-    from ..standing import Down, RollCall
+    from ..standing import Down, RollCall, Standing
 
 T = TypeVar("T")
 

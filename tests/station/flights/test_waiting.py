@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
+from pluto_fleet.live_fleet import live_fleet
 from pluto_fleet.station.waiting import AT_ONCE, Waiting, why_nobody
 from plutoc_runtime.model import Category, Item
 from plutoc_runtime.motion import Charge
@@ -31,7 +32,9 @@ def far(name: str, **more: Any) -> apps.Mission:
 def said(fleet: Living) -> list[str]:
     """Return what is said of each that waits."""
     session = fleet.life.session
-    return [why_nobody(session.core.fleet, request) for request in session.core.queue.waiters()]
+    return [
+        why_nobody(live_fleet(session.core), request) for request in session.core.queue.waiters()
+    ]
 
 
 def test_drones_that_are_free_but_too_low_are_not_what_a_mission_waits_for_without_a_word() -> None:
@@ -74,8 +77,8 @@ def test_a_free_drone_with_little_more_than_its_reserve_or_too_little_for_all_is
 ):
     def why_low(fleet: Living) -> list[str]:
         waiting, core = Waiting(lambda: 0.0), fleet.life.session.core
-        waiting.look(core.fleet)
-        return [waiting.why_low(core.fleet, drone) for drone in core.fleet.drones]
+        waiting.look(live_fleet(core))
+        return [waiting.why_low(live_fleet(core), drone) for drone in live_fleet(core).drones]
 
     too_low = "its battery is too low for every trip that waits"
     assert why_low(living(far("a"), low=0.25)) == [too_low] * 3
@@ -92,6 +95,6 @@ def test_of_hundreds_that_wait_some_are_found_out_at_each_look() -> None:
     waiting, seen = Waiting(lambda: 0.0), []
     trips = [request.trip for request in core.queue.waiters()]
     for _ in range(4):
-        waiting.look(core.fleet)
-        seen.append(sum(bool(waiting.why(core.fleet, trip)) for trip in trips))
+        waiting.look(live_fleet(core))
+        seen.append(sum(bool(waiting.why(live_fleet(core), trip)) for trip in trips))
     assert seen == [AT_ONCE, 2 * AT_ONCE, 3 * AT_ONCE, 3 * AT_ONCE]

@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 
+from pluto_fleet.live_engine import live_engine
 from pluto_fleet.simulate import Simulation
 from pluto_fleet.station.whereabouts import _named, blocks_of
 from plutoc.compile import analyse
@@ -37,7 +38,7 @@ def blocks_met(name: str, tmp_path: Any) -> Mapping[str, Sequence[tuple[str, ...
     met: dict[str, list[tuple[str, ...]]] = {m.name: [] for m in example.missions}
 
     def look() -> None:
-        for state in simulation.session.engine.states:
+        for state in live_engine(simulation.session).states:
             at, known = blocks_of(state, app.flow), met[state.mission.name]
             if at and (not known or known[-1] != at):
                 known.append(at)

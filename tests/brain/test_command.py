@@ -1,0 +1,403 @@
+"""The command line of a package without the library, and its door to it."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import pytest
+
+from pluto_fleet import journal_line
+from pluto_fleet.cli import main as with_library
+from plutoc_runtime import alone, command
+from plutoc_runtime.app import App
+from plutoc_runtime.faults import Faults
+from plutoc_runtime.trace import dumped
+from tests.flying import EXAMPLES, compiled
+from tests.runtime import apps
+from tests.runtime.cli.conftest import MISSIONS
+from tests.runtime.files.an_app import APP
+
+Run = Callable[..., tuple[int, str, str]]
+SEAM = ".".join(map(str, command.SEAM))
+
+
+@pytest.fixture
+def missions(tmp_path: Path) -> Path:
+    """A file of two missions that the default fleet completes."""
+    path = tmp_path / "m.toml"
+    path.write_text(MISSIONS)
+    return path
+
+
+@pytest.fixture
+def run(capsys: pytest.CaptureFixture[str]) -> Run:
+    """Runs a command line without the library."""
+
+    def run(*argv: object, app: App = APP) -> tuple[int, str, str]:
+        code = command.alone(app.name, lambda: app, [str(word) for word in argv])
+        out, err = capsys.readouterr()
+        return code, out, err
+
+    return run
+
+
+EXTRAS = {"serve": "[station]", "drones": "[crazyflie]", "--plot": "[plot]"}
+
+
+@pytest.mark.parametrize(
+    "what",
+    ["fly", "resume", "serve", "drones", "journal", "tell", "decide", "gateway", "crtp"],
+)
+def test_what_needs_the_library_says_so_and_how_to_get_it(run: Run, what: str) -> None:
+    """In one sentence, whatever else was given, and without the app's own code."""
+    extra = EXTRAS.get(what, "")
+    said = (
+        f"alfalfa: {what} needs pluto-fleet, the library that flies: "
+        f'pip install "pluto-fleet{extra}>={SEAM}" '
+        f'(without an index, from Pluto\'s sources: pip install "PLUTO/runtime{extra}")\n'
+    )
+    assert run(what, "x.toml", "--help") == (2, "", said)
+
+    def load() -> App:
+        raise AssertionError
+
+    assert command.alone("alfalfa", load, [what]) == 2
+
+
+@pytest.mark.parametrize("flag", ["--runs", "--plot"])
+def test_flags_that_need_the_library_say_so(run: Run, missions: Path, flag: str) -> None:
+    """However they are written."""
+    for words in ((flag, "3"), (f"{flag}=3",)):
+        code, out, err = run("simulate", missions, *words)
+        assert (code, out) == (2, "")
+        assert err.startswith(f"alfalfa: {flag} needs pluto-fleet, the library that flies: pip ")
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["fry"], "invalid choice: 'fry'"),
+        ([], "the following arguments are required: COMMAND"),
+        (["simulate"], "the following arguments are required: M.toml"),
+        (["simulate", "m.toml", "--sed", "1"], "unrecognized arguments: --sed 1"),
+        (["simulate", "m.toml", "--seed", "x"], "argument --seed"),
+        (["simulate", "m.toml", "--until", "0"], 'argument --until: "0" is not more than 0'),
+        (["simulate", "m.toml", "--until", "3 m"], "is a length, not a time"),
+        (["simulate", "m.toml", "--fail", "crash"], "is not written like crash=10%"),
+        (["simulate", "m.toml", "--fail", "fire=1%"], '"fire" cannot go wrong'),
+        (["simulate", "m.toml", "--fail", "crash=200%"], "is not between 0% and 100%"),
+        (["simulate", "m.toml", "--fail", "crash=1%,crash=1%"], "crash is given twice"),
+    ],
+)
+def test_wrong_words_are_told_and_exit_2(run: Run, words: Sequence[str], said: str) -> None:
+    """As argparse does."""
+    code, out, err = run(*words)
+    assert (code, out) == (2, "")
+    assert said in err
+
+
+def test_help_and_version(run: Run) -> None:
+    """Help names what there is; the version is one line."""
+    code, out, err = run("--help")
+    assert (code, err) == (0, "")
+    assert "check" in out and "simulate" in out
+    assert run("--version") == (
+        0,
+        f"alfalfa (not installed), seam {SEAM}, pluto-fleet: not installed\n",
+        "",
+    )
+
+
+def test_check_says_that_the_fleet_can_fly_the_missions(
+    run: Run, missions: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Just as with the library; without a file it is the missions.toml here."""
+    assert run("check", missions) == (
+        0,
+        "2 missions with 3 trips: a fleet of 5 drones can fly them\n",
+        "",
+    )
+    monkeypatch.chdir(missions.parent)
+    assert run("check")[0] == 2
+    missions.rename("missions.toml")
+    assert run("check")[0] == 0
+
+
+def test_check_says_what_no_drone_can_fly(
+    run: Run, missions: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Where the library does; of the reasons it gives the one that is nearest to being none."""
+    missions.write_text(MISSIONS + MORE)
+    why = "carrier carries at most 5 g, the item weighs 1 kg"
+    who = f'{missions}: mission "heavy", trip 1: no drone of the fleet can do it'
+    assert run("check", missions) == (2, "", f"{who}: {why}\n")
+    assert with_library(APP, ["check", str(missions)]) == 2
+    assert why in capsys.readouterr().err
+
+
+MORE = """
+[[mission]]
+name = "heavy"
+trip = [
+  { action = "pick_item", target = [2, 3], item = { name = "stone", mass = 1 } },
+  { action = "release_item", target = [2, 3], item = { name = "stone", mass = 1 } },
+]
+"""
+
+
+def test_what_repeats_until_stopped_needs_until(run: Run, missions: Path) -> None:
+    """It would never end."""
+    missions.write_text(missions.read_text().replace('"North"', '"North"\nrepeat = true'))
+    code, out, err = run("simulate", missions)
+    assert (code, out) == (2, "")
+    assert err.startswith(f'{missions}: mission "North" repeats until it is stopped')
+    assert run("simulate", missions, "--until", "10 min")[0] == 0
+    assert run("check", missions)[0] == 0
+
+
+def test_the_fleet_beside_the_missions_is_taken_and_that_is_said(run: Run, missions: Path) -> None:
+    """Unless another one is named."""
+    fleet = missions.with_name("fleet.toml")
+    fleet.write_text('[[drone]]\nid = "one"\ncategory = "scout"\nhome = [1, 1]\n')
+    code, _, err = run("check", missions)
+    assert code == 2  # one scout does not pollinate
+    assert err.startswith(f"fleet: {fleet}, beside the missions; or name one: --fleet\n")
+    other = fleet.rename(missions.with_name("other.toml"))
+    assert "or name one" not in run("check", missions, "--fleet", other)[2]
+
+
+def test_the_report_says_in_which_world_it_was_flown(run: Run, missions: Path) -> None:
+    """The missions, the whole in one line, and the world."""
+    assert run("simulate", missions)[1].splitlines()[:-2] == [
+        "North: COMPLETED",
+        "South: COMPLETED",
+    ]
+    last, world = run("simulate", missions)[1].splitlines()[-2:]
+    assert last.startswith("2 of 2 missions completed in ")
+    assert last.endswith(" s (3 flights; 5 drones, 0 crashed)")
+    assert world == "flown with each drone alone in the air; with pluto-fleet they keep apart"
+    code, out, _ = run("simulate", missions, "--fail", "action=100%")
+    assert code == 1
+    assert "\nSouth: FAILED: measure failed: cf5 could not do it at (6, 3)\n" in out
+
+
+def test_json_is_that_of_the_library_and_says_in_which_world(
+    run: Run, missions: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The same keys, numbers of three decimals, and one key more; for one drone the same numbers."""
+    fleet = missions.with_name("one.toml")
+    fleet.write_text('[[drone]]\nid = "one"\ncategory = "all"\nhome = [1, 1]\n')
+    app = replace(APP, categories=(replace(APP.categories[0], name="all", actions=None),))
+    trace = missions.with_name("trace.jsonl")
+    for flags in ([], ["--fail", "link=50%,battery=20%"], ["--until", "20 s"]):
+        words = ["simulate", str(missions), "--fleet", str(fleet), "--json", "--seed", "4"]
+        words += ["--trace", str(trace), *flags]
+        code, out, err = run(*words, app=app)
+        lines = trace.read_text()
+        assert err == ""
+        assert with_library(app, words) == code
+        data = json.loads(out)
+        assert data.pop("world") == "each drone alone in the air"
+        assert dumped(data) + "\n" == capsys.readouterr().out
+        assert lines == trace.read_text()
+
+
+def test_the_trace_is_written_as_the_library_writes_it() -> None:
+    """Line by line, for a fleet that crashes."""
+    outcome = alone.simulate(
+        apps.app(apps.flow(attempts=2)),
+        [apps.mission("a", apps.trip("1", 5.0), apps.trip("2", 1.0))],
+        apps.fleet((1.0, 1.0, 0.0), (2.0, 1.0, 0.0)),
+        seed=2,
+        faults=Faults(crash=0.4, link=0.4),
+        until=None,
+        on_event=None,
+    )
+    assert len(outcome.events) > 5
+    written = [journal_line.line(event) for event in outcome.events]
+    assert [dumped(event) for event in outcome.events] == written
+
+
+@pytest.mark.parametrize("trace", ["no/such/folder.jsonl", ".", "a\0b"])
+def test_a_trace_that_cannot_be_written_is_told(
+    run: Run, missions: Path, trace: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """With its name."""
+    monkeypatch.chdir(missions.parent)
+    code, _, err = run("simulate", missions, "--trace", trace)
+    assert code == 2
+    assert "the trace cannot be written" in err
+
+
+# The door
+
+
+def test_the_library_is_called_where_there_is_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    """With the brain's name and the seam that it speaks."""
+    told: list[Any] = []
+
+    def called(*given: object, **named: object) -> int:
+        told.append((given, named))
+        return 2 + len(told)
+
+    library = ModuleType("pluto_fleet.entry")
+    vars(library).update(main=called, start=called)
+    monkeypatch.setitem(sys.modules, "pluto_fleet.entry", library)
+    assert command.main(APP, ["check"]) == 3
+    assert command.start("alfalfa", lambda: APP) == 4
+    named = {"brain": "plutoc_runtime", "seam": command.SEAM}
+    assert told[0] == ((APP, ["check"]), named)
+    assert [told[1][0][0], told[1][1]] == ["alfalfa", named]
+
+
+PROGRAM = """
+import sys
+sys.path.insert(0, {src!r})
+from {name}.__main__ import main
+sys.exit(main())
+"""
+
+
+@pytest.fixture(scope="module")
+def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """An example, compiled, in a process that finds no library."""
+    return compiled("pm10", tmp_path_factory.mktemp("package"))
+
+
+def program(package: Path, *words: object) -> subprocess.CompletedProcess[str]:
+    """Run an example's program without the library: nothing of Pluto's is on its path."""
+    source = PROGRAM.format(src=str(package / "src"), name=package.name)
+    return subprocess.run(
+        [sys.executable, "-BIS", "-c", source, *map(str, words)],
+        capture_output=True,
+        text=True,
+        check=False,
+        cwd=EXAMPLES / "pm10",
+    )
+
+
+def test_a_package_alone_checks_and_simulates(package: Path) -> None:
+    """Its own program, in a process of its own."""
+    checked = program(package, "check", "missions.toml", "--fleet", "fleet.toml")
+    assert (checked.returncode, checked.stderr) == (0, "")
+    flown = program(package, "simulate", "missions.toml", "--fleet", "fleet.toml", "--json")
+    assert (flown.returncode, flown.stderr) == (0, "")
+    assert json.loads(flown.stdout)["world"] == "each drone alone in the air"
+    assert "fly needs pluto-fleet" in program(package, "fly").stderr
+    assert "pluto-fleet: not installed" in program(package, "--version").stdout
+
+
+def test_a_library_that_the_package_carries_is_found(package: Path, tmp_path: Path) -> None:
+    """It lies beside the brain; one that is broken shows itself."""
+    carried = package / "src" / package.name / "_fleet"
+    (carried / "pluto_fleet").mkdir(parents=True)
+    (carried / "pluto_fleet" / "__init__.py").touch()
+    file = carried / "pluto_fleet" / "entry.py"
+    try:
+        file.write_text(
+            "def start(name, load, brain, seam):\n    print(name, brain, seam)\n    return 7\n"
+        )
+        found = program(package, "fly")
+        assert (found.returncode, found.stdout) == (7, f"pm10 pm10._runtime {command.SEAM}\n")
+        file.write_text("import no_such_module\n")
+        broken = program(package, "fly")
+        assert broken.returncode == 1
+        assert "No module named 'no_such_module'" in broken.stderr
+    finally:
+        shutil.rmtree(carried)
+
+
+HOOKS = [
+    ("import no_such_module\n", "hooks.py:1: the hooks cannot be loaded: ModuleNotFoundError"),
+    ("def f():\n  return 1 +\n", "hooks.py:2: invalid syntax"),
+    ("raise SystemExit(0)\n", "hooks.py:1: the hooks cannot be loaded: SystemExit: 0"),
+    ("x = 1\n", "hooks.py has no "),
+]
+
+
+@pytest.mark.parametrize(("text", "said"), HOOKS)
+def test_hooks_that_cannot_be_loaded_are_told_with_their_place(
+    package: Path, text: str, said: str
+) -> None:
+    """Without a traceback."""
+    hooks = package / "src" / package.name / "hooks.py"
+    before = hooks.read_text()
+    try:
+        hooks.write_text(text)
+        done = program(package, "check", "missions.toml")
+        assert done.returncode == 2
+        assert said in done.stderr and "Traceback" not in done.stderr
+    finally:
+        hooks.write_text(before)
+
+
+def test_output_that_cannot_be_written_ends_cleanly(package: Path) -> None:
+    """A full disk, and a reader that has gone."""
+    words = ("simulate", "missions.toml", "--fleet", "fleet.toml")
+    source = PROGRAM.format(src=str(package / "src"), name=package.name)
+    line = [sys.executable, "-BIS", "-c", source, *words]
+    with open("/dev/full", "w") as full:
+        done = subprocess.run(
+            line, stdout=full, stderr=subprocess.PIPE, text=True, check=False, cwd=EXAMPLES / "pm10"
+        )
+    assert done.returncode == 2
+    assert done.stderr == "pm10: the output cannot be written: No space left on device\n"
+    reading, writing = os.pipe()
+    os.close(reading)
+    done = subprocess.run(
+        line, stdout=writing, stderr=subprocess.PIPE, text=True, check=False, cwd=EXAMPLES / "pm10"
+    )
+    os.close(writing)
+    assert (done.returncode, done.stderr) == (141, "")
+
+
+def test_ctrl_c_ends_a_simulation_cleanly(package: Path) -> None:
+    """However long it would have gone on."""
+    source = PROGRAM.format(src=str(package / "src"), name=package.name)
+    slow = f"import time\nfrom {package.name}._runtime import alone\n"
+    slow += "def simulate(*_, **__):\n    print('begins', flush=True)\n    time.sleep(60)\n"
+    slow += "alone.simulate = simulate\n"
+    first, path, rest = source.partition(f"from {package.name}.__main__")
+    process = subprocess.Popen(
+        [sys.executable, "-BIS", "-c", first + slow + path + rest, "simulate", "missions.toml"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        cwd=EXAMPLES / "pm10",
+    )
+    assert process.stdout is not None and process.stdout.readline() == "begins\n"
+    process.send_signal(signal.SIGINT)
+    _, err = process.communicate(timeout=20)
+    assert process.returncode == 130
+    assert err.endswith("pm10: interrupted\n") and "Traceback" not in err
+
+
+def test_an_error_of_ours_is_no_traceback(capsys: pytest.CaptureFixture[str]) -> None:
+    """It says what to do."""
+
+    def load() -> App:
+        raise KeyError("ours")
+
+    assert command.alone("tried", load, ["check"]) == 70
+    assert capsys.readouterr().err == (
+        "tried: internal error: KeyError: 'ours'; please report it"
+        " (PLUTO_DEBUG=1 shows where it happened)\n"
+    )
+
+
+def test_the_brains_part_of_a_package_stays_small() -> None:
+    """What was promised of each module, blank lines and all."""
+    most = {"ideal": 330, "files": 240, "alone": 70, "command": 210}
+    home = Path(command.__file__).parent
+    lines = {name: len((home / f"{name}.py").read_text().splitlines()) for name in most}
+    assert {name: count for name, count in lines.items() if count > most[name]} == {}
