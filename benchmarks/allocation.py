@@ -175,12 +175,13 @@ def flown(package: Path, missions: int) -> float:
     # it is not their traffic that is measured
     fleet.write_text("[fleet]\napart = 0.0\n" + "".join(map(entry, range(DRONES), homes)))
     words = ["simulate", str(plan), "--fleet", str(fleet), "--json"]
+    path = os.pathsep.join([str(package / "src"), os.environ.get("PYTHONPATH", "")])
     before = os.times()
     subprocess.run(
         [sys.executable, "-m", package.name, *words],
         check=True,
         stdout=subprocess.DEVNULL,
-        env={**os.environ, "PYTHONPATH": str(package / "src")},
+        env={**os.environ, "PYTHONPATH": path},
     )
     after = os.times()
     return after.children_user + after.children_system - before[2] - before[3]
