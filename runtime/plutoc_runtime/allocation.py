@@ -57,7 +57,7 @@ class Queue:
     def enter(self, trips: Sequence[Trip], policy: Policy, priority: int) -> Request:
         """Wait for a drone for the first trip; the answer comes at the end of this instant or later."""
         self._arrivals += 1
-        place = priority, -self._arrivals
+        place = +priority, -self._arrivals  # a hook may have left what is no number: said here
         request = Request(self._reach, trips, policy, place)
         insort(self._entries, (*place, request))
         self._fresh.append(request)
