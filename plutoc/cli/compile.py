@@ -232,7 +232,7 @@ def _installing(graph: Graph, path: str) -> Iterator[str]:
     fleet, name = quote(f"{path}[fleet]"), quote(f"{graph.name.rstrip('_')}[fleet]")
     yield f"  install it with: pip install -e {quote(path)}{why}"
     yield f"  so it checks and simulates; to fly it needs pluto-fleet: pip install -e {fleet}"
-    yield f"    without an index, from Pluto's sources: pip install PLUTO/runtime -e {fleet}"
+    yield f"    without an index, from Pluto's sources: pip install -e {fleet} PLUTO/runtime"
     yield f"    without a network: pip wheel -w wheels PLUTO/runtime {fleet}, and there:"
     yield f"    pip install --no-index --find-links wheels {name}"
 

@@ -7,7 +7,7 @@ is too low for all who wait is put aside until it is charged, or until it is hig
 
 from __future__ import annotations
 
-from bisect import bisect_left, insort
+from bisect import insort
 from collections import Counter
 from collections.abc import Callable, Collection, Iterator, Sequence
 from math import inf
@@ -56,10 +56,10 @@ class Queue:
 
     def enter(self, trips: Sequence[Trip], policy: Policy, priority: int) -> Request:
         """Wait for a drone for the first trip; the answer comes at the end of this instant or later."""
+        rank = +priority  # raises here, in its mission, if a hook has left something odd there
+        request = Request(self._reach, trips, policy)
         self._arrivals += 1
-        place = +priority, -self._arrivals  # a hook may have left what is no number: said here
-        request = Request(self._reach, trips, policy, place)
-        insort(self._entries, (*place, request))
+        insort(self._entries, (rank, -self._arrivals, request))
         self._fresh.append(request)
         self.changed()
         return request
@@ -86,11 +86,10 @@ class Queue:
 
     def prioritise(self, trip: Trip, priority: int) -> None:
         """The request for this trip has another priority from now on."""
-        for request in self.waiters():
+        for place, (_, arrival, request) in enumerate(self._entries):
             if request.trip is trip:
-                self._drop(request)
-                request.place = priority, request.place[1]
-                insort(self._entries, (*request.place, request))
+                self._entries[place] = (priority, arrival, request)
+                self._entries.sort()
                 self.changed()
                 return
 
@@ -185,7 +184,10 @@ class Queue:
         request.fail(error)
 
     def _drop(self, request: Request) -> None:
-        del self._entries[bisect_left(self._entries, request.place)]
+        place = len(self._entries) - 1
+        while self._entries[place][2] is not request:  # most that leave are the next to be served
+            place -= 1
+        del self._entries[place]
 
     def _refuse_what_cannot_be(self) -> None:
         """Refuse new requests, and after a loss all that wait, if no drone is able."""

@@ -182,7 +182,8 @@ def _parser(app: App) -> ArgumentParser:
     from .faults import shares
     from .quantities import time_from, typed
 
-    parser = ArgumentParser(prog=app.name, description=app.title, allow_abbrev=False)
+    more = "fly, resume, tell, decide, journal, drones and serve come with the library pluto-fleet"
+    parser = ArgumentParser(prog=app.name, description=app.title, epilog=more, allow_abbrev=False)
     parser.add_argument("--version", action="store_true", help="say which app and seam this is")
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
     new = partial(commands.add_parser, allow_abbrev=False)

@@ -116,11 +116,11 @@ def number_from(
     def read(value: object) -> float:
         has_unit = isinstance(value, str) and kind in QUANTITIES
         amount = parse_quantity(str(value), kind) if has_unit else value
-        if not isinstance(amount, int | float) or isinstance(amount, bool):
-            raise ValueError("is not a number")  # noqa: TRY004
-        if not (least <= amount <= most or (or_none and amount == 0)):
+        if isinstance(amount, int | float) and not isinstance(amount, bool):
+            if least <= amount <= most or (or_none and amount == 0):
+                return float(amount)
             raise ValueError(f"is not from {least:,} to {most:,}")
-        return float(amount)
+        raise ValueError("is not a number")
 
     return read
 

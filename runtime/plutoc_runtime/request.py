@@ -83,14 +83,12 @@ class Demand:
 class Request(Signal["Drone"]):
     """A mission that waits for a drone; it is set to the one that it gets."""
 
-    __slots__ = ("_demand", "_levels", "_reach", "_trips", "place", "policy", "trip", "why")
+    __slots__ = ("_demand", "_levels", "_reach", "_trips", "policy", "trip", "why")
 
-    def __init__(
-        self, reach: Reach, trips: Sequence[Trip], policy: Policy, place: tuple[int, int]
-    ) -> None:
+    def __init__(self, reach: Reach, trips: Sequence[Trip], policy: Policy) -> None:
         self.is_set = False
         self.error = self.waiter = self._value = self._watchers = None
-        self.trip, self.policy, self.place = trips[0], policy, place
+        self.trip, self.policy = trips[0], policy
         self.why = ""
         """Why it got its drone."""
         self._levels = reach.levels(self.trip)

@@ -15,7 +15,7 @@ def test_without_the_extra_fly_says_what_to_install(tmp_path: Path) -> None:
     """Nothing has begun then; and what needs no radio works."""
     package = compile_app(EXAMPLE / "app.pluto", tmp_path / "package")
     programs = fresh(tmp_path / "venv")
-    succeed(programs / "pip", "install", "--quiet", package)
+    succeed(programs / "pip", "install", "--quiet", package, ROOT / "runtime")
     program = programs / "drugs_distribution"
     succeed(program, "simulate", MISSIONS, "--fleet", FLEET)
     for words in (["fly", str(MISSIONS)], ["drones"]):
@@ -27,8 +27,8 @@ def test_without_the_extra_fly_says_what_to_install(tmp_path: Path) -> None:
 
 def test_the_extra_names_the_version_that_the_tests_fly_with() -> None:
     """The one that was read and measured, and its mends; another minor version may do otherwise."""
-    template = ROOT / "plutoc/emit/templates/pyproject.toml.jinja"
-    assert 'crazyflie = ["cflib>=0.1.34,<0.2"]' in template.read_text(encoding="utf-8")
+    for file in ("plutoc/emit/templates/pyproject.toml.jinja", "runtime/pyproject.toml"):
+        assert 'crazyflie = ["cflib>=0.1.34,<0.2"]' in (ROOT / file).read_text(encoding="utf-8")
     major, minor, *mend = map(int, version("cflib").split(".")[:3])
     assert (major, minor) == (0, 1)
     assert mend >= [34]

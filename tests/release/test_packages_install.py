@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 from typing import Any
 from urllib.request import urlopen
+from zipfile import ZipFile
 
 import pytest
 
@@ -131,6 +132,28 @@ def test_a_package_that_carries_the_library_flies_alone(tmp_path: Path) -> None:
     flown = run(program, "fly", *plan, "--sim", "--speed", "200", XDG_STATE_HOME=str(tmp_path))
     assert flown.code == 0, flown.err
     succeed(sys.executable, "-m", "mypy", "--strict", "src", "tests", cwd=package)
+
+
+def test_the_library_is_built_with_the_brain_as_it_is(library: Path) -> None:
+    """What an app does not carry comes from that copy, byte for byte."""
+    source = ROOT / "runtime/plutoc_runtime"
+    ours = {
+        path.relative_to(source).as_posix(): path.read_bytes()
+        for path in source.rglob("*")
+        if path.is_file() and "__pycache__" not in path.parts
+    }
+    inside = "pluto_fleet/_brain/"
+    with ZipFile(library) as wheel:
+        names = [name for name in wheel.namelist() if name.startswith(inside)]
+        assert {name.removeprefix(inside): wheel.read(name) for name in names} == ours
+
+
+def test_the_compiler_alone_runs_apps_and_says_what_its_trials_need(tmp_path: Path) -> None:
+    programs = fresh(tmp_path / "venv")
+    succeed(programs / "pip", "install", "--quiet", ROOT)
+    app = ROOT / "examples/drugs_distribution/app.pluto"
+    assert "alone in the air" in succeed(programs / "plutoc", "run", app).splitlines()[-1]
+    missing(run(programs / "plutoc", "test", app), "test")
 
 
 def simulated(program: Path, example: Path) -> dict[str, Any]:

@@ -27,7 +27,7 @@ def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_without_the_extra_serve_says_what_to_install(package: Path, tmp_path: Path) -> None:
     """All else works; and every page is there already, byte for byte."""
     programs = fresh(tmp_path / "venv")
-    succeed(programs / "pip", "install", "--quiet", package)
+    succeed(programs / "pip", "install", "--quiet", package, ROOT / "runtime")
     program = programs / "drugs_distribution"
     assert "--port" in succeed(program, "serve", "--help")
     done = run(program, "serve", "--sim", "--fleet", FLEET, "--folder", tmp_path / "kept")
@@ -36,7 +36,7 @@ def test_without_the_extra_serve_says_what_to_install(package: Path, tmp_path: P
     assert not (tmp_path / "kept").exists()
     succeed(program, "simulate", EXAMPLE / "missions.toml", "--fleet", FLEET)
 
-    (pages,) = (tmp_path / "venv").rglob("drugs_distribution/_runtime/station/pages")
+    (pages,) = (tmp_path / "venv").rglob("pluto_fleet/station/pages")
     there = {path.name: path.read_bytes() for path in pages.iterdir() if path.suffix != ".pyc"}
     ours = {path.name: path.read_bytes() for path in PAGES.iterdir() if path.is_file()}
     assert there == ours
@@ -45,7 +45,7 @@ def test_without_the_extra_serve_says_what_to_install(package: Path, tmp_path: P
 def test_with_the_extra_it_serves_the_app_that_was_compiled(package: Path, tmp_path: Path) -> None:
     """With the graph of its README, though no file of the package holds that."""
     programs = fresh(tmp_path / "venv")
-    succeed(programs / "pip", "install", "--quiet", f"{package}[station]")
+    succeed(programs / "pip", "install", "--quiet", ROOT / "runtime", f"{package}[station]")
     program = programs / "drugs_distribution"
     words = ["serve", "--sim", "--port", "0", "--folder", str(tmp_path), "--fleet", str(FLEET)]
     with subprocess.Popen([str(program), *words], stdout=subprocess.PIPE, text=True) as serving:

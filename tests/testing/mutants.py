@@ -17,6 +17,7 @@ from pluto_fleet.journal import values
 from pluto_fleet.journal.careful import Careful
 from pluto_fleet.journal.fold import Records
 from pluto_fleet.live_engine import LiveEngine
+from pluto_fleet.live_fleet import LiveFleet
 from pluto_fleet.standing import JobState
 from pluto_fleet.testing.book import Book
 from plutoc_runtime.fleet import Fleet
@@ -113,11 +114,11 @@ def old_brains_are_heard(patch: pytest.MonkeyPatch) -> None:
 def nobody_is_asked(patch: pytest.MonkeyPatch) -> None:
     """Every drone is taken for free before it has answered."""
 
-    def take_up(self: Fleet, drone: Any, _: object) -> None:
+    def take_up(self: LiveFleet, drone: Any, _: object) -> None:
         drone.status = DroneStatus.FREE
         self.queue.moved(drone, DroneStatus.OFFLINE)
 
-    patch.setattr(Fleet, "take_up", take_up)
+    patch.setattr(LiveFleet, "take_up", take_up)
 
 
 def doubt_is_flown_again(patch: pytest.MonkeyPatch) -> None:

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from alfalfa._runtime import cli
+from alfalfa._runtime import command
 from alfalfa.flow import APP
 
 MISSIONS = """\
@@ -44,8 +44,8 @@ def test_every_mission_ends(
     """A mission that has not been completed has failed, and says why."""
     plan = tmp_path / "missions.toml"
     plan.write_text(MISSIONS, encoding="utf-8")
-    command = ["simulate", str(plan), "--seed", str(seed), "--until", "24 h", "--json"]
-    code = cli.main(APP, [*command, "--fail", faults] if faults else command)
+    line = ["simulate", str(plan), "--seed", str(seed), "--until", "24 h", "--json"]
+    code = command.main(APP, [*line, "--fail", faults] if faults else line)
     printed = capsys.readouterr()
     assert code in (0, 1), printed.err
     for mission in json.loads(printed.out)["missions"]:

@@ -6,13 +6,13 @@ from __future__ import annotations
 
 import sys
 
-from ._runtime import cli
+from ._runtime import command
 from ._runtime.app import App
 
 
 def main() -> int:
     """Run one command and return its exit code."""
-    return cli.start("alfalfa", _load)
+    return command.start("alfalfa", _load)
 
 
 def _load() -> App:
