@@ -1,7 +1,7 @@
 """What does it cost to choose drones, and how does that grow with the fleet and with the queue?
 
-`python benchmarks/allocation.py` prints three tables. *A choice*: microseconds for a drone that is
-given away and comes back, by policy and by the size of the fleet.
+`python benchmarks/allocation.py` prints three tables. *A choice*: microseconds in
+which one of the free drones is chosen, by policy and by how many they are.
 *All at once*: milliseconds in which `batch_optimal` shares drones out. *The queue*: whole plans, of
 which most missions wait; seconds of CPU, and how much more a mission costs than in the first plan.
 Drones that must charge between flights are measured apart: somebody waits whom they can serve soon.
@@ -35,7 +35,7 @@ from plutoc_runtime.policies.least_used import least_used
 from plutoc_runtime.policies.nearest import nearest
 
 if TYPE_CHECKING:
-    from plutoc_runtime.policy import Policy, Pool
+    from plutoc_runtime.policy import OneByOne
 
 FLEETS = (10, 100, 1_000, 10_000)
 SHARES = ((10, 10), (30, 30), (100, 100), (300, 300), (1_000, 1_000), (1_000, 1_100), (1_000, 1))
@@ -81,7 +81,7 @@ class Standing:
     silence: float = 0.0
 
 
-POLICIES: Mapping[str, Policy] = {"nearest": nearest, "first": first, "least_used": least_used}
+POLICIES: Mapping[str, OneByOne] = {"nearest": nearest, "first": first, "least_used": least_used}
 
 
 def field(count: int, seed: int = 0, height: float = 0.0) -> Iterator[Point]:
@@ -123,33 +123,25 @@ def least(rounds: int, *works: Callable[[], object]) -> list[float]:
 def choices(rounds: int, fleets: Sequence[int]) -> Iterator[tuple[str, int, float]]:
     """Give policy, drones, and microseconds a choice."""
 
-    def filled(pool: Pool, drones: Sequence[Drone]) -> Pool:
-        for drone in drones:
-            pool.add(drone)
-        return pool
-
-    def given(pool: Pool, asked: Sequence[Trip]) -> None:
+    def given(policy: OneByOne, drones: Sequence[Drone], asked: Sequence[Trip]) -> None:
         for trip in asked:
-            choice = pool.choose(trip, anyone)
-            if choice is not None:
-                pool.remove(choice[0])
-                pool.add(choice[0])
+            policy(trip, drones, anyone)
 
     for name, policy in POLICIES.items():
         for count in fleets:
             asked = trips(max(10, min(CHOICES, 100_000 // count)), count)
-            (seconds,) = least(rounds, partial(given, filled(policy(), fleet(count)), asked))
+            (seconds,) = least(rounds, partial(given, policy, fleet(count), asked))
             yield name, count, seconds / len(asked) * 1e6
 
 
 def shares(rounds: int, sizes: Sequence[tuple[int, int]]) -> Iterator[tuple[int, int, float]]:
     """Give trips, drones, and the milliseconds in which drones are shared out."""
     for waiting, free in sizes:
-        pool = batch_optimal()
-        for drone in fleet(free):
-            pool.add(drone)
+        drones = fleet(free)
         offers = [(trip, anyone) for trip in trips(waiting, max(waiting, free))]
-        (seconds,) = least(rounds if waiting * free < 1e6 else 1, partial(pool.share, offers))
+        (seconds,) = least(
+            rounds if waiting * free < 1e6 else 1, partial(batch_optimal, offers, drones)
+        )
         yield waiting, free, seconds * 1e3
 
 
@@ -183,12 +175,13 @@ def flown(package: Path, missions: int) -> float:
     # it is not their traffic that is measured
     fleet.write_text("[fleet]\napart = 0.0\n" + "".join(map(entry, range(DRONES), homes)))
     words = ["simulate", str(plan), "--fleet", str(fleet), "--json"]
+    path = os.pathsep.join([str(package / "src"), os.environ.get("PYTHONPATH", "")])
     before = os.times()
     subprocess.run(
         [sys.executable, "-m", package.name, *words],
         check=True,
         stdout=subprocess.DEVNULL,
-        env={**os.environ, "PYTHONPATH": str(package / "src")},
+        env={**os.environ, "PYTHONPATH": path},
     )
     after = os.times()
     return after.children_user + after.children_system - before[2] - before[3]

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from enum import IntEnum
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from .actions import PICK, RELEASE
 from .energy import CLIMB_SPEED, needed
@@ -28,8 +27,7 @@ class Lacks(IntEnum):
     ENERGY = 3
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Miss:
+class Miss(NamedTuple):
     """How far a drone is from being able."""
 
     lacks: Lacks
@@ -62,16 +60,22 @@ def miss_of(
     """Return what a drone of this category and home lacks for the chain; None: nothing."""
     for trip in chain:
         if not category.can(trip.action):
-            return Miss(lacks=Lacks.ACTION, by=0.0, reason=f"{category.name} cannot {trip.action}")
+            return Miss(Lacks.ACTION, 0.0, f"{category.name} cannot {trip.action}")
     for trip in chain:
         if trip.item is not None and trip.item.mass > category.payload:
-            return _too_heavy(category, trip.item.mass)
+            most, weighs = mass(category.payload), mass(trip.item.mass)
+            reason = f"{category.name} carries at most {most}, the item weighs {weighs}"
+            return Miss(Lacks.PAYLOAD, trip.item.mass - category.payload, reason)
     stops = stops_of(app, airspace, chain)
     share = needed(category, airspace, home, stops, home)
     if share is None:
-        return _no_way(category, airspace, home, stops)
+        return Miss(Lacks.WAY, 0.0, _no_way(category, airspace, home, stops))
     if share + category.reserve > 1:
-        return _too_far(category, home, share)
+        reason = (
+            f"{category.name} would need {percent(share)} of a full battery from its home "
+            f"{place(home)} and back, and {percent(category.reserve)} must be left"
+        )
+        return Miss(Lacks.ENERGY, share + category.reserve - 1, reason)
     return None
 
 
@@ -91,37 +95,15 @@ def stops_of(app: App, airspace: Airspace, chain: Sequence[Trip]) -> list[tuple[
     return stops
 
 
-def _too_heavy(category: Category, weight: float) -> Miss:
-    return Miss(
-        lacks=Lacks.PAYLOAD,
-        by=weight - category.payload,
-        reason=f"{category.name} carries at most {mass(category.payload)}, "
-        f"the item weighs {mass(weight)}",
-    )
-
-
 def _no_way(
     category: Category, airspace: Airspace, home: Point, stops: Sequence[tuple[Point, float]]
-) -> Miss:
+) -> str:
     here = home
     for point, _ in [*stops, (home, 0.0)]:
         if airspace.route(here, point) is None:
             break
         here = point
-    return Miss(
-        lacks=Lacks.WAY,
-        by=0.0,
-        reason=f"{category.name} finds no permitted way from {place(here)} to {place(point)}",
-    )
-
-
-def _too_far(category: Category, home: Point, share: float) -> Miss:
-    return Miss(
-        lacks=Lacks.ENERGY,
-        by=share + category.reserve - 1,
-        reason=f"{category.name} would need {percent(share)} of a full battery from its home "
-        f"{place(home)} and back, and {percent(category.reserve)} must be left",
-    )
+    return f"{category.name} finds no permitted way from {place(here)} to {place(point)}"
 
 
 def wrong_aboard(trips: Sequence[Trip]) -> tuple[int, str] | None:

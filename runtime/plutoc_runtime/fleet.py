@@ -82,12 +82,7 @@ class Fleet:
             and (self._stays or docked(telemetry.location, drone.home))
         ):
             # navigation has it down already where it shall be, with enough in its battery
-            drone.status = _FREE
-            if self._trace.live:
-                self._note(drone)
-            self.queue.freed(drone)
-            if self._change is not None:
-                self._changed()
+            self._become(drone, _FREE)
         elif self._after_trip is AfterTrip.HOME or self.is_low(drone):
             self.send_home(drone)
         else:
@@ -136,7 +131,7 @@ class Fleet:
             drone.status = status
             if self._trace.live:
                 self._note(drone)
-        self.queue.moved(drone, before, status)
+        self.queue.moved(drone, before)
         if self._change is not None:
             self._changed()
 

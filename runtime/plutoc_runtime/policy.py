@@ -3,60 +3,51 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Protocol, runtime_checkable
+from functools import update_wrapper
+from math import inf
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from .model import Drone, Trip
 
 Able = Callable[["Drone"], bool]
-"""Says whether a drone may fly the trip now."""
+"""Says whether a drone may fly the trip now. It can take a route: ask it of as few as will do."""
 
-Why = Callable[[], str]
-"""Says why a drone was chosen, if it is asked at once: before the drone leaves the pool."""
-
-Choice = tuple["Drone", Why]
+Choice = tuple["Drone", str]
 """The drone that gets a trip, and why it was chosen."""
 
+OneByOne = Callable[["Trip", Sequence["Drone"], Able], Choice | None]
+"""Chooses one of the free drones, which come in the fleet's order, for a trip; None: none of them."""
 
-class Pool(Protocol):
-    """The free drones, from which a policy chooses."""
-
-    def add(self, drone: Drone) -> None:
-        """A drone is free; it stays where it is while it is."""
-        ...
-
-    def remove(self, drone: Drone) -> None:
-        """A drone is not free any more."""
-        ...
-
-    def choose(self, trip: Trip, able: Able) -> Choice | None:
-        """Return the drone that the policy wants for a trip; None: it has none for it."""
-        ...
+AllAtOnce = Callable[[Sequence[tuple["Trip", Able]], Sequence["Drone"]], Sequence[Choice | None]]
+"""Chooses a free drone, or None, for each of the trips that wait with one priority; none twice."""
 
 
-@runtime_checkable
-class BatchPool(Pool, Protocol):
-    """A pool whose policy looks at all trips that wait at once."""
+class Batch:
+    """A policy that looks at all trips at once: what decorates the function that does."""
 
-    def share(self, offers: Sequence[tuple[Trip, Able]]) -> Sequence[Choice | None]:
-        """Return a drone, or None, for each trip of one priority; no drone twice."""
-        ...
+    def __init__(self, policy: AllAtOnce) -> None:
+        self._policy = policy
+        update_wrapper(self, policy)
+
+    def __call__(
+        self, offers: Sequence[tuple[Trip, Able]], free: Sequence[Drone]
+    ) -> Sequence[Choice | None]:
+        """Return a drone, or None, for each trip."""
+        return self._policy(offers, free)
 
 
-Policy = Callable[[], Pool]
-"""Makes the pool from which the drones are chosen."""
+Policy = OneByOne | Batch
 
 
-class FreeDrones:
-    """What every pool of ours keeps: the free drones, in the order in which they came."""
-
-    def __init__(self) -> None:
-        self.free: dict[Drone, None] = {}
-
-    def add(self, drone: Drone) -> None:
-        """A drone is free."""
-        self.free[drone] = None
-
-    def remove(self, drone: Drone) -> None:
-        """A drone is not free any more."""
-        self.free.pop(drone, None)
+def lowest(
+    free: Sequence[Drone], able: Able, rank: Callable[[Drone], float]
+) -> tuple[Drone, float] | None:
+    """Return the able drone of the lowest rank, and that rank; of equals, the fleet's first."""
+    found: Drone | None = None
+    least = inf
+    for drone in free:
+        here = rank(drone)
+        if here < least and able(drone):
+            found, least = drone, here
+    return None if found is None else (found, least)

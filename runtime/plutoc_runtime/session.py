@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any
 
 from .allocation import Queue
 from .core import CallsOff, Core, Recorder
-from .eligibility import Reach
 from .engine import Engine
 from .fleet import Fleet
 from .kernel import FLEET, Kernel, Task
 from .model import Drone, Mission
+from .request import Reach
 from .results import ResultStore
 from .status import DroneStatus, Status
 from .trace import Event, Trace
@@ -93,7 +93,7 @@ class Session:
             for index, entry in enumerate(fleet.drones)
         )
         trace, results = Trace(kernel, listeners), ResultStore()
-        queue = Queue(kernel, trace, Reach(app, fleet.airspace), self.drones, fleet.max_airborne)
+        queue = Queue(kernel, Reach(app, fleet.airspace), self.drones, fleet.max_airborne)
         self.core = Core(
             app=app,
             kernel=kernel,

@@ -60,7 +60,7 @@ def test_only_what_is_needed_is_carried() -> None:
     blocks = [path for path in files if path.startswith("_runtime/blocks/")]
     policies = [path for path in files if path.startswith("_runtime/policies/")]
     assert blocks == ["_runtime/blocks/__init__.py", "_runtime/blocks/clock.py"]
-    names = ("__init__", "nearest", "ordered")
+    names = ("__init__", "nearest")
     assert policies == [f"_runtime/policies/{name}.py" for name in names]
 
 

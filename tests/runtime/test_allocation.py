@@ -86,6 +86,21 @@ def test_a_higher_priority_comes_first_then_arrival() -> None:
     assert chosen(outcome) == ["c:cf1", "a:cf1", "b:cf1"]
 
 
+def test_a_priority_that_compares_with_none_keeps_no_mission_from_its_drone() -> None:
+    """A hook may have left it there."""
+    flow = apps.flow(within=60.0)
+    assert apps.fly(apps.app(apps.flow()), *odd_ones()).completed
+    ended = apps.events(apps.fly(apps.app(flow), *odd_ones()), "mission.ended")
+    assert len(ended) == 6, "those that had to leave have left, and no others"
+
+
+def odd_ones() -> list[apps.Mission]:
+    """Return six missions, every other one of which has such a priority."""
+    odd: Any = float("nan")
+    trips = [apps.trip(str(n), 3.0, priority=odd if n % 2 else n) for n in range(6)]
+    return [apps.mission(trip.name, trip) for trip in trips]
+
+
 def test_only_a_drone_whose_category_can_do_it_gets_a_trip() -> None:
     scout = Category(name="scout", actions=frozenset({"take_photo"}))
     carrier = Category(name="carrier", actions=frozenset({"measure"}))
@@ -218,6 +233,20 @@ def test_a_drone_that_was_not_given_is_offered_again() -> None:
     )
     assert outcome.completed
     assert asked[:3] == [["cf1", "cf2", "cf3"], ["cf2", "cf3"], ["cf2", "cf3"]]
+
+
+def test_candidates_come_in_the_fleets_order_whenever_they_came_free() -> None:
+    asked: list[list[str]] = []
+
+    def last(trip: Trip, candidates: Sequence[Drone]) -> Drone:
+        asked.append([drone.id for drone in candidates])
+        return candidates[-1]
+
+    far = apps.mission("far", *(apps.trip(str(n), 1.0) for n in range(3)))
+    near = apps.mission("near", *(apps.trip(str(n), 9.0) for n in range(6)))
+    assert fly(own_policy(last), far, near).completed
+    assert all(ids == sorted(ids) for ids in asked)
+    assert {len(ids) for ids in asked} == {1, 2, 3}
 
 
 def test_a_policy_that_never_gives_a_drone_stops_the_simulation_with_the_reason() -> None:

@@ -116,7 +116,7 @@ def nobody_is_asked(patch: pytest.MonkeyPatch) -> None:
 
     def take_up(self: LiveFleet, drone: Any, _: object) -> None:
         drone.status = DroneStatus.FREE
-        self.queue.moved(drone, DroneStatus.OFFLINE, DroneStatus.FREE)
+        self.queue.moved(drone, DroneStatus.OFFLINE)
 
     patch.setattr(LiveFleet, "take_up", take_up)
 

@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from .ordered import Ordered
-
 if TYPE_CHECKING:
-    from ..policy import Pool
+    from ..model import Drone, Trip
+    from ..policy import Able, Choice
 
 
-def first() -> Pool:
+def first(trip: Trip, free: Sequence[Drone], able: Able) -> Choice | None:
     """Give each trip, in turn, the first free drone of the fleet."""
-    return Ordered(lambda drone, _: drone.index, _why)
-
-
-def _why(free: int, _: float) -> str:
-    return f"first of {free} free in the fleet's order"
+    drone = next(filter(able, free), None)
+    return None if drone is None else (drone, f"first of {len(free)} free in the fleet's order")

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from .ordered import Ordered
+from ..policy import lowest
 
 if TYPE_CHECKING:
-    from ..policy import Pool
+    from ..model import Drone, Trip
+    from ..policy import Able, Choice
 
 
-def least_used() -> Pool:
+def least_used(trip: Trip, free: Sequence[Drone], able: Able) -> Choice | None:
     """Give each trip, in turn, the free drone with the fewest trips behind it."""
-    return Ordered(lambda drone, _: drone.trips, _why)
-
-
-def _why(free: int, trips: float) -> str:
-    return f"least used of {free} free: {trips} trips so far"
+    found = lowest(free, able, lambda drone: drone.trips)
+    return found and (found[0], f"least used of {len(free)} free: {found[1]} trips so far")

@@ -2,24 +2,18 @@
 
 from __future__ import annotations
 
-from math import dist
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from .ordered import Ordered
+from ..policy import lowest
 
 if TYPE_CHECKING:
     from ..model import Drone, Trip
-    from ..policy import Pool
+    from ..policy import Able, Choice
 
 
-def nearest() -> Pool:
+def nearest(trip: Trip, free: Sequence[Drone], able: Able) -> Choice | None:
     """Give each trip, in turn, the closest free drone."""
-    return Ordered(_away, _why)
-
-
-def _away(drone: Drone, trip: Trip) -> float:
-    return dist(drone.location, trip.source or trip.target)
-
-
-def _why(free: int, away: float) -> str:
-    return f"nearest of {free} free: {away:.1f} m away"
+    goal = trip.source or trip.target
+    found = lowest(free, able, lambda drone: drone.distance(goal))
+    return found and (found[0], f"nearest of {len(free)} free: {found[1]:.1f} m away")

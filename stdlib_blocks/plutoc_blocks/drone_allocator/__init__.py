@@ -32,8 +32,8 @@ DRONE_ALLOCATOR = Block(
                 "batch_optimal": batch_optimal,
             },
             default="nearest",
-            doc="How one of several drones is chosen. The first three are as quick in a large fleet "
-            "as in a small one; `batch_optimal` looks at all that wait, for the least way in total.",
+            doc="How one of several drones is chosen. The first three choose for trip after trip; "
+            "`batch_optimal` looks at all that wait, for the least way in total.",
             hook=HookKind.POLICY,
             adapt=own_policy,
         ),

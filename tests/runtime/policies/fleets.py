@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 
 from plutoc_runtime.model import Category, Drone, Point, Trip
-from plutoc_runtime.policy import Choice
 
 SCOUT = Category(name="scout")
 
@@ -41,13 +39,3 @@ def trip(target: Point, source: Point | None = None) -> Trip:
 def anyone(drone: Drone) -> bool:
     """Refuse nobody."""
     return True
-
-
-def told(choice: Choice | None) -> tuple[Drone, str] | None:
-    """Return a choice, and why it was made."""
-    return None if choice is None else (choice[0], choice[1]())
-
-
-def closest_of(drones: Iterable[Drone], goal: Point) -> list[Drone]:
-    """Return all, the closest first; of those that are equally far, the fleet's first."""
-    return sorted(drones, key=lambda drone: (drone.distance(goal), drone.index))

@@ -11,17 +11,10 @@ from hypothesis import strategies as st
 
 from plutoc_runtime.model import Drone, Point
 from plutoc_runtime.policies.batch_optimal import batch_optimal
-from plutoc_runtime.policy import Able, BatchPool
-from tests.runtime.policies.fleets import anyone, fleet, told, trip
+from plutoc_runtime.policy import Able
+from tests.runtime.policies.fleets import anyone, fleet, trip
 
 PLACE = st.tuples(st.integers(0, 9).map(float), st.integers(0, 9).map(float), st.just(0.0))
-
-
-def pool_of(drones: list[Drone]) -> BatchPool:
-    pool = batch_optimal()
-    for one in drones:
-        pool.add(one)
-    return pool
 
 
 def shared(
@@ -33,7 +26,7 @@ def shared(
         return lambda drone: (index, drone.index) in able
 
     offers = [(trip(goal), asks(index)) for index, goal in enumerate(goals)]
-    choices = pool_of(drones).share(offers)
+    choices = batch_optimal(offers, drones)
     given = [(n, choice[0]) for n, choice in enumerate(choices) if choice is not None]
     assert len({drone.index for _, drone in given}) == len(given), "no drone twice"
     assert all((n, drone.index) in able for n, drone in given)
@@ -97,19 +90,16 @@ def test_it_is_as_short_as_scipy_makes_it() -> None:
 def test_of_two_drones_that_are_equally_far_it_is_the_first_of_the_fleet() -> None:
     drones = fleet((0.0, 0.0, 0.0), (2.0, 0.0, 0.0))
     why = "least total way for 1 waiting trips and 2 free drones: 1.0 m away"
-    assert told(pool_of(drones[::-1]).choose(trip((1.0, 0.0, 0.0)), anyone)) == (drones[0], why)
+    assert batch_optimal([(trip((1.0, 0.0, 0.0)), anyone)], drones) == [(drones[0], why)]
 
 
 def test_of_two_trips_that_are_equally_far_it_is_the_one_that_came_first() -> None:
     (only,) = fleet((1.0, 0.0, 0.0))
-    first, second = pool_of([only]).share([(trip((x, 0.0, 0.0)), anyone) for x in (0.0, 2.0)])
+    first, second = batch_optimal([(trip((x, 0.0, 0.0)), anyone) for x in (0.0, 2.0)], [only])
     assert first is not None
     assert (first[0], second) == (only, None)
 
 
 def test_without_drones_all_go_without() -> None:
-    drones = fleet((0.0, 0.0, 0.0))
-    pool = pool_of(drones)
-    pool.remove(drones[0])
-    assert list(pool.share([(trip((0.0, 0.0, 0.0)), anyone)])) == [None]
-    assert list(pool.share([])) == []
+    assert batch_optimal([(trip((0.0, 0.0, 0.0)), anyone)], []) == [None]
+    assert batch_optimal([], fleet((0.0, 0.0, 0.0))) == []
