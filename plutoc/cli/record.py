@@ -34,8 +34,8 @@ def record(
     """Remember a compile after which the folder is as it shall be; `words` are those of the next.
 
     What was found in a hooks.py beside the app would be told of its copy next time, and that the two
-    differ: this is not remembered, but compiled once more. So is what was compiled while somebody
-    wrote the blocks: they may have been read before. `begun` is when it began, in ns of the epoch;
+    differ: this is not remembered, but compiled once more. So is what was compiled while blocks
+    were being written: they may have been read before. `begun` is when it began, in ns of the epoch;
     `beside` is the hooks.py beside the app, where it was passed over.
     """
     package, path = compiled.package, hooks_path(compiled.checked)

@@ -100,7 +100,7 @@ class LiveEngine(Engine):
             flight = state.in_flight
             if flight is not None:
                 flight.break_off()
-            state.flight = None  # whatever is still reported of it is read from the ledger
+            state.flight = None  # what is still reported of it is read from the ledger
             if state.task is not None:
                 state.task.cancel()
 

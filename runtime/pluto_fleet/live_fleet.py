@@ -57,10 +57,10 @@ class LiveFleet(Fleet):
         return _in_words(standing) or await super()._why_lost(drone, reason)
 
     def take_up(self, drone: Drone, standing: Standing) -> None:
-        """Find out what becomes of a drone that nobody needs now, when an app begins or goes on.
+        """Find out what becomes of a drone that no mission needs now, when an app begins or goes on.
 
         It is handed out only once it stands on the ground, well, with nothing aboard; one that was
-        lost, only once somebody has looked after it, whatever it says of itself.
+        lost, only once a person has looked after it, even if it says that it is well.
         """
         if drone in self.lost:
             self._leave_lost(drone, standing)
@@ -97,7 +97,7 @@ class LiveFleet(Fleet):
         return why
 
     def retire(self, drone: Drone) -> None:
-        """Nobody gets this drone any more; what it flies for now it flies to the end."""
+        """No mission gets this drone any more; what it flies for now it flies to the end."""
         self.retired.add(drone)
         if drone.status in (DroneStatus.FREE, DroneStatus.CHARGING) and not self._rests(drone):
             self.send_home(drone)
@@ -120,7 +120,7 @@ class LiveFleet(Fleet):
         self._become(drone, DroneStatus.BUSY)
 
     def halt(self) -> None:
-        """Let go of every drone: somebody else brings them down."""
+        """Let go of every drone: the gateway brings them down."""
         for errand in list(self.errands.values()):
             errand.cancel()
         self.errands.clear()
@@ -128,7 +128,7 @@ class LiveFleet(Fleet):
     async def all_down(self) -> None:
         """Wait until every drone has done what it does for itself: return, land, recover.
 
-        One that stands on the ground and needs a person is not waited for, unless somebody comes.
+        One that stands on the ground and needs a person is not waited for, unless one comes.
         """
         stands_since: dict[Drone, float] = {}
         while under_way := {one: task for one, task in self.errands.items() if not task.is_set}:

@@ -89,6 +89,22 @@ class Commanding(Navigation[Job], Protocol):
         ...
 
 
+class Reached(Commanding, Protocol):
+    """The same, by a gateway in another process."""
+
+    def when_seen(self, watcher: Callable[[], object]) -> None:
+        """Call this whenever a drone was heard of."""
+        ...
+
+    async def goodbye(self) -> None:
+        """Let the gateway end, once all drones are down; nothing is lost by that."""
+        ...
+
+    async def close(self) -> None:
+        """Hang up: the gateway goes on, and lands everything if no other brain links."""
+        ...
+
+
 def motors_cut(drone: str) -> FlightFailed:
     """Return how everything fails that a drone did when its motors were cut on command."""
     return FlightFailed(Failure.CRASH, f"{drone}'s motors were cut")

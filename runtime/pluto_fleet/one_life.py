@@ -31,9 +31,9 @@ if TYPE_CHECKING:
     from plutoc_runtime.kernel import Task
     from plutoc_runtime.trace import Event
 
-    from .gateway.commanding import Reached
     from .journal.fold import Records
     from .journal.store import Store
+    from .navigation import Reached
     from .setting import Setting, Stops
 
 SNAPSHOT_EVERY = 50_000

@@ -1,4 +1,4 @@
-"""Whatever a hook raises is the hook's own fault; only a person's Ctrl-C is not."""
+"""What a hook raises is the hook's own fault; only a person's Ctrl-C is not."""
 
 from __future__ import annotations
 

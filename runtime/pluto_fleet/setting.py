@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     from plutoc_runtime.trace import Event
 
     from .files.fleet import FleetFile
-    from .gateway.commanding import Reached
     from .journal.fold import Records
+    from .navigation import Reached
     from .realtime import RealTime
     from .standing import Down
 

@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Any
 from .actions import PICK, RELEASE
 from .airspace import Airspace
 from .capability import wrong_aboard
-from .dotted import read_toml
 from .errors import BadInput
 from .fields import Entity, time_of_day
 from .geometry import covers_ground
 from .model import NOTHING, AfterTrip, Item
 from .quantities import QUANTITIES, Type, number_from
 from .spots import HOME_SIZE, first_crowded
+from .toml import read_toml
 from .words import cut_off, number, quoted, shown
 from .world import Feature, Source, WorldData
 

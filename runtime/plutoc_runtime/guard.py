@@ -1,4 +1,4 @@
-"""How the code of the app's developer is called: whatever it raises is its own fault.
+"""How the code of the app's developer is called: what it raises is its own fault.
 
 Alone, the brain takes every `KeyboardInterrupt` for a person's Ctrl-C. A library that runs an app in a
 process knows more of that process and its signals, and puts a guard of its own here.

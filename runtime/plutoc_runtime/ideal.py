@@ -201,7 +201,7 @@ class IdealNavigation:
         return self._world.gives(job.action, job.parameters, drone.location, self._kernel.now)
 
     def break_off(self, drone: str) -> None:
-        """Stop whatever a drone does, and hover."""
+        """Stop what a drone does, and hover."""
         one = self.drones[drone]
         if one.job is not None:
             one.job.cancel()

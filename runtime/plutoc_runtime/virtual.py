@@ -91,9 +91,7 @@ def _called_off_for_good(hook: Coroutine[Any, Any, T]) -> Generator[Any, Any, T]
             for call in (partial(hook.throw, error), hook.close):
                 try:
                     call()
-                except (
-                    WHATEVER
-                ) as its_own:  # whatever it does about it, it is not wanted any longer
+                except WHATEVER as its_own:  # it is not wanted any longer
                     if by_a_person(its_own):
                         raise
             raise

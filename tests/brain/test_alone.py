@@ -53,7 +53,7 @@ def seen(fly: Callable[..., Outcome], app: App, example: Example, fleet: Any, **
 def test_one_drone_flies_as_it_does_with_traffic(
     example: Example, example_app: App, faults: Faults
 ) -> None:
-    """The same events at the same times, metres and batteries, whatever goes wrong."""
+    """The same events at the same times, metres and batteries, also where things go wrong."""
     alive = 0
     for category in example_app.categories:
         first = next((d for d in example.fleet.drones if d.category == category.name), None)
@@ -91,7 +91,7 @@ fly = partial(alone.simulate, seed=1, until=None, on_event=None)
 
 
 def test_drones_pass_through_each_other() -> None:
-    """Two on one line arrive as each would alone: nobody waits."""
+    """Two on one line arrive as each would alone: none waits."""
     on = apps.fleet((1.0, 1.0, 0.0), (5.0, 1.0, 0.0), apart=0.5)
     missions = [
         apps.mission("a", apps.trip("1", 5.0, 1.0), index=0),
@@ -99,7 +99,10 @@ def test_drones_pass_through_each_other() -> None:
     ]
     outcome = fly(apps.app(apps.flow()), missions, on, faults=Faults())
     assert outcome.completed
-    assert apps.times(outcome, "trip.completed") == [5.0, 5.0]  # above their homes: nobody crosses
+    assert apps.times(outcome, "trip.completed") == [
+        5.0,
+        5.0,
+    ]  # above their homes: their ways do not cross
     far = [
         apps.mission("c", apps.trip("1", 5.0, 1.0)),
         apps.mission("d", apps.trip("1", 5.0, 1.0), index=1),

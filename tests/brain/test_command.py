@@ -59,7 +59,7 @@ EXTRAS = {"serve": "[station]", "drones": "[crazyflie]", "--plot": "[plot]"}
     ["fly", "resume", "serve", "drones", "journal", "tell", "decide", "gateway", "crtp"],
 )
 def test_what_needs_the_library_says_so_and_how_to_get_it(run: Run, what: str) -> None:
-    """In one sentence, whatever else was given, and without the app's own code."""
+    """In one sentence, with any other arguments, and without the app's own code."""
     extra = EXTRAS.get(what, "")
     said = (
         f"alfalfa: {what} needs pluto-fleet, the library that flies: "

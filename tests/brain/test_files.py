@@ -55,7 +55,7 @@ def test_the_examples_files_are_read_alike(example: Example, example_app: App) -
 
 
 def test_everything_that_a_fleet_file_may_hold_is_read_alike(tmp_path: Path) -> None:
-    """What only real flights need is passed over, whatever it is."""
+    """What only real flights need is passed over, of any type."""
     path = tmp_path / "fleet.toml"
     path.write_text(FULL)
     fleet = files.load_fleet(path, APP)

@@ -128,7 +128,7 @@ def test_a_compile_without_changes_looks_at_it_too(
 
 
 def test_a_hook_that_the_app_does_not_declare_any_more_is_told(plutoc: Call, app: Path) -> None:
-    """For as long as it is there, by `--check` as well, and by whatever compiles come between."""
+    """For as long as it is there, by `--check` as well, and after any compile in between."""
     plutoc("compile", app)
     assert tables() == ({"find_blooms": "evaluator", "pollinate": "action"}, {})
     HOOKS.write_text(CODE + DONE)
@@ -209,7 +209,7 @@ def test_a_former_hook_that_the_file_uses_is_a_helper(plutoc: Call, app: Path, m
 
 
 def test_functions_that_were_never_hooks_are_the_developers_own(plutoc: Call, app: Path) -> None:
-    """Whatever they are called; and so is a name that something else than a function has."""
+    """By any name; and so is a name that something else than a function has."""
     own = "\n\ndef mean(values): ...\n\n\ndef flown_done(x): ...\n\n\ndef _old(): ...\n"
     plutoc("compile", app)
     HOOKS.write_text(CODE + own)

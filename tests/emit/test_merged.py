@@ -30,7 +30,7 @@ def digest(text: str) -> str:
     ],
 )
 def test_each_side_is_put_together(text: str, ours: str, theirs: str | None) -> None:
-    """Whatever style it has, and whatever lies within what was before."""
+    """In each style, with anything within what was before."""
     wanted = ours.encode(), (theirs if theirs is not None else "2\nTitle\n=======\n").encode()
     assert sides(text.encode()) == wanted
 

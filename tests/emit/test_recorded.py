@@ -82,7 +82,7 @@ BOTH = f"<<<<<<< ours\n{WRITTEN}=======\n{OTHER}>>>>>>> theirs\n"
     ids=["marks", "diff3", "lines", "Windows"],
 )
 def test_both_sides_of_a_merge_are_read(text: str) -> None:
-    """Whatever either lists is ours; what was there before both belongs to neither."""
+    """What either of them lists is ours; what was there before both belongs to neither."""
     first, second, both = (read_lock(one.encode()) for one in (WRITTEN, OTHER, text))
     assert both.is_merged
     assert not first.is_merged

@@ -65,7 +65,7 @@ def test_a_library_leaves_all_other_files_as_they_are() -> None:
 
 @given(st.text(st.characters(exclude_categories=["Cs"])))
 def test_no_text_changes_the_shape_of_the_project(text: str) -> None:
-    """Whatever some version of PEP 508's reader lets through."""
+    """Everything that some version of PEP 508's reader lets through."""
     library = Library(name="a", requirement=text, direct=False, span=Span(0, 0))
     graph = replace(GRAPH, version=text, libraries=(library, library))
     project = written(graph)

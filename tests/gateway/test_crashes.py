@@ -13,7 +13,7 @@ from pluto_fleet.gateway.file_ledger import FileLedger
 from pluto_fleet.gateway.gateway import Gateway
 from pluto_fleet.gateway.line import LOST, Line
 from pluto_fleet.gateway.link import Link
-from pluto_fleet.simulation.deeds import Deed
+from pluto_fleet.simulation.drones import Deed
 from pluto_fleet.simulation.radio import Radio
 from pluto_fleet.standing import Down, JobState
 from plutoc_runtime.errors import Failure, FlightFailed

@@ -13,8 +13,7 @@ from pluto_fleet.gateway.ledger import MemoryLedger
 from pluto_fleet.journal.fold import Records
 from pluto_fleet.journal.memory import Memory
 from pluto_fleet.life import Life
-from pluto_fleet.simulation.deeds import Deed
-from pluto_fleet.simulation.drones import SimulatedDrone, SimulatedNavigation
+from pluto_fleet.simulation.drones import Deed, SimulatedDrone, SimulatedNavigation
 from pluto_fleet.standing import Down
 from plutoc_runtime.app import App
 from plutoc_runtime.faults import Faults

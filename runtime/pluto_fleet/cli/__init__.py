@@ -41,12 +41,11 @@ def start(name: str, load: Callable[[], App]) -> int:
         from ..forked import end_if_forked
         from ..hard_exit import refused
         from ..raised import guard_hooks, interrupted_by_a_person
-        from .loading import bare
 
         guard_hooks()
         parent = os.getpid()
         if sys.argv[1:2] in _WITHOUT_HOOKS:
-            app = bare(name)
+            app = _bare(name)
         else:
             with interrupted_by_a_person(), refused():
                 app = loaded(load)
@@ -61,6 +60,26 @@ def start(name: str, load: Callable[[], App]) -> int:
 
         leave_in_time(name, code)
     return code
+
+
+def _bare(name: str) -> App:
+    """Return an app of which nothing but the name is known, for commands that need no more."""
+    from plutoc_runtime.app import App
+    from plutoc_runtime.model import Mission, Trip
+
+    def flow(_: object) -> NoReturn:
+        raise RuntimeError("nothing flies here")
+
+    return App(
+        name=name,
+        title=name,
+        flow=flow,
+        mission=Mission,
+        trip=Trip,
+        fields=(),
+        categories=(),
+        actions={},
+    )
 
 
 def _heard(app: App) -> int:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from functools import partial
 from math import dist, inf
 from typing import TYPE_CHECKING
@@ -17,7 +18,6 @@ from plutoc_runtime.words import place
 
 from ..navigation import motors_cut
 from .body import Body, SimulatedDrone
-from .deeds import Deed
 
 if TYPE_CHECKING:
     from plutoc_runtime.airspace import Airspace
@@ -28,6 +28,23 @@ if TYPE_CHECKING:
     from ..standing import Standing
 
 __all__ = ["SimulatedDrone", "SimulatedNavigation"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Deed:
+    """Something that a drone does to the world, or sees of it."""
+
+    drone: str
+    action: str
+    item: Item | None
+    job: str | None
+    """For which it was done."""
+    boot: int
+    """The drone's."""
+    value: object
+    """What it gave."""
+    aboard: Item | None
+    """What the drone carries afterwards."""
 
 
 class SimulatedNavigation:

@@ -20,7 +20,7 @@ from plutoc_runtime.motion import Charge, Leg
 
 from ..journal.values import item_data, item_of, point_of, value_data, value_of
 from .body import Body, Snapshot
-from .deeds import Deed
+from .drones import Deed
 from .moments import Moment
 
 DEEDS, DRONES = "world.jsonl", "drones.json"

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from plutoc_runtime.app import App
 
     from ..controls import Controls
-    from ..simulation.deeds import Deed
+    from ..simulation.drones import Deed
     from .case import Case
 
 PATIENCE = 3.0
