@@ -6,7 +6,7 @@ TYPE_CHECKING = False  # `typing` itself is slow to import
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from plutoc_runtime.app import App
+    from plutoc_runtime.domain.app import App
 
     from .seam import Seam
 

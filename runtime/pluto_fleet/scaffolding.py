@@ -1,7 +1,7 @@
 """Scaffolding: gives the library the app's own brain under the name `plutoc_runtime`.
 
-The library says `from plutoc_runtime.kernel import Kernel`; in an app's process that is the very module
-`<app>._runtime.kernel`. What an app does not carry, because its graph needs none of it, comes from the
+The library says `from plutoc_runtime.time.kernel import Kernel`; in an app's process that is the very module
+`<app>._runtime.time.kernel`. What an app does not carry, because its graph needs none of it, comes from the
 library's copy. All this goes once the seam is plain data.
 """
 

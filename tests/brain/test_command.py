@@ -16,12 +16,13 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet import journal_line
 from pluto_fleet.cli import main as with_library
-from plutoc_runtime import alone, command
-from plutoc_runtime.app import App
-from plutoc_runtime.faults import Faults
-from plutoc_runtime.trace import dumped
+from pluto_fleet.journal import event_line as journal_line
+from plutoc_runtime import command
+from plutoc_runtime.alone import simulate as alone
+from plutoc_runtime.alone.faults import Faults
+from plutoc_runtime.domain.app import App
+from plutoc_runtime.domain.trace import dumped
 from tests.flying import EXAMPLES, compiled
 from tests.runtime import apps
 from tests.runtime.cli.conftest import MISSIONS

@@ -17,9 +17,9 @@ from pluto_fleet.gateway.file_ledger import FileLedger
 from pluto_fleet.gateway.gateway import Gateway
 from pluto_fleet.gateway.server import Server
 from pluto_fleet.gateway.wire import line
-from plutoc_runtime.errors import Failure, FlightFailed
-from plutoc_runtime.model import Point
-from plutoc_runtime.signals import Signal
+from plutoc_runtime.domain.errors import Failure, FlightFailed
+from plutoc_runtime.domain.model import Point
+from plutoc_runtime.time.future import Signal
 from tests.drones.fakes import FakeDrone
 from tests.drones.jumping import run, the_loop
 from tests.drones.teams import FIELD, Flown, flying

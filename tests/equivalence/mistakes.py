@@ -25,14 +25,14 @@ from plutoc.plan.passes.watch import watch as watch_pass
 from plutoc.plan.rewrite import rewritten
 from plutoc_blocks.gate_fifo.step import pass_first
 from plutoc_blocks.timer_monitor.step import timer_limit
-from plutoc_runtime.signals import Signal
-from plutoc_runtime.watching import watch
+from plutoc_runtime.time.future import Signal
+from plutoc_runtime.trips.deadlines import watch
 
 if TYPE_CHECKING:
-    from plutoc_runtime.flight import Flight
-    from plutoc_runtime.run import Branch, Run
-    from plutoc_runtime.status import Status
-    from plutoc_runtime.watching import Limit
+    from plutoc_runtime.domain.status import Status
+    from plutoc_runtime.flow.run import Branch, Run
+    from plutoc_runtime.trips.deadlines import Limit
+    from plutoc_runtime.trips.flight import Flight
 
 
 def swap_arms(step: Step, _: Step) -> Body:

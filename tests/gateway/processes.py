@@ -15,13 +15,13 @@ from pluto_fleet.gateway.process import LOCK
 from pluto_fleet.gateway.remote import RemoteLink
 from pluto_fleet.gateway.settings import Settings
 from pluto_fleet.gateway.starting import connect
-from pluto_fleet.realtime import RealTime
+from pluto_fleet.process.realtime import RealTime
 from pluto_fleet.simulation.body import SimulatedDrone
 from pluto_fleet.simulation.keeping import DEEDS
-from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.faults import Faults
-from plutoc_runtime.kernel import FLEET
-from plutoc_runtime.signals import Signal
+from plutoc_runtime.alone.faults import Faults
+from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.time.future import Signal
+from plutoc_runtime.time.kernel import FLEET
 from tests.gateway.flights import SCOUT, Task
 
 T = TypeVar("T")

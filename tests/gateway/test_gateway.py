@@ -5,11 +5,11 @@ from __future__ import annotations
 import pytest
 
 from pluto_fleet.gateway.link import Busy
-from pluto_fleet.standing import Down, JobState, RollCall
-from plutoc_runtime.errors import BadInput, Failure, FlightFailed
-from plutoc_runtime.faults import Faults
-from plutoc_runtime.kernel import FLEET
-from plutoc_runtime.virtual import VirtualTime
+from pluto_fleet.jobs.reports import Down, JobState, RollCall
+from plutoc_runtime.alone.faults import Faults
+from plutoc_runtime.domain.errors import BadInput, Failure, FlightFailed
+from plutoc_runtime.time.kernel import FLEET
+from plutoc_runtime.time.virtual import VirtualTime
 from tests.gateway.flights import PILLS, THERE, Field, Task
 from tests.runtime.simulation.flights import failure, fly
 

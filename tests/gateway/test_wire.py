@@ -18,13 +18,13 @@ from pluto_fleet.gateway.wire import (
     roll_data,
     roll_of,
 )
+from pluto_fleet.jobs.reports import Entry, JobState, RollCall, Standing
 from pluto_fleet.simulation.body import SimulatedDrone
-from pluto_fleet.standing import Entry, JobState, RollCall, Standing
-from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.errors import Failure, FlightFailed
-from plutoc_runtime.faults import Faults
-from plutoc_runtime.model import Category, Photo
-from plutoc_runtime.world import Feature, Source, WorldData
+from plutoc_runtime.alone.faults import Faults
+from plutoc_runtime.alone.world import Feature, Source, WorldData
+from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.domain.errors import Failure, FlightFailed
+from plutoc_runtime.domain.model import Category, Photo
 from tests.gateway.flights import Task
 from tests.gateway.processes import settings
 

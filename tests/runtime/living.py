@@ -8,22 +8,22 @@ from dataclasses import replace
 from typing import Any
 
 from pluto_fleet.files.fleet import FleetFile
+from pluto_fleet.flight.recorded_flight import Life
 from pluto_fleet.gateway.gateway import Gateway
 from pluto_fleet.gateway.ledger import MemoryLedger
+from pluto_fleet.jobs.reports import Down
 from pluto_fleet.journal.fold import Records
 from pluto_fleet.journal.memory import Memory
-from pluto_fleet.life import Life
 from pluto_fleet.simulation.drones import Deed, SimulatedDrone, SimulatedNavigation
-from pluto_fleet.standing import Down
-from plutoc_runtime.app import App
-from plutoc_runtime.faults import Faults
-from plutoc_runtime.fields import Entity, Field, FieldType
-from plutoc_runtime.kernel import FLEET, Kind
-from plutoc_runtime.model import Mission
-from plutoc_runtime.signals import Signal
-from plutoc_runtime.trace import Event
-from plutoc_runtime.virtual import VirtualTime
-from plutoc_runtime.world import World
+from plutoc_runtime.alone.faults import Faults
+from plutoc_runtime.alone.world import World
+from plutoc_runtime.domain.app import App
+from plutoc_runtime.domain.fields import Entity, Field, FieldType
+from plutoc_runtime.domain.model import Mission
+from plutoc_runtime.domain.trace import Event
+from plutoc_runtime.time.future import Signal
+from plutoc_runtime.time.kernel import FLEET, Kind
+from plutoc_runtime.time.virtual import VirtualTime
 
 from . import apps
 from .mortal import Mortal

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Coroutine, Sequence
 from typing import Any, TypeVar
 
-from plutoc_runtime.kernel import Call, Kernel, Key, Kind, Task, Timer
-from plutoc_runtime.signals import Signal
+from plutoc_runtime.time.future import Signal
+from plutoc_runtime.time.kernel import Call, Kernel, Key, Kind, Task, Timer
 
 T = TypeVar("T")
 

@@ -9,15 +9,15 @@ from functools import partial, wraps
 import pytest
 
 from pluto_fleet.simulation.drones import SimulatedNavigation
-from plutoc_runtime.actions import Action
-from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.context import Context
-from plutoc_runtime.errors import ActionFailed, Failure, FlightFailed
-from plutoc_runtime.handle import LiveDrone, can_wait
-from plutoc_runtime.model import Category, Drone
-from plutoc_runtime.signals import Signal
-from plutoc_runtime.status import Status
-from plutoc_runtime.world import WorldData
+from plutoc_runtime.alone.world import WorldData
+from plutoc_runtime.domain.actions import Action
+from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.domain.errors import ActionFailed, Failure, FlightFailed
+from plutoc_runtime.domain.model import Category, Drone
+from plutoc_runtime.domain.status import Status
+from plutoc_runtime.hooks.context import Context
+from plutoc_runtime.hooks.live_drone import LiveDrone, can_wait
+from plutoc_runtime.time.future import Signal
 from tests.runtime import apps, in_real_time
 
 Hook = Callable[..., object]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 
 from plutoc_blocks.clock.step import wait_for_time
-from plutoc_runtime.signals import Signal
+from plutoc_runtime.time.future import Signal
 
 
 def test_these_tests_run_on_the_copy_that_is_meant() -> None:

@@ -7,10 +7,10 @@ from functools import partial
 
 import pytest
 
-from pluto_fleet.realtime import RealTime
-from plutoc_runtime.kernel import Cancelled, Kind
-from plutoc_runtime.signals import Signal
-from plutoc_runtime.virtual import Stuck, VirtualTime
+from pluto_fleet.process.realtime import RealTime
+from plutoc_runtime.time.future import Signal
+from plutoc_runtime.time.kernel import Cancelled, Kind
+from plutoc_runtime.time.virtual import Stuck, VirtualTime
 
 
 def test_events_of_one_instant_come_by_kind_then_key_whatever_the_order_of_entry() -> None:

@@ -9,16 +9,16 @@ from typing import Any
 import pytest
 
 from pluto_fleet.cli.events import line_of
-from pluto_fleet.gateway.pilots import Pilots
+from pluto_fleet.flight.live_fleet import live_fleet
+from pluto_fleet.gateway.executor import Pilots
+from pluto_fleet.jobs.reports import Standing
 from pluto_fleet.journal.fold import Records
 from pluto_fleet.journal.memory import Memory
-from pluto_fleet.live_fleet import live_fleet
-from pluto_fleet.standing import Standing
-from plutoc_runtime.errors import BadInput, Failure
-from plutoc_runtime.kernel import FLEET
-from plutoc_runtime.model import Drone
-from plutoc_runtime.signals import Signal
-from plutoc_runtime.status import DroneStatus
+from plutoc_runtime.domain.errors import BadInput, Failure
+from plutoc_runtime.domain.model import Drone
+from plutoc_runtime.domain.status import DroneStatus
+from plutoc_runtime.time.future import Signal
+from plutoc_runtime.time.kernel import FLEET
 from tests.runtime import apps
 from tests.runtime.living import Living, enterable, names
 

@@ -11,11 +11,11 @@ from collections.abc import Coroutine
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
 from plutoc_runtime import output
-from plutoc_runtime.hooks import said
-from plutoc_runtime.kernel import WHATEVER
+from plutoc_runtime.hooks.calls import said
+from plutoc_runtime.time.kernel import WHATEVER
 
-from ..hard_exit import leave
-from ..raised import by_a_person
+from ..process.hard_exit import leave
+from ..process.signal_guard import by_a_person
 
 if TYPE_CHECKING:
     from multiprocessing.process import BaseProcess

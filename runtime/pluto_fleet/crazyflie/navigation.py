@@ -10,17 +10,7 @@ from typing import TYPE_CHECKING
 
 from ..drones.errors import LinkLost, NavigationError, NotReady, Rejected
 from ..drones.telemetry import LINK_LOST, DroneEvent, DroneTelemetry
-from . import (
-    actions,
-    flying,
-    lights,
-    logs,
-    parameters,
-    preflight,
-    recovery,
-    starting,
-    words,
-)
+from . import actions, flying, lights, logs, parameters, preflight, recovery, starting, words
 from .alarms import Alarms
 from .battery import Battery
 from .emergency import cut
@@ -30,8 +20,8 @@ from .options import options_of
 from .scan import scan
 
 if TYPE_CHECKING:
-    from plutoc_runtime.actions import Plain
-    from plutoc_runtime.model import Item, Point
+    from plutoc_runtime.domain.actions import Plain
+    from plutoc_runtime.domain.model import Item, Point
 
     from ..drones.setup import DroneSetup
     from .session import Session

@@ -14,7 +14,7 @@ from queue import SimpleQueue
 from threading import Thread
 from typing import Generic, TypeVar
 
-from plutoc_runtime.kernel import WHATEVER
+from plutoc_runtime.time.kernel import WHATEVER
 
 from ..drones.errors import LinkLost
 from . import words

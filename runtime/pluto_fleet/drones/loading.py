@@ -18,14 +18,14 @@ from functools import cache
 from importlib import import_module
 from typing import TYPE_CHECKING, TypeVar, cast
 
-from plutoc_runtime.errors import BadInput
-from plutoc_runtime.kernel import WHATEVER
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.time.kernel import WHATEVER
 
 from . import refusals
-from .calls import shortened
 from .checking import problems
 from .kinds import CAPABILITIES, LOCALIZATION_METHODS, NAVIGATION_METHODS, Kind
 from .looking_up import look_up
+from .timeouts import shortened
 from .trial import tried
 
 if TYPE_CHECKING:

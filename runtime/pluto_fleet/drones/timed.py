@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Awaitable, Callable, Generator
 from typing import Any, Generic, TypeVar
 
-from plutoc_runtime.kernel import WHATEVER
+from plutoc_runtime.time.kernel import WHATEVER
 
 T = TypeVar("T")
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.kernel import FLEET, Kind
+from plutoc_runtime.time.kernel import FLEET, Kind
 
-from ..standing import Down
+from ..jobs.reports import Down
 
 if TYPE_CHECKING:
-    from plutoc_runtime.signals import Signal
+    from plutoc_runtime.time.future import Signal
 
     from .gateway import Gateway
     from .server import Server

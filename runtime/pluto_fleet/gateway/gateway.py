@@ -10,22 +10,22 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.errors import BadInput, FlightFailed
-from plutoc_runtime.kernel import FLEET, Cancelled, Kernel, Kind, Task
+from plutoc_runtime.domain.errors import BadInput, FlightFailed
+from plutoc_runtime.time.kernel import FLEET, Cancelled, Kernel, Kind, Task
 
-from ..standing import Down, RollCall, Standing
+from ..jobs.reports import Down, RollCall, Standing
 from .descent import Craft, Descent
 from .envelope import Envelope
+from .executor import Leaving, Pilots
 from .jobs import Jobs
 from .link import Link
-from .pilots import Leaving, Pilots
 from .traffic.traffic import Traffic
 
 if TYPE_CHECKING:
-    from plutoc_runtime.airspace import Airspace
+    from plutoc_runtime.domain.airspace import Airspace
 
-    from ..controls import Controls
-    from .given import Report
+    from ..jobs.controls import Controls
+    from .job import Report
     from .ledger import Ledger
 
 

@@ -7,16 +7,16 @@ from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.errors import Failure, FlightFailed
-from plutoc_runtime.kernel import Kernel, Key, Kind
+from plutoc_runtime.domain.errors import Failure, FlightFailed
+from plutoc_runtime.time.kernel import Kernel, Key, Kind
 
-from ..standing import Entry, JobState, Standing, outcome
-from .given import Given, Report
+from ..jobs.reports import Entry, JobState, Standing, outcome
+from .job import Given, Report
 
 if TYPE_CHECKING:
-    from plutoc_runtime.navigation import Navigation
+    from plutoc_runtime.fleet.navigation import Navigation
 
-    from ..navigation import Job
+    from ..jobs.job import Job
     from .envelope import Envelope
     from .ledger import Ledger
 

@@ -5,17 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable, Coroutine
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
-from plutoc_runtime.errors import Failure, FlightFailed
-from plutoc_runtime.kernel import FLEET, Kind
-from plutoc_runtime.signals import Signal
+from plutoc_runtime.domain.errors import Failure, FlightFailed
+from plutoc_runtime.time.future import Signal
+from plutoc_runtime.time.kernel import FLEET, Kind
 
 if TYPE_CHECKING:
-    from plutoc_runtime.model import Point, Telemetry
+    from plutoc_runtime.domain.model import Point, Telemetry
 
-    from ..navigation import Job
-    from ..standing import Down, RollCall, Standing
+    from ..jobs.job import Job
+    from ..jobs.reports import Down, RollCall, Standing
     from .gateway import Gateway
-    from .given import Report
+    from .job import Report
 
 T = TypeVar("T")
 

@@ -9,20 +9,20 @@ from contextlib import suppress
 from math import inf
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.errors import BadInput
-from plutoc_runtime.signals import Signal
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.time.future import Signal
 
 from .wire import Message, job_data, line, message_in, result_of, roll_of, standing_of
 
 if TYPE_CHECKING:
     from asyncio import StreamReader, StreamWriter
 
-    from plutoc_runtime.kernel import Kernel
-    from plutoc_runtime.model import Point, Telemetry
+    from plutoc_runtime.domain.model import Point, Telemetry
+    from plutoc_runtime.time.kernel import Kernel
 
-    from ..navigation import Job
-    from ..standing import Down, RollCall, Standing
-    from .given import Report
+    from ..jobs.job import Job
+    from ..jobs.reports import Down, RollCall, Standing
+    from .job import Report
 
 SILENCE = 5.0
 """Seconds on the wall without a word from the gateway after which it is lost."""

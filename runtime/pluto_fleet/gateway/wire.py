@@ -9,18 +9,18 @@ from dataclasses import dataclass, field
 from math import isinf
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.errors import Failure, FlightFailed
+from plutoc_runtime.domain.errors import Failure, FlightFailed
 
+from ..jobs.reports import Entry, JobState, RollCall, Standing
 from ..journal.values import item_data, item_of, point_of, value_data, value_of
-from ..standing import Entry, JobState, RollCall, Standing
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from plutoc_runtime.actions import Plain
-    from plutoc_runtime.model import Item, Point, Telemetry
+    from plutoc_runtime.domain.actions import Plain
+    from plutoc_runtime.domain.model import Item, Point, Telemetry
 
-    from ..navigation import Job
+    from ..jobs.job import Job
 
 SILENT = 2.0
 """Seconds without a word after which a drone's place is no longer news."""

@@ -12,17 +12,17 @@ from math import inf
 from operator import is_
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.energy import CLIMB_SPEED, docked
-from plutoc_runtime.errors import Failure, FlightFailed
-from plutoc_runtime.faults import Drawn, befell
-from plutoc_runtime.kernel import FLEET, Key
-from plutoc_runtime.motion import Charge, Leg, standing
-from plutoc_runtime.signals import Signal
+from plutoc_runtime.alone.faults import Drawn, befell
+from plutoc_runtime.alone.motion import Charge, Leg, standing
+from plutoc_runtime.domain.errors import Failure, FlightFailed
+from plutoc_runtime.fleet.energy import CLIMB_SPEED, docked
+from plutoc_runtime.time.future import Signal
+from plutoc_runtime.time.kernel import FLEET, Key
 
-from ..standing import Standing
+from ..jobs.reports import Standing
 
 if TYPE_CHECKING:
-    from plutoc_runtime.model import Category, Item, Point
+    from plutoc_runtime.domain.model import Category, Item, Point
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

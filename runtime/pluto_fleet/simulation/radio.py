@@ -6,18 +6,18 @@ from collections.abc import Callable, Coroutine, Mapping
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from plutoc_runtime.errors import Failure, FlightFailed
-from plutoc_runtime.kernel import FLEET, Kernel, Kind
-from plutoc_runtime.signals import Signal
+from plutoc_runtime.domain.errors import Failure, FlightFailed
+from plutoc_runtime.time.future import Signal
+from plutoc_runtime.time.kernel import FLEET, Kernel, Kind
 
-from ..controls import Before
+from ..jobs.controls import Before
 
 if TYPE_CHECKING:
-    from plutoc_runtime.actions import Plain
-    from plutoc_runtime.model import Item, Point
+    from plutoc_runtime.domain.actions import Plain
+    from plutoc_runtime.domain.model import Item, Point
 
-    from ..controls import Controls
-    from ..standing import Standing
+    from ..jobs.controls import Controls
+    from ..jobs.reports import Standing
 
 T = TypeVar("T")
 

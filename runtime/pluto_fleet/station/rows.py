@@ -7,19 +7,19 @@ from collections.abc import Callable, Iterable, Sequence
 from math import isfinite
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.status import Status, TripStatus
-from plutoc_runtime.words import cut_off
+from plutoc_runtime.domain.status import Status, TripStatus
+from plutoc_runtime.domain.text import cut_off
 
 from ..cli.flown import aside
-from ..control import ANSWERS
+from ..flight.control import ANSWERS
+from ..flight.interventions import PRIORITY
 from ..gateway.wire import SILENT
-from ..interventions import PRIORITY
 from .whereabouts import END, ENDED, blocks_of
 
 if TYPE_CHECKING:
-    from plutoc_runtime.app import App
-    from plutoc_runtime.model import Drone, Mission, Point, Trip
-    from plutoc_runtime.state import State
+    from plutoc_runtime.domain.app import App
+    from plutoc_runtime.domain.model import Drone, Mission, Point, Trip
+    from plutoc_runtime.flow.mission import State
 
     from ..gateway.sightings import Sighting
     from ..journal.fold import Record

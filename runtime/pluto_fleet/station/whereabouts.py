@@ -8,11 +8,11 @@ from functools import cache
 from types import CodeType, FrameType
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.blame import declaration_above
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.status import Status
+from plutoc_runtime.flow.location import declaration_above
 
 if TYPE_CHECKING:
-    from plutoc_runtime.state import State
+    from plutoc_runtime.flow.mission import State
 
 END = "end"
 """Where missions are that have ended."""

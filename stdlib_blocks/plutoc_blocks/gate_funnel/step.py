@@ -6,12 +6,12 @@ from collections.abc import Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.signals import Signal
-from plutoc_runtime.status import WORST_FIRST, Status
+from plutoc_runtime.domain.status import WORST_FIRST, Status
+from plutoc_runtime.time.future import Signal
 
 if TYPE_CHECKING:
-    from plutoc_runtime.kernel import Task
-    from plutoc_runtime.run import Branch, Run
+    from plutoc_runtime.flow.run import Branch, Run
+    from plutoc_runtime.time.kernel import Task
 
 
 async def wait_for_all(run: Run[Any], status: Status, *branches: Branch[Any]) -> Status:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.flight import launch
-from plutoc_runtime.status import RUNNING
+from plutoc_runtime.domain.status import RUNNING
+from plutoc_runtime.trips.flight import launch
 
 if TYPE_CHECKING:
-    from plutoc_runtime.run import Run
-    from plutoc_runtime.status import Status
+    from plutoc_runtime.domain.status import Status
+    from plutoc_runtime.flow.run import Run
 
 
 def launch_trip(run: Run[Any], status: Status) -> Status:

@@ -10,17 +10,17 @@ from typing import Any
 from pluto_fleet.gateway.gateway import Gateway
 from pluto_fleet.gateway.link import Link
 from pluto_fleet.simulation.drones import SimulatedDrone, SimulatedNavigation
-from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.energy import docked
-from plutoc_runtime.errors import Failure, FlightFailed
-from plutoc_runtime.faults import Faults
-from plutoc_runtime.kernel import FLEET, Kind
-from plutoc_runtime.kernel import Task as Coroutine
-from plutoc_runtime.model import Category, Point
-from plutoc_runtime.navigation import permitted_way
-from plutoc_runtime.signals import Signal
-from plutoc_runtime.virtual import VirtualTime
-from plutoc_runtime.world import World
+from plutoc_runtime.alone.faults import Faults
+from plutoc_runtime.alone.world import World
+from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.domain.errors import Failure, FlightFailed
+from plutoc_runtime.domain.model import Category, Point
+from plutoc_runtime.fleet.energy import docked
+from plutoc_runtime.fleet.navigation import permitted_way
+from plutoc_runtime.time.future import Signal
+from plutoc_runtime.time.kernel import FLEET, Kind
+from plutoc_runtime.time.kernel import Task as Coroutine
+from plutoc_runtime.time.virtual import VirtualTime
 from tests.gateway.flights import Task
 
 ENDURING = Category(name="enduring", speed=0.5, flight_time=1e6, charge_time=1.0)

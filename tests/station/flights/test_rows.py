@@ -9,12 +9,12 @@ from typing import Any, cast
 import pytest
 
 from pluto_fleet.station.rows import mission_row, recorded_row
-from plutoc_runtime.app import App
-from plutoc_runtime.core import Core
-from plutoc_runtime.engine import Engine
-from plutoc_runtime.model import Mission, Trip
-from plutoc_runtime.state import State
-from plutoc_runtime.status import COMPLETED, STANDBY, Status
+from plutoc_runtime.domain.app import App
+from plutoc_runtime.domain.model import Mission, Trip
+from plutoc_runtime.domain.status import COMPLETED, STANDBY, Status
+from plutoc_runtime.flow.core import Core
+from plutoc_runtime.flow.engine import Engine
+from plutoc_runtime.flow.mission import State
 
 
 class Long:

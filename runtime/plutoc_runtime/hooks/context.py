@@ -1,0 +1,98 @@
+"""What a hook gets to work with."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import isfinite
+from typing import TYPE_CHECKING, Any
+
+from ..domain.text import class_of, text_of
+from ..time.future import Signal
+from ..time.kernel import Key, Kind, mission_key
+
+if TYPE_CHECKING:
+    from ..domain.model import Drone, Trip
+    from ..domain.results import Result
+    from ..flow.core import Core
+    from ..flow.mission import State
+    from .live_drone import LiveDrone
+
+
+class Context:
+    """The running app, as an action or a modifier sees it. Times are seconds since the start."""
+
+    __slots__ = ("_core", "_live", "_state")
+
+    def __init__(self, core: Core, state: State, live: LiveDrone | None = None) -> None:
+        self._core, self._state, self._live = core, state, live
+
+    @property
+    def now(self) -> float:
+        """The time, in seconds since the app started."""
+        return self._core.kernel.time()
+
+    @property
+    def results(self) -> Sequence[Result[Any, Any]]:
+        """What every action of the app has given so far."""
+        return self._core.results.so_far()
+
+    def log(self, text: str) -> None:
+        """Write a line on the console."""
+        self._core.log(text_of(text, f"<{class_of(text)}>"), self._state.mission.name)
+
+    def live(self, drone: Drone) -> LiveDrone:
+        """Return what the drone of this action can be asked, and set to, while it hovers here."""
+        live = self._live
+        if live is None:
+            raise RuntimeError("only an action that is an `async def` has a live drone")
+        if not live.is_of(drone):
+            raise RuntimeError(f"{drone.id} does not do this action")
+        return live
+
+    async def sleep(self, seconds: float) -> None:
+        """Wait for so many seconds, simulated or real."""
+        kernel, over = self._core.kernel, Signal[None]()
+        _must_be_finite(seconds)
+        timer = kernel.at(kernel.time() + seconds, Kind.CLOCK, self._key, lambda: over.set(None))
+        try:
+            await kernel.offer(over)
+        finally:
+            timer.cancel()
+
+    async def trip_ended(self, trip: Trip, *, within: float | None = None) -> bool:
+        """Wait until a trip of this mission is over; say whether it is.
+
+        With `within`, wait no longer than so many seconds from the trip's start: False means that
+        it is still flying. At the very same instant the trip's own end wins.
+        """
+        flight = self._state.flight
+        if trip.ended or flight is None or flight.trip is not trip:
+            return trip.ended
+        kernel, over = self._core.kernel, Signal[None]()
+
+        def wake(_: object = None) -> None:
+            over.set(None)
+
+        flight.watch(wake)
+        timer = None
+        if within is not None:
+            _must_be_finite(within)
+            until = (trip.start_time or 0.0) + within
+            timer = kernel.at(until, Kind.TIMER, self._key, wake)
+        try:
+            await kernel.offer(over)
+        finally:
+            flight.unwatch(wake)
+            if timer is not None:
+                timer.cancel()
+        return flight.is_set
+
+    @property
+    def _key(self) -> Key:
+        return mission_key(self._state.mission.index)
+
+
+def _must_be_finite(seconds: float) -> None:
+    """A hook that waits for ever would keep its mission for ever."""
+    if not isfinite(seconds):
+        raise ValueError(f"{seconds} seconds is no time to wait for")
