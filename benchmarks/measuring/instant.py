@@ -9,7 +9,7 @@ from typing import Any
 
 from pluto_fleet.files.fleet import DroneEntry, FleetFile
 from pluto_fleet.jobs.job import Job
-from pluto_fleet.jobs.reports import Down, RollCall, Standing
+from pluto_fleet.jobs.reports import Down, DroneReport, FleetReport
 from pluto_fleet.process.realtime import RealTime
 from plutoc_blocks.clock.step import wait_for_time
 from plutoc_blocks.drone_allocator.step import allocate_drone
@@ -165,9 +165,9 @@ class Instant:
         """Come home."""
         return True
 
-    async def roll_call(self, drone: str) -> Standing:
+    async def roll_call(self, drone: str) -> DroneReport:
         """Say that nothing has happened."""
-        return Standing(
+        return DroneReport(
             drone=drone,
             reached=True,
             location=HOME,
@@ -178,10 +178,10 @@ class Instant:
             done={},
         )
 
-    async def call(self) -> RollCall:
+    async def call(self) -> FleetReport:
         """Ask every drone."""
         drones: Mapping[str, Any] = {name: await self.roll_call(name) for name in self._drones}
-        return RollCall(drones=drones, jobs={})
+        return FleetReport(drones=drones, jobs={})
 
     def attach(self, id: str, report: Callable[[object], None]) -> None:
         """Nothing was given before."""

@@ -21,7 +21,7 @@ from plutoc_runtime.domain.errors import BadInput, Failure, FlightFailed
 from plutoc_runtime.domain.model import AfterTrip, Category, Drone, Item, Point, Trip
 from plutoc_runtime.domain.status import DroneStatus, Status
 from plutoc_runtime.flow.session import Outcome, Session
-from plutoc_runtime.time.future import Signal
+from plutoc_runtime.time.future import Future
 from plutoc_runtime.time.kernel import FLEET, Cancelled
 from plutoc_runtime.time.virtual import VirtualTime
 from tests.flying import A_WEEK, Example
@@ -161,7 +161,7 @@ class Told:
 
 def reported(job: Told, faults: Faults = NO_FAULTS) -> tuple[object, IdealNavigation]:
     """Fly one job, and return what was reported of it."""
-    kernel, over = VirtualTime(), Signal[object]()
+    kernel, over = VirtualTime(), Future[object]()
     navigation = IdealNavigation(kernel, apps.app(apps.flow()), apps.fleet(), faults, 3)
     navigation.fly(cast("Flight", job), over.set)
     assert kernel.run(over)

@@ -14,7 +14,7 @@ from pluto_fleet.cli.flights import Flight, aloft, may_hover
 from pluto_fleet.cli.stand_ins import who_is_missing, with_stand_ins
 from pluto_fleet.drones.real_fleet import RealDrone, Wanted, real_data, real_fleet, real_of
 from pluto_fleet.files.fleet import DroneEntry, FleetFile
-from pluto_fleet.jobs.reports import Standing
+from pluto_fleet.jobs.reports import DroneReport
 from pluto_fleet.simulation.drones import SimulatedNavigation
 from plutoc_runtime.alone.faults import Faults
 from plutoc_runtime.domain.airspace import Airspace
@@ -128,10 +128,10 @@ class Unready:
         self.unready = {*drones}
         monkeypatch.setattr(SimulatedNavigation, "roll_call", self.answer)
 
-    async def answer(self, drone: str) -> Standing:
+    async def answer(self, drone: str) -> DroneReport:
         """Answer the roll call."""
         problems = ("its battery is too low: 3.5 V",) if drone in self.unready else ()
-        return Standing(
+        return DroneReport(
             drone=drone,
             reached=True,
             location=(0.5, 0.5, 0.0),

@@ -18,7 +18,7 @@ from pluto_fleet.gateway.wire import (
     roll_data,
     roll_of,
 )
-from pluto_fleet.jobs.reports import Entry, JobState, RollCall, Standing
+from pluto_fleet.jobs.reports import DroneReport, Entry, FleetReport, JobState
 from pluto_fleet.simulation.body import SimulatedDrone
 from plutoc_runtime.alone.faults import Faults
 from plutoc_runtime.alone.world import Feature, Source, WorldData
@@ -83,7 +83,7 @@ def test_jobs_arrive_as_they_were(
 @given(
     st.lists(
         st.builds(
-            Standing,
+            DroneReport,
             drone=names,
             reached=st.booleans(),
             location=places,
@@ -108,9 +108,9 @@ def test_jobs_arrive_as_they_were(
         )
     ),
 )
-def test_a_roll_call_arrives_as_it_was(drones: list[Standing], jobs: list[Entry]) -> None:
+def test_a_roll_call_arrives_as_it_was(drones: list[DroneReport], jobs: list[Entry]) -> None:
     """Of all drones and of all jobs."""
-    roll = RollCall(
+    roll = FleetReport(
         drones={standing.drone: standing for standing in drones},
         jobs={entry.id: entry for entry in jobs},
     )

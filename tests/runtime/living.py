@@ -21,7 +21,7 @@ from plutoc_runtime.domain.app import App
 from plutoc_runtime.domain.fields import Entity, Field, FieldType
 from plutoc_runtime.domain.model import Mission
 from plutoc_runtime.domain.trace import Event
-from plutoc_runtime.time.future import Signal
+from plutoc_runtime.time.future import Future
 from plutoc_runtime.time.kernel import FLEET, Kind
 from plutoc_runtime.time.virtual import VirtualTime
 
@@ -89,7 +89,7 @@ class Living:
         )
         self.gateway = Gateway(self.kernel, self.navigation, drones, space, ledger=MemoryLedger())
         self.events: list[Event] = []
-        self.done: Signal[float] = Signal()
+        self.done: Future[float] = Future()
         self._epoch = 0
         self._brain = Mortal(self.kernel)
         self.life = self._new_life()
@@ -115,7 +115,7 @@ class Living:
         disk.life = life
         return life
 
-    def _is_done(self, task: Signal[float]) -> None:
+    def _is_done(self, task: Future[float]) -> None:
         if task.error is None:  # else everything was stopped
             self.done.set(task.result())
 
@@ -158,7 +158,7 @@ class Living:
         self.die()
         decided = {"t": self.kernel.now, "event": "mission.decided", "mission": mission}
         self.memory.append([json.dumps([{**decided, "answer": answer}])])
-        self.done = Signal()
+        self.done = Future()
         self.live_on()
 
     def run(self, until: float = 100_000.0) -> list[str]:

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, NoReturn
 
 from plutoc_runtime.domain.actions import BUILT_IN, Plain
 
-from ..jobs.reports import Standing
+from ..jobs.reports import DroneReport
 from . import acting, flying
 from .cargo import Cargo
 from .closing import close
@@ -175,16 +175,16 @@ class Team:
         """Whoever meets it takes off what it carries."""
         self._cargo.carries(drone, None)
 
-    async def roll_call(self, drone: str) -> Standing:
+    async def roll_call(self, drone: str) -> DroneReport:
         """Ask a drone where it is, and whether it may fly; say so if it does not answer."""
         await self._kernel.call_hook(self._links[drone].once)
         member = self._members[drone]
         problems: object = await self._kernel.call_hook(self._problems, member)
         return self._standing(member, problems if isinstance(problems, tuple) else ())
 
-    def _standing(self, member: Member, problems: tuple[str, ...]) -> Standing:
+    def _standing(self, member: Member, problems: tuple[str, ...]) -> DroneReport:
         seen = member.seen
-        return Standing(
+        return DroneReport(
             drone=member.id,
             reached=member.linked,
             location=seen.location,

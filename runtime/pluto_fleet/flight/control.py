@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.status import DroneStatus, Status
 from plutoc_runtime.domain.text import counted, quoted
-from plutoc_runtime.time.future import Signal
+from plutoc_runtime.time.future import Future
 from plutoc_runtime.time.kernel import FLEET, Task, mission_key
 from plutoc_runtime.trips.flight import keep_carrier
 
@@ -52,7 +52,7 @@ class Control:
 
     def __init__(self, session: Session, link: Commanding) -> None:
         self._link, self._core, self._engine = link, session.core, live_engine(session)
-        self.stopped: Signal[Down] = Signal()
+        self.stopped: Future[Down] = Future()
         """Set when everything was stopped and all drones are down."""
         self.whole: Task[float] | None = None
         """The task that sets all missions out, or takes them up again, and waits for their end."""

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from plutoc_runtime.domain.status import FAILED, Status
 from plutoc_runtime.flow.engine import Engine
 from plutoc_runtime.flow.mission import State
-from plutoc_runtime.time.future import Signal
+from plutoc_runtime.time.future import Future
 from plutoc_runtime.time.kernel import Task, mission_key
 
 if TYPE_CHECKING:
@@ -44,13 +44,13 @@ class LiveEngine(Engine):
     def add(self, missions: Sequence[Mission[Any]]) -> None:
         """Set more missions on their way, while others fly or after all have ended."""
         if self.done.is_set:
-            self.done = Signal()
+            self.done = Future()
         self.start(missions)
 
     def resume(self, state: State, status: Status) -> None:
         """Let a mission that was interrupted go on at the block where it can, with this status."""
         if self.done.is_set:
-            self.done = Signal()
+            self.done = Future()
         self._aside.pop(state.mission.name, None)
         self._enter(state, status)
 

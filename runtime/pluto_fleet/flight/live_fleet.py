@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from plutoc_runtime.flow.core import Core
 
     from ..jobs.job import Commanding
-    from ..jobs.reports import Standing
+    from ..jobs.reports import DroneReport
 
 _HELPLESS = 12.0
 """Seconds after which a drone that stands there will not fly home by itself: it would have begun."""
@@ -56,7 +56,7 @@ class LiveFleet(Fleet):
         standing = await self._navigation.roll_call(drone.id)
         return _in_words(standing) or await super()._why_lost(drone, reason)
 
-    def take_up(self, drone: Drone, standing: Standing) -> None:
+    def take_up(self, drone: Drone, standing: DroneReport) -> None:
         """Find out what becomes of a drone that no mission needs now, when an app begins or goes on.
 
         It is handed out only once it stands on the ground, well, with nothing aboard; one that was
@@ -72,7 +72,7 @@ class LiveFleet(Fleet):
             if why and standing.landed:
                 self.unready[drone] = why
 
-    def _leave_lost(self, drone: Drone, standing: Standing) -> None:
+    def _leave_lost(self, drone: Drone, standing: DroneReport) -> None:
         """Let it be where it is, unless it is in the air: then it comes home, and stays lost."""
         if standing.reached and not standing.landed:
             down = partial(self._bring_down, reason=self.lost[drone])
@@ -88,7 +88,7 @@ class LiveFleet(Fleet):
         self.unready[drone] = reason
         self._become(drone, DroneStatus.LOST)
 
-    def _say_why_not(self, drone: Drone, standing: Standing) -> str:
+    def _say_why_not(self, drone: Drone, standing: DroneReport) -> str:
         """Let people know why a drone may not fly, and return it."""
         if not standing.problems:
             return ""
@@ -170,7 +170,7 @@ def live_fleet(core: Core) -> LiveFleet:
     return core.fleet
 
 
-def _in_words(standing: Standing) -> str:
+def _in_words(standing: DroneReport) -> str:
     """Return why a drone may not fly, as it says itself."""
     return cut_off("; ".join(map(printable, standing.problems)), LONGEST)
 

@@ -14,7 +14,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.time.future import Signal
+from plutoc_runtime.time.future import Future
 from plutoc_runtime.time.kernel import FLEET, Cancelled
 
 from ..jobs.reports import Down
@@ -62,7 +62,7 @@ class OneLife:
         self._watcher: Callable[[], object] | None = None
         self.life: Life | None = None
         """What is lived, once the gateway is reached."""
-        self._end: Signal[End] = Signal()
+        self._end: Future[End] = Future()
         self._failure: JournalError | None = None
         self._since_snapshot = 0
         self._kept: asyncio.Future[bool] = self._loop.create_future()

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
     from ..files.fleet import FleetFile
     from ..jobs.job import Commanding
-    from ..jobs.reports import RollCall
+    from ..jobs.reports import FleetReport
     from ..journal.fold import Records
 
 
@@ -160,7 +160,7 @@ class Life:
             self._link.mended(drone)
 
 
-def _refuse_if_none_is_ready(roll: RollCall, lost: Mapping[str, str]) -> None:
+def _refuse_if_none_is_ready(roll: FleetReport, lost: Mapping[str, str]) -> None:
     """Raise `BadInput` if no drone may fly: nothing has begun."""
     reasons = {
         drone: (

@@ -30,13 +30,13 @@ if TYPE_CHECKING:
     from plutoc_runtime.flow.mission import State
 
     from ..jobs.job import Commanding
-    from ..jobs.reports import RollCall
+    from ..jobs.reports import FleetReport
     from ..journal.fold import Records
     from .live_engine import LiveEngine
 
 
 async def go_on(
-    core: Core, engine: LiveEngine, link: Commanding, roll: RollCall, records: Records
+    core: Core, engine: LiveEngine, link: Commanding, roll: FleetReport, records: Records
 ) -> list[Mission[Any]]:
     """Take up everything where it was interrupted; return all missions, those that ended too."""
     by_index = sorted(records.missions.items(), key=lambda item: int(item[1]["index"]))
@@ -75,7 +75,7 @@ class _Revival:
         core: Core,
         engine: LiveEngine,
         link: Commanding,
-        roll: RollCall,
+        roll: FleetReport,
         one: Rebuilt,
         drones: Mapping[str, Drone],
     ) -> None:

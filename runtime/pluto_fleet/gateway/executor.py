@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     from ..jobs.controls import Controls
     from ..jobs.job import Job
-    from ..jobs.reports import Standing
+    from ..jobs.reports import DroneReport
     from .descent import Craft
     from .ledger import Ledger
     from .traffic.traffic import Traffic, Ways
@@ -177,7 +177,7 @@ class Pilots:
         if drone in self._cut:
             raise motors_cut(drone)
 
-    async def roll_call(self, drone: str) -> Standing:
+    async def roll_call(self, drone: str) -> DroneReport:
         """Ask a drone where it is and what it has done; say so if it does not answer."""
         standing = await self._controls.roll_call(drone)
         if self._traffic is not None:

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 from plutoc_runtime.alone.world import World
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.text import printable
-from plutoc_runtime.time.future import Signal
+from plutoc_runtime.time.future import Future
 
 from ..drones.real_fleet import SLACK
 from ..process.forked import deaf, in_children, not_for_children
@@ -150,7 +150,7 @@ async def _command(
         patience=settings.patience * settings.speed,
         leaving=seen.leaving,
     )
-    over: Signal[None] = Signal()
+    over: Future[None] = Future()
     ending = Ending(gateway, over, settings)
     server = Server(gateway, _say, ending.goodbye)
     ending.server = server

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Item, Point, Telemetry
 
     from .job import Job
-    from .reports import Standing
+    from .reports import DroneReport
 
 
 class Controls(Protocol):
@@ -98,7 +98,7 @@ class Controls(Protocol):
         """Whoever meets it takes off what it carries."""
         ...
 
-    async def roll_call(self, drone: str) -> Standing:
+    async def roll_call(self, drone: str) -> DroneReport:
         """Ask a drone where it is and what it has done; say so if it does not answer."""
         ...
 
@@ -137,6 +137,6 @@ class Before:
         """Wait, after a failed flight, until a drone takes commands again; False: it is lost."""
         return await self._controls.reach(drone)
 
-    async def roll_call(self, drone: str) -> Standing:
+    async def roll_call(self, drone: str) -> DroneReport:
         """Ask a drone where it is and what it has done; say so if it does not answer."""
         return await self._controls.roll_call(drone)

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from plutoc_runtime.domain.actions import Plain
     from plutoc_runtime.domain.model import Item, Point
 
-    from .reports import Down, RollCall, Standing
+    from .reports import Down, DroneReport, FleetReport
 
 
 class Job(Protocol):
@@ -68,11 +68,11 @@ class Commanding(Navigation[Job], Protocol):
         """A person has looked after a lost drone: it can be recovered once more."""
         ...
 
-    async def roll_call(self, drone: str) -> Standing:
+    async def roll_call(self, drone: str) -> DroneReport:
         """Ask a drone where it is and what it has done; say so if it does not answer."""
         ...
 
-    async def call(self) -> RollCall:
+    async def call(self) -> FleetReport:
         """Ask all drones and the ledger how everything stands; from now on the brain is heard."""
         ...
 

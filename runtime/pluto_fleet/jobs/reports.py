@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Standing:
+class DroneReport:
     """What one drone answers when the roll is called."""
 
     drone: str
@@ -96,10 +96,10 @@ def outcome(job: Over) -> object:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class RollCall:
+class FleetReport:
     """The whole fleet and the whole ledger, at one moment."""
 
-    drones: Mapping[str, Standing]
+    drones: Mapping[str, DroneReport]
     jobs: Mapping[str, Entry]
     """By the jobs' ids; what is not here never arrived."""
 

@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Point, Telemetry
 
     from ..jobs.job import Commanding, Job
-    from ..jobs.reports import Standing
+    from ..jobs.reports import DroneReport
     from .recorder import Recorder
 
 
@@ -76,6 +76,6 @@ class Careful:
         """Bring a drone home after a failed flight."""
         return await self._link.recover(drone)
 
-    async def roll_call(self, drone: str) -> Standing:
+    async def roll_call(self, drone: str) -> DroneReport:
         """Ask a drone where it is and what it has done."""
         return await self._link.roll_call(drone)

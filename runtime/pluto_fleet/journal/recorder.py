@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from plutoc_runtime.domain.fields import Entity
 from plutoc_runtime.domain.mission_data import change_data, fields_of, trip_data
-from plutoc_runtime.time.future import Signal
+from plutoc_runtime.time.future import Future
 
 from .event_line import exact
 from .fold import Record, Records
@@ -75,7 +75,7 @@ class Recorder:
 
     async def on_record(self) -> None:
         """Wait until all that has happened up to now is durable."""
-        durable: Signal[None] = Signal()
+        durable: Future[None] = Future()
         self.when_durable(lambda: durable.set(None))
         await durable
 

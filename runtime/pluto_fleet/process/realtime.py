@@ -15,7 +15,7 @@ from types import CoroutineType, coroutine
 from typing import Any, NoReturn, TypeVar, cast
 
 from plutoc_runtime.domain.guard import as_a_fault, guarded
-from plutoc_runtime.time.future import Signal
+from plutoc_runtime.time.future import Future
 from plutoc_runtime.time.kernel import WHATEVER, Call, Kernel, Key, Kind
 
 from .forked import end_if_forked
@@ -88,7 +88,7 @@ class RealTime(Kernel):
         else:
             self._arm()
 
-    async def run(self, done: Signal[T]) -> T:
+    async def run(self, done: Future[T]) -> T:
         """Go on until it is done."""
         done.watch(self._stop)
         while not done.is_set and self.crashed is None:
@@ -129,7 +129,7 @@ class RealTime(Kernel):
         """
         if never_waits(hook):
             return await _alone(cast("Coroutine[Any, Any, object]", hook(*args, **named)))
-        result: Signal[object] = Signal()
+        result: Future[object] = Future()
         running = asyncio.ensure_future(self._answer(hook, partial(hook, *args, **named), result))
         try:
             return await result
@@ -137,7 +137,7 @@ class RealTime(Kernel):
             running.cancel()
 
     async def _answer(
-        self, hook: Callable[..., object], call: Callable[[], object], result: Signal[object]
+        self, hook: Callable[..., object], call: Callable[[], object], result: Future[object]
     ) -> None:
         """Wait for a hook, and post what it ends with, whatever that is."""
         try:
@@ -178,7 +178,7 @@ class RealTime(Kernel):
         Thread(target=work, name="hook", daemon=True).start()
         return (await ended)()
 
-    async def offer(self, signal: Signal[T]) -> T:
+    async def offer(self, signal: Future[T]) -> T:
         """Return what a hook, an asyncio task here, may await for this signal."""
         happened = asyncio.Event()
 

@@ -13,7 +13,7 @@ from plutoc_runtime.domain.actions import BUILT_IN, PICK, RELEASE, Plain, grip_p
 from plutoc_runtime.domain.errors import Failure, FlightFailed
 from plutoc_runtime.domain.text import place
 from plutoc_runtime.fleet.energy import CLIMB_SPEED
-from plutoc_runtime.time.future import Signal
+from plutoc_runtime.time.future import Future
 from plutoc_runtime.time.kernel import Kernel, Kind
 
 from ..jobs.job import motors_cut
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Item, Point, Telemetry
 
     from ..jobs.job import Job
-    from ..jobs.reports import Standing
+    from ..jobs.reports import DroneReport
 
 __all__ = ["SimulatedDrone", "SimulatedNavigation"]
 
@@ -246,7 +246,7 @@ class SimulatedNavigation:
         """Whoever meets it takes off what it carries."""
         self.bodies[drone].unload()
 
-    async def roll_call(self, drone: str) -> Standing:
+    async def roll_call(self, drone: str) -> DroneReport:
         """Ask a drone where it is and what it has done."""
         return self.bodies[drone].standing
 
@@ -274,7 +274,7 @@ class SimulatedNavigation:
             raise RuntimeError(f"{body.drone.id} was told {command} while told {body.command}")
         if until <= self._kernel.now:
             return
-        over: Signal[None] = Signal()
+        over: Future[None] = Future()
         body.command, body.over = command, over
         timer = self._kernel.at(until, Kind.FLIGHT, body.key, partial(over.set, None))
         try:

@@ -8,7 +8,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from plutoc_runtime.domain.errors import FlightFailed
-from plutoc_runtime.time.future import Signal
+from plutoc_runtime.time.future import Future
 from plutoc_runtime.time.kernel import FLEET, Cancelled, Kind, Task
 
 from ..gateway.link import Link
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from ..gateway.gateway import Gateway
     from ..gateway.job import Report
     from ..jobs.job import Job
-    from ..jobs.reports import Down, RollCall, Standing
+    from ..jobs.reports import Down, DroneReport, FleetReport
 
 T = TypeVar("T")
 
@@ -91,11 +91,11 @@ class Wire(Link):
         """Bring a drone home after a failed flight."""
         return self._far(partial(self._real.recover, drone))
 
-    def roll_call(self, drone: str) -> Coroutine[Any, Any, Standing]:
+    def roll_call(self, drone: str) -> Coroutine[Any, Any, DroneReport]:
         """Ask a drone where it is and what it has done."""
         return self._far(partial(self._real.roll_call, drone))
 
-    def call(self) -> Coroutine[Any, Any, RollCall]:
+    def call(self) -> Coroutine[Any, Any, FleetReport]:
         """Ask all drones and the ledger how everything stands."""
         return self._far(partial(self._real.call))
 
@@ -108,7 +108,7 @@ class Wire(Link):
 
         Messages travel; whoever does not want it any more, says so.
         """
-        over: Signal[T] = Signal()
+        over: Future[T] = Future()
         under_way: list[Task[T]] = []
 
         def begin() -> None:
@@ -150,7 +150,7 @@ class Wire(Link):
         self._send(partial(self._brain.post, report, result))
 
 
-def _settle(over: Signal[T], task: Task[T]) -> None:
+def _settle(over: Future[T], task: Task[T]) -> None:
     """Tell what came of a command; one that was called off is waited for by nobody."""
     if task.error is None:
         over.set(task.result())

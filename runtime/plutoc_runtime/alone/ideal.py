@@ -14,7 +14,7 @@ from ..domain.actions import BUILT_IN, PICK, RELEASE, grip_problem
 from ..domain.errors import Failure, FlightFailed
 from ..fleet.energy import CLIMB_SPEED, docked, flight_seconds
 from ..fleet.navigation import way_from
-from ..time.future import Signal
+from ..time.future import Future
 from ..time.kernel import FLEET, Kernel, Key, Kind, Task
 from .faults import CARRYING_HOME, OUTAGE, Drawn, Faults, Order, befell, draw, failed
 from .motion import Charge, Leg, standing
@@ -41,7 +41,7 @@ class IdealDrone:
         self.carries: Item | None = None
         self.settings: dict[str, float] = {}
         self.drawn = Drawn()
-        self.over: Signal[None] | None = None
+        self.over: Future[None] | None = None
         """Is set when what it does is done, and fails if that is broken off."""
         self.job: Task[None] | None = None
         self._began = self._flown = 0.0
@@ -298,7 +298,7 @@ class IdealNavigation:
     async def _wait(self, drone: IdealDrone, until: float) -> None:
         if until <= self._kernel.now:
             return
-        drone.over = over = Signal[None]()
+        drone.over = over = Future[None]()
         timer = self._kernel.at(until, Kind.FLIGHT, drone.key, partial(over.set, None))
         try:
             await over

@@ -13,7 +13,7 @@ from ..domain.errors import FlightFailed
 from ..domain.model import AfterTrip
 from ..domain.status import DroneStatus
 from ..domain.text import cut_off, printable
-from ..time.future import Signal
+from ..time.future import Future
 from ..time.kernel import FLEET, Kernel, Key, Kind, Task
 from .energy import docked
 from .navigation import permitted_way
@@ -45,7 +45,7 @@ class Fleet:
         self._stays = after_trip is AfterTrip.STAY
         self.errands: dict[Drone, Task[None]] = {}
         """What drones do for themselves."""
-        self._change: Signal[None] | None = None
+        self._change: Future[None] | None = None
         """The next change of any drone, if anybody waits for it."""
         self.unready: dict[Drone, str] = {}
         """Those that are lost, or could not fly when they were asked, and why."""
@@ -173,9 +173,9 @@ class Fleet:
                 self._become(drone, DroneStatus.RETURNING)
                 await self._return(drone)
 
-    def _next_change(self) -> Signal[None]:
+    def _next_change(self) -> Future[None]:
         if self._change is None:
-            self._change = Signal()
+            self._change = Future()
         return self._change
 
     async def _return(self, drone: Drone) -> None:

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from math import hypot, inf
 from typing import TYPE_CHECKING
 
-from ..time.future import Signal
+from ..time.future import Future
 from .capability import chain_of, stops_of, why_not
 from .energy import CLIMB_SPEED, needed, share
 
@@ -80,7 +80,7 @@ class Demand:
         return self._levels[key]
 
 
-class Request(Signal["Drone"]):
+class Request(Future["Drone"]):
     """A mission that waits for a drone; it is set to the one that it gets."""
 
     __slots__ = ("_demand", "_levels", "_reach", "_trips", "policy", "trip", "why")

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from ..domain.errors import HookFault, MissionFailed
 from ..domain.fields import Entity, wrong_field
 from ..domain.status import FAILED, UNEXECUTED, Status
-from ..time.future import Signal
+from ..time.future import Future
 from ..time.kernel import Cancelled, Task, mission_key
 from ..trips.flight import fail
 from .location import as_crash, blame, blamed
@@ -27,7 +27,7 @@ class Engine:
         self._core = core
         self._living = 0
         """How many missions are in their graphs."""
-        self.done: Signal[None] = Signal()
+        self.done: Future[None] = Future()
         """Set when the last mission has ended."""
 
     def start(self, missions: Sequence[Mission[Any]]) -> None:

@@ -7,7 +7,7 @@ from math import isfinite
 from typing import TYPE_CHECKING, Any
 
 from ..domain.text import class_of, text_of
-from ..time.future import Signal
+from ..time.future import Future
 from ..time.kernel import Key, Kind, mission_key
 
 if TYPE_CHECKING:
@@ -51,7 +51,7 @@ class Context:
 
     async def sleep(self, seconds: float) -> None:
         """Wait for so many seconds, simulated or real."""
-        kernel, over = self._core.kernel, Signal[None]()
+        kernel, over = self._core.kernel, Future[None]()
         _must_be_finite(seconds)
         timer = kernel.at(kernel.time() + seconds, Kind.CLOCK, self._key, lambda: over.set(None))
         try:
@@ -68,7 +68,7 @@ class Context:
         flight = self._state.flight
         if trip.ended or flight is None or flight.trip is not trip:
             return trip.ended
-        kernel, over = self._core.kernel, Signal[None]()
+        kernel, over = self._core.kernel, Future[None]()
 
         def wake(_: object = None) -> None:
             over.set(None)

@@ -12,7 +12,7 @@ from math import isfinite
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from ..domain.errors import ActionFailed, FlightFailed
-from ..time.future import Signal
+from ..time.future import Future
 
 if TYPE_CHECKING:
     from ..domain.model import Drone, Point
@@ -74,7 +74,7 @@ class LiveDrone:
     async def _asked(self, ask: Callable[[str], Coroutine[Any, Any, T]], name: str) -> T:
         """Ask within the kernel, and wait for the answer as a hook may."""
         kernel, drone = self._kernel, self._now.id
-        answer: Signal[T] = Signal()
+        answer: Future[T] = Future()
         asking: list[Task[T]] = []
 
         def begin() -> None:
@@ -98,7 +98,7 @@ def can_wait(hook: Callable[..., object]) -> bool:
     return iscoroutinefunction(inner)
 
 
-def _hand_on(task: Task[T], answer: Signal[T]) -> None:
+def _hand_on(task: Task[T], answer: Future[T]) -> None:
     if task.error is None:
         answer.set(task.result())
     else:

@@ -19,7 +19,7 @@ class Waiter(Protocol):
         ...
 
 
-class Signal(Generic[T]):
+class Future(Generic[T]):
     """Something that happens once. Await it for its value; any number of coroutines may."""
 
     __slots__ = ("_value", "_watchers", "error", "is_set", "waiter")
@@ -81,7 +81,7 @@ class Signal(Generic[T]):
         value: T = self._value
         return value
 
-    def __await__(self) -> Generator[Signal[Any], None, T]:
+    def __await__(self) -> Generator[Future[Any], None, T]:
         if not self.is_set:
             yield self
         if self.error is not None:

@@ -10,14 +10,13 @@ to the instant that is being taken: they need not pass through the heap of all t
 
 from __future__ import annotations
 
-from collections.abc import Callable, Coroutine, Sequence
+from collections.abc import Callable, Coroutine, Iterator, Sequence
 from enum import IntEnum
 from gc import unfreeze
 from heapq import heappop, heappush
-from typing import Any, TypeVar
+from typing import Any, Generic, Protocol, TypeVar
 
-from .chain import Chain
-from .future import Signal
+from .future import Future
 
 T = TypeVar("T")
 
@@ -92,7 +91,63 @@ class Timer:
         self._call = None
 
 
-class Task(Signal[T]):
+class Link(Protocol):
+    """What can be in a chain: it knows its neighbours."""
+
+    before: Any
+    after: Any
+
+
+L = TypeVar("L", bound=Link)
+
+
+class Chain(Generic[L]):
+    """All that have come and not left."""
+
+    __slots__ = ("_first", "_last")
+
+    def __init__(self) -> None:
+        self._first: L | None = None
+        self._last: L | None = None
+
+    def add(self, link: L) -> None:
+        """Take one in, behind all others; it is in no chain yet."""
+        last = self._last
+        link.before, link.after = last, None
+        if last is None:
+            self._first = link
+        else:
+            last.after = link
+        self._last = link
+
+    def remove(self, link: L) -> None:
+        """Let one go, if it has not left already."""
+        before, after = link.before, link.after
+        if before is not None:
+            before.after = after
+        elif self._first is link:
+            self._first = after
+        else:
+            return
+        if after is not None:
+            after.before = before
+        else:
+            self._last = before
+        link.before = link.after = None
+
+    def __len__(self) -> int:
+        return sum(1 for _ in self)
+
+    def __iter__(self) -> Iterator[L]:
+        """Give all that are here now, whoever comes or leaves meanwhile."""
+        here, link = [], self._first
+        while link is not None:
+            here.append(link)
+            link = link.after
+        return iter(here)
+
+
+class Task(Future[T]):
     """A coroutine on its way; it is set when the coroutine ends."""
 
     __slots__ = (
@@ -113,7 +168,7 @@ class Task(Signal[T]):
         self.is_set = False
         self.error = self.waiter = self._value = self._watchers = None
         self._kernel, self._coroutine = kernel, coroutine
-        self._waits_for: Signal[Any] | None = None
+        self._waits_for: Future[Any] | None = None
         self.turn = 0
         """The number of its next turn; another one is not its any longer. 0: it waits for none."""
         self.key, self.name = key, name
@@ -146,7 +201,7 @@ class Task(Signal[T]):
             self._failed(error)
             return
         else:
-            if isinstance(waits_for, Signal):
+            if isinstance(waits_for, Future):
                 self._waits_for = waits_for
                 if waits_for.waiter is None:
                     waits_for.waiter = self
@@ -161,7 +216,7 @@ class Task(Signal[T]):
         """Let the coroutine run on from an error."""
         try:
             waits_for = self._coroutine.throw(error)
-            while not isinstance(waits_for, Signal):
+            while not isinstance(waits_for, Future):
                 foreign = ForeignAwait(f"it awaited {type(waits_for).__name__}")
                 waits_for = self._coroutine.throw(foreign)
         except StopIteration as end:
@@ -211,7 +266,7 @@ class Task(Signal[T]):
 
     async def ended(self) -> None:
         """Wait until it is over, even if it is cancelled."""
-        over: Signal[None] = Signal()
+        over: Future[None] = Future()
         self.watch(lambda _: over.set(None))
         await over
         if not isinstance(self.error, Cancelled):
@@ -278,16 +333,16 @@ class Kernel:
 
     async def sleep(self, seconds: float, kind: Kind = Kind.CLOCK, key: Key = FLEET) -> None:
         """Wait for so many seconds."""
-        over: Signal[None] = Signal()
+        over: Future[None] = Future()
         timer = self.at(self.now + seconds, kind, key, lambda: over.set(None))
         try:
             await over
         finally:
             timer.cancel()
 
-    async def within(self, signal: Signal[Any], until: float, kind: Kind, key: Key) -> bool:
+    async def within(self, signal: Future[Any], until: float, kind: Kind, key: Key) -> bool:
         """Wait until it happens or the time comes; say whether it has happened."""
-        either: Signal[None] = Signal()
+        either: Future[None] = Future()
 
         def over(_: object = None) -> None:
             either.set(None)
@@ -307,7 +362,7 @@ class Kernel:
         """Run a hook of the app's, `def` or `async def`, and return what it returns."""
         raise NotImplementedError
 
-    def offer(self, signal: Signal[T]) -> Coroutine[Any, Any, T]:
+    def offer(self, signal: Future[T]) -> Coroutine[Any, Any, T]:
         """Return what a hook may await for this signal."""
         raise NotImplementedError
 

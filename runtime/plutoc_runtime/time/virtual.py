@@ -8,7 +8,7 @@ from types import CoroutineType, coroutine
 from typing import Any, TypeVar, cast
 
 from ..domain.guard import by_a_person, guarded
-from .future import Signal
+from .future import Future
 from .kernel import WHATEVER, ForeignAwait, Kernel
 
 T = TypeVar("T")
@@ -26,7 +26,7 @@ class VirtualTime(Kernel):
         """Seconds since midnight: the simulation starts then."""
         return self.now % 86_400
 
-    def run(self, done: Signal[T], until: float | None = None) -> bool:
+    def run(self, done: Future[T], until: float | None = None) -> bool:
         """Go on until it is done, or until a time; say whether it is done."""
         done.watch(self._stop)
         while not done.is_set and self.crashed is None:
@@ -67,7 +67,7 @@ class VirtualTime(Kernel):
                 ) from error
             raise
 
-    async def offer(self, signal: Signal[T]) -> T:
+    async def offer(self, signal: Future[T]) -> T:
         """Return what a hook may await for this signal."""
         return await signal
 

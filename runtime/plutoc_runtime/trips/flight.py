@@ -14,7 +14,7 @@ from ..hooks.calls import LONGEST_REASON, Held, Hook, call_action, changed, look
 from ..hooks.context import Context
 from ..hooks.keepable import keepable
 from ..hooks.live_drone import LiveDrone, can_wait
-from ..time.future import Signal
+from ..time.future import Future
 from ..time.kernel import Task, mission_key
 
 if TYPE_CHECKING:
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from ..flow.mission import State
 
 
-class Flight(Signal[Status]):
+class Flight(Future[Status]):
     """One trip's flight by one drone, and the job that its navigation gets.
 
     It is set when the trip is over, to how the mission stands then.
@@ -133,7 +133,7 @@ class Flight(Signal[Status]):
         work = kernel.spawn(call, key, f"{state.mission.name}: {trip.action}")
         hover = kernel.spawn(core.navigation.hold(drone.id), key, f"{drone.id} hovers")
         held = Held(trip, "name", "action", "item", "index", "attempt", "status")
-        over: Signal[None] = Signal()
+        over: Future[None] = Future()
         work.watch(over.set)
         hover.watch(over.set)
         try:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.time.future import Signal
+from plutoc_runtime.time.future import Future
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.status import Status
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 async def pass_first(run: Run[Any], status: Status, *branches: Branch[Any]) -> Status:
     """Send a clone into every branch; go on as the first that arrives."""
-    first: Signal[Task[Status]] = Signal()
+    first: Future[Task[Status]] = Future()
     clones = run.fork(status, branches)
     for clone in clones:
         clone.watch(first.set)

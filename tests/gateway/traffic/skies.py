@@ -17,7 +17,7 @@ from plutoc_runtime.domain.errors import Failure, FlightFailed
 from plutoc_runtime.domain.model import Category, Point
 from plutoc_runtime.fleet.energy import docked
 from plutoc_runtime.fleet.navigation import permitted_way
-from plutoc_runtime.time.future import Signal
+from plutoc_runtime.time.future import Future
 from plutoc_runtime.time.kernel import FLEET, Kind
 from plutoc_runtime.time.kernel import Task as Coroutine
 from plutoc_runtime.time.virtual import VirtualTime
@@ -84,7 +84,7 @@ class Sky:
         for a, b in combinations(at, 2):
             self.nearest = min(self.nearest, dist(a, b))
 
-    def until(self, done: Signal[Any], most: float) -> bool:
+    def until(self, done: Future[Any], most: float) -> bool:
         """Let time pass, with open eyes; say whether it was done by then."""
         kernel, end = self.kernel, self.kernel.now + most
         while not done.is_set:
@@ -103,7 +103,7 @@ class Sky:
     async def fly(self, drone: str, *stops: Point) -> object:
         """Give a drone a job, and wait for what is reported."""
         self.trips += 1
-        over: Signal[object] = Signal()
+        over: Future[object] = Future()
         job = Task(id=f"{self.trips}", drone=drone, stops=stops, action=None, item=None)
         self.link.fly(job, over.set)
         return await over

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.time.future import Signal
+from plutoc_runtime.time.future import Future
 
 from .detours import Section
 
@@ -21,7 +21,7 @@ class Wait:
     section: Section
     since: float
     ways: Sequence[Section]
-    over: Signal[Section] = field(default_factory=Signal)
+    over: Future[Section] = field(default_factory=Future)
     obstacles: list[Obstacle | None] = field(init=False)
     """For each of the ways, somebody who was on it when it was looked at last."""
     elders: list[Wait | None] = field(init=False)
