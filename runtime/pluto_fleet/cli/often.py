@@ -6,7 +6,14 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from plutoc_runtime import output
-from plutoc_runtime.domain.text import counted, duration, in_shell, number, percent, printable
+from plutoc_runtime.domain.text import (
+    counted,
+    duration,
+    in_shell,
+    number,
+    percent,
+    printable,
+)
 from plutoc_runtime.domain.trace import dumped
 from plutoc_runtime.flow.session import outcome_data
 

@@ -8,7 +8,14 @@ from functools import partial
 from math import dist, inf
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.alone.faults import CARRYING_HOME, OUTAGE, Faults, Order, draw, failed
+from plutoc_runtime.alone.faults import (
+    CARRYING_HOME,
+    OUTAGE,
+    Faults,
+    Order,
+    draw,
+    failed,
+)
 from plutoc_runtime.domain.actions import BUILT_IN, PICK, RELEASE, Plain, grip_problem
 from plutoc_runtime.domain.errors import Failure, FlightFailed
 from plutoc_runtime.domain.text import place

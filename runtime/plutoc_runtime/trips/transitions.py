@@ -4,7 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from ..domain.status import COMPLETED, FAILED, RUNNING, STANDBY, UNEXECUTED, Status, TripStatus
+from ..domain.status import (
+    COMPLETED,
+    FAILED,
+    RUNNING,
+    STANDBY,
+    UNEXECUTED,
+    Status,
+    TripStatus,
+)
 from ..domain.text import bounded, shown
 
 if TYPE_CHECKING:
