@@ -17,12 +17,12 @@ from plutoc_runtime.alone.faults import CARRYING_HOME, OUTAGE, Faults
 from plutoc_runtime.alone.ideal import IdealNavigation
 from plutoc_runtime.domain.actions import Action, Plain
 from plutoc_runtime.domain.airspace import Airspace
-from plutoc_runtime.domain.errors import BadInput, Failure, FlightFailed
+from plutoc_runtime.domain.errors import BadInput, Cancelled, Failure, FlightFailed
 from plutoc_runtime.domain.model import AfterTrip, Category, Drone, Item, Point, Trip
 from plutoc_runtime.domain.status import DroneStatus, Status
 from plutoc_runtime.flow.session import Outcome, Session
 from plutoc_runtime.time.future import Future
-from plutoc_runtime.time.kernel import FLEET, Cancelled
+from plutoc_runtime.time.kernel import FLEET
 from plutoc_runtime.time.virtual import VirtualTime
 from tests.flying import A_WEEK, Example
 from tests.runtime import apps

@@ -9,10 +9,10 @@ from functools import partial, wraps
 import pytest
 
 from pluto_fleet.simulation.drones import SimulatedNavigation
-from plutoc_runtime.alone.world import WorldData
 from plutoc_runtime.domain.actions import Action
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.errors import ActionFailed, Failure, FlightFailed
+from plutoc_runtime.domain.fleet_data import WorldData
 from plutoc_runtime.domain.model import Category, Drone
 from plutoc_runtime.domain.status import Status
 from plutoc_runtime.hooks.context import Context

@@ -8,8 +8,9 @@ from functools import partial
 import pytest
 
 from pluto_fleet.process.realtime import RealTime
+from plutoc_runtime.domain.errors import Cancelled
 from plutoc_runtime.time.future import Future
-from plutoc_runtime.time.kernel import Cancelled, Kind
+from plutoc_runtime.time.kernel import Kind
 from plutoc_runtime.time.virtual import Stuck, VirtualTime
 
 

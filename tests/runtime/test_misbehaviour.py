@@ -17,14 +17,13 @@ from plutoc_blocks.mission_evaluator.step import evaluate_mission
 from plutoc_blocks.mission_modifier.step import modify_mission
 from plutoc_blocks.priority_manager.step import raise_priority
 from plutoc_runtime.domain.actions import Action
-from plutoc_runtime.domain.errors import ActionFailed
+from plutoc_runtime.domain.errors import ActionFailed, Cancelled
 from plutoc_runtime.domain.model import Mission
 from plutoc_runtime.domain.status import Status
 from plutoc_runtime.flow import mission as state
 from plutoc_runtime.flow.run import Run
 from plutoc_runtime.flow.verdict import Verdict
 from plutoc_runtime.hooks.context import Context
-from plutoc_runtime.time.kernel import Cancelled
 from tests.runtime import apps
 
 Hook = Callable[..., object]

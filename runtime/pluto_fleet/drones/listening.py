@@ -6,9 +6,8 @@ import asyncio
 from functools import partial
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.domain.errors import Failure, FlightFailed
+from plutoc_runtime.domain.errors import ANY_ERROR, Failure, FlightFailed
 from plutoc_runtime.domain.text import place
-from plutoc_runtime.time.kernel import WHATEVER
 
 from .telemetry import BATTERY_LOW, CRASHED, LINK_LOST, LOCKED, POSITION_LOST
 from .timed import Timed
@@ -35,7 +34,7 @@ async def listen(member: Member) -> None:
         pass
     except (asyncio.CancelledError, KeyboardInterrupt):
         raise
-    except WHATEVER as error:
+    except ANY_ERROR as error:
         calls.mistake("events", error)
 
 

@@ -9,9 +9,8 @@ from contextlib import suppress
 from functools import partial
 from typing import Any, NoReturn, TypeVar
 
-from plutoc_runtime.domain.errors import Failure, FlightFailed
+from plutoc_runtime.domain.errors import ANY_ERROR, Failure, FlightFailed
 from plutoc_runtime.domain.text import duration, printable
-from plutoc_runtime.time.kernel import WHATEVER
 
 from .timed import Timed
 
@@ -66,7 +65,7 @@ class Calls:
             return question()
         except KeyboardInterrupt:
             raise
-        except WHATEVER as error:
+        except ANY_ERROR as error:
             self.mistake(what, error)
             return otherwise
         finally:
@@ -105,7 +104,7 @@ class Calls:
             value = await Timed(method(), self.clock, self.took)
         except (asyncio.CancelledError, KeyboardInterrupt):
             raise
-        except WHATEVER as error:  # even SystemExit: it would end the flights of all others
+        except ANY_ERROR as error:  # even SystemExit: it would end the flights of all others
             return partial(_raise, self._failure(what, error))
         return lambda: value
 

@@ -8,8 +8,8 @@ from itertools import cycle, islice
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.alone.files import FleetData
 from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.domain.fleet_data import FleetData
 
 from . import errors
 from .behaviour import APART, CRAZYFLIE, OWN, read_behaviour

@@ -12,9 +12,9 @@ from enum import Enum
 from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.domain.actions import PICK, RELEASE
+from plutoc_runtime.domain.errors import ANY_ERROR, Cancelled
 from plutoc_runtime.domain.status import STANDBY, UNEXECUTED, Status
 from plutoc_runtime.hooks.calls import trace_of
-from plutoc_runtime.time.kernel import WHATEVER, Cancelled
 from plutoc_runtime.trips.flight import Flight, keep_carrier, record_done
 
 from ..jobs.reports import Entry, JobState, outcome
@@ -65,7 +65,7 @@ async def what_became(core: Core, flight: Flight, entry: Entry | None, begun: bo
         answer = await core.kernel.call_hook(probe, flight.flier, flight.trip)
     except (Cancelled, GeneratorExit, KeyboardInterrupt):
         raise
-    except WHATEVER as error:  # then it cannot tell: a person must
+    except ANY_ERROR as error:  # then it cannot tell: a person must
         core.log(trace_of(error), flight.state.mission.name)
         return what
     return _PROBED[answer] if type(answer) is bool else what

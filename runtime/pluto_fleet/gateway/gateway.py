@@ -10,8 +10,8 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.domain.errors import BadInput, FlightFailed
-from plutoc_runtime.time.kernel import FLEET, Cancelled, Kernel, Kind, Task
+from plutoc_runtime.domain.errors import BadInput, Cancelled, FlightFailed
+from plutoc_runtime.time.kernel import FLEET, Kernel, Kind, Task
 
 from ..jobs.reports import Down, DroneReport, FleetReport
 from .descent import Craft, Descent

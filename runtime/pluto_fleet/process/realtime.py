@@ -14,9 +14,10 @@ from threading import Thread
 from types import CoroutineType, coroutine
 from typing import Any, NoReturn, TypeVar, cast
 
+from plutoc_runtime.domain.errors import ANY_ERROR
 from plutoc_runtime.domain.guard import as_a_fault, guarded
 from plutoc_runtime.time.future import Future
-from plutoc_runtime.time.kernel import WHATEVER, Call, Kernel, Key, Kind
+from plutoc_runtime.time.kernel import Call, Kernel, Key, Kind
 
 from .forked import end_if_forked
 from .signal_guard import by_a_person, guard_hooks
@@ -77,7 +78,7 @@ class RealTime(Kernel):
             self.drain()
             if self.settled is not None:
                 self.settled()
-        except WHATEVER as error:  # it must not leave everybody waiting for ever
+        except ANY_ERROR as error:  # it must not leave everybody waiting for ever
             if by_a_person(error):
                 raise
             self.crash(error)
@@ -144,7 +145,7 @@ class RealTime(Kernel):
             returned = call() if iscoroutinefunction(hook) else await self._in_thread(call)
             if issubclass(type(returned), CoroutineType):  # it may be anything
                 returned = await _alone(cast("Coroutine[Any, Any, object]", returned))
-        except WHATEVER as error:
+        except ANY_ERROR as error:
             if by_a_person(error):
                 raise
             self.post(result.fail, as_a_fault(error))
@@ -168,7 +169,7 @@ class RealTime(Kernel):
         def work() -> None:
             try:
                 returned = call()
-            except WHATEVER as error:
+            except ANY_ERROR as error:
                 end_if_forked(parent, error)
                 tell(partial(_raise, error))
             else:
@@ -213,5 +214,5 @@ def _alone(hook: Coroutine[Any, Any, T]) -> Generator[Any, Any, T]:
             return returned
         try:
             step = partial(hook.send, (yield waits_for))
-        except WHATEVER as error:  # the hook hears of it
+        except ANY_ERROR as error:  # the hook hears of it
             step = partial(hook.throw, error)

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from ..domain.actions import PICK, RELEASE
 from ..domain.airspace import Airspace
 from ..domain.errors import BadInput
 from ..domain.fields import Entity, time_of_day
+from ..domain.fleet_data import DroneData, Feature, FleetData, Source, WorldData
 from ..domain.geometry import covers_ground
 from ..domain.model import NOTHING, AfterTrip, Item
 from ..domain.quantities import QUANTITIES, Type, number_from
@@ -18,7 +18,6 @@ from ..domain.text import cut_off, number, quoted, shown
 from ..fleet.capability import wrong_aboard
 from ..fleet.landing_sites import HOME_SIZE, first_crowded
 from .toml import read_toml
-from .world import Feature, Source, WorldData
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -29,28 +28,6 @@ if TYPE_CHECKING:
 
 _Read = Callable[[Any], Any]
 """Converts a value; or raises a `ValueError` that goes on after the key and the value."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class DroneData:
-    """A drone as the fleet file has it."""
-
-    id: str
-    category: str
-    """The name of one of the app's categories."""
-    home: Point
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class FleetData:
-    """What the brain must know of a fleet."""
-
-    airspace: Airspace
-    drones: Sequence[DroneData]
-    after_trip: AfterTrip = AfterTrip.HOME
-    max_airborne: int | None = None
-    world: WorldData | None = None
-    """None: a simulation makes up a world from its seed."""
 
 
 def load_fleet(path: Path, app: App) -> FleetData:

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from ..domain.airspace import Airspace
+from ..domain.fleet_data import DroneData, FleetData
 from ..flow.session import Listener, Outcome, Session
 from ..time.virtual import VirtualTime
 from .bound import Bound, see_through
-from .files import DroneData, FleetData
 from .ideal import IdealNavigation
 
 if TYPE_CHECKING:

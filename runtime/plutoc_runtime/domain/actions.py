@@ -4,13 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from .quantities import Type
-from .text import mass
-
-if TYPE_CHECKING:
-    from .model import Category, Item
 
 Plain = bool | int | float | str
 
@@ -56,21 +52,3 @@ BUILT_IN: dict[str, Action] = {
     )
 }
 """The actions that every app has."""
-
-
-def grip_problem(
-    drone: str, category: Category, aboard: Item | None, action: str, item: Item | None
-) -> str | None:
-    """Return why a drone with this aboard cannot pick or release an item, or None."""
-    if action == PICK:
-        if item is None:
-            return "there is nothing to pick"
-        if aboard is not None:
-            return f"{drone} already carries {aboard.name}"
-        if item.mass > category.payload + 1e-9:
-            most = mass(category.payload)
-            return f"{item.name} weighs {mass(item.mass)}, {drone} carries at most {most}"
-    if action == RELEASE and (aboard is None or item is None or aboard.name != item.name):
-        carries = "nothing" if aboard is None else aboard.name
-        return f"{drone} carries {carries}" + ("" if item is None else f", not {item.name}")
-    return None

@@ -53,3 +53,11 @@ class HookFault(MissionFailed):
     def __init__(self, reason: str, detail: str = "") -> None:
         super().__init__(reason)
         self.detail = detail
+
+
+class Cancelled(BaseException):
+    """Thrown into a coroutine that is no longer wanted."""
+
+
+ANY_ERROR: tuple[type[BaseException], ...] = (BaseException,)
+"""To catch all that a coroutine or a hook may end with, and hand it on to those who wait for it."""

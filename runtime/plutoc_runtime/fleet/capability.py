@@ -12,9 +12,9 @@ from ..domain.text import mass, percent, place, quoted
 from .energy import CLIMB_SPEED, needed
 
 if TYPE_CHECKING:
-    from ..alone.files import FleetData
     from ..domain.airspace import Airspace
     from ..domain.app import App
+    from ..domain.fleet_data import FleetData
     from ..domain.model import Category, Item, Mission, Point, Trip
 
 
@@ -104,6 +104,24 @@ def _no_way(
             break
         here = point
     return f"{category.name} finds no permitted way from {place(here)} to {place(point)}"
+
+
+def grip_problem(
+    drone: str, category: Category, aboard: Item | None, action: str, item: Item | None
+) -> str | None:
+    """Return why a drone with this aboard cannot pick or release an item, or None."""
+    if action == PICK:
+        if item is None:
+            return "there is nothing to pick"
+        if aboard is not None:
+            return f"{drone} already carries {aboard.name}"
+        if item.mass > category.payload + 1e-9:
+            most = mass(category.payload)
+            return f"{item.name} weighs {mass(item.mass)}, {drone} carries at most {most}"
+    if action == RELEASE and (aboard is None or item is None or aboard.name != item.name):
+        carries = "nothing" if aboard is None else aboard.name
+        return f"{drone} carries {carries}" + ("" if item is None else f", not {item.name}")
+    return None
 
 
 def wrong_aboard(trips: Sequence[Trip]) -> tuple[int, str] | None:

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from ..domain.errors import HookFault, MissionFailed
+from ..domain.errors import Cancelled, HookFault, MissionFailed
 from ..domain.fields import Entity, wrong_field
 from ..domain.status import FAILED, UNEXECUTED, Status
 from ..time.future import Future
-from ..time.kernel import Cancelled, Task, mission_key
+from ..time.kernel import Task, mission_key
 from ..trips.flight import fail
 from .location import as_crash, blame, blamed
 from .mission import State

@@ -6,14 +6,13 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, cast
 
 from ..domain.actions import PICK, RELEASE
-from ..domain.errors import HookFault
+from ..domain.errors import ANY_ERROR, HookFault
 from ..domain.guard import by_a_person
 from ..domain.status import COMPLETED, FAILED, STANDBY, Status, TripStatus
 from ..domain.text import class_of, shown, text_of
 from ..fleet.capability import why_not
 from ..hooks.calls import hook_name, said
 from ..hooks.soundness import unsound, unsound_mission
-from ..time.kernel import WHATEVER
 from .verdict import Verdict
 
 if TYPE_CHECKING:
@@ -62,7 +61,7 @@ def apply(run: Run[Any], hook: Callable[..., object], verdict: object) -> Status
 def _is_ok(evaluator: str, value: object) -> bool:
     try:
         return bool(value)
-    except WHATEVER as error:
+    except ANY_ERROR as error:
         if by_a_person(error):
             raise
         raise HookFault(

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Coroutine, Sequence
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
-from ..domain.errors import MissionFailed
+from ..domain.errors import ANY_ERROR, MissionFailed
 from ..domain.guard import NOT_ITS_OWN
 from ..domain.model import Mission
 from ..domain.status import UNEXECUTED, Status
 from ..hooks.calls import Held, changed, fault_of, hook_name, look
 from ..hooks.context import Context
-from ..time.kernel import WHATEVER, branch_key
+from ..time.kernel import branch_key
 from .mission import MOST_CALLS
 
 if TYPE_CHECKING:
@@ -61,7 +61,7 @@ class Run(Generic[M]):
             answer = await self.core.kernel.call_hook(hook, *args)
         except NOT_ITS_OWN:
             raise
-        except WHATEVER as error:
+        except ANY_ERROR as error:
             raise fault_of(hook, error) from error
         finally:
             known = mission.name is name and mission.index is index

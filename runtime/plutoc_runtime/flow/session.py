@@ -21,8 +21,8 @@ from .core import CallsOff, Core, Recorder
 from .engine import Engine
 
 if TYPE_CHECKING:
-    from ..alone.files import FleetData
     from ..domain.app import App
+    from ..domain.fleet_data import FleetData
     from ..fleet.navigation import Navigation
     from ..trips.flight import Flight
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, cast
 
+from ..domain.errors import ANY_ERROR
 from ..domain.fields import number_of
 from ..domain.guard import by_a_person
 from ..domain.model import Item
 from ..domain.status import Status, TripStatus
 from ..domain.text import class_of, shown
-from ..time.kernel import WHATEVER
 from .calls import said
 from .keepable import keepable
 
@@ -24,7 +24,7 @@ def unsound(core: Core, trip: object) -> str | None:
     """Return what is wrong with a trip, or None; a place without a height gets the map's."""
     try:
         return _unsound(core, trip)
-    except WHATEVER as error:  # what a hook has put there may be of any class
+    except ANY_ERROR as error:  # what a hook has put there may be of any class
         if by_a_person(error):
             raise
         return f"it cannot be read: {said(error)}"
@@ -52,7 +52,7 @@ def unsound_mission(core: Core, mission: Mission[Any]) -> str | None:
             if type(trip) is not kind:
                 return f"completed_trips holds {class_of(trip)}"
         return None
-    except WHATEVER as error:
+    except ANY_ERROR as error:
         if by_a_person(error):
             raise
         return f"it cannot be read: {said(error)}"

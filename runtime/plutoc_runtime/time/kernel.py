@@ -16,6 +16,7 @@ from gc import unfreeze
 from heapq import heappop, heappush
 from typing import Any, Generic, Protocol, TypeVar
 
+from ..domain.errors import ANY_ERROR, Cancelled
 from .future import Future
 
 T = TypeVar("T")
@@ -52,14 +53,6 @@ class Kind(IntEnum):
     TIMER = 2  # limits on flights
     CLOCK = 3  # delays and other waits
     ALLOCATE = 4  # last: all requests and all free drones of the instant are known
-
-
-WHATEVER: tuple[type[BaseException], ...] = (BaseException,)
-"""To catch whatever a coroutine or a hook ends with, and hand it on to those who wait for it."""
-
-
-class Cancelled(BaseException):
-    """Thrown into a coroutine that is no longer wanted."""
 
 
 class ForeignAwait(RuntimeError):
@@ -197,7 +190,7 @@ class Task(Future[T]):
             returned: T = end.value
         except KeyboardInterrupt:
             raise
-        except WHATEVER as error:
+        except ANY_ERROR as error:
             self._failed(error)
             return
         else:
@@ -223,7 +216,7 @@ class Task(Future[T]):
             returned: T = end.value
         except KeyboardInterrupt:
             raise
-        except WHATEVER as ended:
+        except ANY_ERROR as ended:
             self._failed(ended)
             return
         else:
