@@ -17,7 +17,7 @@ from .verdict import Verdict
 
 if TYPE_CHECKING:
     from ..domain.model import Mission, Trip
-    from .core import Core
+    from .mission import Core
     from .run import Run
 
 
@@ -25,7 +25,7 @@ def apply(run: Run[Any], hook: Callable[..., object], verdict: object) -> Status
     """Do as the verdict says; one that cannot be followed is a fault of the evaluator."""
     mission, core = run.mission, run.core
     name = hook_name(hook)
-    wrong = unsound_mission(core, mission)
+    wrong = unsound_mission(core.app, mission)
     if wrong is not None:
         raise HookFault(f"evaluator {name} left a mission that cannot go on: {wrong}")
     if not issubclass(type(verdict), Verdict):
@@ -106,7 +106,7 @@ def _name(mission: Mission[Any], added: Sequence[Trip]) -> None:
 
 
 def _problem(core: Core, mission: Mission[Any], trip: Trip) -> str | None:
-    problem = unsound(core, trip)
+    problem = unsound(core.app, core.airspace, trip)
     if problem is not None:
         return problem
     if any(trip is done for done in mission.completed_trips):

@@ -17,8 +17,8 @@ from ..fleet.request import Reach
 from ..time.kernel import FLEET, Kernel, Task
 from ..trips.deadlines import Deadlines
 from ..trips.transitions import Transitions
-from .core import CallsOff, Core, Recorder
 from .engine import Engine
+from .mission import Core, FailLater, Recorder
 
 if TYPE_CHECKING:
     from ..domain.app import App
@@ -74,7 +74,7 @@ class Session:
         navigation: Navigation[Flight],
         listeners: Sequence[Listener],
         recorder: Recorder | None = None,
-        calls_off: CallsOff | None = None,
+        fail_later: FailLater | None = None,
         kind_of_fleet: type[Fleet] = Fleet,
         kind_of_engine: type[Engine] = Engine,
     ) -> None:
@@ -108,7 +108,7 @@ class Session:
             ),
             deadlines=Deadlines(kernel),
             recorder=recorder,
-            calls_off=calls_off,
+            fail_later=fail_later,
         )
         if recorder is not None:
             recorder.trace, recorder.results = trace, results

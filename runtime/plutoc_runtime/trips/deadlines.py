@@ -1,18 +1,17 @@
-"""Waiting for the end of a flight, and failing the trip when it takes too long."""
+"""Time-outs of trips: each fails the trip that takes longer."""
 
 from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 from ..time.kernel import Kernel, Kind
-from .flight import abort
 
 if TYPE_CHECKING:
     from ..domain.model import Trip
-    from ..flow.run import Run
+    from ..time.kernel import Key, Task
     from .flight import Flight
 
 
@@ -23,33 +22,28 @@ Limit = tuple[float, float, Overdue]
 """From when on, how long a trip may take, and what is said if it takes longer."""
 
 
-def watch(run: Run[Any], *limits: Limit | None) -> Flight:
-    """Return the flight, to be awaited: its end is how the mission stands then.
+class Branch(Protocol):
+    """The branch of a mission that asks for a limit; the limit is void once the branch is over."""
 
-    A limit fails the trip; a trip that ends at that very instant has ended first. Nothing is watched
-    any longer once the branch that asked for it is over.
-    """
-    flight = run.state.flight
-    if flight is None:
-        raise RuntimeError(f"mission {run.mission.name} has no flight to watch")
-    for number, limit in enumerate(limits, 1):
-        if limit is not None:
-            since, span, overdue = limit
-            run.core.deadlines.watch(run, flight, number, since, span, overdue)
-    return flight
+    key: Key
+    task: Task[Any] | None
+
+    def abort(self, reason: str) -> None:
+        """Fail the trip that flies now."""
+        ...
 
 
-class Alike:
+class EqualLimits:
     """Limits of one length that say the same, for flights that were launched one after the other."""
 
-    __slots__ = ("flights", "number", "overdue", "runs", "span")
+    __slots__ = ("branches", "flights", "number", "overdue", "span")
 
     def __init__(self, number: int, span: float, overdue: Overdue) -> None:
         self.number, self.span, self.overdue = number, span, overdue
         """The place among the limits of a branch, how long, and what is said."""
         self.flights: deque[Flight] = deque()
-        self.runs: deque[Run[Any]] = deque()
-        """For whom each flight is watched."""
+        self.branches: deque[Branch] = deque()
+        """Which branch each flight is watched for."""
 
 
 class Deadlines:
@@ -62,66 +56,52 @@ class Deadlines:
 
     def __init__(self, kernel: Kernel) -> None:
         self._kernel = kernel
-        self._queues: dict[float, Alike] = {}
+        self._queues: dict[float, EqualLimits] = {}
         """By length; each has a timer that comes no later than its first limit."""
 
-    def watch(
-        self,
-        run: Run[Any],
-        flight: Flight,
-        number: int,
-        since: float,
-        span: float,
-        overdue: Overdue,
-    ) -> None:
-        """Fail the flight at its limit, unless it is over by then, or whoever asked for it."""
+    def watch(self, branch: Branch, flight: Flight, number: int, limit: Limit) -> None:
+        """Fail the flight at its limit, unless it or the branch that asks for it is over by then."""
+        since, span, overdue = limit
         queue, now = self._queues.get(span), self._kernel.now
         if since != now or flight.launched_at != now:
-            self._schedule(run, flight, number, since, span, overdue)  # it may expire before others
+            self._schedule(branch, flight, number, limit)  # it may expire before others
         elif queue is None:
-            queue = self._queues[span] = Alike(number, span, overdue)
+            queue = self._queues[span] = EqualLimits(number, span, overdue)
             queue.flights.append(flight)
-            queue.runs.append(run)
+            queue.branches.append(branch)
             self._arm(queue)
         elif queue.overdue is not overdue or queue.number != number:
-            self._schedule(run, flight, number, since, span, overdue)
+            self._schedule(branch, flight, number, limit)
         else:
             flights = queue.flights
             while flights and flights[0].is_set:
                 flights.popleft()
-                queue.runs.popleft()
+                queue.branches.popleft()
             flights.append(flight)
-            queue.runs.append(run)
+            queue.branches.append(branch)
 
-    def _schedule(
-        self,
-        run: Run[Any],
-        flight: Flight,
-        number: int,
-        since: float,
-        span: float,
-        overdue: Overdue,
-    ) -> None:
+    def _schedule(self, branch: Branch, flight: Flight, number: int, limit: Limit) -> None:
+        since, span, overdue = limit
         # behind a hook of the mission's at that instant, as if it stood in a branch of its own
-        key, call = run.key + number, partial(_expire, run, flight, span, overdue)
+        key, call = branch.key + number, partial(_expire, branch, flight, span, overdue)
         self._kernel.schedule(since + span, Kind.TIMER, key, call)
 
-    def _arm(self, queue: Alike) -> None:
+    def _arm(self, queue: EqualLimits) -> None:
         until = queue.flights[0].launched_at + queue.span
         self._kernel.schedule(until, Kind.TIMER, -1, partial(self._due, queue))
 
-    def _due(self, queue: Alike) -> None:
+    def _due(self, queue: EqualLimits) -> None:
         """Let expire what is due, each in its own place among the events of this instant."""
         now, span, flights = self._kernel.now, queue.span, queue.flights
         while flights and (flights[0].is_set or flights[0].launched_at + span <= now):
-            flight, run = flights.popleft(), queue.runs.popleft()
-            self._schedule(run, flight, queue.number, flight.launched_at, span, queue.overdue)
+            flight, branch = flights.popleft(), queue.branches.popleft()
+            self._schedule(branch, flight, queue.number, (flight.launched_at, span, queue.overdue))
         if flights:
             self._arm(queue)
         else:
             del self._queues[span]
 
 
-def _expire(run: Run[Any], flight: Flight, span: float, overdue: Overdue) -> None:
-    if not (flight.is_set or (run.task is not None and run.task.is_set)):
-        abort(flight.state, overdue(flight.trip, span))
+def _expire(branch: Branch, flight: Flight, span: float, overdue: Overdue) -> None:
+    if not (flight.is_set or (branch.task is not None and branch.task.is_set)):
+        branch.abort(overdue(flight.trip, span))

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.trips.deadlines import watch
-
 if TYPE_CHECKING:
     from plutoc_runtime.domain.status import Status
     from plutoc_runtime.flow.run import Run
@@ -13,4 +11,4 @@ if TYPE_CHECKING:
 
 async def watch_trip(run: Run[Any], status: Status) -> Status:
     """Wait for the trip's end."""
-    return await watch(run)
+    return await run.watch()
