@@ -13,6 +13,7 @@ from plutoc.emit.walk import branches, steps
 from plutoc.graph.model import Node
 from plutoc.plan.model import Call, Join, Plan, Watch
 from plutoc_runtime.domain.status import IN_GRAPH
+from plutoc_runtime.flow.run import watch
 
 RESERVED = frozenset(
     {
@@ -27,6 +28,9 @@ RESERVED = frozenset(
 
 Names = Mapping[Carried, str]
 
+WATCH = Carried(package=OURS, function=watch)
+"""The one wait for the end of a trip."""
+
 
 def carried_functions(plan: Plan) -> tuple[Carried, ...]:
     """Return every function of an installed package that the flow calls, in source order."""
@@ -40,6 +44,7 @@ def carried_functions(plan: Plan) -> tuple[Carried, ...]:
                 called.add(node.name)
             case Watch(watchers=watchers):
                 limits.update(node.name for node in watchers)
+                found[WATCH] = None
             case _:
                 pass
     for node in plan.checked.graph.nodes:

@@ -8,7 +8,7 @@ from inspect import CO_ITERABLE_COROUTINE, iscoroutinefunction
 from typing import Any
 
 from plutoc.block import Choice, HookParam, Param
-from plutoc.emit.callables import Names, chosen
+from plutoc.emit.callables import WATCH, Names, chosen
 from plutoc.emit.embed import Carried
 from plutoc.emit.python import call, items, literal
 from plutoc.frozen import frozen
@@ -134,11 +134,12 @@ def _wait(watch: Watch, scope: Scope) -> Iterator[str]:
         if node.block.limit is not None:
             function = scope.names[Carried(package=node.package, function=node.block.limit)]
             limits.append((node.declaration, call(function, ("run", *_keywords(node, scope)))))
+    name = scope.names[WATCH]
     if limits and isinstance(watch.instead, Join):
         lines = [line for text, limit in limits for line in (f"    # {text}", f"    {limit},")]
-        yield from ("await run.watch(", *lines, ")")
+        yield from (f"await {name}(", "    run,", *lines, ")")
     else:
-        yield f"await {call('run.watch', tuple(limit for _, limit in limits))}"
+        yield f"await {call(name, ('run', *(limit for _, limit in limits)))}"
 
 
 def _watched(watch: Watch) -> str:

@@ -25,8 +25,8 @@ from plutoc.plan.passes.watch import watch as watch_pass
 from plutoc.plan.rewrite import rewritten
 from plutoc_blocks.gate_fifo.step import pass_first
 from plutoc_blocks.timer_monitor.step import timer_limit
+from plutoc_runtime.flow.run import watch
 from plutoc_runtime.time.future import Future
-from plutoc_runtime.trips.deadlines import watch
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.status import Status

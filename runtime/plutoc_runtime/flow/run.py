@@ -88,20 +88,6 @@ class Run(Generic[M]):
         """What a hook gets of it."""
         return self.state.context()
 
-    def watch(self, *limits: Limit | None) -> Flight:
-        """Return the flight, to be awaited: its end is how the mission stands then.
-
-        A limit fails the trip; a trip that ends at that very instant has ended first. Nothing is
-        watched any longer once the branch that asked for it is over.
-        """
-        flight = self.state.flight
-        if flight is None:
-            raise RuntimeError(f"mission {self.mission.name} has no flight to watch")
-        for number, limit in enumerate(limits, 1):
-            if limit is not None:
-                self.core.deadlines.watch(self, flight, number, limit)
-        return flight
-
     def abort(self, reason: str) -> None:
         """Fail the trip that flies now."""
         self.state.abort(reason)
@@ -121,6 +107,21 @@ class Run(Generic[M]):
         name = f"{self.mission.name}: branch {number + 1}"
         run.task = self.core.kernel.spawn(branch(run, status), key, name)
         return run.task
+
+
+def watch(run: Run[Any], *limits: Limit | None) -> Flight:
+    """Return the flight, to be awaited: its end is how the mission stands then.
+
+    A limit fails the trip; a trip that ends at that very instant has ended first. Nothing is watched
+    any longer once the branch that asked for it is over.
+    """
+    flight = run.state.flight
+    if flight is None:
+        raise RuntimeError(f"mission {run.mission.name} has no flight to watch")
+    for number, limit in enumerate(limits, 1):
+        if limit is not None:
+            run.core.deadlines.watch(run, flight, number, limit)
+    return flight
 
 
 Branch = Callable[[Run[M], Status], Way]

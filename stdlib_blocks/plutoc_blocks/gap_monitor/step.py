@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.domain.text import duration
+from plutoc_runtime.flow.run import watch
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Trip
@@ -17,7 +18,7 @@ async def watch_gap(
     run: Run[Any], status: Status, *, default: float | None = None, gap: float | None
 ) -> Status:
     """Wait for the trip's end, and fail the trip when its action is overdue."""
-    return await run.watch(gap_limit(run, default=default, gap=gap))
+    return await watch(run, gap_limit(run, default=default, gap=gap))
 
 
 def gap_limit(run: Run[Any], *, default: float | None = None, gap: float | None) -> Limit | None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.domain.text import duration
+from plutoc_runtime.flow.run import watch
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Trip
@@ -17,7 +18,7 @@ async def watch_timer(
     run: Run[Any], status: Status, *, default: float | None = None, safe_time: float | None
 ) -> Status:
     """Wait for the trip's end, and fail the trip at its safe time."""
-    return await run.watch(timer_limit(run, default=default, safe_time=safe_time))
+    return await watch(run, timer_limit(run, default=default, safe_time=safe_time))
 
 
 def timer_limit(

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from plutoc_runtime.flow.run import watch
+
 if TYPE_CHECKING:
     from plutoc_runtime.domain.status import Status
     from plutoc_runtime.flow.run import Run
@@ -11,4 +13,4 @@ if TYPE_CHECKING:
 
 async def watch_trip(run: Run[Any], status: Status) -> Status:
     """Wait for the trip's end."""
-    return await run.watch()
+    return await watch(run)
