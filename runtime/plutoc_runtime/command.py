@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from .domain.app import App
     from .flow.session import Outcome
 
-SEAM = (1, 0)
+SEAM = (2, 0)
 _SEAM = ".".join(map(str, SEAM))
 
 _EXTRAS = {"serve": "[station]", "drones": "[crazyflie]", "--plot": "[plot]", "--runs": ""}

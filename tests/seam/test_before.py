@@ -33,7 +33,7 @@ def test_a_package_from_before_still_flies_alone(before: Path, tmp_path: Path) -
         text=True,
         check=True,
     ).stdout.split()
-    assert f"{NAME}._runtime.flow.session" in modules
+    assert f"{NAME}._runtime.session" in modules
     assert "pluto_fleet" not in modules
 
 
