@@ -17,8 +17,19 @@ from plutoc_runtime.flow.run import watch
 
 RESERVED = frozenset(
     {
-        *("APP", "Action", "App", "BUILT_IN", "CATEGORIES", "FIELDS", "Mission", "Parameter"),
-        *("Run", "Status", "Trip", "Type", "at", "declared", "flow", "hooks", "mission"),
+        *("APP", "App", "BUILT_IN", "CATEGORIES", "FIELDS", "Mission", "Parameter"),
+        *(
+            "OwnAction",
+            "Run",
+            "Status",
+            "Trip",
+            "Type",
+            "at",
+            "declared",
+            "flow",
+            "hooks",
+            "mission",
+        ),
         "partial",
         *("run", "status"),
         *(status.name for status in IN_GRAPH),

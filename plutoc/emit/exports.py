@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from plutoc.graph.model import Graph
+
 EXPORTS = {
     "ActionFailed": "._runtime.domain.errors",
     "Category": "._runtime.domain.model",
@@ -19,3 +21,12 @@ EXPORTS = {
     "Verdict": "._runtime.flow.verdict",
 }
 """The types that hooks are written with, and where they are."""
+
+_FOR_HOOKS = ("Context", "LiveDrone", "Verdict")
+
+
+def exports_of(graph: Graph, *, former: bool) -> dict[str, str]:
+    """Return what a package offers: without a hook, and without one left over, less is carried."""
+    if graph.hooks or graph.actions or former:
+        return EXPORTS
+    return {name: home for name, home in EXPORTS.items() if name not in _FOR_HOOKS}

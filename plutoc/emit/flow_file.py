@@ -110,7 +110,7 @@ def _imports(graph: Graph, written: str) -> list[Import]:
     if "partial(" in written:
         imports += names("functools", "partial")
     if graph.actions:
-        imports += names("._runtime.domain.actions", "Action")
+        imports += names("._runtime.flow.own_action", "OwnAction")
     if any(action.parameters for action in graph.actions):
         imports += [
             *names("._runtime.domain.actions", "Parameter"),
@@ -164,7 +164,7 @@ def _action(action: Action) -> str:
     if action.parameters:
         arguments.append(f"parameters={items(map(_parameter, action.parameters))}")
     arguments += [f"repeat={literal(action.repeat)}", f"hook=hooks.{action.name}"]
-    return call("Action", arguments)
+    return call("OwnAction", arguments)
 
 
 def _parameter(parameter: Parameter) -> str:

@@ -54,7 +54,7 @@ def emit(
     graph = plan.checked.graph
     app = f"src/{graph.name}"
     modules = {
-        "__init__.py": init_file(graph),
+        "__init__.py": init_file(graph, former=bool(former)),
         "__main__.py": main_file(graph),
         "flow.py": flow_file(plan),
         "model.py": model_file(graph),

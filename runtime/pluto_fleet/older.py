@@ -27,7 +27,7 @@ _ROOMS = {
     "time": "kernel signals:future virtual",
     "hooks": "plain:keepable context handle:live_drone soundness",
     "fleet": (
-        "allocation:queue capability request energy navigation policy spots:landing_sites"
+        "allocation:queue capability:reach request:reach energy navigation policy"
         " policies policies.assignment policies.batch_optimal policies.first policies.least_used"
         " policies.nearest policies.own"
     ),
@@ -66,6 +66,16 @@ def loaded_again(brain: str) -> App:
     return app
 
 
+def _of_former_blocks() -> dict[str, object]:
+    """Return what those blocks and flows call, and is called otherwise today."""
+    from plutoc_runtime.flow.modification import context_of
+    from plutoc_runtime.flow.own_action import OwnAction
+    from plutoc_runtime.flow.run import Run
+
+    type.__setattr__(Run, "context", property(context_of))
+    return {"Action": OwnAction, "launch": _launch}
+
+
 def _launch(state: MissionState, drone: Drone) -> None:
     state.launch(drone)
 
@@ -92,5 +102,5 @@ class _Former(MetaPathFinder, Loader):
         for home in (*_ELSEWHERE, self._moved[old]):
             given |= vars(import_module(f"plutoc_runtime.{home}"))
         given |= {old: given[new] for old, new in _RENAMED.items() if new in given}
-        given |= {"launch": _launch}
+        given |= _of_former_blocks()
         vars(module).update({name: one for name, one in given.items() if not name.startswith("__")})

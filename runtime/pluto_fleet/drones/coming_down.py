@@ -8,8 +8,8 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from plutoc_runtime.domain.errors import FlightFailed
-from plutoc_runtime.fleet.landing_sites import free_spot
 
+from ..jobs.landing_sites import free_spot
 from . import flying
 from .stray import is_over_no_fly
 from .vehicle import LAND

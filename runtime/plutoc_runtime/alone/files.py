@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
+from math import dist
 from typing import TYPE_CHECKING, Any
 
 from ..domain.actions import PICK, RELEASE
@@ -15,8 +16,7 @@ from ..domain.geometry import covers_ground
 from ..domain.model import NOTHING, AfterTrip, Item
 from ..domain.quantities import QUANTITIES, Type, number_from
 from ..domain.text import cut_off, number, quoted, shown
-from ..fleet.capability import wrong_aboard
-from ..fleet.landing_sites import HOME_SIZE, first_crowded
+from ..fleet.reach import wrong_aboard
 from .toml import read_toml
 
 if TYPE_CHECKING:
@@ -25,6 +25,9 @@ if TYPE_CHECKING:
     from ..domain.app import App
     from ..domain.geometry import Corner
     from ..domain.model import Mission, Point, Trip
+
+HOME_SIZE = 0.1
+"""Metres that a drone takes up where it stands."""
 
 _Read = Callable[[Any], Any]
 """Converts a value; or raises a `ValueError` that goes on after the key and the value."""
@@ -99,7 +102,7 @@ def _drones(entries: list[Any], who: str, app: App, airspace: Airspace) -> list[
         for place, entry in enumerate(entries, 1)
     ]
     _differ(who, (drone.id for drone in drones))
-    if (found := first_crowded([drone.home for drone in drones], HOME_SIZE)) is not None:
+    if (found := _first_crowded([drone.home for drone in drones], HOME_SIZE)) is not None:
         raise BadInput(f"{who} {found + 1}: home is where another drone has its own")
     return drones
 
@@ -214,3 +217,15 @@ _KINDS: dict[str, _Read] = {
     "count": _whole(1),
     "after": lambda value: AfterTrip(_one_of([one.value for one in AfterTrip])(value)),
 }
+
+
+def _first_crowded(places: Sequence[Point], apart: float) -> int | None:
+    """Return which place is the first that is too near to one before it; None: there is none."""
+    cells: dict[tuple[int, int], list[Point]] = {}
+    for index, place in enumerate(places):
+        x, y = int(place[0] // apart), int(place[1] // apart)
+        around = [cells.get((x + i, y + j), []) for i in (-1, 0, 1) for j in (-1, 0, 1)]
+        if any(dist(place, other) < apart for others in around for other in others):
+            return index
+        cells.setdefault((x, y), []).append(place)
+    return None

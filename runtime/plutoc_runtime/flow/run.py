@@ -11,10 +11,10 @@ from ..domain.model import Mission
 from ..domain.status import UNEXECUTED, Status
 from ..hooks.calls import Held, changed, fault_of, hook_name, look
 from ..time.kernel import branch_key
+from ..trips.deadlines import set_deadline
 from .mission import MOST_CALLS, MissionState
 
 if TYPE_CHECKING:
-    from ..hooks.context import Context
     from ..time.kernel import Key, Task
     from ..trips.deadlines import Limit
     from ..trips.flight import Flight
@@ -83,11 +83,6 @@ class Run(Generic[M]):
         trips = self.mission.trips
         return trips[0] if trips else self.mission.current
 
-    @property
-    def context(self) -> Context:
-        """What a hook gets of it."""
-        return self.state.context()
-
     def abort(self, reason: str) -> None:
         """Fail the trip that flies now."""
         self.state.abort(reason)
@@ -120,7 +115,7 @@ def watch(run: Run[Any], *limits: Limit | None) -> Flight:
         raise RuntimeError(f"mission {run.mission.name} has no flight to watch")
     for number, limit in enumerate(limits, 1):
         if limit is not None:
-            run.core.deadlines.watch(run, flight, number, limit)
+            set_deadline(run.core.kernel, run, flight, number, limit)
     return flight
 
 

@@ -13,9 +13,8 @@ from ..domain.status import DroneStatus, Status
 from ..domain.trace import Event, Trace
 from ..fleet.fleet import Fleet
 from ..fleet.queue import Queue
-from ..fleet.request import Reach
+from ..fleet.reach import Reach
 from ..time.kernel import FLEET, Kernel, Task
-from ..trips.deadlines import Deadlines
 from ..trips.transitions import Transitions
 from .engine import Engine
 from .mission import Core, FailLater, Recorder
@@ -106,7 +105,6 @@ class Session:
             fleet=kind_of_fleet(
                 kernel, trace, fleet.airspace, navigation, self.drones, queue, fleet.after_trip
             ),
-            deadlines=Deadlines(kernel),
             recorder=recorder,
             fail_later=fail_later,
         )

@@ -10,11 +10,11 @@ to the instant that is being taken: they need not pass through the heap of all t
 
 from __future__ import annotations
 
-from collections.abc import Callable, Coroutine, Iterator, Sequence
+from collections.abc import Callable, Coroutine, Sequence
 from enum import IntEnum
 from gc import unfreeze
 from heapq import heappop, heappush
-from typing import Any, Generic, Protocol, TypeVar
+from typing import Any, TypeVar
 
 from ..domain.errors import ANY_ERROR, Cancelled
 from .future import Future
@@ -84,62 +84,6 @@ class Timer:
         self._call = None
 
 
-class Link(Protocol):
-    """What can be in a chain: it knows its neighbours."""
-
-    before: Any
-    after: Any
-
-
-L = TypeVar("L", bound=Link)
-
-
-class Chain(Generic[L]):
-    """All that have come and not left."""
-
-    __slots__ = ("_first", "_last")
-
-    def __init__(self) -> None:
-        self._first: L | None = None
-        self._last: L | None = None
-
-    def add(self, link: L) -> None:
-        """Take one in, behind all others; it is in no chain yet."""
-        last = self._last
-        link.before, link.after = last, None
-        if last is None:
-            self._first = link
-        else:
-            last.after = link
-        self._last = link
-
-    def remove(self, link: L) -> None:
-        """Let one go, if it has not left already."""
-        before, after = link.before, link.after
-        if before is not None:
-            before.after = after
-        elif self._first is link:
-            self._first = after
-        else:
-            return
-        if after is not None:
-            after.before = before
-        else:
-            self._last = before
-        link.before = link.after = None
-
-    def __len__(self) -> int:
-        return sum(1 for _ in self)
-
-    def __iter__(self) -> Iterator[L]:
-        """Give all that are here now, whoever comes or leaves meanwhile."""
-        here, link = [], self._first
-        while link is not None:
-            here.append(link)
-            link = link.after
-        return iter(here)
-
-
 class Task(Future[T]):
     """A coroutine on its way; it is set when the coroutine ends."""
 
@@ -147,8 +91,6 @@ class Task(Future[T]):
         "_coroutine",
         "_kernel",
         "_waits_for",
-        "after",
-        "before",
         "key",
         "name",
         "over",
@@ -167,9 +109,7 @@ class Task(Future[T]):
         self.key, self.name = key, name
         self.over: Callable[[Task[T]], None] | None = None
         """Told when it has ended, however it has; without anybody an error stops the run."""
-        self.before: Task[Any] | None
-        self.after: Task[Any] | None
-        kernel.tasks.add(self)
+        kernel.tasks[self] = None
 
     @property
     def coroutine(self) -> Coroutine[Any, Any, T]:
@@ -241,7 +181,7 @@ class Task(Future[T]):
 
     def _leave(self) -> None:
         self.turn, self._waits_for = 0, None
-        self._kernel.tasks.remove(self)
+        self._kernel.tasks.pop(self, None)
 
     def cancel(self) -> None:
         """Stop it where it waits, now."""
@@ -268,7 +208,7 @@ class Task(Future[T]):
     def drop(self) -> None:
         """Forget it where it waits: the run is over, for it at least."""
         self._wait_no_longer()
-        self._kernel.tasks.remove(self)
+        self._kernel.tasks.pop(self, None)
         self._coroutine.close()
 
 
@@ -278,7 +218,8 @@ class Kernel:
     def __init__(self) -> None:
         self.now = 0.0
         """Seconds since the start, of the instant whose events are being taken."""
-        self.tasks: Chain[Task[Any]] = Chain()
+        self.tasks: dict[Task[Any], None] = {}
+        """The coroutines that have not ended, in the order in which they set out."""
         self.crashed: BaseException | None = None
         self.over = False
         """What is run for is done, or something crashed: no further event is taken."""
@@ -371,7 +312,7 @@ class Kernel:
 
     def close(self) -> None:
         """Drop what still waits; nothing of it runs on."""
-        for task in self.tasks:
+        for task in self.under_way():
             task.drop()
         unfreeze()
 

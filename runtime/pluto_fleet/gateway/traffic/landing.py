@@ -7,8 +7,8 @@ from itertools import islice
 from typing import TYPE_CHECKING
 
 from plutoc_runtime.fleet.energy import docked
-from plutoc_runtime.fleet.landing_sites import free_spots, is_free
 
+from ...jobs.landing_sites import free_spots, is_free
 from .detours import LOWEST, Section
 
 if TYPE_CHECKING:

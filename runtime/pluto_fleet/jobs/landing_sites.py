@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from math import ceil, cos, dist, hypot, pi, sin
+from math import ceil, cos, hypot, pi, sin
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from ..domain.airspace import Airspace
-    from ..domain.model import Point
+    from plutoc_runtime.domain.airspace import Airspace
+    from plutoc_runtime.domain.model import Point
 
 _STEP = 0.25
 """Metres between the places that are looked at."""
-HOME_SIZE = 0.1
-"""Metres that a drone takes up where it stands."""
 _FURTHEST = 30.0
-"""Metres within which a place is looked for: on a map of kilometres nobody could wait for all of it."""
+"""Metres within which a place is looked for: a whole map of kilometres would take too long."""
 
 
 def free_spot(airspace: Airspace, point: Point, taken: Sequence[Point], apart: float) -> Point:
@@ -45,18 +43,6 @@ def is_free(place: Point, taken: Sequence[Point], apart: float) -> bool:
     """Say whether a place on the ground is far enough from those taken."""
     x, y, _ = place
     return all(hypot(x - other[0], y - other[1]) >= apart for other in taken)
-
-
-def first_crowded(places: Sequence[Point], apart: float) -> int | None:
-    """Return which place is the first that is too near to one before it; None: there is none."""
-    cells: dict[tuple[int, int], list[Point]] = {}
-    for index, place in enumerate(places):
-        x, y = int(place[0] // apart), int(place[1] // apart)
-        around = [cells.get((x + i, y + j), []) for i in (-1, 0, 1) for j in (-1, 0, 1)]
-        if any(dist(place, other) < apart for others in around for other in others):
-            return index
-        cells.setdefault((x, y), []).append(place)
-    return None
 
 
 def _around(point: Point, furthest: float) -> Iterator[tuple[float, float]]:
