@@ -12,12 +12,14 @@ from importlib import import_module
 from importlib.abc import Loader, MetaPathFinder
 from importlib.machinery import ModuleSpec
 from types import ModuleType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
     from plutoc_runtime.domain.model import Drone
     from plutoc_runtime.flow.mission import MissionState
+    from plutoc_runtime.flow.run import Run
+    from plutoc_runtime.trips.flight import Flight
 
 _ROOMS = {
     "domain": (
@@ -73,7 +75,14 @@ def _of_former_blocks() -> dict[str, object]:
     from plutoc_runtime.flow.run import Run
 
     type.__setattr__(Run, "context", property(context_of))
-    return {"Action": OwnAction, "launch": _launch}
+    return {"Action": OwnAction, "launch": _launch, "watch": _watch}
+
+
+def _watch(run: Run[Any], *limits: tuple[Any, ...] | None) -> Flight:
+    from plutoc_runtime.flow.run import watch
+    from plutoc_runtime.trips.deadlines import Limit
+
+    return watch(run, *(None if limit is None else Limit(*limit) for limit in limits))
 
 
 def _launch(state: MissionState, drone: Drone) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Protocol
 
 from ..domain.actions import PICK, RELEASE
@@ -73,6 +73,8 @@ class Core:
     transitions: Transitions
     queue: Queue
     fleet: Fleet
+    limits: dict[float, Any] = field(default_factory=dict)
+    """The limits on flights that are watched, by length (trips/deadlines.py)."""
     fail_later: FailLater | None = None
     """None: drones are in this process, and what was not reported was not done."""
     recorder: Recorder | None = None

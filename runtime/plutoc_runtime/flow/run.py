@@ -11,7 +11,6 @@ from ..domain.model import Mission
 from ..domain.status import UNEXECUTED, Status
 from ..hooks.calls import Held, changed, fault_of, hook_name, look
 from ..time.kernel import branch_key
-from ..trips.deadlines import set_deadline
 from .mission import MOST_CALLS, MissionState
 
 if TYPE_CHECKING:
@@ -110,12 +109,12 @@ def watch(run: Run[Any], *limits: Limit | None) -> Flight:
     A limit fails the trip; a trip that ends at that very instant has ended first. Nothing is watched
     any longer once the branch that asked for it is over.
     """
-    flight = run.state.flight
+    core, flight = run.core, run.state.flight
     if flight is None:
         raise RuntimeError(f"mission {run.mission.name} has no flight to watch")
     for number, limit in enumerate(limits, 1):
         if limit is not None:
-            set_deadline(run.core.kernel, run, flight, number, limit)
+            limit.set(core.kernel, core.limits, run, flight, number)
     return flight
 
 
