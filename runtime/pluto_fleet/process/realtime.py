@@ -179,19 +179,19 @@ class RealTime(Kernel):
         Thread(target=work, name="hook", daemon=True).start()
         return (await ended)()
 
-    async def offer(self, signal: Future[T]) -> T:
-        """Return what a hook, an asyncio task here, may await for this signal."""
+    async def offer(self, future: Future[T]) -> T:
+        """Return what a hook, an asyncio task here, may await for this future."""
         happened = asyncio.Event()
 
         def tell(_: object) -> None:
             happened.set()
 
-        signal.watch(tell)
+        future.watch(tell)
         try:
             await happened.wait()
         finally:
-            signal.unwatch(tell)
-        return signal.result()
+            future.unwatch(tell)
+        return future.result()
 
 
 def _nothing() -> None:

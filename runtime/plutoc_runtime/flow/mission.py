@@ -52,7 +52,7 @@ class Supervisor(Protocol):
         ...
 
     def doomed(self, state: MissionState) -> None:
-        """Hear that a mission must end, whatever its graph says."""
+        """Hear that a mission must end, even if its graph would go on."""
         ...
 
 
@@ -128,7 +128,7 @@ class MissionState:
     first_start: float | None = None
     """When its first trip was let go."""
     doom: str | None = None
-    """Why it must end whatever its graph says: a failure that no retry can mend."""
+    """Why it must end at once: a failure that no retry can mend."""
 
     def __call__(self, task: Task[Status]) -> None:
         """Hear that its coroutine is over."""

@@ -44,7 +44,7 @@ class Outcome:
 
     @property
     def crashed(self) -> int:
-        """How many drones have crashed: nobody brings them back in a simulation."""
+        """How many drones have crashed: none is brought back in a simulation."""
         return sum(drone.status is DroneStatus.LOST for drone in self.drones)
 
     @property
@@ -135,7 +135,7 @@ class Session:
             await engine.done
             ended = self._kernel.now
             await self.core.fleet.all_down()
-            if engine.done.is_set:  # and nobody has let a mission go on meanwhile
+            if engine.done.is_set:  # and no mission has been let go on meanwhile
                 return ended
 
 

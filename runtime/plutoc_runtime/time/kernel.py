@@ -40,7 +40,7 @@ def mission_key(index: int) -> Key:
 
 
 def branch_key(key: Key, number: int, depth: int) -> Key:
-    """Return the key of a branch, at a depth of forks, of whoever has this key."""
+    """Return the key of a branch, at a depth of forks, of what has this key."""
     room = (1 << _BRANCH) - 1
     return key + (min(number + 1, room) << (_BRANCH * (_DEPTH - depth))) if depth <= _DEPTH else key
 
@@ -76,7 +76,7 @@ class Timer:
 
     @property
     def cancelled(self) -> bool:
-        """Whether nobody wants it any more."""
+        """Whether it was cancelled."""
         return self._call is None
 
     def cancel(self) -> None:
@@ -108,12 +108,12 @@ class Task(Future[T]):
         """The number of its next turn; another one is not its any longer. 0: it waits for none."""
         self.key, self.name = key, name
         self.over: Callable[[Task[T]], None] | None = None
-        """Told when it has ended, however it has; without anybody an error stops the run."""
+        """Told when it has ended, however it has; without a listener an error stops the run."""
         kernel.tasks[self] = None
 
     @property
     def coroutine(self) -> Coroutine[Any, Any, T]:
-        """What it is that goes on: for whoever wants to see where it waits."""
+        """What it is that goes on: to see where it waits."""
         return self._coroutine
 
     def wake(self, _: object = None) -> None:
@@ -274,7 +274,7 @@ class Kernel:
         finally:
             timer.cancel()
 
-    async def within(self, signal: Future[Any], until: float, kind: Kind, key: Key) -> bool:
+    async def within(self, future: Future[Any], until: float, kind: Kind, key: Key) -> bool:
         """Wait until it happens or the time comes; say whether it has happened."""
         either: Future[None] = Future()
 
@@ -282,13 +282,13 @@ class Kernel:
             either.set(None)
 
         timer = self.at(until, kind, key, over)
-        signal.watch(over)
+        future.watch(over)
         try:
             await either
         finally:
             timer.cancel()
-            signal.unwatch(over)
-        return signal.is_set
+            future.unwatch(over)
+        return future.is_set
 
     async def call_hook(
         self, hook: Callable[..., object], /, *args: object, **named: object
@@ -296,8 +296,8 @@ class Kernel:
         """Run a hook of the app's, `def` or `async def`, and return what it returns."""
         raise NotImplementedError
 
-    def offer(self, signal: Future[T]) -> Coroutine[Any, Any, T]:
-        """Return what a hook may await for this signal."""
+    def offer(self, future: Future[T]) -> Coroutine[Any, Any, T]:
+        """Return what a hook may await for this future."""
         raise NotImplementedError
 
     def post(self, call: Callable[..., object], *args: object) -> None:
