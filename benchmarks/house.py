@@ -8,6 +8,7 @@ its package is its own room there.
 
 from __future__ import annotations
 
+import argparse
 import sys
 from collections.abc import Callable, Iterable
 from pathlib import Path
@@ -99,6 +100,7 @@ def rings(what: str, graph: networkx.DiGraph) -> None:
 
 def main() -> None:
     """Print everything."""
+    argparse.ArgumentParser(description="How large the rooms are, and their rings.").parse_args()
     sizes()
     rings("rooms", imports(lambda module: ".".join(module.split(".")[:2])))
     rings("files", imports(lambda module: module))

@@ -14,6 +14,7 @@ or the `__init__` of a dataclass, is looked through.
 
 from __future__ import annotations
 
+import argparse
 import json
 import os
 import subprocess
@@ -118,8 +119,11 @@ def run(folder: Path, *command: str) -> str:
 
 def main() -> None:
     """Count in each world, and print."""
-    if len(sys.argv) == 3:  # in a process of its own: a process has room for one brain
-        inside(Path(sys.argv[1]), sys.argv[2])
+    parser = argparse.ArgumentParser(description="Through how many files a trip leads a reader.")
+    parser.add_argument("--inside", nargs=2, metavar=("PACKAGE", "WORLD"), help=argparse.SUPPRESS)
+    given = parser.parse_args().inside
+    if given is not None:  # in a process of its own: a process has room for one brain
+        inside(Path(given[0]), given[1])
         return
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name).resolve()
@@ -129,7 +133,8 @@ def main() -> None:
         (folder / "fleet.toml").write_text(FLEET)
         package = folder / "package" / "src" / EXAMPLE
         for world in (ALONE, WITH_LIBRARY):
-            found = json.loads(run(folder, str(Path(__file__).resolve()), str(package), world))
+            script = str(Path(__file__).resolve())
+            found = json.loads(run(folder, script, "--inside", str(package), world))
             print(f"{world}:")
             for end in ENDS:
                 files, moves = found["ends"][end]
