@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from plutoc.check.model import Checked
 from plutoc.check.run import check
 from plutoc.diagnostic import Diagnostic, Rejected, accept_or_raise
-from plutoc.frozen import frozen
 from plutoc.graph.resolve import resolved
 from plutoc.registry import blocks, standard
 from plutoc.source import Source
@@ -27,7 +27,7 @@ KnownHooks = Callable[[Checked], Mapping[str, str]]
 _NONE: Mapping[str, str] = MappingProxyType({})
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Compiled:
     """An app from its source to its files."""
 

@@ -7,12 +7,12 @@ somebody's package: where ours are is known.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
 from types import MappingProxyType
 
 from plutoc.block import Block
-from plutoc.frozen import frozen
 from plutoc.terminated import Terminated
 
 GROUP = "plutoc.blocks"
@@ -34,7 +34,7 @@ class RegistryError(Exception):
         super().__init__("\n".join(map(printable, message.split("\n"))))
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Blocks:
     """The packages there are, and how to get one's blocks by kind."""
 

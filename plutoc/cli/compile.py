@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Iterator, Mapping
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -30,7 +30,6 @@ from plutoc.emit.errors import never_written, outdated, place_of
 from plutoc.emit.lock import NAME as LOCK
 from plutoc.emit.recorded import only_forgets
 from plutoc.emit.write import CannotWrite, Changes, Refused, compare, record_of, write
-from plutoc.frozen import filled
 from plutoc.source import Source
 from plutoc_runtime.words import counted, printable
 
@@ -39,7 +38,7 @@ if TYPE_CHECKING:
     from plutoc.plan.model import Plan
 
 
-@filled
+@dataclass(slots=True, kw_only=True, eq=False)
 class _Said:
     """What there is to say, gathered: some formats are one document."""
 

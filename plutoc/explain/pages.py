@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from importlib.resources import files
-
-from plutoc.frozen import frozen
 
 GROUPS = {
     "P0": "Syntax",
@@ -17,7 +16,7 @@ GROUPS = {
 """What the codes that begin so are about."""
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Page:
     """What there is to know about a code."""
 

@@ -7,10 +7,9 @@ comments, for a source that was parsed holds nothing else.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
-from plutoc.frozen import frozen
 from plutoc.syntax.lex import lexed
 from plutoc.syntax.newlines import NEWLINE
 from plutoc.syntax.tokens import Token
@@ -20,7 +19,7 @@ COMMA, LBRACE, RBRACE = "COMMA", "LBRACE", "RBRACE"
 _BLANKS = " \t\r"
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Word:
     """A token as it is to be written, and what follows it."""
 

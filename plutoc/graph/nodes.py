@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 from plutoc.block import Choice, HookKind, HookParam, Param
 from plutoc.diagnostic import Diagnostic
-from plutoc.frozen import frozen
 from plutoc.graph import value_errors
 from plutoc.graph.arguments import once_each
 from plutoc.graph.model import Choose, Hook, Node, Parameter, Plain
@@ -21,7 +21,7 @@ from plutoc.syntax.tree import Argument, BlockDecl, Bool, Name, Text, Value
 _ROLES = {HookKind.ACTION: ACTION} | {HookKind(kind): role for kind, role in HOOK_ROLES.items()}
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Place:
     """What a block's declaration can refer to, and where findings go."""
 

@@ -7,9 +7,9 @@ Python and Oniguruma, which editors use, both understand.
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 from enum import Enum
 
-from plutoc.frozen import frozen
 from plutoc.graph.model import END, START
 from plutoc.syntax.newlines import SETTINGS, WORDS
 from plutoc_runtime.quantities import UNITS, Type
@@ -33,7 +33,7 @@ class Kind(Enum):
     ARROW = "->"
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Rule:
     """A kind, and where it is found."""
 

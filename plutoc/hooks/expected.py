@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from plutoc.block import HookKind
 from plutoc.check.model import Checked
 from plutoc.emit.stubs import Stub, stubs
-from plutoc.frozen import frozen
 from plutoc.graph.model import Action, Hook, Parameter
 from plutoc.source import Span
 
@@ -18,7 +19,7 @@ _PASSED = {
 """What comes by position, whatever the hook calls it."""
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Expected:
     """One function of hooks.py, as the app calls it."""
 

@@ -8,14 +8,14 @@ mistake in one of them costs no other.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 
-from plutoc.frozen import frozen
 from plutoc.source import Span
 from plutoc.syntax.newlines import BEGINNERS, END, EQUAL, NAME, NEWLINE
 from plutoc.syntax.tokens import Token, made_up, span
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Line:
     """The tokens of a line (at least one), and what ends it."""
 

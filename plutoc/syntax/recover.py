@@ -7,10 +7,9 @@ what the parser refuses becomes a `BadStatement`, and the rest is parsed.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from plutoc.diagnostic import Diagnostic
-from plutoc.frozen import frozen
 from plutoc.source import Source, Span
 from plutoc.syntax import build
 from plutoc.syntax.bad import bad_statement
@@ -34,7 +33,7 @@ _BELOW = "if the next line belongs to this one, join the two"
 _CLOSING = (("RBRACE", "}"), (NEWLINE, ""), (END, ""))
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class _Placed:
     """A line, and the parser as it stands before it."""
 
@@ -44,7 +43,7 @@ class _Placed:
     """Whether what is wrong with it is told already."""
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class _Judged:
     """The lines that can be read, and what is left of the others."""
 

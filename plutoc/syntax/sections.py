@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 from plutoc.diagnostic import Diagnostic
-from plutoc.frozen import frozen
 from plutoc.source import Source, Span
 from plutoc.syntax import errors
 from plutoc.syntax.lines import Line, begins_a_statement, joined
@@ -15,7 +15,7 @@ from plutoc.syntax.tokens import Token, span
 _OUTSIDE = ("USE", "APP", "RBRACE", "LBRACE")
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Sections:
     """The lines of a source, by where they stand."""
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from enum import Enum
 
 from plutoc.check.flow import ordered
 from plutoc.check.model import Checked
-from plutoc.frozen import frozen
 from plutoc.graph.model import END, START
 
 
@@ -19,7 +19,7 @@ class Shape(Enum):
     BLOCK = "any other block"
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Box:
     """A block, `start` or `end`."""
 
@@ -29,7 +29,7 @@ class Box:
     shape: Shape
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Arrow:
     """An edge, with the statuses that pass along it."""
 
@@ -42,7 +42,7 @@ class Arrow:
     """The source has no such edge: missions end there all the same."""
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Picture:
     """A graph as it is drawn."""
 
