@@ -8,7 +8,7 @@ import unicodedata
 from collections.abc import Iterable
 from enum import Enum
 
-from plutoc.syntax.newlines import WORDS
+from plutoc.syntax.tokens import WORDS
 
 LONGEST = 63
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from itertools import chain
 
 from plutoc.graph.names import Style, has_style, reserved
-from plutoc.syntax.newlines import SETTINGS
+from plutoc.syntax.tokens import SETTINGS
 from plutoc.syntax.tree import BadStatement, BlockDecl, File
 
 _DECLARE_NOTHING = frozenset({"flow", *SETTINGS})

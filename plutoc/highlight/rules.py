@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 from plutoc.graph.model import END, START
-from plutoc.syntax.newlines import SETTINGS, WORDS
+from plutoc.syntax.tokens import SETTINGS, WORDS
 from plutoc_runtime.quantities import UNITS, Type
 from plutoc_runtime.status import IN_GRAPH
 

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import unicodedata
 
+from lark import Token
+
 from plutoc.diagnostic import Diagnostic, Fix, Related, error
 from plutoc.source import Source, Span
-from plutoc.syntax.tokens import Token
+from plutoc.syntax.tokens import span
 from plutoc.syntax.words import found, shortened
 
 
@@ -253,10 +255,9 @@ def early_brace(source: Source, span: Span, last: Span) -> Diagnostic:
 
 def behind_the_app(source: Source, token: Token) -> Diagnostic:
     """Something behind the brace that ends the app."""
-    span = Span(token.start_pos, token.end_pos)
     end = "the end of the file"
     help = "what belongs to the app stands before its `}`"
-    return unexpected(source, span, end, found(token), help, None)
+    return unexpected(source, span(token), end, found(token), help, None)
 
 
 def described(char: str) -> str:

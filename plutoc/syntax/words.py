@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from plutoc.syntax.newlines import END, NEWLINE, SETTING_KINDS, SETTINGS, WORDS
-from plutoc.syntax.tokens import Token
+from lark import Token
+
+from plutoc.syntax.tokens import END, NEWLINE, SETTING_KINDS, SETTINGS, WORDS
 
 _NAMED = {
     "NAME": "a name",

@@ -14,7 +14,7 @@ from pygments import token
 from plutoc.highlight.pygments_lexer import PlutoLexer
 from plutoc.highlight.rules import RULES
 from plutoc.highlight.textmate import SCOPES, grammar
-from plutoc.syntax.newlines import SETTINGS, WORDS
+from plutoc.syntax.tokens import SETTINGS, WORDS
 from plutoc_runtime.quantities import UNITS
 
 ROOT = Path(__file__).parents[2]

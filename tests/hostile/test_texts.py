@@ -19,7 +19,7 @@ from hypothesis import strategies as st
 from plutoc.emit.package import Package
 from plutoc.report.graph import dot, dot_to_svg, mermaid
 from plutoc.report.graph import json as as_json
-from plutoc.syntax.hidden import HIDDEN
+from plutoc.syntax.characters import HIDDEN
 from tests.fuzz.texts import HOSTILE
 from tests.hostile.apps import checked, package
 
