@@ -13,7 +13,7 @@ from importlib import import_module
 from types import MappingProxyType
 
 from plutoc.block import Block
-from plutoc.terminated import Terminated
+from plutoc.strangers import Terminated
 
 GROUP = "plutoc.blocks"
 STD = "std"

@@ -79,8 +79,8 @@ def _findings(file: Path, source: Source) -> _Findings:
 
 def _fixed(file: Path, source: Source, options: Options) -> _Findings:
     """Mend a file, say what was mended, and return what is left."""
+    from plutoc.cli.changes import rewrite
     from plutoc.cli.fix import mended, summary
-    from plutoc.cli.rewrite import rewrite
 
     if file == STANDARD_INPUT:
         raise Unusable("--fix changes files, and standard input is none")

@@ -5,10 +5,10 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from plutoc.cli.colour import in_colour
 from plutoc.cli.endings import CLEAN, ERRORS, Unusable
 from plutoc.cli.files import STANDARD_INPUT, read_app, read_standard_input, shown
 from plutoc.cli.options import Options
+from plutoc.cli.say import in_colour
 from plutoc.compile import analyse
 from plutoc.diagnostic import Diagnostic, Rejected
 from plutoc.diff.model import Difference, Version

@@ -13,8 +13,8 @@ from pathlib import Path
 
 import pytest
 
+from plutoc.cli.changes import rewrite
 from plutoc.cli.endings import Unusable
-from plutoc.cli.rewrite import rewrite
 from plutoc.format import run
 from tests.cli.conftest import APP, Call, tree
 
