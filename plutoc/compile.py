@@ -114,7 +114,7 @@ def package_of(
     from plutoc.emit.errors import not_embeddable, place_of
     from plutoc.emit.modules import EmbedError
     from plutoc.emit.package import emit
-    from plutoc.report.graph import mermaid
+    from plutoc.report.pictures import mermaid
 
     plan = planned(checked, optimise=optimise)
     try:

@@ -98,7 +98,7 @@ def _show(source: Source, options: Options, what: str, said: _Said) -> None:
     checked, warnings = analyse(source)
     said.found += warnings
     if what == "graph":
-        from plutoc.report.graph import mermaid
+        from plutoc.report.pictures import mermaid
 
         text = mermaid(checked)
     else:

@@ -13,7 +13,7 @@ from plutoc.compile import analyse
 from plutoc.diagnostic import Diagnostic, Rejected
 from plutoc.diff.model import Difference, Version
 from plutoc.diff.run import compare
-from plutoc.report.changes import json, markdown, text
+from plutoc.report.change_reports import json, markdown, text
 from plutoc.source import Source
 from plutoc_runtime import output
 

@@ -12,12 +12,11 @@ from plutoc.cli.files import read_app
 from plutoc.cli.options import Options
 from plutoc.cli.say import in_colour, say
 from plutoc.compile import analyse
-from plutoc.explain.pages import code_meant, codes, page
-from plutoc.explain.text import render, render_list
+from plutoc.explain.pages import code_meant, codes, page, render, render_list
 from plutoc.graph.names import near
 from plutoc.registry import STD, RegistryError, blocks_of, installed_packages
 from plutoc.report import block_page
-from plutoc.report.graph import NoGraphviz, dot, dot_to_svg, json, mermaid
+from plutoc.report.pictures import NoGraphviz, dot, dot_to_svg, json, mermaid
 from plutoc_runtime import output
 from plutoc_runtime.words import printable
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from plutoc.report.paint import paint
+from plutoc.report.terminal import paint
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

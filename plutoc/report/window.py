@@ -6,9 +6,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
-from plutoc.report.cells import columns, shown
 from plutoc.report.marks import Mark, under
-from plutoc.report.paint import BLUE, paint
+from plutoc.report.terminal import BLUE, columns, paint, shown
 from plutoc.source import Source, Span
 from plutoc_runtime.words import printable
 

@@ -17,6 +17,11 @@ from plutoc.source import Source, Span
 from plutoc.syntax.grammar import State, lexed, would_feed
 from plutoc.syntax.tokens import BEGINNERS, END, EQUAL, NAME, NEWLINE, made_up, span
 
+_BREAK = re.compile(r"[ \t]*\r?\n[ \t]*")
+_WORD = re.compile(r"\w+|->|[^\w\s]")
+_LONGEST = 2000
+"""In characters: nobody wrote a longer statement on one line, and it would be read once more."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Line:
@@ -97,12 +102,6 @@ def goes_on(line: Line) -> bool:
     """Say whether a line can only be the rest of what is in brackets: `limit: 3 min,` or `)`."""
     second = line.tokens[1].type if len(line.tokens) > 1 else END
     return line.first in ("RPAR", "RSQB", "COMMA") or (line.first == NAME and second == "COLON")
-
-
-_BREAK = re.compile(r"[ \t]*\r?\n[ \t]*")
-_WORD = re.compile(r"\w+|->|[^\w\s]")
-_LONGEST = 2000
-"""In characters: nobody wrote a longer statement on one line, and it would be read once more."""
 
 
 def is_split(source: Source, base: State, first: Line, second: Line) -> bool:

@@ -41,6 +41,11 @@ _BELOW = "if the next line belongs to this one, join the two"
 _CLOSING = (("RBRACE", "}"), (NEWLINE, ""), (END, ""))
 
 
+_IN_A_FLOW = frozenset({NAME, "_ARROW", "COMMA", "LSQB", "RSQB", "WHEN", "OTHERWISE", "UNKNOWN"})
+_UP_TO_BLANK = re.compile(r"\w[^\s(]*")
+_EQUAL_SIGN = "="
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Placed:
     """A line, and the parser as it stands before it."""
@@ -181,12 +186,6 @@ def _fed(tokens: Sequence[tuple[str, str]]) -> State:
 
 def _made_up(tokens: Sequence[tuple[str, str]]) -> list[Token]:
     return [made_up(kind, text) for kind, text in tokens]
-
-
-_IN_A_FLOW = frozenset({NAME, "_ARROW", "COMMA", "LSQB", "RSQB", "WHEN", "OTHERWISE", "UNKNOWN"})
-
-_UP_TO_BLANK = re.compile(r"\w[^\s(]*")
-_EQUAL_SIGN = "="
 
 
 def bad_statement(source: Source, line: Line) -> BadStatement:

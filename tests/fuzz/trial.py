@@ -21,8 +21,8 @@ from plutoc.emit.recorded import read_lock
 from plutoc.emit.write import compare, write
 from plutoc.hooks.add import with_stubs
 from plutoc.report import github
-from plutoc.report.graph import dot, json, mermaid
 from plutoc.report.json import render_line
+from plutoc.report.pictures import dot, json, mermaid
 from plutoc.report.text import render
 from plutoc.source import Source
 from tests.fuzz.apps import grown

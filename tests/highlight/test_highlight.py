@@ -12,8 +12,7 @@ import pytest
 from pygments import token
 
 from plutoc.highlight.pygments_lexer import PlutoLexer
-from plutoc.highlight.rules import RULES
-from plutoc.highlight.textmate import SCOPES, grammar
+from plutoc.highlight.rules import RULES, SCOPES, grammar
 from plutoc.syntax.tokens import SETTINGS, WORDS
 from plutoc_runtime.quantities import UNITS
 
