@@ -121,5 +121,5 @@ def package_of(
         return emit(
             plan, source_name=source_name, picture=mermaid(checked), carry=carry, former=former
         )
-    except EmbedError as error:  # a block that somebody else made
+    except EmbedError as error:  # a block of another package
         raise Rejected([not_embeddable(place_of(checked.graph), str(error))]) from error

@@ -1,6 +1,6 @@
 """Is what a package declares as a block one, in every field of it?
 
-A declaration is somebody else's code: what is wrong with it is said here, with the package's name and
+A declaration may be another author's code: what is wrong with it is said here, with the package's name and
 the block's, and not met later as a mistake of the compiler.
 """
 

@@ -1,7 +1,7 @@
 """The blocks that are installed: found by their packages' entry points, loaded when first used.
 
 To look for entry points takes longer than to check an app. So it is done only where an app uses
-somebody's package: where ours are is known.
+another package: where ours are is known.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ OURS = "plutoc_blocks:BLOCKS"
 class RegistryError(Exception):
     """A package of blocks cannot be used. The message is a sentence for a person.
 
-    It may quote what somebody else has written: nothing in it can command a terminal.
+    It may quote what a stranger has written: nothing in it can command a terminal.
     """
 
     def __init__(self, message: str) -> None:

@@ -42,7 +42,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 class _Ending:
-    """Turns whatever a command ends with into an exit code, and into a message."""
+    """Turns what a command ends with into an exit code, and into a message."""
 
     def __init__(self) -> None:
         self.code = CLEAN

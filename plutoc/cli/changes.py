@@ -35,7 +35,7 @@ def rewrite(path: Path, before: str, after: str) -> None:
         mode = target.stat().st_mode
         if not stat.S_ISREG(mode):
             raise Unusable(f"{shown(path)} is no ordinary file and was not changed")
-        # A rename asks nobody for leave to replace a file that must not be written.
+        # A rename would replace a read-only file, too.
         if not (mode & 0o222 and os.access(target, os.W_OK)):
             raise Unusable(f"{shown(path)} is read-only and was not changed")
         write(Changes(folder=target.parent, first=False, files=(change,)), save=save)

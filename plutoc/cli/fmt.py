@@ -76,7 +76,7 @@ def _changes(source: Source, after: str) -> Changes:
 
 
 def _write_exactly(text: str) -> None:
-    """Write what may become a source again: in UTF-8, whatever a terminal knows of it."""
+    """Write what may become a source again: in UTF-8, whether a terminal knows it or not."""
     output.flush()
     try:
         if sys.stdout is not None:

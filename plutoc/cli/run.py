@@ -140,6 +140,6 @@ def _call(path: Path, module: str, arguments: list[str]) -> int:
             except KeyboardInterrupt:
                 continue  # the terminal told the child, too: it ends in its own way
             except Terminated:
-                child.terminate()  # nobody told the child
+                child.terminate()  # the child was not told
                 raise
     return code if code >= 0 else 128 - code

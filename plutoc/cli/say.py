@@ -19,8 +19,8 @@ def say(
 ) -> None:
     """Print what the compiler found; once a run, for one of the formats is a single document.
 
-    `troubles` are what kept files from being read. A person is told of them on standard error, by
-    whoever met them; here they are told to programs.
+    `troubles` are what kept files from being read. A person is told of them on standard error, where
+    they were met; here they are told to programs.
     """
     speak(worded(diagnostics, format, troubles))
 

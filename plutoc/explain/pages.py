@@ -47,7 +47,7 @@ def page(code: str) -> Page:
 
 
 def code_meant(asked: str) -> str:
-    """Return the code that somebody means who writes `p1003` or `1003`."""
+    """Return the code that is meant by `p1003` or `1003`."""
     code = asked.strip().upper()
     return f"P{code}" if code.isdigit() else code
 

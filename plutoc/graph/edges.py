@@ -18,7 +18,7 @@ from plutoc.syntax.tree import FlowDecl, Guard, Name
 from plutoc_runtime.status import IN_GRAPH, Status
 
 MOST_EDGES = 100_000
-"""Of an app: brackets of a thousand names each make a million of them, which nobody meant."""
+"""Of an app: brackets of a thousand names each make a million of them, which is a mistake."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

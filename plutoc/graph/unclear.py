@@ -15,7 +15,7 @@ from plutoc.syntax.tokens import SETTINGS
 from plutoc.syntax.tree import BadStatement, BlockDecl, File
 
 _DECLARE_NOTHING = frozenset({"flow", *SETTINGS})
-"""No name comes from them, whatever is wrong with them."""
+"""They declare no name, even where something is wrong with them."""
 _WORD = re.compile(r"\w+")
 _ALIKE = 0.6
 _MANY = 20

@@ -16,7 +16,7 @@ _PASSED = {
     HookKind.MODIFIER: ("mission", "context"),
     HookKind.POLICY: ("trip", "candidates"),
 }
-"""What comes by position, whatever the hook calls it."""
+"""What comes by position: the hook may call it as it likes."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -122,7 +122,7 @@ def _mermaid_arrow(arrow: Arrow, ids: Ids) -> str:
 def _ids(boxes: Iterable[Box]) -> Ids:
     """Return what the boxes are called within the text.
 
-    The first block of a kind goes by its kind: whoever renames it changes one line of a README. A
+    The first block of a kind goes by its kind: to rename it changes one line of a README. A
     further one has its name behind, so that it renames no other. All begin with a capital: words of
     Mermaid's, such as `end`, do not.
     """

@@ -1,4 +1,4 @@
-"""Characters that are no part of the language: what nobody sees, and what word processors write."""
+"""Characters that are no part of the language: what cannot be seen, and what word processors write."""
 
 from __future__ import annotations
 
@@ -102,7 +102,7 @@ def _slip(source: Source, tokens: Sequence[Token], i: int) -> Diagnostic | None:
     if SPACES.fullmatch(char):
         return _replaced(source, here, " ", "write an ordinary space")
     if HIDDEN.match(text, here.start) and char != "\r":
-        return _replaced(source, here, "", "remove it: nobody sees it")
+        return _replaced(source, here, "", "remove it: it cannot be seen")
     return None
 
 

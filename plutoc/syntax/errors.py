@@ -42,7 +42,7 @@ def open_text(source: Source, span: Span) -> Diagnostic:
 def unknown_character(
     source: Source, span: Span, help: str | None = None, fix: Fix | None = None
 ) -> Diagnostic:
-    """A character that the language does not use, or several that somebody took for one sign."""
+    """A character that the language does not use, or several that were taken for one sign."""
     char = source.quote(span)
     # The name, too: a no-break space or a typographic dash cannot be told from the right one.
     is_plain = len(char) > 1 or (char.isascii() and char.isprintable())
@@ -101,7 +101,7 @@ def unknown_escape(source: Source, span: Span) -> Diagnostic:
 
 
 def too_large(source: Source, limit: int) -> Diagnostic:
-    """A file that nobody wrote."""
+    """A file too large to have been written by hand."""
     return error(
         "P0006",
         f"this file is larger than {limit // 1024} KiB",

@@ -20,7 +20,7 @@ from plutoc.syntax.tokens import BEGINNERS, END, EQUAL, NAME, NEWLINE, made_up, 
 _BREAK = re.compile(r"[ \t]*\r?\n[ \t]*")
 _WORD = re.compile(r"\w+|->|[^\w\s]")
 _LONGEST = 2000
-"""In characters: nobody wrote a longer statement on one line, and it would be read once more."""
+"""In characters: a longer one was not typed on one line, and to read it once more takes time."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

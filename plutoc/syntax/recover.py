@@ -32,7 +32,7 @@ from plutoc.syntax.tokens import BEGINNERS, END, EQUAL, NAME, NEWLINE, SETTING_K
 from plutoc.syntax.tree import BadStatement, File, Name
 
 MOST_MISTAKES = 1_000
-"""Of more mistakes in one source nothing is told: nobody reads that many."""
+"""Of more mistakes in one source nothing is told: that many are not read."""
 
 _HEADER = (("PLUTO", "pluto"), ("NUMBER", "1"), (NEWLINE, ""))
 _APP = (("APP", "app"), ("NAME", ""), ("LBRACE", "{"))

@@ -120,7 +120,7 @@ def test_a_fleet_beside_missions_that_are_named_is_flown(plutoc: Call, app: Path
 
 
 def test_what_repeats_for_ever_is_flown_for_so_long(plutoc: Call, app: Path) -> None:
-    """`simulate` asks for it, and so whoever calls it by `run` can say it."""
+    """`simulate` asks for it, and so it can be given to `run`."""
     said = plutoc("run", app, "--until", "10 s", "--json")
     assert json.loads(said.out)["duration_s"] == 10.0
 

@@ -199,7 +199,7 @@ def test_byte_order_mark_is_tolerated() -> None:
 
 
 def test_spans_are_places_in_the_source() -> None:
-    """Of every statement, whatever stands before it."""
+    """Of every statement, with all that stands before it."""
     source = Source("a", "\ufeffpluto 1\r\n# ü 日本\r\napp demo {\r\n  a = K(x: 5 min)  # x\r\n}")
     (block,) = parse(source).app.statements
     assert source.quote(block.span) == "a = K(x: 5 min)"
