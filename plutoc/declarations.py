@@ -16,6 +16,7 @@ from plutoc.block import Block, Choice, Gate, HookKind, HookParam, Narrowed, Par
 from plutoc_runtime.fields import Entity, Field, FieldType
 from plutoc_runtime.quantities import Type
 from plutoc_runtime.status import Status
+from plutoc_runtime.words import bounded, printable, shown
 
 _FLAGS = (
     "emits_by_hook",
@@ -68,8 +69,6 @@ def is_text(text: object) -> bool:
 
 
 def _called(value: object) -> str:
-    from plutoc_runtime.words import bounded, printable, shown
-
     return bounded(printable(shown(value)), 60)
 
 

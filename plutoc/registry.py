@@ -10,10 +10,14 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
+from importlib.metadata import entry_points
 from types import MappingProxyType
 
 from plutoc.block import Block
-from plutoc.strangers import Terminated
+from plutoc.declarations import is_name, mistakes_in
+from plutoc.strangers import Terminated, by_a_person, kept_apart
+from plutoc_runtime.hooks import said
+from plutoc_runtime.words import printable
 
 GROUP = "plutoc.blocks"
 STD = "std"
@@ -29,8 +33,6 @@ class RegistryError(Exception):
     """
 
     def __init__(self, message: str) -> None:
-        from plutoc_runtime.words import printable
-
         super().__init__("\n".join(map(printable, message.split("\n"))))
 
 
@@ -60,8 +62,6 @@ def installed() -> Mapping[str, Mapping[str, Block]]:
 
 def installed_packages() -> tuple[str, ...]:
     """Return the names of the installed packages of blocks, ours first."""
-    from importlib.metadata import entry_points
-
     names = {point.name for point in entry_points(group=GROUP)} - {STD}
     return (STD, *sorted(names))
 
@@ -71,8 +71,6 @@ def blocks_of(package: str) -> Mapping[str, Block]:
     """Load a package's blocks, by kind; raise `RegistryError` where that fails."""
     if package == STD:
         return _loaded(package, OURS, _ours)
-    from importlib.metadata import entry_points
-
     points = list(entry_points(group=GROUP, name=package))
     if not points:
         raise RegistryError(f"no package of blocks named {package} is installed")
@@ -92,9 +90,6 @@ def _ours() -> object:
 
 def _theirs(package: str, value: str, load: Callable[[], object]) -> object:
     """Load a package's own code, which may raise anything, or end Python: neither passes for ours."""
-    from plutoc.strangers import by_a_person, kept_apart
-    from plutoc_runtime.hooks import said
-
     with kept_apart():
         try:
             declared = load()
@@ -137,8 +132,6 @@ def _loaded(package: str, value: str, load: Callable[[], object]) -> Mapping[str
 
 def _look_at(block: Block, package: str) -> None:
     """Raise `RegistryError` if a declaration is not what it must be."""
-    from plutoc.declarations import is_name, mistakes_in
-
     try:
         mistakes = list(mistakes_in(block))
     except (KeyboardInterrupt, Terminated):

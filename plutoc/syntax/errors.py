@@ -8,8 +8,7 @@ from lark import Token
 
 from plutoc.diagnostic import Diagnostic, Fix, Related, error
 from plutoc.source import Source, Span
-from plutoc.syntax.tokens import span
-from plutoc.syntax.words import found, shortened
+from plutoc.syntax.tokens import found, shortened, span
 
 
 def unexpected(

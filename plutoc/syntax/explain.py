@@ -24,10 +24,11 @@ from plutoc.syntax.tokens import (
     OPENING,
     SETTINGS,
     WORDS,
+    expected,
+    found,
     made_up,
     span,
 )
-from plutoc.syntax.words import expected, found
 
 _LINE_WORDS = ("use", "app")
 _STATEMENT_WORDS = ("category", "action", "evaluator", "modifier", "policy")

@@ -9,7 +9,9 @@ from lark import Token
 from plutoc.diagnostic import Diagnostic, accept_or_raise, in_order
 from plutoc.source import Source, Span
 from plutoc.syntax import build, errors
+from plutoc.syntax.characters import HIDDEN
 from plutoc.syntax.grammar import end_of, lexed, tree_of
+from plutoc.syntax.recover import recover
 from plutoc.syntax.texts import wrong_escapes
 from plutoc.syntax.tokens import END, NEWLINE, span
 from plutoc.syntax.tree import File
@@ -44,8 +46,6 @@ def read(source: Source) -> tuple[File, tuple[Diagnostic, ...]]:
     node = tree_of(tokens)
     if node is not None:
         return build.file(source, node), in_order(found)
-    from plutoc.syntax.recover import recover  # much, and of use for mistakes alone
-
     file, mistakes = recover(source, tokens)
     return file, in_order((*found, *mistakes))
 
@@ -60,8 +60,6 @@ def _tokens(text: str) -> list[Token]:
 def _hidden_characters(source: Source, tokens: Sequence[Token]) -> Iterator[Diagnostic]:
     """Find them in texts and comments; anywhere else they are no token, and the parser says so."""
     if not _is_plain(source.text):
-        from plutoc.syntax.characters import HIDDEN  # a large pattern
-
         elsewhere = {token.start_pos for token in tokens if token.type == "UNKNOWN"}
         for match in HIDDEN.finditer(source.text):
             if match.start() not in elsewhere and (match[0] != _BOM or match.start()):

@@ -1,6 +1,8 @@
-"""Tokens: which types there are, and where each stands."""
+"""Tokens: which types there are, where each stands, and how they are called in messages."""
 
 from __future__ import annotations
+
+from collections.abc import Iterable
 
 from lark import Token
 
@@ -23,6 +25,35 @@ SETTINGS = ("version", "requires")
 SETTING_KINDS = frozenset(word.upper() for word in SETTINGS)
 BEGINNERS = SETTING_KINDS | {"CATEGORY", "ACTION", "EVALUATOR", "MODIFIER", "POLICY"}
 
+_NAMED = {
+    "NAME": "a name",
+    "NUMBER": "a number",
+    "QUANTITY": "a quantity",
+    "TEXT": "a text in quotes",
+    "_ARROW": "`->`",
+    "EQUAL": "`=`",
+    "DOT": "`.`",
+    "COLON": "`:`",
+    "COMMA": "`,`",
+    "LPAR": "`(`",
+    "RPAR": "`)`",
+    "LSQB": "`[`",
+    "RSQB": "`]`",
+    "LBRACE": "`{`",
+    "RBRACE": "`}`",
+    **{word.upper(): f"`{word}`" for word in (*WORDS, *SETTINGS)},
+    NEWLINE: "the end of the line",
+    END: "the end of the file",
+}
+
+_GROUPS = (
+    (frozenset({"NAME", "CATEGORY", "MODIFIER", "LSQB"}), "a declaration or an edge"),
+    (frozenset({"NUMBER", "QUANTITY", "TEXT", "NAME", "LSQB"}), "a value"),
+)
+"""What is too long to tell one by one."""
+
+_IN_A_STATEMENT = SETTING_KINDS | {"ACTION", "EVALUATOR", "POLICY"}
+
 
 def made_up(kind: str, text: str) -> Token:
     """Return a token that the source does not have, to stand where it should have it."""
@@ -32,3 +63,32 @@ def made_up(kind: str, text: str) -> Token:
 def span(token: Token) -> Span:
     """Return the place of a token."""
     return Span(token.start_pos or 0, token.end_pos or 0)
+
+
+def expected(types: Iterable[str], name: str = "a name") -> str:
+    """Say what could stand here: "`,` or `)`"; `name` is what a name would be."""
+    left = set(types)
+    said = []
+    for group, words in _GROUPS:
+        if group <= left:
+            said.append(words)
+            left -= group | _IN_A_STATEMENT
+    for kind, words in _NAMED.items():
+        if kind in left:
+            said.append(name if kind == "NAME" else words)
+    return alternatives(said)
+
+
+def found(token: Token) -> str:
+    """Say what stands here instead."""
+    return _NAMED[token.type] if token.type in (NEWLINE, END) else f"`{shortened(token)}`"
+
+
+def shortened(text: str, longest: int = 30) -> str:
+    """Cut a long text, so that it does not fill the message."""
+    return text if len(text) <= longest else text[: longest - 1] + "…"
+
+
+def alternatives(words: list[str]) -> str:
+    """Join with commas and an "or" before the last one."""
+    return " or ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words)
