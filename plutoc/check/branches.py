@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 
 from plutoc.check.flow import Flow, Fork, Frame, Place, is_final
 from plutoc.check.rounds import rounds
-from plutoc.frozen import filled
 from plutoc.graph.model import END, Edge
 from plutoc_runtime.domain.status import IN_GRAPH, Status
 
@@ -15,7 +14,7 @@ Astray = tuple[Place, Status | None]
 """A place, and the status that it is left with where no edge takes that."""
 
 
-@filled
+@dataclass(slots=True, kw_only=True, eq=False)
 class Branch:
     """One branch of a fork, over all the missions that come through it."""
 

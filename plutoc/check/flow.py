@@ -9,10 +9,10 @@ Places are looked up by the million, and so are tuples: to hash those is quicker
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 from itertools import groupby
 from typing import NamedTuple
 
-from plutoc.frozen import frozen
 from plutoc.graph.model import Edge, Graph
 from plutoc_runtime.domain.status import IN_GRAPH, Status
 
@@ -92,7 +92,7 @@ class Hop(NamedTuple):
 Way = tuple[Hop, ...]
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Flow:
     """Everything that the walk found. Mappings are in the order of discovery."""
 

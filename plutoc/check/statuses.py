@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Collection, Iterable, Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 
 from plutoc.block import Gate
 from plutoc.check import company, errors
@@ -26,7 +26,6 @@ from plutoc.check.facts import (
 from plutoc.check.flow import Facts, Flow, Frame, Place, Split, Step
 from plutoc.check.unflown import unflown
 from plutoc.diagnostic import Rejected
-from plutoc.frozen import filled
 from plutoc.graph.model import END, START, Edge, Graph
 from plutoc_runtime.domain.status import Status
 
@@ -74,7 +73,7 @@ def creation(creator: str) -> Place:
     return Place(frame=None, node=creator, status=Status.UNEXECUTED, facts=Facts())
 
 
-@filled
+@dataclass(slots=True, kw_only=True, eq=False)
 class _Walk:
     """The walk while it goes on. Dicts stand in for sets: their order is certain."""
 

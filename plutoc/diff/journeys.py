@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
+from dataclasses import dataclass
 
 from plutoc.diff.both import Both, Side
 from plutoc.diff.model import Change
 from plutoc.diff.roles import Role, decides, role
 from plutoc.diff.words import routes as words
-from plutoc.frozen import frozen
 from plutoc.graph.model import END, Node
 from plutoc.source import Span
 from plutoc_runtime.domain.status import IN_GRAPH, Status
@@ -16,7 +16,7 @@ from plutoc_runtime.domain.status import IN_GRAPH, Status
 _WATCH = (Role.WATCHES, Role.LIMITS)
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Reroute:
     """Missions leave a block with these statuses for somewhere else than before."""
 

@@ -9,10 +9,10 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
+from dataclasses import dataclass
 
 from plutoc.check.flow import ordered
 from plutoc.check.model import Checked
-from plutoc.frozen import frozen
 from plutoc.graph.model import END, START, Graph, Node
 
 Pairs = Mapping[str, str]
@@ -41,7 +41,7 @@ def pairs(old: Checked, new: Checked) -> Pairs:
     return {name: matching.found[name] for name in old.graph.node if name in matching.found}
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class _Matching:
     """What is matched so far."""
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from enum import Enum
 
 from plutoc.check.model import Checked
 from plutoc.diagnostic import Diagnostic
-from plutoc.frozen import frozen
 from plutoc.source import Source, Span
 from plutoc_runtime.domain.status import Status
 
@@ -30,7 +30,7 @@ class Importance(Enum):
     """Names and arrangement: no mission fares otherwise."""
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Version:
     """One of the two apps."""
 
@@ -38,7 +38,7 @@ class Version:
     warnings: tuple[Diagnostic, ...]
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Change:
     """One change in meaning."""
 
@@ -58,7 +58,7 @@ class Change:
     """Places in the new source."""
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Difference:
     """All that changed in meaning from one source to another, most important first."""
 

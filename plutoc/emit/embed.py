@@ -9,12 +9,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import Any
 
 from plutoc.emit.memory import all_remembered
 from plutoc.emit.modules import RUNTIME, EmbedError, Module, imports_from, is_within, load
-from plutoc.frozen import filled, frozen
 from plutoc.installed import facts_of_package
 from plutoc.registry import STD
 
@@ -24,7 +23,7 @@ OURS = STD
 """Carried code of this package lies in the blocks' folder itself; other packages' in one more."""
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Carried:
     """A function of an installed package that generated code calls."""
 
@@ -75,7 +74,7 @@ def _collected(wanted: Iterable[tuple[str, str]]) -> Iterator[str]:
         yield text
 
 
-@filled
+@dataclass(slots=True, kw_only=True, eq=False)
 class _Embedding:
     """What has been collected so far."""
 

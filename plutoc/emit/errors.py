@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from shlex import quote
 
 from plutoc.diagnostic import Diagnostic, Related, error
-from plutoc.frozen import frozen
 from plutoc.graph.model import Graph
 from plutoc.source import Source, Span
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Place:
     """Where the app that the files are made of is declared."""
 

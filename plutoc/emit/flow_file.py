@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from plutoc.block import HookKind
 from plutoc.emit.callables import carried_functions, imports_of, names_of
@@ -15,14 +15,13 @@ from plutoc.emit.python import call, items, literal
 from plutoc.emit.render import render
 from plutoc.emit.statements import Scope, asked_for, body_lines
 from plutoc.emit.walk import branches, nodes, steps
-from plutoc.frozen import frozen
 from plutoc.graph.model import Action, Graph, Parameter
 from plutoc.plan.model import Arrived, Body, Plan
 from plutoc_runtime.domain.fields import Entity, Field
 from plutoc_runtime.domain.status import IN_GRAPH
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Function:
     """A branch of a fork."""
 
@@ -31,7 +30,7 @@ class Function:
     lines: list[str]
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class FlowFile:
     """What the template places."""
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import dataclass
 
 from plutoc.block import HookKind
 from plutoc.check.model import Checked
@@ -11,7 +12,6 @@ from plutoc.emit.imports import Import, import_lines, names
 from plutoc.emit.python import LINE_LENGTH, builtins_alias, formatted, shadows
 from plutoc.emit.render import render
 from plutoc.emit.stubs import Stub, in_order, stubs
-from plutoc.frozen import frozen
 from plutoc.graph.model import Graph
 from plutoc_runtime.domain.fields import Entity
 from plutoc_runtime.domain.quantities import PYTHON
@@ -26,7 +26,7 @@ TRIP_OFFERS = (
 )
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class HooksFile:
     """What the template places."""
 
@@ -37,14 +37,14 @@ class HooksFile:
     stubs: list[Stub]
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Stubs:
     """What the template of stubs alone places."""
 
     stubs: list[Stub]
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class HooksTest:
     """What the template of the tests places."""
 

@@ -16,7 +16,6 @@ from functools import cache
 from keyword import kwlist
 
 from plutoc.emit.python import LINE_LENGTH
-from plutoc.frozen import frozen
 
 INDENT = 4
 _CONTINUED = "\x01"
@@ -47,7 +46,7 @@ _SUBSCRIPT = re.compile(r"[\w\])}]\[$")
 _BRACKETS = re.compile(r"[()\[\]{}]")
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Logical:
     """A statement's line, or a comment's, however many lines it takes."""
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from hashlib import sha256
 
 from plutoc import __version__
 from plutoc.emit.markup import toml_text
 from plutoc.emit.python import header
-from plutoc.frozen import frozen
 from plutoc.graph.model import Graph
 from plutoc.registry import GROUP, STD
 
@@ -20,7 +20,7 @@ KINDS = ("action", "evaluator", "modifier", "policy", PROBE)
 """What a hook was declared as; what tells whether an action was done is declared with that."""
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Hooks:
     """The functions of the developer's that a package knows of, by name, and of what kind each is."""
 

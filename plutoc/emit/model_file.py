@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from plutoc.emit.fields import fields_of, python_type
 from plutoc.emit.imports import Import, import_lines, names
 from plutoc.emit.python import annotation, builtins_alias, call, docstring, items, literal, shadows
 from plutoc.emit.render import render
-from plutoc.frozen import frozen
 from plutoc.graph import model as graph_model
 from plutoc.graph.categories import PARAMS
 from plutoc.graph.model import Graph
 from plutoc_runtime.domain.fields import Entity, Field
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Attribute:
     """One line of a class, and its docstring."""
 
@@ -23,7 +24,7 @@ class Attribute:
     doc: str
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class CategoryEntry:
     """A category, below the declaration that it comes from."""
 
@@ -31,7 +32,7 @@ class CategoryEntry:
     written: str
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class ModelFile:
     """What the template places."""
 

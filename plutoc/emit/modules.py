@@ -6,6 +6,7 @@ import ast
 import os
 import sys
 from collections.abc import Iterator
+from dataclasses import dataclass
 from functools import cache
 from importlib.util import find_spec
 from pathlib import PurePath
@@ -13,7 +14,6 @@ from typing import NamedTuple
 
 import plutoc_runtime
 from plutoc.emit.scan import Written, written_imports
-from plutoc.frozen import frozen
 from plutoc.installed import files_in
 
 RUNTIME = plutoc_runtime.__name__
@@ -25,7 +25,7 @@ class EmbedError(Exception):
     """An installed module cannot be carried along. The message says where and what to change."""
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Module:
     """An installed module: its text, byte for byte, read as UTF-8."""
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from types import MappingProxyType
 
 from plutoc.emit.callables import carried_functions
@@ -20,11 +21,10 @@ from plutoc.emit.readme_file import readme
 from plutoc.emit.render import verbatim
 from plutoc.emit.scan import written_imports
 from plutoc.emit.test_file import flow_test
-from plutoc.frozen import frozen
 from plutoc.plan.model import Plan
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Package:
     """The files of a generated package, by path; folders are separated by `/`."""
 

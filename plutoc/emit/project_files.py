@@ -2,31 +2,31 @@
 
 from __future__ import annotations
 
-from plutoc.emit.exports import exports_of
+from dataclasses import dataclass
+
 from plutoc.emit.imports import Import, import_lines
 from plutoc.emit.markup import one_line, toml_text
 from plutoc.emit.python import header
 from plutoc.emit.render import render
-from plutoc.frozen import frozen
 from plutoc.graph.model import Graph
 from plutoc_runtime.command import SEAM
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Headed:
     """A file that only needs its header."""
 
     header: str
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Entry:
     """`__main__.py`."""
 
     app: str
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Exports:
     """`__init__.py`."""
 
@@ -36,7 +36,7 @@ class Exports:
     homes: list[tuple[str, str]]
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Project:
     """`pyproject.toml`."""
 

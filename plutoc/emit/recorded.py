@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from pathlib import PurePosixPath
 
 from plutoc import __version__
 from plutoc.emit.lock import FORMER, HOOKS, KINDS
 from plutoc.emit.merged import sides
-from plutoc.frozen import frozen
 
 _LARGEST = 1 << 24
 """In bytes."""
@@ -44,7 +43,7 @@ class DamagedLock(Exception):
     """The version of the compiler that wrote it, if that can be made out all the same."""
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Lock:
     """The record of a generated package."""
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from inspect import CO_ITERABLE_COROUTINE, iscoroutinefunction
 from typing import Any
 
@@ -11,7 +11,6 @@ from plutoc.block import Choice, HookParam, Param
 from plutoc.emit.callables import WATCH, Names, chosen
 from plutoc.emit.embed import Carried
 from plutoc.emit.python import call, items, literal
-from plutoc.frozen import frozen
 from plutoc.graph.model import Node
 from plutoc.plan.model import (
     Arm,
@@ -34,7 +33,7 @@ from plutoc_runtime.domain.fields import Entity, Field
 from plutoc_runtime.domain.status import Status
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Scope:
     """What the lines around a statement settle."""
 

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from plutoc.block import HookKind
 from plutoc.check.model import Checked
 from plutoc.emit.python import annotation, literal, status_tuple
-from plutoc.frozen import frozen
 from plutoc.graph.model import Action, Graph, Hook, Parameter
 from plutoc_runtime.domain.quantities import PYTHON, Type
 from plutoc_runtime.domain.status import IN_GRAPH, Status
@@ -23,7 +24,7 @@ OUTCOMES = (Status.STANDBY, Status.COMPLETED, Status.FAILED)
 """How a mission can stand when its trip is over."""
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Stub:
     """One hook as it is first written."""
 

@@ -10,6 +10,7 @@ import errno
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
+from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
 
@@ -22,7 +23,6 @@ from plutoc.emit.lock import NAME as LOCK
 from plutoc.emit.merged import sides, was_merged, was_written
 from plutoc.emit.package import Package
 from plutoc.emit.recorded import DamagedLock, Lock, is_newer, read_lock
-from plutoc.frozen import frozen
 
 _ASIDE = ".plutoc-"
 """What the names of folders for unfinished work begin with; one is left only if we are killed."""
@@ -47,7 +47,7 @@ class CannotWrite(Exception):
         super().__init__(f"{name if told else folder}: {error.strerror or error}")
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Change:
     """One file: its text before and after; None where there is none."""
 
@@ -56,7 +56,7 @@ class Change:
     after: str | None
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Changes:
     """What writing would change in a folder, in the package's order."""
 

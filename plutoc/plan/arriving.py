@@ -8,10 +8,10 @@ the checks have seen to leave it.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 from typing import NamedTuple
 
 from plutoc.check.model import Checked
-from plutoc.frozen import frozen
 from plutoc.graph.model import Node
 from plutoc.plan.chart import let_through
 from plutoc.plan.model import (
@@ -183,7 +183,7 @@ def _place(one: Status | Entering) -> Place:
     return one.place if isinstance(one, Entering) else None
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Arriving:
     """What was found."""
 

@@ -18,10 +18,9 @@ asked in the loop, and a mission that has come to its block is interrupted no mo
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from plutoc.check.components import trimmed
-from plutoc.frozen import frozen
 from plutoc.graph.model import Graph
 from plutoc.plan.chart import Chart, Kind, Spot, Way
 from plutoc.plan.model import Place
@@ -37,7 +36,7 @@ LARGE = 100
 """Spots in a loop of which not each is tried as its head."""
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class _Site:
     """Where missions enter: at a block itself, or at a loop inside of which it is."""
 
@@ -54,7 +53,7 @@ class _Site:
     """The blocks are inside of the loop that begins here."""
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class _Heading:
     """A loop's head, and what is copied so that no other place in it need be entered."""
 

@@ -8,10 +8,9 @@ walked through once, so nothing goes round in them but what is a loop of its own
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from plutoc.check.components import loops
-from plutoc.frozen import frozen
 from plutoc.plan.chart import Chart, Kind, Spot, Way
 from plutoc.plan.shape import Shape, shape
 
@@ -23,7 +22,7 @@ LARGE = 100
 """Spots in a loop of which not each is tried as its only entry."""
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class _Tangle:
     """A loop with several entries."""
 

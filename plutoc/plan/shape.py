@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 
-from plutoc.frozen import frozen
 from plutoc.plan.chart import Chart, Spot
 from plutoc.plan.dominators import immediate_dominators
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Shape:
     """What a chart's arrows say about its structure."""
 

@@ -8,9 +8,8 @@ them. Where a jump would be needed that Python does not have, `Unstructured` is 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
-from plutoc.frozen import frozen
 from plutoc.plan.bodies import breaks, continues, falls, switch, without_last_continue
 from plutoc.plan.chart import Kind, Spot, Way
 from plutoc.plan.model import Arm, Body, Break, Continue, End, Goto, Loop, Step, Switch
@@ -37,7 +36,7 @@ class Hopeless(Exception):
     """Too many ways were tried."""
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Around:
     """What a piece of a body knows of what is around it."""
 

@@ -33,7 +33,7 @@ def test_a_package_goes_where_it_is_told(plutoc: Call, app: Path, here: Path) ->
 
 
 def test_an_empty_folder_will_do(plutoc: Call, app: Path) -> None:
-    """Such as one that somebody made for it."""
+    """Such as one that was made for it."""
     Path("crop").mkdir()
     assert plutoc("compile", app).code == 0
     assert FLOW.is_file()

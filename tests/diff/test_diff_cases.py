@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from plutoc.diff.model import Change, Difference, Importance
-from plutoc.report.changes import markdown, text
+from plutoc.report.change_reports import markdown, text
 from tests.diff.pairs import ROOT, difference
 
 CASES = Path(__file__).parent / "cases"

@@ -27,11 +27,10 @@ to be written for each of them.
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import takewhile
 
 from plutoc.check.model import Checked
-from plutoc.frozen import frozen_one
 from plutoc.plan.bodies import falls, without_last_continue
 from plutoc.plan.model import (
     Arm,
@@ -95,7 +94,7 @@ def _change(step: Step, jump: type[Step], onward: Body) -> Body:
     return (step,)
 
 
-@frozen_one
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class _Way:
     """A way of a switch, all of it."""
 

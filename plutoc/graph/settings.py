@@ -1,4 +1,4 @@
-"""`requires`: which libraries must be installed beside an app, since its hooks import them."""
+"""`version` and `requires`: what an app's package says of itself, and which libraries its hooks import."""
 
 from __future__ import annotations
 
@@ -10,20 +10,55 @@ from plutoc.diagnostic import Diagnostic
 from plutoc.graph import setting_errors as errors
 from plutoc.graph.model import Library
 from plutoc.source import Source
-from plutoc.syntax.tree import File, RequiresDecl, Text
+from plutoc.syntax.tree import File, RequiresDecl, Text, VersionDecl
 
 if TYPE_CHECKING:
     from packaging.requirements import Requirement
 
+_BETWEEN = re.compile(r"[^0-9A-Za-z+!]+")
+_NUMBERS = re.compile(r"[0-9]+(?:\.[0-9]+)*")
+
+
 FLEET = "pluto-fleet"
 """What flies an app: the extras of its package require it, in the version that fits."""
-
 _SAME = re.compile(r"[-_.]+")
 _SWAPPED = re.compile(r"=([<>])")
 _SINGLE = re.compile(r"(?<![<>=!~])=(?!=)")
 _ANY_LAST = re.compile(r"\.[xX*](?![\w.])")
 _NO_COMMA = re.compile(r"(?<=[\w*])\s*(?=(?:[<>]|[=!~]=))")
 _NO_SIGN = re.compile(r"([A-Za-z][\w.-]*?)[ \t@:^]+v?([0-9]\S*)")
+
+
+def version(file: File, found: list[Diagnostic]) -> Text | None:
+    """Return the version that an app names, as PEP 440 writes it; None: it names none."""
+    declared = [each for each in file.app.statements if isinstance(each, VersionDecl)]
+    for again in declared[1:]:
+        found.append(errors.second_setting(file.source, "version", again.span, declared[0].span))
+    numbers: list[Text] = []
+    for each in declared:
+        written = each.version
+        normal = _normal(written.value)
+        if normal is None:
+            found.append(errors.no_version(file.source, written, _version_meant(written.value)))
+        else:
+            numbers.append(Text(value=normal, span=written.span))
+    return numbers[0] if numbers else None
+
+
+def _normal(text: str) -> str | None:
+    from packaging.version import Version  # slow to import, and most apps name none
+
+    try:
+        return str(Version(text))
+    except ValueError:  # an `InvalidVersion`, or more digits than Python reads
+        return None
+
+
+def _version_meant(text: str) -> str | None:
+    """Return the version that was probably meant: `2024.1.15` by `2024-01-15`, `1.2` by `1.2.x`."""
+    numbers = _NUMBERS.search(text)
+    tries = [_BETWEEN.sub(".", text).strip("."), numbers[0] if numbers else ""]
+    return next(filter(None, map(_normal, tries)), None)
 
 
 def libraries(file: File, found: list[Diagnostic]) -> tuple[Library, ...]:

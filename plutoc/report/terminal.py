@@ -1,4 +1,4 @@
-"""How a source looks on a terminal: what to print for each character, and how wide that is.
+"""How a source looks on a terminal: its colours, what to print for each character, and how wide that is.
 
 Terminals disagree about sequences that may melt into one sign: emoji joined by invisible
 characters, skin tones, signs that exist with and without colours. So what joins is taken apart:
@@ -10,6 +10,9 @@ from __future__ import annotations
 import unicodedata
 from itertools import accumulate
 
+RED, YELLOW, BLUE, CYAN, BOLD = "1;31", "1;33", "1;34", "1;36", "1"
+
+
 TAB = 4
 _NO_WIDTH = frozenset({"Mn", "Me"})
 _SELECTORS = range(0xFE00, 0xFE10)
@@ -17,6 +20,11 @@ _SELECTORS = range(0xFE00, 0xFE10)
 _SKIN_TONES = range(0x1F3FB, 0x1F400)
 _JOINED_LETTERS = range(0x1160, 0x1200)
 """Vowels and ends of a Korean syllable: they are drawn into its first letter."""
+
+
+def paint(text: str, code: str, colour: bool) -> str:
+    """Return a text in a colour, if colours are wanted."""
+    return f"\033[{code}m{text}\033[0m" if colour and text else text
 
 
 def shown(char: str) -> str:

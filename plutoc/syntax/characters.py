@@ -1,4 +1,4 @@
-"""Characters of other languages and of word processors, and what is written here in their place."""
+"""Characters that are no part of the language: what cannot be seen, and what word processors write."""
 
 from __future__ import annotations
 
@@ -7,15 +7,40 @@ import unicodedata
 from collections.abc import Sequence
 from dataclasses import replace
 
+from lark import Token
+
 from plutoc.diagnostic import Diagnostic, Fix
 from plutoc.source import Source, Span
 from plutoc.syntax import errors
-from plutoc.syntax.hidden import HIDDEN, SPACES
+from plutoc.syntax.grammar import State, lexed, would_feed
 from plutoc.syntax.hints import conflict
-from plutoc.syntax.lex import lexed
-from plutoc.syntax.newlines import NAME
-from plutoc.syntax.state import State, would_feed
-from plutoc.syntax.tokens import Token, span
+from plutoc.syntax.tokens import NAME, span
+
+_INVISIBLE = (
+    "\u00ad\u034f\u061c\u115f\u1160\u17b4\u17b5\u180b-\u180e"  # hyphens, joiners and fillers
+    "\u200b\u200e\u200f\u202a-\u202e\u2060-\u206f\u3164\ufeff\uffa0"  # that show nothing,
+    "\ufff9-\ufffb\U0001d173-\U0001d17a\U000e0000-\U000e00ff"  # or reorder what a screen shows
+)
+_JOINERS = "\u200c\u200d"
+_VARIANTS = "\ufe00-\ufe0f\U000e0100-\U000e01ef"
+_SHOWN = f"(?<=[^\x00-\u02ff{_INVISIBLE}{_JOINERS}])"
+"""Behind a letter that joins its neighbour, or an emoji."""
+
+HIDDEN = re.compile(
+    r"\r(?!\n)|"  # goes back to the beginning of the line: the text behind it hides the one before
+    "["
+    "\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f"  # control characters, but tabs and newlines
+    "\u2028\u2029"  # ends of lines for some programs only
+    f"{_INVISIBLE}"
+    "\ud800-\udfff"  # halves of characters: no encoding can write them
+    "]|"
+    # What joins letters of many scripts or parts of an emoji is seen there, and nowhere else.
+    f"(?!{_SHOWN})(?![\ufe0e\ufe0f](?<=[0-9#*].)\u20e3)[{_JOINERS}{_VARIANTS}]"
+)
+"""Characters that cannot be seen, or that make other ones look as what they are not."""
+
+SPACES = re.compile("[\u00a0\u1680\u2000-\u200a\u202f\u205f\u3000]")
+"""Spaces that are none for the language."""
 
 _ARROW = re.compile(r"[=\-‐‑–—−~－＝]+[>›≥＞]|[→⇒⟶⟹➔➜➝⇨]")
 _LONGEST = 2000
@@ -77,7 +102,7 @@ def _slip(source: Source, tokens: Sequence[Token], i: int) -> Diagnostic | None:
     if SPACES.fullmatch(char):
         return _replaced(source, here, " ", "write an ordinary space")
     if HIDDEN.match(text, here.start) and char != "\r":
-        return _replaced(source, here, "", "remove it: nobody sees it")
+        return _replaced(source, here, "", "remove it: it cannot be seen")
     return None
 
 

@@ -1,4 +1,4 @@
-"""An app with a block of somebody else's that cannot be copied into its package."""
+"""An app with a block of another package that cannot be copied into its package."""
 
 from __future__ import annotations
 

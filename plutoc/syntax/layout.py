@@ -2,33 +2,38 @@
 
 A newline ends a statement, except inside brackets and before a line that begins with `->`. Inside
 brackets the language's words are ordinary names; so are `version` and `requires` wherever they do
-not begin a statement of theirs, for apps have blocks of such names. A bracket that was forgotten must not swallow the
-rest of the file: a line that can only be the beginning of a statement closes what was left open.
+not begin a statement of theirs, for apps have blocks of such names. A bracket that was forgotten must
+not swallow the rest of the file: a line that can only be the beginning of a statement closes what
+was left open.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
-from plutoc.syntax.tokens import Token
+from lark import Token
+from lark.lark import PostLex
 
-COMMENT, NEWLINE, END = "COMMENT", "_NL", "$END"
-NAME, ARROW, EQUAL = "NAME", "_ARROW", "EQUAL"
-OPENING = {"LPAR": "RPAR", "LSQB": "RSQB"}
-CLOSING = frozenset(OPENING.values())
-
-WORDS = (
-    *("pluto", "use", "as", "app", "category", "can", "action", "evaluator", "modifier", "policy"),
-    *("emits", "writes", "when", "otherwise"),
+from plutoc.syntax.tokens import (
+    ARROW,
+    BEGINNERS,
+    CLOSING,
+    COMMENT,
+    END,
+    EQUAL,
+    NAME,
+    NEWLINE,
+    OPENING,
+    SETTING_KINDS,
+    WORDS,
 )
-"""The language's own words. Each is a terminal of the grammar, named in capitals."""
 
-SETTINGS = ("version", "requires")
-"""Words too, but only where they begin a statement: elsewhere they are names like any other."""
+DEEPEST = 64
+"""How deep brackets are nested at most."""
+MOST_DIGITS = 15
+"""How many digits a number has at most: what a 64-bit float keeps."""
 
-SETTING_KINDS = frozenset(word.upper() for word in SETTINGS)
 _WORDS = SETTING_KINDS | {word.upper() for word in WORDS}
-BEGINNERS = SETTING_KINDS | {"CATEGORY", "ACTION", "EVALUATOR", "MODIFIER", "POLICY"}
 _LINE_BEGINNERS = BEGINNERS - SETTING_KINDS | {"USE", "APP"}
 _NAMES = SETTING_KINDS | {NAME}
 """What may turn out to be a name, of tokens that lie ahead."""
@@ -36,7 +41,41 @@ _FOLLOWS_A_FIRST_NAME = _NAMES | {EQUAL, ARROW}
 _FOLLOWS_A_NAME = CLOSING | {EQUAL, ARROW, "COMMA"}
 
 
-def ended(tokens: Sequence[Token]) -> Iterator[Token]:
+class Layout(PostLex):
+    """Lark's filter between its lexer and its parser."""
+
+    always_accept = (COMMENT, NEWLINE, "OPEN_TEXT", "UNKNOWN")
+    """Terminals that the lexer keeps, although no rule takes some of them."""
+
+    def process(self, stream: Iterator[Token]) -> Iterator[Token]:
+        """Give the tokens that the parser is to see."""
+        return _readable(_ended([token for token in stream if token.type != COMMENT]))
+
+
+def _readable(tokens: Iterable[Token]) -> Iterator[Token]:
+    """Give each number that is too long, and each bracket that is too deep, a type that no rule takes."""
+    depth = 0
+    for token in tokens:
+        if token.type in OPENING:
+            depth += 1
+            if depth > DEEPEST:
+                token = token.update(type="TOO_DEEP")
+        elif token.type in CLOSING:
+            depth = max(depth - 1, 0)
+        elif token.type == NEWLINE:
+            depth = 0
+        elif token.type in ("NUMBER", "QUANTITY") and _digits(token) > MOST_DIGITS:
+            token = token.update(type="LONG_NUMBER")
+        yield token
+
+
+def _digits(number: str) -> int:
+    """Return how many digits a number has, its unit apart."""
+    unit = number.lstrip("-0123456789.")
+    return sum(map(str.isdigit, number[: len(number) - len(unit)]))
+
+
+def _ended(tokens: Sequence[Token]) -> Iterator[Token]:
     """Give the tokens that the parser is to see, of those that are no comments.
 
     Never gives two newlines in a row, nor one at the beginning or behind `{`.
@@ -59,7 +98,7 @@ def ended(tokens: Sequence[Token]) -> Iterator[Token]:
             if last not in (NEWLINE, "LBRACE"):
                 yield _newline(tokens[i - 1])  # `}` on the line of the last statement
         elif token.type in _WORDS and (depth or _is_a_name(last, token.type, following[i])):
-            token = token.of_type(NAME)
+            token = token.update(type=NAME)
         last = token.type
         yield token
     if last not in (NEWLINE, "LBRACE", "RBRACE"):
@@ -110,4 +149,5 @@ def _is_followed_by_an_arrow(tokens: Sequence[Token], i: int) -> bool:
 
 def _newline(after: Token) -> Token:
     """Return a newline that is not in the source, right behind a token."""
-    return Token(NEWLINE, "", after.end_pos, after.end_pos, after.line)
+    at = after.end_pos
+    return Token(NEWLINE, "", at, after.line, after.column, after.line, after.column, at)
