@@ -28,7 +28,7 @@ from plutoc.diagnostic import Diagnostic, Rejected
 from plutoc.emit.carry import NoLibrary
 from plutoc.emit.errors import never_written, outdated, place_of
 from plutoc.emit.lock import NAME as LOCK
-from plutoc.emit.recorded import only_forgets
+from plutoc.emit.lock import only_forgets
 from plutoc.emit.write import CannotWrite, Changes, Refused, compare, record_of, write
 from plutoc.frozen import filled
 from plutoc.source import Source

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping
 from importlib.util import find_spec
 from pathlib import Path
-
-from plutoc.installed import files_in
 
 LIBRARY = "pluto_fleet"
 FOLDER = "_fleet"
@@ -33,6 +30,7 @@ def _files(package: str, into: str) -> dict[str, str]:
         raise NoLibrary(f"{package} is not installed here: pip install pluto-fleet")
     home = Path(spec.origin).parent
     return {
-        f"{into}/{Path(path).relative_to(home).as_posix()}": Path(path).read_text("utf-8")
-        for path in files_in(os.fspath(home))
+        f"{into}/{path.relative_to(home).as_posix()}": path.read_text("utf-8")
+        for path in sorted(home.rglob("*"))
+        if path.is_file() and "__pycache__" not in path.parts
     }

@@ -12,10 +12,8 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import field
 from typing import Any
 
-from plutoc.emit.memory import all_remembered
 from plutoc.emit.modules import RUNTIME, EmbedError, Module, imports_from, is_within, load
 from plutoc.frozen import filled, frozen
-from plutoc.installed import facts_of_package
 from plutoc.registry import STD
 
 FOLDER = "_runtime"
@@ -53,26 +51,13 @@ def embed(functions: Iterable[Carried], runtime_modules: Iterable[str]) -> Mappi
 
     They are those that the functions and these modules of the runtime need, and no others.
     """
-    wanted: list[tuple[str, str]] = []
+    embedding = _Embedding()
     for carried in functions:
         _check(carried)
-        wanted.append((carried.package, carried.module))
-    wanted += ((OURS, name) for name in runtime_modules)
-    packages = dict.fromkeys(name.partition(".")[0] for _, name in [("", RUNTIME), *wanted])
-    facts = [fact for name in packages for fact in facts_of_package(name)]
-    # texts of modules have no NUL in them, or Python would not read them
-    parts = all_remembered(("embed", repr(wanted), *facts), lambda: _collected(wanted))
-    return dict(zip(parts[::2], parts[1::2], strict=True))
-
-
-def _collected(wanted: Iterable[tuple[str, str]]) -> Iterator[str]:
-    """Yield the path and the text of each file to carry along, in order of path."""
-    embedding = _Embedding()
-    for package, name in wanted:
-        embedding.add(package, name)
-    for path, text in sorted(embedding.files.items()):
-        yield path
-        yield text
+        embedding.add(carried.package, carried.module)
+    for name in runtime_modules:
+        embedding.add(OURS, name)
+    return dict(sorted(embedding.files.items()))
 
 
 @filled

@@ -4,12 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterable
-from functools import cache
-from pathlib import Path
 
-from plutoc.emit.memory import edition, remembered
 from plutoc.graph.model import Plain
-from plutoc.installed import fact
 from plutoc_runtime.status import Status
 
 LINE_LENGTH = 100
@@ -27,54 +23,9 @@ def header(source_name: str) -> str:
     )
 
 
-def owned(text: str, source_name: str) -> str:
-    """Return a module that plutoc rewrites each time, with its header.
-
-    The header stands first: nothing that a user wrote can get into the two lines in which Python
-    looks for a file's encoding.
-    """
-    return f"# {header(source_name)}\n# fmt: off\n{formatted(text)}"
-
-
-def formatted(text: str) -> str:
-    """Return a module as Black writes it."""
-    return remembered((edition("black"), _means(), text), lambda: _formatted(text))
-
-
-@cache
-def _means() -> str:
-    """Return what changes with the modules by which a text is formatted here."""
-    names = ("python.py", "lines.py", "layout.py", "canonical.py", "canonical.txt", "pieces.py")
-    return "\n".join(fact(str(Path(__file__).with_name(name))) for name in names)
-
-
-def _formatted(text: str) -> str:
-    """Format a module; of what is known to be as Black has it, Black is not asked."""
-    from plutoc.emit.canonical import are_well_apart, is_known, settled, text_of
-
-    lines = settled(text)
-    if are_well_apart(lines) and all(map(is_known, lines)):
-        return text_of(lines)
-    from plutoc.emit.pieces import in_pieces
-
-    return in_pieces(lines, black_asked) or black_asked(text)
-
-
-def black_asked(text: str) -> str:
-    """Have Black format a module."""
-    import black  # heavy, and seldom needed
-    from black.mode import TargetVersion
-
-    mode = black.Mode(line_length=LINE_LENGTH, target_versions={TargetVersion.PY311})
-    return black.format_str(text, mode=mode)
-
-
 def literal(value: Plain | None) -> str:
-    """Return a value as Python writes it; a text in ASCII, whatever it holds, quoted as by Black."""
-    written = ascii(value)
-    if written.startswith("'") and '"' not in written and "\\'" not in written:
-        return f'"{written[1:-1]}"'
-    return written
+    """Return a value as Python writes it; a text in ASCII, whatever it holds."""
+    return ascii(value)
 
 
 def items(values: Iterable[str], brackets: str = "()") -> str:
