@@ -25,7 +25,7 @@ from plutoc.cli.say import say, worded
 from plutoc.cli.unchanged import speak
 from plutoc.compile import Compiled, analyse, compile_source, planned
 from plutoc.diagnostic import Diagnostic, Rejected
-from plutoc.emit.carry import NoLibrary
+from plutoc.emit.embed import NoLibrary
 from plutoc.emit.errors import never_written, outdated, place_of
 from plutoc.emit.lock import NAME as LOCK
 from plutoc.emit.lock import only_forgets

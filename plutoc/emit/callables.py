@@ -8,9 +8,9 @@ from typing import Any
 
 from plutoc.block import Choice
 from plutoc.emit.embed import OURS, Carried
-from plutoc.emit.imports import Import
-from plutoc.emit.walk import branches, steps
+from plutoc.emit.python import Import
 from plutoc.graph.model import Node
+from plutoc.plan.bodies import branches, steps
 from plutoc.plan.model import Call, Join, Plan, Watch
 from plutoc_runtime.status import IN_GRAPH
 from plutoc_runtime.watching import watch

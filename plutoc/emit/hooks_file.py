@@ -7,9 +7,8 @@ from textwrap import wrap
 
 from plutoc.block import HookKind
 from plutoc.check.model import Checked
-from plutoc.emit.fields import fields_of
-from plutoc.emit.imports import Import, import_lines, names
-from plutoc.emit.python import LINE_LENGTH, builtins_alias, shadows
+from plutoc.emit.model_file import fields_of
+from plutoc.emit.python import LINE_LENGTH, Import, builtins_alias, import_lines, names, shadows
 from plutoc.emit.render import formatted, render
 from plutoc.emit.stubs import Stub, in_order, stubs
 from plutoc.frozen import frozen

@@ -13,9 +13,8 @@ from pathlib import PurePosixPath
 from packaging.version import InvalidVersion, Version
 
 from plutoc import __version__
-from plutoc.emit.markup import toml_text
+from plutoc.emit.markup import header, toml_text
 from plutoc.emit.merged import sides
-from plutoc.emit.python import header
 from plutoc.frozen import frozen
 from plutoc.graph.model import Graph
 from plutoc.registry import GROUP, STD

@@ -7,8 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from types import MappingProxyType
 
 from plutoc.emit.callables import carried_functions
-from plutoc.emit.carry import carried_library
-from plutoc.emit.embed import FOLDER, embed
+from plutoc.emit.embed import FOLDER, carried_library, embed
 from plutoc.emit.flow_file import flow_file
 from plutoc.emit.hooks_file import hooks_file, hooks_test
 from plutoc.emit.lock import NAME, Hooks, hooks_of, lock

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 import black
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
-from plutoc.emit.python import LINE_LENGTH, header
+from plutoc.emit.markup import header
+from plutoc.emit.python import LINE_LENGTH
 
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance

@@ -10,6 +10,24 @@ from plutoc.graph.model import Action, Graph, Hook, Parameter
 from plutoc_runtime.quantities import PYTHON, Type
 from plutoc_runtime.status import IN_GRAPH, Status
 
+EXPORTS = {
+    "ActionFailed": "._runtime.errors",
+    "Category": "._runtime.model",
+    "Context": "._runtime.context",
+    "Drone": "._runtime.model",
+    "Item": "._runtime.model",
+    "LiveDrone": "._runtime.handle",
+    "Mission": ".model",
+    "Photo": "._runtime.model",
+    "Point": "._runtime.model",
+    "Result": ".model",
+    "Results": ".model",
+    "Status": "._runtime.status",
+    "Trip": ".model",
+    "Verdict": "._runtime.verdict",
+}
+"""The types that hooks are written with, and where they are."""
+
 UNITS = {
     Type.MASS: "in kilograms",
     Type.LENGTH: "in metres",

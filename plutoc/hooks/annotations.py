@@ -6,7 +6,7 @@ import ast
 import builtins
 from collections.abc import Iterator
 
-from plutoc.emit.exports import EXPORTS
+from plutoc.emit.stubs import EXPORTS
 from plutoc.frozen import frozen
 from plutoc.graph.names import near
 from plutoc.hooks.module import Module
