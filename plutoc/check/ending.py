@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 
 from plutoc.check import errors
-from plutoc.check.components import round_of
 from plutoc.check.facts import elsewhere, is_over, puts_trips
 from plutoc.check.flow import Flow, Place, Split, blocks_of
-from plutoc.check.rounds import Round, rounds
-from plutoc.check.statuses import explore
-from plutoc.check.unflown import unflown
+from plutoc.check.statuses import arrows_of, explore, unflown
 from plutoc.diagnostic import Diagnostic
+from plutoc.graph.digraph import round_of
 from plutoc.graph.model import END, Edge, Node
 from plutoc_runtime.status import Status
+
+Loop = tuple[Place, ...]
 
 
 def endless(flow: Flow, astray: Collection[str]) -> list[Diagnostic]:
@@ -22,14 +22,14 @@ def endless(flow: Flow, astray: Collection[str]) -> list[Diagnostic]:
     Those within a fork that nothing leaves are left out: there it is the fork that does not close. So
     are those of finished missions through gates to which they go `astray`: that has been said.
     """
-    never = [part for part in rounds(flow) if not (_is_idle(part) and _meets(part, astray))]
+    never = [part for part in flow.endless() if not (_is_idle(part) and _meets(part, astray))]
     blocks = {*astray, *(place.node for part in never for place in part)}
     found = [_endless(flow, part) for part in never if any(place.frame is None for place in part)]
     # a way round within a branch may lie on another one, which leads through the branch's gate
     for edges in (flow.edges, _within_branches(flow)):
         idle = _idle(flow, edges)
         if idle is not None:
-            parts = [part for part in rounds(idle) if not _meets(part, blocks)]
+            parts = [part for part in idle.endless() if not _meets(part, blocks)]
             found += [_spins(flow, idle, part) for part in parts]
             blocks.update(place.node for part in parts for place in part)
     return found
@@ -49,7 +49,7 @@ def _idle(flow: Flow, edges: tuple[Edge, ...]) -> Flow | None:
 
     Only on ways round where nothing is flown, and only where a hook could fail them.
     """
-    turns = unflown(flow.graph, edges)
+    turns = unflown(flow.graph, arrows_of(flow.graph, edges))
     failing = {turns[name] for name in turns if _may_fail(flow.graph.node[name])}
     blocks = {name for name, number in turns.items() if number in failing}
     if not blocks:
@@ -87,23 +87,23 @@ def _may_fail(node: Node) -> bool:
     return node.block.evaluates or (puts_trips(node) and len(node.emitted(Status.COMPLETED)) > 1)
 
 
-def _is_idle(part: Round) -> bool:
+def _is_idle(part: Loop) -> bool:
     """Is it a loop that only missions with nothing left to fly cannot leave, for all is said already?"""
     return all(map(is_over, part)) and any(place.facts.said for place in part)
 
 
-def _meets(part: Round, blocks: Collection[str]) -> bool:
+def _meets(part: Loop, blocks: Collection[str]) -> bool:
     return any(place.node in blocks for place in part)
 
 
-def _endless(flow: Flow, part: Round) -> Diagnostic:
+def _endless(flow: Flow, part: Loop) -> Diagnostic:
     way, names = flow.way(part[0]), blocks_of(round_of(flow.after, part, part[0]))
     head = flow.graph.node[part[0].node]
     error = errors.spins if _is_idle(part) else errors.endless
     return error(flow.graph, head, way, names)
 
 
-def _spins(flow: Flow, idle: Flow, part: Round) -> Diagnostic:
+def _spins(flow: Flow, idle: Flow, part: Loop) -> Diagnostic:
     first = part[0]
     where = (place for place in flow.places if place._replace(frame=first.frame) == first)
     way = flow.way(next(where, flow.nearest[first.node]))

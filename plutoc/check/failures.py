@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+import networkx as nx
+
 from plutoc.check import errors
-from plutoc.check.components import loops, round_of, trimmed
 from plutoc.check.facts import bound_of
 from plutoc.check.flow import Flow, Place, blocks_of
 from plutoc.diagnostic import Diagnostic
+from plutoc.graph.digraph import loops, round_of
 from plutoc.graph.model import Node
 from plutoc_runtime.status import Status
 
@@ -30,14 +32,9 @@ def unmended(flow: Flow) -> list[Diagnostic]:
 
 def unbounded(flow: Flow) -> list[Diagnostic]:
     """Warn of loops that a trip which always fails would go round for ever."""
-    after = trimmed(
-        {
-            place: tuple(t for t in targets if _is_failure(flow, place, t))
-            for place, targets in flow.after.items()
-        }
-    )
-    if not any(_is_mended(place, targets) for place, targets in after.items()):
-        return []
+    after = nx.DiGraph()
+    after.add_nodes_from(flow.places)
+    after.add_edges_from((p, t) for p, t in flow.after.edges if _is_failure(flow, p, t))
     found: dict[str, Diagnostic] = {}
     for part in loops(after):
         inside = set(part)

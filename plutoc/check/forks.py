@@ -5,10 +5,10 @@ from __future__ import annotations
 from plutoc.block import Gate
 from plutoc.check import fork_errors as errors
 from plutoc.check import model
-from plutoc.check.branches import Branch, Branches, within
-from plutoc.check.components import loops
+from plutoc.check.branches import Branch, Branches, nesting, within
 from plutoc.check.flow import Flow, Fork
 from plutoc.diagnostic import Diagnostic
+from plutoc.graph.digraph import loops
 
 Branched = tuple[Branch, ...]
 MOST_NESTED = 100
@@ -19,7 +19,8 @@ _MOST_WAYS = 200
 
 def unclosed(flow: Flow, found: Branches) -> list[Diagnostic]:
     """Find forks that do not close: for each the one message that says most."""
-    breeding = loops({fork: _inner(branches) for fork, branches in found.items()})
+    inside = nesting(found)
+    breeding: tuple[tuple[Fork, ...], ...] = loops(inside)
     diagnostics = []
     for part in breeding:
         again = [p for s, places in flow.entries.items() if s.fork == part[0] for p in places]
@@ -27,7 +28,7 @@ def unclosed(flow: Flow, found: Branches) -> list[Diagnostic]:
             errors.breeds(flow.graph, found[part[0]][0], flow.way(again[-1], part[0][1]))
         )
     for fork, branches in found.items():
-        stuck = any(inner.stuck for branch in branches for inner in within(found, branch))
+        stuck = any(inner.stuck for branch in branches for inner in within(found, inside, branch))
         if not stuck and not any(fork in part for part in breeding):
             shown = len(diagnostics) < _MOST_WAYS
             wrong = _shared(flow, found, branches) or _open(flow, found, branches, shown)
@@ -95,10 +96,6 @@ def _open(flow: Flow, found: Branches, branches: Branched, shown: bool) -> Diagn
         if branch.circles or not branch.gates:
             return errors.never_closes(graph, branch, gates, way)
     return None
-
-
-def _inner(branches: Branched) -> tuple[Fork, ...]:
-    return tuple(dict.fromkeys(fork for branch in branches for fork in branch.inner))
 
 
 def _sound(branches: Branched) -> bool:

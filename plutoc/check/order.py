@@ -3,23 +3,22 @@
 from __future__ import annotations
 
 from plutoc.check import errors
-from plutoc.check.components import behind
 from plutoc.check.flow import Flow
+from plutoc.check.statuses import arrows_of
 from plutoc.diagnostic import Diagnostic
+from plutoc.graph.digraph import reachable
 
 
 def repeated_unjudged(flow: Flow) -> list[Diagnostic]:
     """Warn where a mission is repeated before it was judged."""
     graph = flow.graph
-    after: dict[str, list[str]] = {}
-    for edge in flow.edges:
-        # behind a launch it is another flight that is judged
-        if flow.carries[edge] and not _launches(flow, edge.source):
-            after.setdefault(edge.source, []).append(edge.target)
+    # behind a launch it is another flight that is judged
+    unlaunched = (e for e in flow.edges if flow.carries[e] and not _launches(flow, e.source))
+    after = arrows_of(graph, unlaunched)
     found = []
     for node in graph.nodes:
         if node.block.repeats and flow.arrives[node.name]:
-            follow = behind(after, [node.name])
+            follow = reachable(after, [node.name])
             judges = [n for n in graph.nodes if n.block.evaluates and n.name in follow]
             if judges:
                 found.append(errors.repeated_unjudged(graph, node, judges[0]))

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Container, Iterator
 
+import networkx as nx
+
 from plutoc.check import errors
-from plutoc.check.components import behind, components
 from plutoc.check.flow import Flow, is_final, ordered
 from plutoc.diagnostic import Diagnostic
+from plutoc.graph.digraph import components, reachable, subgraph
 from plutoc.graph.model import END, START, Edge, Graph, Node
 from plutoc_runtime.status import Status
 
@@ -19,19 +21,14 @@ def unreached(flow: Flow, creator: str, missed: Callable[[Node], bool]) -> list[
     them follows from that, and is not said again. So it is with blocks that are missed elsewhere.
     """
     graph = flow.graph
-    after: dict[str, list[str]] = {}
-    for edge in flow.edges:
-        after.setdefault(edge.source, []).append(edge.target)
-    reached = behind(after, (creator,))
-    lost = {
-        name: tuple(e.target for e in graph.outgoing[name] if e.target not in reached)
-        for name in graph.node
-        # a second creator has its own message, and may be the way to others
-        if name not in reached and not graph.node[name].block.creates
-    }
+    reached = reachable(flow.arrows, [creator])
+    # a second creator has its own message, and may be the way to others
+    lost = subgraph(
+        flow.arrows, (n.name for n in graph.nodes if n.name not in reached and not n.block.creates)
+    )
     parts = components(lost)
     island = {name: index for index, part in enumerate(parts) for name in part}
-    led_to = {t for n in lost for t in lost[n] if t in island and island[t] != island[n]}
+    led_to = {target for source, target in lost.edges if island[source] != island[target]}
     left = {status for _, status in flow.loose if not is_final(status)}
 
     def is_told(name: str) -> bool:
@@ -42,14 +39,14 @@ def unreached(flow: Flow, creator: str, missed: Callable[[Node], bool]) -> list[
         for part in parts
         if led_to.isdisjoint(part)
         and not _creator_leads(graph, reached, part)
-        and not any(is_told(name) for name in behind(lost, part) if name in lost)
+        and not any(map(is_told, reachable(lost, part)))
     ]
 
 
-def _behind(lost: dict[str, tuple[str, ...]], first: str) -> tuple[str, ...]:
+def _behind(lost: nx.DiGraph, first: str) -> tuple[str, ...]:
     """The other blocks that this one leads to."""
-    follow = behind(lost, [first])
-    return tuple(name for name in lost if name in follow and name != first)
+    follow = nx.descendants(lost, first)
+    return tuple(name for name in lost if name in follow)
 
 
 def _creator_leads(graph: Graph, reached: Container[str], part: tuple[str, ...]) -> bool:

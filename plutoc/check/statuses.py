@@ -13,6 +13,8 @@ from collections import deque
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import field
 
+import networkx as nx
+
 from plutoc.block import Gate
 from plutoc.check import company, errors
 from plutoc.check.facts import (
@@ -24,9 +26,9 @@ from plutoc.check.facts import (
     unless_failed,
 )
 from plutoc.check.flow import Facts, Flow, Frame, Place, Split, Step
-from plutoc.check.unflown import unflown
 from plutoc.diagnostic import Rejected
 from plutoc.frozen import filled
+from plutoc.graph.digraph import loops, subgraph
 from plutoc.graph.model import END, START, Edge, Graph
 from plutoc_runtime.status import Status
 
@@ -49,11 +51,13 @@ def explore(
     With `idle` blocks, only as long as they stay there with nothing left to fly, and as no hook fails
     them that could do otherwise. Raises `Rejected` where there is no end of places.
     """
-    rounds = unflown(graph, edges)
+    arrows = arrows_of(graph, edges)
+    rounds = unflown(graph, arrows)
     asked = [name for name in rounds if says_the_same(graph.node[name])]
     walk = _Walk(
         graph=graph,
         edges=edges,
+        arrows=arrows,
         forgets=any(puts_trips(node) for node in graph.nodes),
         rounds=rounds,
         numbers={name: number for number, name in enumerate(asked)},
@@ -61,6 +65,24 @@ def explore(
     )
     walk.run(beginnings)
     return walk.flow()
+
+
+def arrows_of(graph: Graph, edges: Iterable[Edge]) -> nx.DiGraph:
+    """Return which block some edges lead to from which, by name; `start` and `end` among them."""
+    arrows = nx.DiGraph()
+    arrows.add_nodes_from(graph.node)
+    arrows.add_edges_from((edge.source, edge.target) for edge in edges)
+    return arrows
+
+
+def unflown(graph: Graph, arrows: nx.DiGraph) -> Mapping[str, int]:
+    """Return the blocks of loops on which nothing is flown; those of one loop have one number.
+
+    There a mission finds all as it was before. Nearly every loop in an app leads to its next launch,
+    so that hardly any is left.
+    """
+    unlaunched = subgraph(arrows, (node.name for node in graph.nodes if not node.block.launches))
+    return {name: number for number, part in enumerate(loops(unlaunched), 1) for name in part}
 
 
 def stop_if_tangled(graph: Graph, places: int, steps: int = 0) -> None:
@@ -80,6 +102,7 @@ class _Walk:
 
     graph: Graph
     edges: tuple[Edge, ...]
+    arrows: nx.DiGraph
     forgets: bool
     """A hook may put another trip first, in one branch while another one is in a gate."""
     rounds: Mapping[str, int]
@@ -95,7 +118,7 @@ class _Walk:
     widths: dict[Split, int] = field(default_factory=dict)
     queue: deque[Place] = field(default_factory=deque)
     places: dict[Place, Step | None] = field(default_factory=dict)
-    after: dict[Place, Places] = field(default_factory=dict)
+    after: nx.DiGraph = field(default_factory=nx.DiGraph)
     loose: dict[tuple[Place, Status], None] = field(default_factory=dict)
     entries: dict[Split, Places] = field(default_factory=dict)
     closes: dict[Split, dict[str, dict[int, Places]]] = field(default_factory=dict)
@@ -115,6 +138,7 @@ class _Walk:
                 self.carries[edge] = {Status.UNEXECUTED}
         for place in beginnings:
             self.places[place] = None
+            self.after.add_node(place)
             self.queue.append(place)
         while self.queue:
             while self.queue:
@@ -144,7 +168,7 @@ class _Walk:
     def reach(self, place: Place, step: Step) -> None:
         if self.idle and self.rounds.get(place.node) != self.rounds.get(step.before.node):
             place = place._replace(node=END)  # what follows on another way round is looked at there
-        self.after.setdefault(step.before, {})[place] = None
+        self.after.add_edge(step.before, place)
         self.steps += 1
         if place not in self.places:
             self.places[place] = step
@@ -235,10 +259,9 @@ class _Walk:
                 for what, bringer in self.through[split][name].items():
                     passed.setdefault(what[0], []).append((what, bringer))
                 for arrival, status in company.with_each(self.gate(name), branches):
-                    after = self.after.setdefault(arrival, {})
                     for what, bringer in passed.get(status, ()):
                         for entry in self.entries[split]:
-                            after[self.beyond(bringer, what, entry)] = None
+                            self.after.add_edge(arrival, self.beyond(bringer, what, entry))
                             self.steps += 1
                     stop_if_tangled(self.graph, len(self.places), self.steps)
 
@@ -270,7 +293,8 @@ class _Walk:
             graph=self.graph,
             edges=self.edges,
             places=self.places,
-            after={place: tuple(self.after.get(place, ())) for place in self.places},
+            arrows=self.arrows,
+            after=self.after,
             loose=tuple(self.loose),
             entries={split: tuple(entries) for split, entries in self.entries.items()},
             nearest={place.node: place for place in reversed(self.places)},

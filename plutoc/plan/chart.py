@@ -7,7 +7,7 @@ anew in every body: a block may stand in two of them, and get other statuses in 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from enum import Enum
 
 from plutoc.block import Gate
@@ -39,14 +39,14 @@ class Kind(Enum):
     __hash__ = object.__hash__  # members are single: hashing by name is six times slower
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Spot:
     """A place in a body."""
 
     kind: Kind
     name: str
     """The block's, or the gate's; for a fork that of the block before it."""
-    branches: tuple[Edge, ...] = ()
+    branches: tuple[Edge, ...] = field(default=(), hash=False)  # a fork may have thousands
     gate: str = ""
     copy: int = 0
     """Counts the places that the source has once and that are written more than once."""

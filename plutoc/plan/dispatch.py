@@ -19,7 +19,7 @@ def dispatch(found: Shape, steps: Mapping[Spot, Body], entries: tuple[str, ...] 
     places = tuple(
         spot
         for spot in found.order
-        if spot in found.shared
+        if found.arrows.in_degree(spot) > 1
         or spot == first
         or (spot.kind is Kind.BLOCK and spot.name in entered)
     )

@@ -20,12 +20,13 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 
-from plutoc.check.components import trimmed
+import networkx as nx
+
 from plutoc.frozen import frozen
 from plutoc.graph.model import Graph
 from plutoc.plan.chart import Chart, Kind, Spot, Way
 from plutoc.plan.model import Place
-from plutoc.plan.shape import Shape, round_of, shape
+from plutoc.plan.shape import Shape, shape
 
 MOST = 40
 """Blocks where missions go on; with more of them, a dispatch is shorter."""
@@ -83,7 +84,7 @@ class _Entering:
         self.graph = graph
         self.other_heads = other_heads
         """May a loop begin at another block than before?"""
-        self.rounds = {head: round_of(found, head) for head in found.loops}
+        self.rounds = {head: found.loop_body(head) for head in found.loops}
         self.ways = dict(found.chart.ways)
         self.places: tuple[Place, ...] = (None, *points)
         self.points = {self.least_nested(name): name for name in points}
@@ -191,7 +192,8 @@ class _Entering:
             queue += fresh
             if len(queue) > most or self.once(spot) or any(f not in loop for f in fresh):
                 return None
-        return None if trimmed(found) else tuple(found)
+        goes_round = not nx.is_directed_acyclic_graph(nx.from_dict_of_lists(found, nx.DiGraph))
+        return None if goes_round else tuple(found)
 
     def once(self, spot: Spot) -> bool:
         """Is this never to be written twice? A flight is not, as people look for it in one place.

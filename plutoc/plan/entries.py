@@ -9,9 +9,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
+from itertools import islice
 
-from plutoc.check.components import loops
+import networkx as nx
+
 from plutoc.frozen import frozen
+from plutoc.graph.digraph import loops
 from plutoc.plan.chart import Chart, Kind, Spot, Way
 from plutoc.plan.shape import Shape, shape
 
@@ -52,7 +55,9 @@ def untangled(found: Shape) -> Shape | None:
 def _tangles(chart: Chart, spots: Iterable[Spot]) -> Iterator[_Tangle]:
     """Yield loops with several entries, outer ones first; those in loops with one entry, too."""
     inside = dict.fromkeys(spots)
-    for loop in loops({spot: _after(chart, spot, inside) for spot in inside}):
+    for loop in loops(
+        nx.from_dict_of_lists({s: _after(chart, s, inside) for s in inside}, nx.DiGraph)
+    ):
         within = frozenset(loop)
         entered = {
             way.target
@@ -92,15 +97,8 @@ def _smallest(chart: Chart, tangle: _Tangle) -> Mapping[Spot, tuple[Spot, ...]] 
 def _region(chart: Chart, tangle: _Tangle, entry: Spot, head: Spot) -> tuple[Spot, ...]:
     """Return what can be passed from an entry before the loop's head, or its outside, is reached."""
     inside = dict.fromkeys(spot for spot in tangle.spots if spot != head)
-    found = {entry: None}
-    queue = [entry]
-    for spot in queue:
-        if len(found) > MOST:
-            break
-        fresh = [one for one in _after(chart, spot, inside) if one not in found]
-        found.update(dict.fromkeys(fresh))
-        queue += dict.fromkeys(fresh)
-    return tuple(found)
+    onward = nx.from_dict_of_lists({s: _after(chart, s, inside) for s in inside}, nx.DiGraph)
+    return (entry, *(spot for _, spot in islice(nx.bfs_edges(onward, entry), MOST)))
 
 
 def _apart(

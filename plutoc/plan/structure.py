@@ -14,7 +14,7 @@ from plutoc.frozen import frozen
 from plutoc.plan.bodies import breaks, continues, falls, switch, without_last_continue
 from plutoc.plan.chart import Kind, Spot, Way
 from plutoc.plan.model import Arm, Body, Break, Continue, End, Goto, Loop, Step, Switch
-from plutoc.plan.shape import Shape, ahead, round_of
+from plutoc.plan.shape import Shape
 from plutoc_runtime.status import IN_GRAPH, Status
 
 LOOPS = 12
@@ -118,7 +118,7 @@ class Writer:
         """The spots that are written behind this one's switch."""
         found = tuple(
             child
-            for child in self.shape.children[spot]
+            for child in self.shape.dominators[spot]
             if child in self.shape.merges and child not in around.elsewhere
         )
         if len(found) > MERGES:
@@ -200,7 +200,7 @@ class Writer:
         """Is the target written just where the way leads there?"""
         return (
             way.target is not None
-            and self.shape.parent.get(way.target) == spot
+            and self.shape.is_child(way.target, spot)
             and way.target not in self.shape.merges
             and way.target not in around.elsewhere
         )
@@ -285,7 +285,9 @@ class Writer:
             for way in chart.ways[spot]
             if way.target is not None and way.target not in round_
         ]
-        behind = [child for spot in round_ for child in found.children[spot] if child not in round_]
+        behind = [
+            child for spot in round_ for child in found.dominators[spot] if child not in round_
+        ]
         inside = found.ordered(behind)[::-1]
         around_it = [spot for spot in exits if not self.ours(spot, head, around)]
         meeting = [spot for spot in inside if spot in found.merges]
@@ -305,13 +307,13 @@ class Writer:
     def round(self, head: Spot) -> frozenset[Spot]:
         """The spots that go round in a loop."""
         if head not in self.rounds:
-            self.rounds[head] = round_of(self.shape, head)
+            self.rounds[head] = self.shape.loop_body(head)
         return self.rounds[head]
 
     def ahead(self, spot: Spot) -> frozenset[Spot]:
         """What can be reached from a spot without an arrow back."""
         if spot not in self.reached:
-            self.reached[spot] = ahead(self.shape, spot)
+            self.reached[spot] = self.shape.ahead(spot)
         return self.reached[spot]
 
 
