@@ -1,4 +1,4 @@
-"""Every branch of a fork closes at one gate; forks nest."""
+"""Every branch of a fork closes at one gate, forks nest, and every gate closes a fork."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from plutoc.block import Gate
 from plutoc.check import fork_errors as errors
 from plutoc.check import model
 from plutoc.check.branches import Branch, Branches, nesting, within
-from plutoc.check.flow import Flow, Fork
+from plutoc.check.flow import Flow, Place
 from plutoc.diagnostic import Diagnostic
 from plutoc.graph.digraph import loops
 
@@ -14,13 +14,13 @@ Branched = tuple[Branch, ...]
 MOST_NESTED = 100
 """So deep forks may lie in each other: a branch is written within the one around it."""
 _MOST_WAYS = 200
-"""Of so many forks that go round for ever a way is shown; nobody reads those of thousands."""
+"""Of so many forks that go round for ever a way is shown."""
 
 
 def unclosed(flow: Flow, found: Branches) -> list[Diagnostic]:
     """Find forks that do not close: for each the one message that says most."""
     inside = nesting(found)
-    breeding: tuple[tuple[Fork, ...], ...] = loops(inside)
+    breeding = loops(inside)
     diagnostics = []
     for part in breeding:
         again = [p for s, places in flow.entries.items() if s.fork == part[0] for p in places]
@@ -104,3 +104,33 @@ def _sound(branches: Branched) -> bool:
         branch.gates and not branch.astray and not branch.circles and not branch.stuck
         for branch in branches
     )
+
+
+def idle_gates(flow: Flow, found: Branches, *, lacking: bool) -> dict[str, Diagnostic]:
+    """Find gates that missions come to outside of any fork, by name.
+
+    Where something else is `lacking`, a block that nothing leads to, that may be the branch which a
+    gate waits for: it has a message already.
+    """
+    # where branches close at different gates, what comes behind them has been said already
+    torn = {
+        g for branches in found.values() if len(gates_of(branches)) > 1 for g in gates_of(branches)
+    }
+    closing = {gate for branches in found.values() for gate in gates_of(branches)}
+    alone: dict[str, Place] = {}
+    for place in flow.places:
+        if place.frame is None and not place.out:
+            alone.setdefault(place.node, place)
+    idle: dict[str, Diagnostic] = {}
+    for name, place in alone.items():
+        node = flow.graph.node.get(name)
+        if node is None or node.block.gate is None or name in torn:
+            continue
+        way = flow.way(place)
+        # behind a gate that closes nothing comes what was meant to be in a fork
+        behind_another = any(hop.node in idle for hop in way)
+        if name in closing:
+            idle[name] = errors.outside_fork(flow.graph, node, way)
+        elif not lacking and not behind_another:
+            idle[name] = errors.closes_nothing(flow.graph, node, way)
+    return idle

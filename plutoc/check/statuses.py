@@ -16,7 +16,7 @@ from dataclasses import field
 import networkx as nx
 
 from plutoc.block import Gate
-from plutoc.check import company, errors
+from plutoc.check import errors, gate_outcomes
 from plutoc.check.facts import (
     elsewhere,
     is_over,
@@ -86,7 +86,7 @@ def unflown(graph: Graph, arrows: nx.DiGraph) -> Mapping[str, int]:
 
 
 def stop_if_tangled(graph: Graph, places: int, steps: int = 0) -> None:
-    """Raise `Rejected` if there is more to look at than anybody would wait for."""
+    """Raise `Rejected` if there is too much to look at."""
     if places > MOST_PLACES or steps > MOST_STEPS:
         raise Rejected([errors.too_tangled(graph, MOST_PLACES, MOST_STEPS)])
 
@@ -122,7 +122,9 @@ class _Walk:
     loose: dict[tuple[Place, Status], None] = field(default_factory=dict)
     entries: dict[Split, Places] = field(default_factory=dict)
     closes: dict[Split, dict[str, dict[int, Places]]] = field(default_factory=dict)
-    through: dict[Split, dict[str, dict[company.Passing, Place]]] = field(default_factory=dict)
+    through: dict[Split, dict[str, dict[gate_outcomes.Passing, Place]]] = field(
+        default_factory=dict
+    )
     """What each fork's gates have let through, and the arrival that brought it."""
     waiting: dict[Split, None] = field(default_factory=dict)
     """Forks with a clone at a gate that has let nothing through yet."""
@@ -145,7 +147,7 @@ class _Walk:
                 self.visit(self.queue.popleft())
                 stop_if_tangled(self.graph, len(self.places), self.steps)
             self.stop_waiting()
-        self.accompany()
+        self.join_at_gates()
 
     def visit(self, place: Place) -> None:
         self.arrives.setdefault(place.node, set()).add(place.status)
@@ -228,37 +230,37 @@ class _Walk:
 
     def passing(
         self, split: Split, gate: Gate, branches: dict[int, Places]
-    ) -> dict[company.Passing, Place]:
+    ) -> dict[gate_outcomes.Passing, Place]:
         """Return what a gate lets through, given what each branch has brought so far."""
         if gate is Gate.ALL and len(branches) < self.width(split) and split not in self.hasty:
             return {}
-        passing = company.passing(gate, branches)
+        passing = gate_outcomes.passing(gate, branches)
         if self.forgets:
             for (status, facts), arrival in tuple(passing.items()):
                 passing.setdefault((status, facts._replace(attempts=0)), arrival)
         return passing
 
-    def go_on(self, arrival: Place, what: company.Passing, entry: Place) -> None:
+    def go_on(self, arrival: Place, what: gate_outcomes.Passing, entry: Place) -> None:
         """The branch is left where the clone has arrived; the mission goes on from there."""
         target = self.beyond(arrival, what, entry)
         self.reach(target, Step(before=arrival, leaving=None, back_to=entry))
 
-    def beyond(self, arrival: Place, what: company.Passing, entry: Place) -> Place:
+    def beyond(self, arrival: Place, what: gate_outcomes.Passing, entry: Place) -> Place:
         """Return the place of the mission behind the gate."""
         status, facts = what
         return Place(frame=entry.frame, node=arrival.node, status=status, facts=facts, out=True)
 
-    def accompany(self) -> None:
-        """Let every clone at a gate lead on to what passes there in its company.
+    def join_at_gates(self) -> None:
+        """Let every clone at a gate lead on to what passes there together with it.
 
         So far only the clone that brings a status does; but the others do not end here.
         """
         for split, gates in self.closes.items():
             for name, branches in gates.items():
-                passed: dict[Status, list[tuple[company.Passing, Place]]] = {}
+                passed: dict[Status, list[tuple[gate_outcomes.Passing, Place]]] = {}
                 for what, bringer in self.through[split][name].items():
                     passed.setdefault(what[0], []).append((what, bringer))
-                for arrival, status in company.with_each(self.gate(name), branches):
+                for arrival, status in gate_outcomes.with_each(self.gate(name), branches):
                     for what, bringer in passed.get(status, ()):
                         for entry in self.entries[split]:
                             self.after.add_edge(arrival, self.beyond(bringer, what, entry))

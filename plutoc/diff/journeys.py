@@ -147,7 +147,7 @@ def _steps_between(both: Both, one: Reroute) -> tuple[tuple[str, ...], tuple[str
     added = _steps(both.new, one.after, status, both.old.known(one.before))
     removed = _steps(both.old, one.before, status, both.new.known(one.after))
     if not (added or removed) and _retries(both.old, one.before):
-        # whatever comes instead, that is what matters
+        # that failed trips are not put back matters more than what comes instead
         removed = () if _flown_again(both.new, one) else one.before
     if added and removed:  # one block or two have moved, and all between them has not
         return (added, ()) if len(added) <= len(removed) else ((), removed)

@@ -62,7 +62,7 @@ def so_often(bound: int) -> str:
     return f" up to {bound} times (flights of a trip, the first included)"
 
 
-def whoever(side: Side, node: Node, statuses: Sequence[Status]) -> str:
+def missions_of(side: Side, node: Node, statuses: Sequence[Status]) -> str:
     """Say which mission leaves a block with these statuses: `a FAILED mission`."""
     match role(node), tuple(statuses):
         case Role.CREATES, _:

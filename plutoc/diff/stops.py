@@ -15,7 +15,7 @@ def stops(both: Both) -> Iterator[Change]:
     """Tell where it goes on now, for the blocks that both apps have: once for all of a kind."""
     found: dict[tuple[tuple[str, ...], tuple[str, ...]], list[tuple[Node, Node]]] = {}
     for old, new in both.common():
-        if role(new) is Role.GATE:  # a gate keeps nobody: what stands before it is told
+        if role(new) is Role.GATE:  # no mission waits in a gate: what stands before it is told
             continue
         before = both.old.checked.resumes[old.name]
         after = both.new.checked.resumes[new.name]

@@ -1,4 +1,4 @@
-"""The functions that `flow.py` calls, and by what names: nobody's name hides another's."""
+"""The functions that `flow.py` calls, and by what names: none hides another."""
 
 from __future__ import annotations
 

@@ -16,7 +16,7 @@ _BUILTIN = re.compile(r"\b(int|float|bool|str|object)\b")
 
 
 def literal(value: Plain | None) -> str:
-    """Return a value as Python writes it; a text in ASCII, whatever it holds."""
+    """Return a value as Python writes it; a text in ASCII."""
     return ascii(value)
 
 

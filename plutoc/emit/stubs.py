@@ -1,10 +1,10 @@
-"""The stubs of hooks: typed and documented, and right at once where nobody writes more."""
+"""The stubs of hooks: typed and documented, and right as they stand."""
 
 from __future__ import annotations
 
 from plutoc.block import HookKind
 from plutoc.check.model import Checked
-from plutoc.emit.python import annotation, literal, status_tuple
+from plutoc.emit.python import annotation, status_tuple
 from plutoc.frozen import frozen
 from plutoc.graph.model import Action, Graph, Hook, Parameter
 from plutoc_runtime.quantities import PYTHON, Type
@@ -97,7 +97,7 @@ def _hook(hook: Hook, checked: Checked, taken: set[str]) -> Stub:
                 coroutine="",
                 signature="(mission: Mission, results: Results) -> Verdict",
                 doc=["Judge a finished mission by what its actions gave."],
-                lines=[f"return Verdict(ok=True, log=({literal(_all_pass(hook.name))},))"],
+                lines=[f'return Verdict(ok=True, log=("{_all_pass(hook.name)}",))'],
                 uses=("Mission", "Results", "Verdict"),
             )
         case HookKind.POLICY:
@@ -179,4 +179,4 @@ def _all_pass(name: str) -> str:
 
 
 def _log(name: str) -> str:
-    return f"context.log({literal(_yet(name))})"
+    return f'context.log("{_yet(name)}")'

@@ -60,7 +60,7 @@ class Shape:
 
     def ahead(self, spot: Spot) -> frozenset[Spot]:
         """Return what can be reached from a spot, itself included, without an arrow back."""
-        return frozenset({spot}) | nx.descendants(self.forward, spot)
+        return frozenset((spot, *nx.descendants(self.forward, spot)))
 
 
 def shape(chart: Chart) -> Shape:

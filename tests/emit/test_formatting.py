@@ -7,6 +7,7 @@ import ast
 import black
 import hypothesis.strategies as st
 import pytest
+from black.mode import TargetVersion
 from hypothesis import given
 
 from plutoc.compile import analyse, package_of
@@ -15,7 +16,7 @@ from plutoc.emit.render import formatted
 from plutoc.source import Source
 from tests.emit.texts import APPS
 
-MODE = black.Mode(line_length=LINE_LENGTH, target_versions={black.TargetVersion.PY311})
+MODE = black.Mode(line_length=LINE_LENGTH, target_versions={TargetVersion.PY311})
 
 
 @pytest.mark.parametrize("text", APPS, ids=range(len(APPS)))

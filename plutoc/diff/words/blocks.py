@@ -173,12 +173,12 @@ def arranged_otherwise() -> Change:
 
 
 def held_added(awaited: str, node: Node) -> Change:
-    """A mission waits with a drone that nobody else can use."""
+    """A mission waits with a drone that no other can use."""
     return Change(
         kind="held_added",
         importance=Importance.SAFETY,
         sentence=f"a drone is held during the {awaited}: missions come to `{node.name}` with one"
-        " allocated, which nobody else can use",
+        " allocated, which no other mission can use",
         blocks=(node.name,),
         now=(node.name_span,),
     )

@@ -28,14 +28,14 @@ from plutoc.plan.chart import Chart, Kind, Spot, Way
 from plutoc.plan.model import Place
 from plutoc.plan.shape import Shape, shape
 
-MOST = 40
+MOST_ENTRIES = 40
 """Blocks where missions go on; with more of them, a dispatch is shorter."""
-COPIES = 4
+MOST_COPIES = 4
 """Blocks that may be written once more for one loop."""
-LEADING, ASIDE = 3, 2
+MOST_LEADING, MOST_ASIDE = 3, 2
 """Of these, for all that come to the loop, and for those alone that go on at one block."""
-LARGE = 100
-"""Spots in a loop of which not each is tried as its head."""
+MOST_HEADS = 100
+"""So many spots of a loop are tried as its head."""
 
 
 @frozen
@@ -48,9 +48,9 @@ class _Site:
     key: tuple[int, int, int]
     """Sites are passed in this order."""
     own: frozenset[Spot] = frozenset()
-    """The loop that begins here, if one does: who comes from there is asked nothing."""
+    """The loop that begins here, if one does: missions that come from there are asked nothing."""
     aside: tuple[Spot, ...] = ()
-    """A copy that nobody else comes to, and that leads to the head of a loop."""
+    """A copy for missions that enter here alone, which leads to the head of a loop."""
     whole: bool = False
     """The blocks are inside of the loop that begins here."""
 
@@ -68,7 +68,7 @@ def entrances(found: Shape, points: Sequence[str], graph: Graph) -> Iterator[Sha
     if not points:
         yield found
         return
-    for other_heads in (True, False) if len(points) <= MOST else ():
+    for other_heads in (True, False) if len(points) <= MOST_ENTRIES else ():
         after = shape(_Entering(found, points, graph, other_heads=other_heads).chart())
         if not after.entering:
             yield after
@@ -158,7 +158,7 @@ class _Entering:
         if not self.other_heads:
             heads = loop[:1]
         else:
-            heads = loop if len(loop) <= LARGE else (loop[0], *self.points)
+            heads = loop if len(loop) <= MOST_HEADS else (loop[0], *self.points)
         options = [self.headed(loop, head) for head in heads if head in loop]
         return min(
             (option for option in options if option is not None),
@@ -171,13 +171,13 @@ class _Entering:
         copied: dict[Spot, tuple[Spot, ...]] = {}
         for entry in (loop[0], *(spot for spot in loop[1:] if spot in self.points)):
             if entry != head and entry not in copied.get(loop[0], ()):
-                most = LEADING if entry == loop[0] else ASIDE
+                most = MOST_LEADING if entry == loop[0] else MOST_ASIDE
                 region = self.between(loop, entry, head, most)
                 if region is None:
                     return None
                 copied[entry] = region
         total = sum(map(len, copied.values()))
-        return _Heading(head=head, copied=copied) if total <= COPIES else None
+        return _Heading(head=head, copied=copied) if total <= MOST_COPIES else None
 
     def between(
         self, loop: Sequence[Spot], entry: Spot, head: Spot, most: int
@@ -217,7 +217,7 @@ class _Entering:
         """
         back = [one for one in sources if any(way.target == head for way in self.ways[one])]
         made: list[Spot] = []
-        if len(back) * len(region) <= LEADING:
+        if len(back) * len(region) <= MOST_LEADING:
             for source in back[1:]:
                 copies = self.copied(region)
                 self.ways[source] = _turned(self.ways[source], {head: copies[head]})
@@ -274,7 +274,7 @@ class _Entering:
         return _way(places, target)
 
     def turn(self, spot: Spot, instead: Spot, but: Collection[Spot] = ()) -> None:
-        """Lead whoever comes to a spot elsewhere, but for those who come from some others."""
+        """Lead all ways to a spot elsewhere, but for those from some others."""
         for one, ways in self.ways.items():
             if one not in but and any(way.target == spot for way in ways):
                 self.ways[one] = _turned(ways, {spot: instead})
