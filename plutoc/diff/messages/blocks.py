@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from plutoc.block import Block, Choice, Param
 from plutoc.diagnostic import Diagnostic
-from plutoc.diff.amounts import amount
 from plutoc.diff.both import Side
 from plutoc.diff.model import Change, Fact, Importance
-from plutoc.diff.phrases import so_often
+from plutoc.diff.phrases import amount, so_often
 from plutoc.diff.roles import Role, limited, role
 from plutoc.graph.model import Node, Parameter, Plain
 from plutoc_runtime.fields import Entity

@@ -3,17 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from plutoc.diff.both import Both, Side
-from plutoc.diff.model import Change, Importance, Spans
+from plutoc.diff.model import Change, Importance, Reroute, Spans
 from plutoc.diff.phrases import ahead, listed, missions_of, named
 from plutoc.graph.model import Node
 from plutoc.source import Span
 from plutoc_runtime.status import Status
-
-if TYPE_CHECKING:
-    from plutoc.diff.journeys import Reroute
 
 
 def step_added(both: Both, one: Reroute, steps: Sequence[str], spans: Spans) -> Change:
