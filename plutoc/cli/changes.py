@@ -26,8 +26,8 @@ def rewrite(path: Path, before: str, after: str) -> None:
     """
     target = Path(os.path.realpath(path))
 
-    def save(aside: str, data: bytes) -> None:
-        Path(aside).write_bytes(data)
+    def save(aside: Path, data: bytes) -> None:
+        aside.write_bytes(data)
         shutil.copymode(target, aside)
 
     change = Change(path=target.name, before=before, after=after)

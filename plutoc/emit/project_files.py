@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from plutoc.emit.imports import Import, import_lines
-from plutoc.emit.markup import one_line, toml_text
-from plutoc.emit.python import header
+from plutoc.emit.markup import header, one_line, toml_text
+from plutoc.emit.python import Import, import_lines
 from plutoc.emit.render import render
+from plutoc.emit.stubs import exports_of
 from plutoc.graph.model import Graph
 from plutoc_runtime.command import SEAM
 

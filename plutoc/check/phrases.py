@@ -115,7 +115,7 @@ def related_to(graph: Graph, span: Span, label: str) -> Related:
 
 def emits_here(graph: Graph, edge: Edge, leaving: Sequence[Status]) -> Related:
     """What the block before an arrow emits."""
-    here = f"emits {listed(leaving)}" if leaving else "whatever comes here has no trip left"
+    here = f"emits {listed(leaving)}" if leaving else "what comes here has no trip left"
     return related_to(graph, graph.node[edge.source].name_span, here)
 
 

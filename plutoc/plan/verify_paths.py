@@ -227,7 +227,7 @@ def _first(body: Body, gate: str) -> str:
             return gate
 
 
-def walk(plan: Plan, where: str) -> None:
+def verify_paths(plan: Plan, where: str) -> None:
     """Raise `BadPlan` if some mission would not go as the graph says, or if a step is idle."""
     checked = plan.checked
     carried: dict[tuple[str, str], frozenset[Status]] = {}

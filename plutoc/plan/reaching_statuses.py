@@ -37,19 +37,19 @@ from plutoc_runtime.domain.status import Status
 Statuses = frozenset[Status]
 
 
-class Entering(NamedTuple):
+class Resuming(NamedTuple):
     """An interrupted mission on its way to the block where it goes on."""
 
     place: str
     status: Status
 
 
-Coming = frozenset[Status | Entering]
+Coming = frozenset[Status | Resuming]
 """What comes to a step."""
 Brought = Mapping[tuple[int, Status], Statuses]
 """What a branch, by its identity, brings to its gate when a mission forks with a status."""
 NONE = frozenset[Status]()
-NOBODY: Coming = frozenset()
+NOTHING: Coming = frozenset()
 
 
 class _Frame:
@@ -59,14 +59,14 @@ class _Frame:
 
     def __init__(self) -> None:
         self.ends: set[Status] = set()
-        self.continued: set[Status | Entering] = set()
-        self.broken: set[Status | Entering] = set()
+        self.continued: set[Status | Resuming] = set()
+        self.broken: set[Status | Resuming] = set()
         self.gone: dict[str, Coming] = {}
         """What came to each label."""
-        self.known: dict[int, tuple[set[Status | Entering], set[Status | Entering]]] = {}
+        self.known: dict[int, tuple[set[Status | Resuming], set[Status | Resuming]]] = {}
         """For each loop, by identity: what came to its head, and what leaves it by `Break`."""
 
-    def inside(self, broken: set[Status | Entering]) -> _Frame:
+    def inside(self, broken: set[Status | Resuming]) -> _Frame:
         """Return the same function, seen from inside a loop."""
         inner = _Frame()
         inner.ends, inner.gone, inner.known, inner.broken = self.ends, self.gone, self.known, broken
@@ -81,7 +81,7 @@ class _Walk:
 
     def body(self, body: Body, coming: Coming, frame: _Frame) -> Coming:
         for step in body:
-            coming = self.step(step, coming, frame) if coming else NOBODY
+            coming = self.step(step, coming, frame) if coming else NOTHING
         return coming
 
     def step(self, step: Step, coming: Coming, frame: _Frame) -> Coming:
@@ -110,10 +110,10 @@ class _Walk:
             case Break():
                 frame.broken.update(coming)
             case Goto(label=label):
-                frame.gone[label] = frame.gone.get(label, NOBODY) | coming
+                frame.gone[label] = frame.gone.get(label, NOTHING) | coming
             case End():
                 frame.ends.update(_statuses(coming))
-        return NOBODY
+        return NOTHING
 
     def leave(self, node: Node, statuses: Statuses) -> Statuses:
         given = NONE.union(*(node.emitted(status) for status in statuses))
@@ -136,13 +136,13 @@ class _Walk:
 
     def switch(self, step: Switch, statuses: Statuses, frame: _Frame) -> Coming:
         self.found.setdefault(id(step), set()).update(statuses)
-        out = NOBODY
+        out = NOTHING
         for arm in step.arms:
             out |= self.body(arm.body, statuses.intersection(arm.statuses), frame)
         return out
 
     def enter(self, step: Switch, coming: Coming, frame: _Frame) -> Coming:
-        out = NOBODY
+        out = NOTHING
         for arm in step.arms:
             some = (one for one in coming if _place(one) in arm.places)
             out |= self.body(arm.body, frozenset(some), frame)
@@ -161,30 +161,30 @@ class _Walk:
         walked: dict[str, Coming] = {}
         frame.gone[step.start] = _statuses(coming)
         for one in coming:
-            if isinstance(one, Entering):
-                frame.gone[one.place] = frame.gone.get(one.place, NOBODY) | {one}
+            if isinstance(one, Resuming):
+                frame.gone[one.place] = frame.gone.get(one.place, NOTHING) | {one}
         while fresh := [label for label, came in frame.gone.items() if walked.get(label) != came]:
             for label in fresh:
                 walked[label] = frame.gone[label]
                 self.body(bodies[label], walked[label], frame)
 
 
-def _statuses(coming: Iterable[Status | Entering]) -> Statuses:
+def _statuses(coming: Iterable[Status | Resuming]) -> Statuses:
     return frozenset(one for one in coming if isinstance(one, Status))
 
 
 def _at(node: Node, coming: Coming) -> Statuses:
     """Return what comes to a block, with those that go on just there."""
-    here = (one.status for one in coming if isinstance(one, Entering) and one.place == node.name)
+    here = (one.status for one in coming if isinstance(one, Resuming) and one.place == node.name)
     return _statuses(coming).union(here)
 
 
-def _place(one: Status | Entering) -> Place:
-    return one.place if isinstance(one, Entering) else None
+def _place(one: Status | Resuming) -> Place:
+    return one.place if isinstance(one, Resuming) else None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Arriving:
+class Reaching:
     """What was found."""
 
     switches: Mapping[int, set[Status]]
@@ -192,14 +192,14 @@ class Arriving:
     brought: Brought
 
 
-def arriving(plan: Plan) -> Arriving:
+def reaching_statuses(plan: Plan) -> Reaching:
     """Walk a plan with all statuses that can occur."""
     walk = _Walk(plan.checked)
-    begin = frozenset[Status | Entering]((Status.UNEXECUTED,))
+    begin = frozenset[Status | Resuming]((Status.UNEXECUTED,))
     entering = (
-        Entering(place, status)
+        Resuming(place, status)
         for place, statuses in plan.checked.entries.items()
         for status in statuses
     )
     walk.body(plan.body, begin.union(entering), _Frame())
-    return Arriving(switches=walk.found, brought=walk.brought)
+    return Reaching(switches=walk.found, brought=walk.brought)

@@ -20,20 +20,21 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from plutoc.check.components import trimmed
+import networkx as nx
+
 from plutoc.graph.model import Graph
 from plutoc.plan.chart import Chart, Kind, Spot, Way
 from plutoc.plan.model import Place
-from plutoc.plan.shape import Shape, round_of, shape
+from plutoc.plan.shape import Shape, shape
 
-MOST = 40
+MOST_ENTRIES = 40
 """Blocks where missions go on; with more of them, a dispatch is shorter."""
-COPIES = 4
+MOST_COPIES = 4
 """Blocks that may be written once more for one loop."""
-LEADING, ASIDE = 3, 2
+MOST_LEADING, MOST_ASIDE = 3, 2
 """Of these, for all that come to the loop, and for those alone that go on at one block."""
-LARGE = 100
-"""Spots in a loop of which not each is tried as its head."""
+MOST_HEADS = 100
+"""So many spots of a loop are tried as its head."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -46,9 +47,9 @@ class _Site:
     key: tuple[int, int, int]
     """Sites are passed in this order."""
     own: frozenset[Spot] = frozenset()
-    """The loop that begins here, if one does: who comes from there is asked nothing."""
+    """The loop that begins here, if one does: missions that come from there are asked nothing."""
     aside: tuple[Spot, ...] = ()
-    """A copy that nobody else comes to, and that leads to the head of a loop."""
+    """A copy for missions that enter here alone, which leads to the head of a loop."""
     whole: bool = False
     """The blocks are inside of the loop that begins here."""
 
@@ -66,7 +67,7 @@ def entrances(found: Shape, points: Sequence[str], graph: Graph) -> Iterator[Sha
     if not points:
         yield found
         return
-    for other_heads in (True, False) if len(points) <= MOST else ():
+    for other_heads in (True, False) if len(points) <= MOST_ENTRIES else ():
         after = shape(_Entering(found, points, graph, other_heads=other_heads).chart())
         if not after.entering:
             yield after
@@ -82,7 +83,7 @@ class _Entering:
         self.graph = graph
         self.other_heads = other_heads
         """May a loop begin at another block than before?"""
-        self.rounds = {head: round_of(found, head) for head in found.loops}
+        self.rounds = {head: found.loop_body(head) for head in found.loops}
         self.ways = dict(found.chart.ways)
         self.places: tuple[Place, ...] = (None, *points)
         self.points = {self.least_nested(name): name for name in points}
@@ -156,7 +157,7 @@ class _Entering:
         if not self.other_heads:
             heads = loop[:1]
         else:
-            heads = loop if len(loop) <= LARGE else (loop[0], *self.points)
+            heads = loop if len(loop) <= MOST_HEADS else (loop[0], *self.points)
         options = [self.headed(loop, head) for head in heads if head in loop]
         return min(
             (option for option in options if option is not None),
@@ -169,13 +170,13 @@ class _Entering:
         copied: dict[Spot, tuple[Spot, ...]] = {}
         for entry in (loop[0], *(spot for spot in loop[1:] if spot in self.points)):
             if entry != head and entry not in copied.get(loop[0], ()):
-                most = LEADING if entry == loop[0] else ASIDE
+                most = MOST_LEADING if entry == loop[0] else MOST_ASIDE
                 region = self.between(loop, entry, head, most)
                 if region is None:
                     return None
                 copied[entry] = region
         total = sum(map(len, copied.values()))
-        return _Heading(head=head, copied=copied) if total <= COPIES else None
+        return _Heading(head=head, copied=copied) if total <= MOST_COPIES else None
 
     def between(
         self, loop: Sequence[Spot], entry: Spot, head: Spot, most: int
@@ -190,7 +191,8 @@ class _Entering:
             queue += fresh
             if len(queue) > most or self.once(spot) or any(f not in loop for f in fresh):
                 return None
-        return None if trimmed(found) else tuple(found)
+        goes_round = not nx.is_directed_acyclic_graph(nx.from_dict_of_lists(found, nx.DiGraph))
+        return None if goes_round else tuple(found)
 
     def once(self, spot: Spot) -> bool:
         """Is this never to be written twice? A flight is not, as people look for it in one place.
@@ -214,7 +216,7 @@ class _Entering:
         """
         back = [one for one in sources if any(way.target == head for way in self.ways[one])]
         made: list[Spot] = []
-        if len(back) * len(region) <= LEADING:
+        if len(back) * len(region) <= MOST_LEADING:
             for source in back[1:]:
                 copies = self.copied(region)
                 self.ways[source] = _turned(self.ways[source], {head: copies[head]})
@@ -271,7 +273,7 @@ class _Entering:
         return _way(places, target)
 
     def turn(self, spot: Spot, instead: Spot, but: Collection[Spot] = ()) -> None:
-        """Lead whoever comes to a spot elsewhere, but for those who come from some others."""
+        """Lead all ways to a spot elsewhere, but for those from some others."""
         for one, ways in self.ways.items():
             if one not in but and any(way.target == spot for way in ways):
                 self.ways[one] = _turned(ways, {spot: instead})

@@ -1,7 +1,7 @@
 """Where a mission was interrupted is asked for only where it makes a difference.
 
 A plan knows it as long as the mission has not come to a block that tells it to forget. So at each
-question some of the places can turn up, and others cannot: those in whose stead nobody comes here.
+question some of the places can turn up, and others cannot: those from which no mission comes here.
 """
 
 from __future__ import annotations
@@ -27,17 +27,17 @@ from plutoc.plan.model import (
 from plutoc.plan.rewrite import rewritten_body
 
 
-class Comer(NamedTuple):
+class Candidate(NamedTuple):
     """A mission, as far as a question can tell."""
 
     place: Place
-    on: bool
+    resumed: bool
     """It goes on already: it began, or has come to its block."""
 
 
-Comers = frozenset[Comer]
-NOBODY: Comers = frozenset()
-GOES_ON = Comer(None, True)
+Candidates = frozenset[Candidate]
+NONE: Candidates = frozenset()
+GOES_ON = Candidate(None, True)
 
 
 class _Frame:
@@ -46,60 +46,62 @@ class _Frame:
     __slots__ = ("broken", "continued")
 
     def __init__(self) -> None:
-        self.broken: set[Comer] = set()
-        self.continued: set[Comer] = set()
+        self.broken: set[Candidate] = set()
+        self.continued: set[Candidate] = set()
 
 
 class _Walk:
     def __init__(self) -> None:
-        self.found: dict[int, tuple[Switch, Comers]] = {}
+        self.found: dict[int, tuple[Switch, Candidates]] = {}
 
-    def body(self, body: Body, comers: Comers, frame: _Frame) -> Comers:
+    def body(self, body: Body, candidates: Candidates, frame: _Frame) -> Candidates:
         for step in body:
-            comers = self.step(step, comers, frame) if comers else NOBODY
-        return comers
+            candidates = self.step(step, candidates, frame) if candidates else NONE
+        return candidates
 
-    def step(self, step: Step, comers: Comers, frame: _Frame) -> Comers:
-        """Walk a step; return who falls off its end."""
+    def step(self, step: Step, candidates: Candidates, frame: _Frame) -> Candidates:
+        """Walk a step; return what falls off its end."""
         match step:
             case Call(node=node):
-                return frozenset(Comer(c.place, c.on or c.place == node.name) for c in comers)
+                return frozenset(
+                    Candidate(c.place, c.resumed or c.place == node.name) for c in candidates
+                )
             case Arrived():
                 return frozenset((GOES_ON,))
             case Switch(arms=arms):
                 if step.enters:
-                    _, known = self.found.get(id(step), (step, NOBODY))
-                    self.found[id(step)] = step, known | comers
-                out = NOBODY
+                    _, known = self.found.get(id(step), (step, NONE))
+                    self.found[id(step)] = step, known | candidates
+                out = NONE
                 for arm in arms:
-                    some = (c for c in comers if not step.enters or c.place in arm.places)
+                    some = (c for c in candidates if not step.enters or c.place in arm.places)
                     out |= self.body(arm.body, frozenset(some), frame)
                 return out
             case Loop(body=inner):
-                return self.loop(inner, comers)
+                return self.loop(inner, candidates)
             case Continue():
-                frame.continued.update(comers)
+                frame.continued.update(candidates)
             case Break():
-                frame.broken.update(comers)
+                frame.broken.update(candidates)
             case Goto() | End() | Dispatch():
                 pass
             case _:
-                return comers
-        return NOBODY
+                return candidates
+        return NONE
 
-    def loop(self, body: Body, comers: Comers) -> Comers:
-        known = NOBODY
+    def loop(self, body: Body, candidates: Candidates) -> Candidates:
+        known = NONE
         inside = _Frame()
-        while not comers <= known:
-            known |= comers
-            comers = self.body(body, known, inside) | inside.continued
+        while not candidates <= known:
+            known |= candidates
+            candidates = self.body(body, known, inside) | inside.continued
         return frozenset(inside.broken)
 
 
-def comers(body: Body, places: tuple[str, ...]) -> Mapping[int, tuple[Switch, Comers]]:
-    """Return each question with who comes to it, by its identity."""
+def candidates(body: Body, places: tuple[str, ...]) -> Mapping[int, tuple[Switch, Candidates]]:
+    """Return each question with the missions that may come to it, by its identity."""
     walk = _Walk()
-    begin = {GOES_ON, *(Comer(place, False) for place in places)}
+    begin = {GOES_ON, *(Candidate(place, False) for place in places)}
     walk.body(body, frozenset(begin), _Frame())
     return walk.found
 
@@ -108,20 +110,20 @@ def asked_once(body: Body, places: tuple[str, ...]) -> Body:
     """Return a body in which nothing is asked whose answer is certain."""
     if not places:
         return body
-    found = comers(body, places)
+    found = candidates(body, places)
 
     def asked(step: Step, before: Step) -> Body:
         if not isinstance(step, Switch) or not step.enters:
             return (step,)
-        _, here = found.get(id(before), (step, NOBODY))
-        came = {comer.place for comer in here}
+        _, here = found.get(id(before), (step, NONE))
+        came = {candidate.place for candidate in here}
         narrowed = (
             replace(arm, places=tuple(place for place in arm.places if place in came))
             for arm in step.arms
         )
         left = tuple(arm for arm in narrowed if arm.places)
         if not left:
-            return (step,)  # nobody ever comes here
+            return (step,)  # it is never reached
         return left[0].body if len(left) == 1 else (replace(step, arms=left),)
 
     return rewritten_body(body, asked)

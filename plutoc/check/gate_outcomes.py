@@ -1,4 +1,4 @@
-"""What passes a gate in the company of each clone that comes to it."""
+"""Which statuses a gate lets through, given what each branch of its fork can bring."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def passing(gate: Gate, came: Came) -> dict[Passing, Place]:
 
 
 def with_each(gate: Gate, came: Came) -> Iterator[tuple[Place, Status]]:
-    """Give each arrival with every status that can pass in its company."""
+    """Give each arrival with every status that can pass when it is one of those at the gate."""
     best = {branch: _best(arrivals) for branch, arrivals in came.items()}
     bringers = Counter(s for arrivals in came.values() for s in {a.status: None for a in arrivals})
     lowest = sorted(best.values())

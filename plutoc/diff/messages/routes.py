@@ -3,22 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from plutoc.diff.both import Both, Side
-from plutoc.diff.model import Change, Importance, Spans
-from plutoc.diff.phrases import ahead, listed, named, whoever
+from plutoc.diff.model import Change, Importance, Reroute, Spans
+from plutoc.diff.phrases import ahead, listed, missions_of, named
 from plutoc.graph.model import Node
 from plutoc.source import Span
 from plutoc_runtime.domain.status import Status
 
-if TYPE_CHECKING:
-    from plutoc.diff.journeys import Reroute
-
 
 def step_added(both: Both, one: Reroute, steps: Sequence[str], spans: Spans) -> Change:
     """Missions pass some blocks before they come where they came straight before."""
-    who = whoever(both.new, one.new, one.statuses)
+    who = missions_of(both.new, one.new, one.statuses)
     status = one.statuses[0]
     first, *others = (ahead(both.new, [step], status) for step in steps)
     then = ahead(both.old, one.before, status)
@@ -28,7 +24,7 @@ def step_added(both: Both, one: Reroute, steps: Sequence[str], spans: Spans) -> 
 
 def step_removed(both: Both, one: Reroute, steps: Sequence[str], spans: Spans) -> Change:
     """Missions come straight where they passed some blocks before."""
-    who = whoever(both.new, one.new, one.statuses)
+    who = missions_of(both.new, one.new, one.statuses)
     status = one.statuses[0]
     then = ahead(both.new, one.after, status)
     what = listed([ahead(both.old, [step], status).no_longer for step in steps])
@@ -37,7 +33,7 @@ def step_removed(both: Both, one: Reroute, steps: Sequence[str], spans: Spans) -
 
 def rerouted(both: Both, one: Reroute, spans: Spans) -> Change:
     """Missions go elsewhere."""
-    who = whoever(both.new, one.new, one.statuses)
+    who = missions_of(both.new, one.new, one.statuses)
     status = one.statuses[0]
     after = ahead(both.new, one.after, status)
     before = ahead(both.old, one.before, status)

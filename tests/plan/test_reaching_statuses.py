@@ -6,9 +6,9 @@ from collections.abc import Iterator
 
 import pytest
 
-from plutoc.plan.arriving import arriving
 from plutoc.plan.build import build
 from plutoc.plan.model import Body, Dispatch, Join, Loop, Switch
+from plutoc.plan.reaching_statuses import reaching_statuses
 from plutoc_runtime.domain.status import Status
 from tests.check.graphs import checked
 from tests.plan.graphs import GRAPHS
@@ -38,7 +38,7 @@ def switches(body: Body) -> Iterator[Switch]:
 def test_no_more_and_no_less_than_what_passes_arrives(name: str) -> None:
     """Each switch is come to, and asks for all that comes; a walk by chance meets nothing else."""
     plan = build(checked(GRAPHS[name]))
-    found = arriving(plan).switches
+    found = reaching_statuses(plan).switches
     for switch in (switch for switch in switches(plan.body) if not switch.enters):
         came = found[id(switch)]
         assert came
@@ -51,7 +51,9 @@ def test_what_a_branch_brings_is_known_by_the_status_of_its_fork() -> None:
     """A modifier without `emits` brings what it got, a monitor any outcome."""
     plan = build(checked(GRAPHS["alfalfa"]))
     outcomes = {Status.STANDBY, Status.COMPLETED, Status.FAILED}
-    assert [(status, set(brought)) for (_, status), brought in arriving(plan).brought.items()] == [
+    assert [
+        (status, set(brought)) for (_, status), brought in reaching_statuses(plan).brought.items()
+    ] == [
         (Status.RUNNING, outcomes),
         (Status.RUNNING, outcomes),
     ]

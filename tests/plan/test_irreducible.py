@@ -7,7 +7,7 @@ from random import Random
 from plutoc.diagnostic import Rejected
 from plutoc.graph.model import START
 from plutoc.plan.chart import Charts, Kind, Spot
-from plutoc.plan.entries import MOST, untangled
+from plutoc.plan.irreducible import MOST_COPIES, reducible
 from plutoc.plan.shape import Shape, shape
 from tests.check.graphs import checked
 from tests.plan.graphs import MAZE, STATUSES, TWO_ENTRIES, routes
@@ -34,14 +34,14 @@ def copies(found: Shape) -> list[str]:
 
 def test_who_enters_at_the_second_place_finds_a_copy() -> None:
     """Of what stands between the two entries."""
-    found = untangled(shape_of(TWO_ENTRIES))
+    found = reducible(shape_of(TWO_ENTRIES))
     assert found is not None
     assert copies(found) == ["c"]
 
 
 def test_a_loop_begins_where_it_costs_least() -> None:
     """Neither of its two entries need be the one that it has in the end."""
-    found = untangled(shape_of(CROWD))
+    found = reducible(shape_of(CROWD))
     assert found is not None
     assert copies(found) == ["allocate", "ask"]
     assert [spot.name for spot in found.loops] == ["launch"]
@@ -49,13 +49,13 @@ def test_a_loop_begins_where_it_costs_least() -> None:
 
 def test_what_would_take_many_copies_stays_as_it_is() -> None:
     """A dispatch is shorter then."""
-    assert untangled(shape_of(MAZE)) is None
+    assert reducible(shape_of(MAZE)) is None
 
 
 def test_a_loop_with_one_entry_stays_as_it_is() -> None:
     """The very same shape."""
     found = shape_of(routes(a="STANDBY > b, FAILED > end", b="STANDBY > a"))
-    assert untangled(found) is found
+    assert reducible(found) is found
 
 
 def test_copies_are_few_and_lead_where_their_originals_do() -> None:
@@ -66,12 +66,12 @@ def test_copies_are_few_and_lead_where_their_originals_do() -> None:
             before = shape_of(drawn(Random(seed)))
         except Rejected:
             continue
-        after = untangled(before)
+        after = reducible(before)
         if after is None:
             continue
         tangled += bool(before.entering)
         assert not after.entering
-        assert len(copies(after)) <= MOST
+        assert len(copies(after)) <= MOST_COPIES
         for spot in after.order:
             assert not (spot.copy and spot.kind is Kind.FORK)
             assert targets(after, spot) == targets(before, spot.original)

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from plutoc.block import Block, Choice, Param
 from plutoc.diagnostic import Diagnostic
-from plutoc.diff.amounts import amount
 from plutoc.diff.both import Side
 from plutoc.diff.model import Change, Fact, Importance
-from plutoc.diff.phrases import so_often
+from plutoc.diff.phrases import amount, so_often
 from plutoc.diff.roles import Role, limited, role
 from plutoc.graph.model import Node, Parameter, Plain
 from plutoc_runtime.domain.fields import Entity
@@ -173,12 +172,12 @@ def arranged_otherwise() -> Change:
 
 
 def held_added(awaited: str, node: Node) -> Change:
-    """A mission waits with a drone that nobody else can use."""
+    """A mission waits with a drone that no other can use."""
     return Change(
         kind="held_added",
         importance=Importance.SAFETY,
         sentence=f"a drone is held during the {awaited}: missions come to `{node.name}` with one"
-        " allocated, which nobody else can use",
+        " allocated, which no other mission can use",
         blocks=(node.name,),
         now=(node.name_span,),
     )

@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from plutoc.block import HookKind, Param
-from plutoc.diff.amounts import amount, code
-from plutoc.diff.match_hooks import Declared, kind_of
+from plutoc.diff.match import Declared, kind_of
 from plutoc.diff.model import Change, Fact, Importance
-from plutoc.diff.phrases import listed, named
+from plutoc.diff.phrases import amount, code, listed, named
 from plutoc.graph.model import Action, Category, Graph, Hook, Library, Node, Parameter
 from plutoc.source import Span
 from plutoc_runtime.domain.fields import Entity, Field

@@ -3,17 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from plutoc.block import Gate, Param
 from plutoc.check.model import Fork
-from plutoc.diff.amounts import amount
-from plutoc.diff.model import Change, Importance, Spans
-from plutoc.diff.phrases import named
+from plutoc.diff.model import Change, Importance, Reroute, Spans
+from plutoc.diff.phrases import amount, named
 from plutoc.graph.model import END, Graph, Node
-
-if TYPE_CHECKING:
-    from plutoc.diff.journeys import Reroute
 
 
 def limit_added(what: str, nodes: Sequence[Node]) -> Change:
