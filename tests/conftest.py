@@ -21,7 +21,7 @@ settings.load_profile("pluto")
 if "PLUTO_EMBEDDED" not in os.environ:  # there the runtime is what one app carries
     share_one_brain()
 
-# Whoever runs this in the background may have it, and all that it starts, deaf to these.
+# A shell that runs this in the background may make it, and all that it starts, deaf to these.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
 if hasattr(signal, "SIGHUP") and signal.getsignal(signal.SIGHUP) is signal.SIG_IGN:

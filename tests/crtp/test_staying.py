@@ -1,4 +1,4 @@
-"""How long simulated Crazyflies stay: as long as anybody may want them."""
+"""How long simulated Crazyflies stay: as long as they may be wanted."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Nobody needs to start a gateway by hand; whoever tries is told so."""
+"""A gateway is not started by hand: a person who tries is told so."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from pluto_fleet.gateway.process import main
 
 
 @pytest.mark.parametrize("arguments", [[], ["--help"], ["a", "b"]])
-def test_whoever_starts_it_by_hand_is_told_that_apps_do(
+def test_starting_it_by_hand_is_answered_that_apps_do(
     arguments: list[str],
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,

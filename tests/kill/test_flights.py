@@ -63,7 +63,7 @@ def test_a_flight_stopped_on_its_way_home_goes_on_where_it_was(new_flight: NewFl
 
 
 def test_a_delay_keeps_its_rest_over_a_stop(new_flight: NewFlight) -> None:
-    """Whoever has waited for a part of it waits for the rest."""
+    """A person who has waited for a part of it waits for the rest."""
     flight = new_flight(20.0)
     plan = flight.folder / "missions.toml"
     plan.write_text(plan.read_text().replace('delay = "4 s"', 'delay = "60 s"'))
@@ -84,7 +84,7 @@ def test_a_delay_keeps_its_rest_over_a_stop(new_flight: NewFlight) -> None:
 
 
 @pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
-def test_whoever_interrupts_it_waits_for_the_landing(
+def test_an_interrupt_waits_for_the_landing(
     number: signal.Signals, code: int, new_flight: NewFlight
 ) -> None:
     flight = new_flight(20.0)

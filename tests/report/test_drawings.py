@@ -1,4 +1,4 @@
-"""Pictures of graphs: complete, valid, and safe whatever the title says."""
+"""Pictures of graphs: complete, valid, and safe for every title."""
 
 from __future__ import annotations
 

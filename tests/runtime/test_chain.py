@@ -22,7 +22,7 @@ class Thing:
 
 @settings(derandomize=True)
 @given(st.lists(st.integers(0, 8)))
-def test_whoever_comes_and_goes_the_others_stay_in_their_order(moves: Sequence[int]) -> None:
+def test_when_some_come_and_go_the_others_stay_in_their_order(moves: Sequence[int]) -> None:
     """As in a dict; who has left may leave once more, and come again."""
     things = [Thing() for _ in range(9)]
     chain, known = Chain[Thing](), dict[Thing, None]()

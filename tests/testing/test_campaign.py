@@ -8,7 +8,7 @@ from tests.testing import campaign
 
 
 def test_no_example_does_what_no_run_may_do(capsys: pytest.CaptureFixture[str]) -> None:
-    """Whatever strikes it, at every row of its journal; and everything that can strike has struck."""
+    """Struck at every row of its journal, by everything that can strike."""
     code = campaign.main(["--seeds", "1"])
     said = capsys.readouterr().out
     assert code == 0, said

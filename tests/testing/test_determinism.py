@@ -1,4 +1,4 @@
-"""The same trial leaves the same trace, whatever Python's own hashes are."""
+"""The same trial leaves the same trace, for all of Python's own hashes."""
 
 from __future__ import annotations
 

@@ -60,7 +60,7 @@ def test_ten_anywhere_are_down_when_the_slowest_is(seed: int, how: Down) -> None
     assert sky.nearest >= APART
 
 
-def test_nobody_waits_until_its_neighbour_says_that_it_stands() -> None:
+def test_no_drone_waits_until_its_neighbour_says_that_it_stands() -> None:
     """A real drone says so seconds after it has landed: who lands beside it would be later still."""
     airspace = Airspace(size=(6.0, 6.0), cruise_height=0.5)
     homes, places = [(1.0, 1.0, 0.0), (1.6, 1.0, 0.0)], [(1.0, 4.0, 0.5), (4.6, 1.0, 0.5)]
@@ -70,7 +70,7 @@ def test_nobody_waits_until_its_neighbour_says_that_it_stands() -> None:
 
 
 def test_where_only_one_may_be_in_the_air_who_stands_goes_when_it_is_down() -> None:
-    """Nobody in the air waits for somebody who must not take off."""
+    """No drone in the air waits for one that must not take off."""
     sky = Sky([(1.0, 1.0), (4.0, 1.0)], airspace=Airspace(size=(5.0, 5.0)), max_airborne=1)
     one, other = (sky.navigation.bodies[drone.id] for drone in sky.drones)
     for body, place in ((one, (4.0, 3.0, 0.0)), (other, (1.0, 1.2, 1.2))):
@@ -101,8 +101,8 @@ def plan_of(seed: int, is_real: bool) -> Timetable:
 
 @pytest.mark.parametrize("is_real", [True, False])
 @pytest.mark.parametrize("seed", range(4))
-def test_nobody_waits_for_who_waits_for_it(seed: int, is_real: bool) -> None:
-    """Whatever the times: whoever may go goes to its next rest, and so all come to their ends."""
+def test_no_drone_waits_for_one_that_waits_for_it(seed: int, is_real: bool) -> None:
+    """At all times a drone that may go goes to its next rest, and so all come to their ends."""
     plan, chance = plan_of(seed, is_real), Random(seed)
     at = dict.fromkeys(plan.courses, 0)
     ends = {drone: len(one.pieces) - 1 for drone, one in plan.courses.items()}

@@ -1,4 +1,4 @@
-"""Whatever a fleet does, no two come too near to each other, and all is over some time."""
+"""In all that a fleet does, no two come too near to each other, and all comes to an end."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def test_every_flight_ends_and_none_comes_too_near(seed: int) -> None:
 
 @pytest.mark.parametrize("seed", range(CASES // 2))
 def test_a_stop_in_between_brings_all_down(seed: int) -> None:
-    """Whatever they are at; who is well and can get home is home, if that was asked for."""
+    """In the middle of anything; who is well and can get home is home, if that was asked for."""
     chance = Random(1000 + seed)
     sky, targets = sky_of(chance)
     Restless(sky, seed, targets, 3, 0.0).begin()

@@ -27,7 +27,7 @@ def test_the_example_plan_of_every_app_is_sound_and_flies_to_its_end(
     until(lambda: station.phase == "over", "all have ended")
 
 
-def test_whoever_goes_to_the_trips_first_is_told_to_select_a_mission(
+def test_going_to_the_trips_first_is_answered_by_select_a_mission(
     serve: Serve, visit: Visit
 ) -> None:
     """The thesis's testers got lost just here."""

@@ -137,7 +137,7 @@ def test_who_does_not_read_the_answer_is_let_go(monkeypatch: pytest.MonkeyPatch)
     play(scene)
 
 
-def test_many_who_say_nothing_keep_nobody_out(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_many_who_say_nothing_keep_no_client_out(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(crowd, "_MOST", 16)
 
     async def scene(station: Served) -> None:
@@ -256,7 +256,7 @@ def test_who_asks_and_does_not_read_costs_nothing_and_hears_all_of_it_later() ->
     play(scene)
 
 
-def test_it_ends_at_once_whoever_is_connected() -> None:
+def test_it_ends_at_once_with_clients_connected() -> None:
     async def whole() -> None:
         async with served() as station:
 
@@ -304,7 +304,7 @@ def test_a_port_that_is_taken_is_said_in_words() -> None:
         ("\x00", 0, "no such address"),
     ],
 )
-def test_where_nobody_can_listen_is_said_in_words(host: str, port: int, why: str) -> None:
+def test_where_it_cannot_listen_is_said_in_words(host: str, port: int, why: str) -> None:
     with pytest.raises(BadInput, match=why):
         listening(host, port)
 
