@@ -29,7 +29,7 @@ class RegistryError(Exception):
     """
 
     def __init__(self, message: str) -> None:
-        from plutoc_runtime.words import printable
+        from plutoc_runtime.domain.text import printable
 
         super().__init__("\n".join(map(printable, message.split("\n"))))
 
@@ -93,7 +93,7 @@ def _ours() -> object:
 def _theirs(package: str, value: str, load: Callable[[], object]) -> object:
     """Load a package's own code, which may raise anything, or end Python: neither passes for ours."""
     from plutoc.strangers import by_a_person, kept_apart
-    from plutoc_runtime.hooks import said
+    from plutoc_runtime.hooks.calls import said
 
     with kept_apart():
         try:

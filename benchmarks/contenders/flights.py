@@ -16,9 +16,9 @@ from .process import Notes, kernel_says
 from .work import Work, fails
 
 if TYPE_CHECKING:
-    from plutoc_runtime.flight import Flight
-    from plutoc_runtime.kernel import Kernel, Kind
-    from plutoc_runtime.model import Point
+    from plutoc_runtime.domain.model import Point
+    from plutoc_runtime.time.kernel import Kernel, Kind
+    from plutoc_runtime.trips.flight import Flight
 
 HOME: Point = (1.0, 1.0, 0.0)
 """Where all drones stand."""

@@ -9,7 +9,7 @@ from math import dist, radians
 from wrenlib import Radio, State
 
 from pluto_fleet.drones import DroneEvent, DroneSetup, DroneTelemetry, Reports
-from plutoc_runtime.model import Point
+from plutoc_runtime.domain.model import Point
 
 
 class Wren:

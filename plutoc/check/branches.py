@@ -9,7 +9,7 @@ from plutoc.check.flow import Flow, Fork, Frame, Place, is_final
 from plutoc.check.rounds import rounds
 from plutoc.frozen import filled
 from plutoc.graph.model import END, Edge
-from plutoc_runtime.status import IN_GRAPH, Status
+from plutoc_runtime.domain.status import IN_GRAPH, Status
 
 Astray = tuple[Place, Status | None]
 """A place, and the status that it is left with where no edge takes that."""

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping
 
 from plutoc.block import Gate
 from plutoc.check.flow import Facts, Place
-from plutoc_runtime.status import WORST_FIRST, Status
+from plutoc_runtime.domain.status import WORST_FIRST, Status
 
 Came = Mapping[int, Iterable[Place]]
 """The arrivals at one gate, by branch."""

@@ -13,7 +13,7 @@ from plutoc.check.statuses import explore
 from plutoc.check.unflown import unflown
 from plutoc.diagnostic import Diagnostic
 from plutoc.graph.model import END, Edge, Node
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.status import Status
 
 
 def endless(flow: Flow, astray: Collection[str]) -> list[Diagnostic]:

@@ -22,7 +22,7 @@ from plutoc.check.words import (
 from plutoc.diagnostic import Diagnostic, Fix
 from plutoc.edits import is_single, without_arrow
 from plutoc.graph.model import Edge, Graph, Node
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.status import Status
 
 # Where missions come in
 

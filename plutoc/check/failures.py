@@ -10,7 +10,7 @@ from plutoc.check.facts import bound_of
 from plutoc.check.flow import Flow, Place, blocks_of
 from plutoc.diagnostic import Diagnostic
 from plutoc.graph.model import Node
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.status import Status
 
 _MOST_LOOPS = 10
 """So many are shown, each with its way round; nobody reads those of thousands."""

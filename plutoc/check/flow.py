@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 from plutoc.frozen import frozen
 from plutoc.graph.model import Edge, Graph
-from plutoc_runtime.status import IN_GRAPH, Status
+from plutoc_runtime.domain.status import IN_GRAPH, Status
 
 Fork = tuple[str, Status]
 """A block, and a status of it that several edges take."""

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from plutoc.frozen import frozen
 from plutoc.graph.model import Edge, Graph
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.status import Status
 
 
 @frozen

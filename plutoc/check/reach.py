@@ -9,7 +9,7 @@ from plutoc.check.components import behind, components
 from plutoc.check.flow import Flow, is_final, ordered
 from plutoc.diagnostic import Diagnostic
 from plutoc.graph.model import END, START, Edge, Graph, Node
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.status import Status
 
 
 def unreached(flow: Flow, creator: str, missed: Callable[[Node], bool]) -> list[Diagnostic]:

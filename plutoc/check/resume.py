@@ -13,7 +13,7 @@ from heapq import heappop, heappush
 
 from plutoc.check.flow import Facts, Flow, Place
 from plutoc.graph.model import Graph
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.status import Status
 
 _FIRST = frozenset({Status.UNEXECUTED, Status.STANDBY})
 

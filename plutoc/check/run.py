@@ -25,7 +25,7 @@ from plutoc.check.model import Checked
 from plutoc.check.statuses import creation, explore, stop_if_tangled
 from plutoc.diagnostic import Diagnostic, Rejected, in_order
 from plutoc.graph.model import Edge, Graph, Node
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.status import Status
 
 T = TypeVar("T", str, Edge)
 

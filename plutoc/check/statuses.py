@@ -28,7 +28,7 @@ from plutoc.check.unflown import unflown
 from plutoc.diagnostic import Rejected
 from plutoc.frozen import filled
 from plutoc.graph.model import END, START, Edge, Graph
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.status import Status
 
 Places = dict[Place, None]
 """An ordered set."""

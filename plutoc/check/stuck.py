@@ -10,7 +10,7 @@ from plutoc.check.flow import Flow, Fork, Place, is_final
 from plutoc.check.forks import gates_of
 from plutoc.diagnostic import Diagnostic
 from plutoc.graph.model import Node
-from plutoc_runtime.status import IN_GRAPH, Status
+from plutoc_runtime.domain.status import IN_GRAPH, Status
 
 Left = tuple[Node, tuple[Status, ...], Place]
 """A block, the statuses of it that no edge takes, and where it is left with the first of them."""

@@ -10,7 +10,7 @@ from plutoc.check.flow import Fork, Hop, Way, ordered
 from plutoc.diagnostic import Diagnostic, Fix, Related
 from plutoc.graph.model import END, Edge, Graph, Node
 from plutoc.source import Span
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.status import Status
 
 _WIDEST_WAY = 88
 _LONGEST_WAY = 60

@@ -72,7 +72,7 @@ class _Ending:
                 output.tell(f"plutoc: {error}")
                 self.code = USAGE
             case OSError() if error.errno == ENAMETOOLONG:
-                from plutoc_runtime.words import printable
+                from plutoc_runtime.domain.text import printable
 
                 output.tell(f"plutoc: {printable(str(error.filename))}: a name is too long")
                 self.code = USAGE

@@ -26,7 +26,7 @@ from plutoc.emit.write import CannotWrite, compare, write
 from plutoc.source import Source
 from plutoc.terminated import Terminated
 from plutoc_runtime import output
-from plutoc_runtime.words import printable
+from plutoc_runtime.domain.text import printable
 
 FLEET = "fleet.toml"
 

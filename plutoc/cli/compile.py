@@ -32,7 +32,7 @@ from plutoc.emit.recorded import only_forgets
 from plutoc.emit.write import CannotWrite, Changes, Refused, compare, record_of, write
 from plutoc.frozen import filled
 from plutoc.source import Source
-from plutoc_runtime.words import counted, printable
+from plutoc_runtime.domain.text import counted, printable
 
 if TYPE_CHECKING:
     from plutoc.graph.model import Graph

@@ -11,7 +11,7 @@ from plutoc.explain.pages import code_meant, codes, page
 from plutoc.explain.text import render, render_list
 from plutoc.graph.names import near
 from plutoc_runtime import output
-from plutoc_runtime.words import printable
+from plutoc_runtime.domain.text import printable
 
 
 def explain(options: Options) -> int:

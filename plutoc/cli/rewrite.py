@@ -10,7 +10,7 @@ from pathlib import Path
 from plutoc.cli.endings import Unusable
 from plutoc.cli.files import shown
 from plutoc.emit.write import CannotWrite, Change, Changes, write
-from plutoc_runtime.words import printable
+from plutoc_runtime.domain.text import printable
 
 
 def rewrite(path: Path, before: str, after: str) -> None:

@@ -10,7 +10,7 @@ from plutoc.cli.endings import Unusable
 from plutoc.cli.files import read_app
 from plutoc.cli.options import Options
 
-TRIALS = "pluto_fleet.testing"
+TRIALS = "pluto_fleet.trials"
 
 
 def test(options: Options) -> int:

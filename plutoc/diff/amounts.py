@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from plutoc_runtime.quantities import QUANTITIES, UNITS, Type, to_si, units_of
+from plutoc_runtime.domain.quantities import QUANTITIES, UNITS, Type, to_si, units_of
 
 Plain = bool | int | float | str
 

@@ -12,7 +12,7 @@ from plutoc.diff.model import Change
 from plutoc.diff.roles import Role, limited, role
 from plutoc.diff.words import forks as words
 from plutoc.graph.model import Node
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.status import Status
 
 _Forks = dict[tuple[str, Status], Fork]
 

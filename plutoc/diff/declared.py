@@ -12,7 +12,7 @@ from plutoc.diff.settings import same
 from plutoc.diff.words import declared as words
 from plutoc.graph.categories import PARAMS
 from plutoc.graph.model import Action, Category, Graph, Hook, Library
-from plutoc_runtime.actions import BUILT_IN
+from plutoc_runtime.domain.actions import BUILT_IN
 
 
 def app(both: Both) -> Iterator[Change]:

@@ -8,7 +8,7 @@ from plutoc.diff.both import Both
 from plutoc.diff.model import Change
 from plutoc.diff.words import declared as words
 from plutoc.graph.model import Graph, Node
-from plutoc_runtime.fields import Entity, Field
+from plutoc_runtime.domain.fields import Entity, Field
 
 _Fields = dict[tuple[Entity, str], tuple[Field, Node]]
 

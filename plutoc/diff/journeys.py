@@ -11,7 +11,7 @@ from plutoc.diff.words import routes as words
 from plutoc.frozen import frozen
 from plutoc.graph.model import END, Node
 from plutoc.source import Span
-from plutoc_runtime.status import IN_GRAPH, Status
+from plutoc_runtime.domain.status import IN_GRAPH, Status
 
 _WATCH = (Role.WATCHES, Role.LIMITS)
 

@@ -8,7 +8,7 @@ from plutoc.check.model import Checked
 from plutoc.diagnostic import Diagnostic
 from plutoc.frozen import frozen
 from plutoc.source import Source, Span
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.status import Status
 
 Fact = bool | int | float | str | tuple[str, ...] | None
 """What a change leads from, or to: a value in SI units, names, or None where there is nothing."""

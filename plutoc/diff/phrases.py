@@ -9,7 +9,7 @@ from plutoc.check.facts import bound_of
 from plutoc.diff.both import Side
 from plutoc.diff.roles import Role, awaited, role
 from plutoc.graph.model import END, Node
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.status import Status
 
 _MOST_WORDS = 12
 

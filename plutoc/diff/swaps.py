@@ -9,7 +9,7 @@ from plutoc.diff.both import Both
 from plutoc.diff.journeys import Reroute, places
 from plutoc.diff.model import Change
 from plutoc.diff.words import routes as words
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.status import Status
 
 _Swaps = dict[tuple[str, str], dict[Status, Reroute]]
 """The step that came first and the one that comes first now, by their new names: for each status

@@ -11,7 +11,7 @@ from plutoc.diff.model import Change, Importance
 from plutoc.diff.roles import awaited
 from plutoc.diff.words import blocks as words
 from plutoc.graph.model import Node
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.status import Status
 
 _HELD, _UNMENDED, _UNBOUNDED = "P2054", "P2055", "P2056"
 _NAME = re.compile(r"`(\w+)`")

@@ -12,8 +12,8 @@ from plutoc.emit.imports import Import
 from plutoc.emit.walk import branches, steps
 from plutoc.graph.model import Node
 from plutoc.plan.model import Call, Join, Plan, Watch
-from plutoc_runtime.status import IN_GRAPH
-from plutoc_runtime.watching import watch
+from plutoc_runtime.domain.status import IN_GRAPH
+from plutoc_runtime.flow.run import watch
 
 RESERVED = frozenset(
     {

@@ -11,7 +11,7 @@ from plutoc.check.model import Checked
 from plutoc.emit.embed import OURS
 from plutoc.emit.python import items
 from plutoc.graph.model import Node
-from plutoc_runtime.status import IN_GRAPH, Status
+from plutoc_runtime.domain.status import IN_GRAPH, Status
 
 
 def declared_of(checked: Checked) -> Mapping[str, str]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from plutoc.emit.modules import EmbedError
 from plutoc.graph.model import Graph
-from plutoc_runtime.fields import PYTHON, Entity, Field
+from plutoc_runtime.domain.fields import PYTHON, Entity, Field
 
 
 def fields_of(graph: Graph) -> tuple[Field, ...]:

@@ -18,8 +18,8 @@ from plutoc.emit.walk import branches, nodes, steps
 from plutoc.frozen import frozen
 from plutoc.graph.model import Action, Graph, Parameter
 from plutoc.plan.model import Arrived, Body, Plan
-from plutoc_runtime.fields import Entity, Field
-from plutoc_runtime.status import IN_GRAPH
+from plutoc_runtime.domain.fields import Entity, Field
+from plutoc_runtime.domain.status import IN_GRAPH
 
 
 @frozen
@@ -97,24 +97,24 @@ def _asked_in_loops(body: Body) -> bool:
 
 def _imports(graph: Graph, written: str) -> list[Import]:
     imports = [
-        *names("._runtime.actions", "BUILT_IN"),
-        *names("._runtime.app", "App"),
-        *names("._runtime.run", "Run"),
-        *names("._runtime.status", "Status", *_statuses(written)),
+        *names("._runtime.domain.actions", "BUILT_IN"),
+        *names("._runtime.domain.app", "App"),
+        *names("._runtime.flow.run", "Run"),
+        *names("._runtime.domain.status", "Status", *_statuses(written)),
         *names(".model", "CATEGORIES", "FIELDS", "Mission", "Trip"),
     ]
     if "hooks." in written:
         imports += names(".", "hooks")
     if "declared(" in written:
-        imports += names("._runtime.declared", "declared")
+        imports += names("._runtime.flow.declared", "declared")
     if "partial(" in written:
         imports += names("functools", "partial")
     if graph.actions:
-        imports += names("._runtime.actions", "Action")
+        imports += names("._runtime.domain.actions", "Action")
     if any(action.parameters for action in graph.actions):
         imports += [
-            *names("._runtime.actions", "Parameter"),
-            *names("._runtime.quantities", "Type"),
+            *names("._runtime.domain.actions", "Parameter"),
+            *names("._runtime.domain.quantities", "Type"),
         ]
     return imports
 

@@ -13,8 +13,8 @@ from plutoc.emit.render import render
 from plutoc.emit.stubs import Stub, in_order, stubs
 from plutoc.frozen import frozen
 from plutoc.graph.model import Graph
-from plutoc_runtime.fields import Entity
-from plutoc_runtime.quantities import PYTHON
+from plutoc_runtime.domain.fields import Entity
+from plutoc_runtime.domain.quantities import PYTHON
 
 MISSION_OFFERS = (
     "`name`, `status`, `reason`, `trips` (still to do, in order), `completed_trips`, `current` "

@@ -10,7 +10,7 @@ from plutoc.frozen import frozen
 from plutoc.graph import model as graph_model
 from plutoc.graph.categories import PARAMS
 from plutoc.graph.model import Graph
-from plutoc_runtime.fields import Entity, Field
+from plutoc_runtime.domain.fields import Entity, Field
 
 
 @frozen
@@ -65,12 +65,12 @@ def model_file(graph: Graph) -> str:
 def _imports(fields: tuple[Field, ...]) -> list[Import]:
     imports = [
         *names("dataclasses", "dataclass"),
-        *names("._runtime", "model", "results"),
-        *names("._runtime.fields", "Field"),
-        *names("._runtime.model", "Category"),
+        *names("._runtime.domain", "model", "results"),
+        *names("._runtime.domain.fields", "Field"),
+        *names("._runtime.domain.model", "Category"),
     ]
     if fields:
-        imports += names("._runtime.fields", "Entity", "FieldType")
+        imports += names("._runtime.domain.fields", "Entity", "FieldType")
     taken = {field.name for field in fields}
     if shadows(taken, (python_type(field) for field in fields)):
         alias = builtins_alias(taken)

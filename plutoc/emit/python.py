@@ -10,7 +10,7 @@ from pathlib import Path
 from plutoc.emit.memory import edition, remembered
 from plutoc.graph.model import Plain
 from plutoc.installed import fact
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.status import Status
 
 LINE_LENGTH = 100
 

@@ -149,7 +149,7 @@ def _newest(written: Iterable[str]) -> str | None:
 def _read(data: bytes) -> Lock:
     import tomllib
 
-    from plutoc_runtime.toml import line_of_long_key
+    from plutoc_runtime.alone.toml import line_of_long_key
 
     try:
         text = data.decode()

@@ -30,8 +30,8 @@ from plutoc.plan.model import (
     Switch,
     Watch,
 )
-from plutoc_runtime.fields import Entity, Field
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.fields import Entity, Field
+from plutoc_runtime.domain.status import Status
 
 
 @frozen

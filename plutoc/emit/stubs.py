@@ -7,8 +7,8 @@ from plutoc.check.model import Checked
 from plutoc.emit.python import annotation, literal, status_tuple
 from plutoc.frozen import frozen
 from plutoc.graph.model import Action, Graph, Hook, Parameter
-from plutoc_runtime.quantities import PYTHON, Type
-from plutoc_runtime.status import IN_GRAPH, Status
+from plutoc_runtime.domain.quantities import PYTHON, Type
+from plutoc_runtime.domain.status import IN_GRAPH, Status
 
 UNITS = {
     Type.MASS: "in kilograms",

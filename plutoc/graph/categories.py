@@ -11,7 +11,7 @@ from plutoc.graph.unclear import Unclear
 from plutoc.graph.values import typed, written
 from plutoc.source import Source
 from plutoc.syntax.tree import Argument, CategoryDecl
-from plutoc_runtime.quantities import Type
+from plutoc_runtime.domain.quantities import Type
 
 IMPLICIT = "drone"
 """The name of the category of an app that declares none."""

@@ -12,8 +12,8 @@ from enum import Enum
 from plutoc.frozen import frozen
 from plutoc.graph.model import END, START
 from plutoc.syntax.newlines import SETTINGS, WORDS
-from plutoc_runtime.quantities import UNITS, Type
-from plutoc_runtime.status import IN_GRAPH
+from plutoc_runtime.domain.quantities import UNITS, Type
+from plutoc_runtime.domain.status import IN_GRAPH
 
 
 class Kind(Enum):

@@ -32,7 +32,7 @@ from plutoc.plan.model import (
     Switch,
     Watch,
 )
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.status import Status
 
 Statuses = frozenset[Status]
 

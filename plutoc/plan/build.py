@@ -14,7 +14,7 @@ from plutoc.plan.model import Arrived, Body, Branch, Call, End, Join, Plan
 from plutoc.plan.places import asked_once
 from plutoc.plan.shape import Shape, shape
 from plutoc.plan.structure import Around, Hopeless, Unstructured, Writer
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.status import Status
 
 
 def build(checked: Checked) -> Plan:

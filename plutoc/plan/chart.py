@@ -15,7 +15,7 @@ from plutoc.check.model import Checked
 from plutoc.frozen import frozen
 from plutoc.graph.model import END, Edge
 from plutoc.plan.model import Place
-from plutoc_runtime.status import IN_GRAPH, WORST_FIRST, Status
+from plutoc_runtime.domain.status import IN_GRAPH, WORST_FIRST, Status
 
 Leads = Mapping[Status, tuple[int, "Spot | None", str]]
 """For each status that leaves a spot: the edge's number, the target, and its name."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 from plutoc.check.model import Checked
 from plutoc.frozen import frozen
 from plutoc.graph.model import Node
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.status import Status
 
 Place = str | None
 """The block at which an interrupted mission goes on; None: it begins."""

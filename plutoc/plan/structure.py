@@ -15,7 +15,7 @@ from plutoc.plan.bodies import breaks, continues, falls, switch, without_last_co
 from plutoc.plan.chart import Kind, Spot, Way
 from plutoc.plan.model import Arm, Body, Break, Continue, End, Goto, Loop, Step, Switch
 from plutoc.plan.shape import Shape, ahead, round_of
-from plutoc_runtime.status import IN_GRAPH, Status
+from plutoc_runtime.domain.status import IN_GRAPH, Status
 
 LOOPS = 12
 """Loops in loops; Python itself compiles no more than twenty."""

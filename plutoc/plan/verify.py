@@ -28,7 +28,7 @@ from plutoc.plan.model import (
 )
 from plutoc.plan.places import GOES_ON, comers
 from plutoc.plan.walk import walk
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.status import Status
 
 FLOW = "the flow"
 

@@ -31,7 +31,7 @@ from plutoc.plan.model import (
     Switch,
     Watch,
 )
-from plutoc_runtime.status import IN_GRAPH, Status
+from plutoc_runtime.domain.status import IN_GRAPH, Status
 
 ENTERS, ARRIVED = "interrupted at ", "arrived at "
 """What stands for the block that was left, before an interrupted mission has come to any."""

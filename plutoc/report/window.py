@@ -10,7 +10,7 @@ from plutoc.report.cells import columns, shown
 from plutoc.report.marks import Mark, under
 from plutoc.report.paint import BLUE, paint
 from plutoc.source import Source, Span
-from plutoc_runtime.words import printable
+from plutoc_runtime.domain.text import printable
 
 _NEAR = 2
 """Places so many lines apart share a window."""

@@ -11,26 +11,26 @@ from typing import TYPE_CHECKING, Any, cast
 
 import pytest
 
-from pluto_fleet import simulate as library
-from plutoc_runtime import alone
-from plutoc_runtime.actions import Action, Plain
-from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.errors import BadInput, Failure, FlightFailed
-from plutoc_runtime.faults import CARRYING_HOME, OUTAGE, Faults
-from plutoc_runtime.ideal import IdealNavigation
-from plutoc_runtime.kernel import FLEET, Cancelled
-from plutoc_runtime.model import AfterTrip, Category, Drone, Item, Point, Trip
-from plutoc_runtime.session import Outcome, Session
-from plutoc_runtime.signals import Signal
-from plutoc_runtime.status import DroneStatus, Status
-from plutoc_runtime.virtual import VirtualTime
+from pluto_fleet.flight import simulate as library
+from plutoc_runtime.alone import simulate as alone
+from plutoc_runtime.alone.faults import CARRYING_HOME, OUTAGE, Faults
+from plutoc_runtime.alone.ideal import IdealNavigation
+from plutoc_runtime.domain.actions import Action, Plain
+from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.domain.errors import BadInput, Cancelled, Failure, FlightFailed
+from plutoc_runtime.domain.model import AfterTrip, Category, Drone, Item, Point, Trip
+from plutoc_runtime.domain.status import DroneStatus, Status
+from plutoc_runtime.flow.session import Outcome, Session
+from plutoc_runtime.time.future import Future
+from plutoc_runtime.time.kernel import FLEET
+from plutoc_runtime.time.virtual import VirtualTime
 from tests.flying import A_WEEK, Example
 from tests.runtime import apps
 
 if TYPE_CHECKING:
-    from plutoc_runtime.app import App
-    from plutoc_runtime.context import Context
-    from plutoc_runtime.flight import Flight
+    from plutoc_runtime.domain.app import App
+    from plutoc_runtime.hooks.context import Context
+    from plutoc_runtime.trips.flight import Flight
 
 ROUGH = Faults(crash=0.03, link=0.15, action=0.15, battery=0.1)
 SEEDS = range(6)
@@ -161,7 +161,7 @@ class Told:
 
 def reported(job: Told, faults: Faults = NO_FAULTS) -> tuple[object, IdealNavigation]:
     """Fly one job, and return what was reported of it."""
-    kernel, over = VirtualTime(), Signal[object]()
+    kernel, over = VirtualTime(), Future[object]()
     navigation = IdealNavigation(kernel, apps.app(apps.flow()), apps.fleet(), faults, 3)
     navigation.fly(cast("Flight", job), over.set)
     assert kernel.run(over)

@@ -16,7 +16,7 @@ from pluto_fleet.crtp.drone import Build, SimulatedCrazyflie
 from pluto_fleet.crtp.record import Deed, InMemory
 from pluto_fleet.crtp.server import Server
 from pluto_fleet.drones import DroneEvent, DroneSetup, LinkLost
-from plutoc_runtime.model import Point
+from plutoc_runtime.domain.model import Point
 from tests.kill.lives import eventually
 
 FAST = 1.0

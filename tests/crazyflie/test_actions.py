@@ -10,7 +10,7 @@ import pytest
 
 from pluto_fleet.crtp.camera import camera, picture, port_of
 from pluto_fleet.drones import ActionNotDone, Rejected
-from plutoc_runtime.model import Item, Photo
+from plutoc_runtime.domain.model import Item, Photo
 from tests.crazyflie.hangar import FAST, Flight, as_tests, hangar
 
 pytest.importorskip("cflib")

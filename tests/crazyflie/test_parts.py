@@ -27,8 +27,8 @@ from pluto_fleet.crtp.body import Body
 from pluto_fleet.crtp.profile import State as Start
 from pluto_fleet.crtp.profile import profile
 from pluto_fleet.drones import BATTERY_LOW, CRASHED, LOCKED, LinkLost
-from plutoc_runtime.errors import BadInput
-from plutoc_runtime.model import Point
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.model import Point
 
 FLYING, TUMBLED, LOCKED_BIT = 1 << 4 | 1 << 8, 1 << 5, 1 << 6
 

@@ -17,7 +17,7 @@ from pluto_fleet.crtp.ports import NULL
 from pluto_fleet.crtp.profile import State, profile
 from pluto_fleet.crtp.record import InMemory
 from pluto_fleet.crtp.server import HOST, Server
-from plutoc_runtime.errors import BadInput
+from plutoc_runtime.domain.errors import BadInput
 from tests.crtp.starting import COMMAND
 
 ECHO = b"\xfcare you there"

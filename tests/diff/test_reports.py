@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from plutoc.diff.amounts import amount, code
 from plutoc.report.changes import json, markdown, text
-from plutoc_runtime.quantities import UNITS, Type, to_si
+from plutoc_runtime.domain.quantities import UNITS, Type, to_si
 from tests.diff.pairs import EXAMPLES, difference, edited
 
 PLAIN = EXAMPLES["drugs_distribution"]

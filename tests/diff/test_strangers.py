@@ -10,8 +10,8 @@ from plutoc.graph.resolve import resolve
 from plutoc.registry import STD, Blocks, blocks_of
 from plutoc.source import Source
 from plutoc.syntax.parse import parse
-from plutoc_runtime.quantities import Type
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.quantities import Type
+from plutoc_runtime.domain.status import Status
 from tests.diff.pairs import edited
 
 

@@ -7,8 +7,8 @@ from collections.abc import AsyncIterator, Mapping, Sequence
 from math import dist, inf
 
 from pluto_fleet.drones import CRASHED, Crashed, DroneEvent, DroneTelemetry, LinkLost, Rejected
-from plutoc_runtime.actions import Plain
-from plutoc_runtime.model import Item, Point
+from plutoc_runtime.domain.actions import Plain
+from plutoc_runtime.domain.model import Item, Point
 from tests.drones.jumping import the_loop
 
 

@@ -14,11 +14,11 @@ import pytest
 from pluto_fleet.drones.feeding import Feeding
 from pluto_fleet.drones.real_fleet import Wanted
 from pluto_fleet.drones.team import Team, TeamDrone
-from pluto_fleet.realtime import RealTime
-from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.errors import FlightFailed
-from plutoc_runtime.kernel import FLEET, Task
-from plutoc_runtime.model import Category
+from pluto_fleet.process.realtime import RealTime
+from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.domain.errors import FlightFailed
+from plutoc_runtime.domain.model import Category
+from plutoc_runtime.time.kernel import FLEET, Task
 from tests.drones.fakes import FakeDrone
 from tests.drones.jumping import the_loop
 

@@ -11,7 +11,7 @@ import pytest
 
 from pluto_fleet.drones import BATTERY_LOW, LINK_LOST, LOCKED, NavigationError
 from pluto_fleet.gateway.gateway import Gateway
-from pluto_fleet.standing import Down
+from pluto_fleet.jobs.reports import Down
 from tests.drones.fakes import FakeDrone
 from tests.drones.jumping import run, the_loop
 from tests.drones.teams import Flown

@@ -8,8 +8,8 @@ import pytest
 
 from pluto_fleet.drones import Rejected
 from pluto_fleet.drones.real_fleet import Wanted
-from plutoc_runtime.errors import Failure, FlightFailed
-from plutoc_runtime.model import Category, Item
+from plutoc_runtime.domain.errors import Failure, FlightFailed
+from plutoc_runtime.domain.model import Category, Item
 from tests.drones.fakes import FakeDrone
 from tests.drones.jumping import run, the_loop
 from tests.drones.teams import flying

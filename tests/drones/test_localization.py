@@ -12,10 +12,10 @@ from pluto_fleet.drones.feeding import Feeding
 from pluto_fleet.drones.making import make_team
 from pluto_fleet.drones.real_fleet import RealDrone, RealFleet
 from pluto_fleet.drones.team import TeamDrone
-from pluto_fleet.realtime import RealTime
-from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.errors import BadInput, Failure
-from plutoc_runtime.model import Point
+from pluto_fleet.process.realtime import RealTime
+from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.domain.errors import BadInput, Failure
+from plutoc_runtime.domain.model import Point
 from tests.drones.fakes import FakeDrone
 from tests.drones.jumping import run, the_loop
 from tests.drones.teams import SCOUT, flying

@@ -10,7 +10,7 @@ from typing import cast
 import pytest
 
 from pluto_fleet.drones import BATTERY_LOW, DroneEvent, NavigationError
-from plutoc_runtime.errors import Failure, FlightFailed
+from plutoc_runtime.domain.errors import Failure, FlightFailed
 from tests.drones.fakes import FakeDrone
 from tests.drones.jumping import run, the_loop
 from tests.drones.teams import Flown, flying

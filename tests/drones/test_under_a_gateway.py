@@ -17,9 +17,9 @@ from pluto_fleet.gateway.file_ledger import FileLedger
 from pluto_fleet.gateway.gateway import Gateway
 from pluto_fleet.gateway.server import Server
 from pluto_fleet.gateway.wire import line
-from plutoc_runtime.errors import Failure, FlightFailed
-from plutoc_runtime.model import Point
-from plutoc_runtime.signals import Signal
+from plutoc_runtime.domain.errors import Failure, FlightFailed
+from plutoc_runtime.domain.model import Point
+from plutoc_runtime.time.future import Future
 from tests.drones.fakes import FakeDrone
 from tests.drones.jumping import run, the_loop
 from tests.drones.teams import FIELD, Flown, flying
@@ -193,7 +193,7 @@ def test_a_goodbye_leaves_none_behind_in_the_air(tmp_path: Path, back: bool) -> 
 
     async def flight() -> None:
         async with commanded(tmp_path, 2, PATIENCE) as (flown, gateway):
-            over, link, lost = Signal[None](), gateway.link(1), flown.drones["cf2"]
+            over, link, lost = Future[None](), gateway.link(1), flown.drones["cf2"]
             ending = Ending(gateway, over, settings(real=NO_DRONES, speed=1.0))
             server = Server(gateway, flown.log.append, ending.goodbye)
             ending.server = server

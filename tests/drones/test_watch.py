@@ -16,8 +16,8 @@ from pluto_fleet.drones import (
     Rejected,
 )
 from pluto_fleet.drones.stray import strayed
-from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.errors import Failure
+from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.domain.errors import Failure
 from tests.drones.fakes import FakeDrone
 from tests.drones.jumping import run, the_loop
 from tests.drones.teams import FIELD, Flown, flying

@@ -119,7 +119,7 @@ def test_simulating_loads_nothing_of_the_station(tmp_path: Path) -> None:
     )
     code_and_modules = run(folder, "-c", code).splitlines()[-1].split()
     assert code_and_modules[0] == "0"
-    assert "plain._runtime.engine" in code_and_modules
+    assert "plain._runtime.flow.engine" in code_and_modules
     assert not [one for one in code_and_modules if "pluto_fleet.station" in one or "uvicorn" in one]
 
 

@@ -18,8 +18,8 @@ from plutoc.compile import compile_source
 from plutoc.emit.package import Package
 from plutoc.source import Source
 from plutoc_blocks import BLOCKS
-from plutoc_runtime.errors import BadInput
-from plutoc_runtime.fields import Entity
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.fields import Entity
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 NUMBERS = itertools.count()

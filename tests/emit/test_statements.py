@@ -33,7 +33,7 @@ from plutoc.plan.model import (
     Switch,
 )
 from plutoc.source import Span
-from plutoc_runtime.status import IN_GRAPH, Status
+from plutoc_runtime.domain.status import IN_GRAPH, Status
 
 NUMBERS = count()
 

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from plutoc.block import Gate
 from plutoc.graph.model import Node
 from plutoc.plan.model import Body, Call, Dispatch, Join, Loop, Plan, Step, Switch
-from plutoc_runtime.trace import Event
+from plutoc_runtime.domain.trace import Event
 from tests.equivalence import strangers
 from tests.equivalence.fly import Record
 from tests.equivalence.worlds import World

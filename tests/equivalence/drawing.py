@@ -8,7 +8,7 @@ from random import Random
 
 from plutoc.block import Block
 from plutoc_blocks import BLOCKS
-from plutoc_runtime.status import IN_GRAPH, Status
+from plutoc_runtime.domain.status import IN_GRAPH, Status
 from tests.equivalence import strangers
 
 U, R, S, C, F = IN_GRAPH

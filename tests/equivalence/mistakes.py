@@ -25,14 +25,14 @@ from plutoc.plan.passes.watch import watch as watch_pass
 from plutoc.plan.rewrite import rewritten
 from plutoc_blocks.gate_fifo.step import pass_first
 from plutoc_blocks.timer_monitor.step import timer_limit
-from plutoc_runtime.signals import Signal
-from plutoc_runtime.watching import watch
+from plutoc_runtime.flow.run import watch
+from plutoc_runtime.time.future import Future
 
 if TYPE_CHECKING:
-    from plutoc_runtime.flight import Flight
-    from plutoc_runtime.run import Branch, Run
-    from plutoc_runtime.status import Status
-    from plutoc_runtime.watching import Limit
+    from plutoc_runtime.domain.status import Status
+    from plutoc_runtime.flow.run import Branch, Run
+    from plutoc_runtime.trips.deadlines import Limit
+    from plutoc_runtime.trips.flight import Flight
 
 
 def swap_arms(step: Step, _: Step) -> Body:
@@ -168,7 +168,7 @@ async def pass_first_and_leave_the_rest(
     run: Run[Any], status: Status, *branches: Branch[Any]
 ) -> Status:
     """A gate that forgets to call the other branches off."""
-    first: Signal[Any] = Signal()
+    first: Future[Any] = Future()
     for clone in run.fork(status, branches):
         clone.watch(first.set)
     arrived: Status = (await first).result()

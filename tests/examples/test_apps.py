@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from plutoc.cli import main
-from plutoc_runtime.trace import Event
+from plutoc_runtime.domain.trace import Event
 from tests.flying import EXAMPLES, MISHAPS, Example, built
 
 SEEDS = range(10)

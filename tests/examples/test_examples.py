@@ -13,7 +13,7 @@ from xml.etree import ElementTree
 
 import pytest
 
-from pluto_fleet.testing.invariants import violations
+from pluto_fleet.trials.invariants import violations
 from plutoc.cli import main
 from tests.flying import EXAMPLES, MISHAPS, NAMES, Example, compiled
 

@@ -17,7 +17,7 @@ from pluto_fleet.crtp import process
 from pluto_fleet.crtp.record import Deed, Place, deeds_in, trace_in
 from pluto_fleet.journal.place import gateway_folder
 from pluto_fleet.journal.reader import Reader
-from plutoc_runtime.errors import BadInput
+from plutoc_runtime.domain.errors import BadInput
 from tests.kill.lives import eventually
 from tests.kill.trial import end_gateway, gateway_of
 

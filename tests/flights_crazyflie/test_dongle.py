@@ -9,8 +9,8 @@ import pytest
 
 from pluto_fleet.crtp.drone import Build
 from pluto_fleet.crtp.record import InMemory
-from plutoc_runtime.errors import Failure, FlightFailed
-from plutoc_runtime.model import Point
+from plutoc_runtime.domain.errors import Failure, FlightFailed
+from plutoc_runtime.domain.model import Point
 from tests.crtp.radio import Ether, plugged_in
 from tests.flights_crazyflie.team import commanded, no_thread_is_left
 

@@ -18,12 +18,12 @@ from math import dist
 from pathlib import Path
 from tempfile import mkdtemp
 
-from pluto_fleet.asking import ask, note_of
 from pluto_fleet.crazyflie.courses import SHORTEST, seconds_for
 from pluto_fleet.crazyflie.pace import AS_IT_COMES
 from pluto_fleet.crtp.record import Deed, Point
-from pluto_fleet.drones.member import CLIMB_LIMIT
+from pluto_fleet.drones.vehicle import CLIMB_LIMIT
 from pluto_fleet.journal.values import point_of
+from pluto_fleet.process.asking import ask, note_of
 from tests.apart import apart
 from tests.flights_crazyflie.flight import Flight
 from tests.flights_crazyflie.judge import astray, dropped, left_in_the_air, nearest

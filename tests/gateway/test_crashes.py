@@ -11,14 +11,14 @@ from hypothesis import strategies as st
 
 from pluto_fleet.gateway.file_ledger import FileLedger
 from pluto_fleet.gateway.gateway import Gateway
-from pluto_fleet.gateway.line import LOST, Line
 from pluto_fleet.gateway.link import Link
+from pluto_fleet.gateway.lossy_line import LOST, Line
+from pluto_fleet.jobs.reports import Down, JobState
 from pluto_fleet.simulation.drones import Deed
 from pluto_fleet.simulation.radio import Radio
-from pluto_fleet.standing import Down, JobState
-from plutoc_runtime.errors import Failure, FlightFailed
-from plutoc_runtime.kernel import FLEET
-from plutoc_runtime.virtual import VirtualTime
+from plutoc_runtime.domain.errors import Failure, FlightFailed
+from plutoc_runtime.time.kernel import FLEET
+from plutoc_runtime.time.virtual import VirtualTime
 from tests.gateway.flights import Field, Task
 from tests.runtime.simulation.flights import fly
 

@@ -12,10 +12,10 @@ import pytest
 from pluto_fleet.gateway.file_ledger import FileLedger
 from pluto_fleet.gateway.process import LEDGER
 from pluto_fleet.gateway.starting import cut_directly
+from pluto_fleet.jobs.reports import Down
 from pluto_fleet.simulation.keeping import DRONES
-from pluto_fleet.standing import Down
-from plutoc_runtime.errors import BadInput, Failure, FlightFailed
-from plutoc_runtime.kernel import FLEET
+from plutoc_runtime.domain.errors import BadInput, Failure, FlightFailed
+from plutoc_runtime.time.kernel import FLEET
 from tests.gateway.flights import THERE, Field, Task
 from tests.gateway.processes import Brain, pid, played
 from tests.runtime.simulation.flights import failure, fly

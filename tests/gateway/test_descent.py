@@ -10,13 +10,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pluto_fleet.standing import Down, JobState
-from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.errors import Failure
-from plutoc_runtime.faults import Faults
-from plutoc_runtime.kernel import FLEET
-from plutoc_runtime.motion import Charge
-from plutoc_runtime.virtual import VirtualTime
+from pluto_fleet.jobs.reports import Down, JobState
+from plutoc_runtime.alone.faults import Faults
+from plutoc_runtime.alone.motion import Charge
+from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.domain.errors import Failure
+from plutoc_runtime.time.kernel import FLEET
+from plutoc_runtime.time.virtual import VirtualTime
 from tests.gateway.flights import Field, Task
 from tests.runtime.simulation.flights import fly
 

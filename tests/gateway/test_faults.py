@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import pytest
 
-from pluto_fleet.gateway.line import LOST, Line
+from pluto_fleet.gateway.lossy_line import LOST, Line
+from pluto_fleet.jobs.reports import Down, JobState
 from pluto_fleet.simulation.radio import ANSWER, COMMAND, Radio
-from pluto_fleet.standing import Down, JobState
-from plutoc_runtime.errors import Failure, FlightFailed
-from plutoc_runtime.kernel import FLEET
-from plutoc_runtime.virtual import VirtualTime
+from plutoc_runtime.domain.errors import Failure, FlightFailed
+from plutoc_runtime.time.kernel import FLEET
+from plutoc_runtime.time.virtual import VirtualTime
 from tests.gateway.flights import Field, Task
 from tests.runtime.simulation.flights import failure, fly
 

@@ -5,22 +5,22 @@ from __future__ import annotations
 import pytest
 
 from pluto_fleet.gateway.link import Busy
-from pluto_fleet.standing import Down, JobState, RollCall
-from plutoc_runtime.errors import BadInput, Failure, FlightFailed
-from plutoc_runtime.faults import Faults
-from plutoc_runtime.kernel import FLEET
-from plutoc_runtime.virtual import VirtualTime
+from pluto_fleet.jobs.reports import Down, FleetReport, JobState
+from plutoc_runtime.alone.faults import Faults
+from plutoc_runtime.domain.errors import BadInput, Failure, FlightFailed
+from plutoc_runtime.time.kernel import FLEET
+from plutoc_runtime.time.virtual import VirtualTime
 from tests.gateway.flights import PILLS, THERE, Field, Task
 from tests.runtime.simulation.flights import failure, fly
 
 
-def called(field: Field) -> RollCall:
+def called(field: Field) -> FleetReport:
     """Call the roll through a new link."""
     assert isinstance(field.kernel, VirtualTime)
     return fly(field.kernel, field.gateway.link(99).call())
 
 
-def states(roll: RollCall) -> dict[str, JobState]:
+def states(roll: FleetReport) -> dict[str, JobState]:
     """Return how far each job is."""
     return {id: entry.state for id, entry in roll.jobs.items()}
 

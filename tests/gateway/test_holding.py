@@ -1,4 +1,4 @@
-"""No two processes command one drone, wherever the folders of their journals are."""
+"""No two processes command one drone, wherever the folders of their journals are are."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from threading import Timer
 
 import pytest
 
-from pluto_fleet.gateway.holding import Held, holding
-from plutoc_runtime.errors import BadInput
+from pluto_fleet.gateway.drone_lock import Held, holding
+from plutoc_runtime.domain.errors import BadInput
 
 ROOT = Path(__file__).parents[2]
 RADIO = "radio://0/80/2M/E7E7E7E7E7"
@@ -135,7 +135,7 @@ def _hold(folder: Path | None, **drones: str) -> None:
 def _holder(folder: Path, uri: str) -> subprocess.Popen[bytes]:
     """Return a process that has taken a drone's lock."""
     program = (
-        "import sys, pathlib; from pluto_fleet.gateway.holding import holding\n"
+        "import sys, pathlib; from pluto_fleet.gateway.drone_lock import holding\n"
         "with holding({'cf1': sys.argv[1]}, pathlib.Path(sys.argv[2])):\n"
         "    print('taken', flush=True); sys.stdin.read()\n"
     )

@@ -10,9 +10,9 @@ import pytest
 
 from pluto_fleet.simulation.keeping import DEEDS, DRONES, Keeper
 from pluto_fleet.simulation.moments import Moment, this_moment
-from plutoc_runtime.errors import Failure, FlightFailed
-from plutoc_runtime.faults import Faults
-from plutoc_runtime.kernel import FLEET
+from plutoc_runtime.alone.faults import Faults
+from plutoc_runtime.domain.errors import Failure, FlightFailed
+from plutoc_runtime.time.kernel import FLEET
 from tests.gateway.flights import PILLS, THERE, Field, Task
 from tests.runtime.simulation.flights import failure, fly
 

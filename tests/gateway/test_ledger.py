@@ -9,10 +9,10 @@ from pathlib import Path
 import pytest
 
 from pluto_fleet.gateway.file_ledger import FileLedger
-from pluto_fleet.standing import Entry, JobState
-from plutoc_runtime.errors import Failure, FlightFailed
-from plutoc_runtime.model import Photo
-from plutoc_runtime.virtual import VirtualTime
+from pluto_fleet.jobs.reports import Entry, JobState
+from plutoc_runtime.domain.errors import Failure, FlightFailed
+from plutoc_runtime.domain.model import Photo
+from plutoc_runtime.time.virtual import VirtualTime
 from tests.gateway.flights import Field, Task
 from tests.runtime.simulation.flights import fly
 

@@ -14,10 +14,10 @@ import pytest
 from pluto_fleet.gateway import remote, starting
 from pluto_fleet.gateway.process import LOG
 from pluto_fleet.gateway.starting import connect, let_end, speed_in, still_runs, stop_directly
-from pluto_fleet.realtime import RealTime
-from pluto_fleet.standing import Down, JobState
-from plutoc_runtime.errors import BadInput, Failure, FlightFailed
-from plutoc_runtime.model import Photo
+from pluto_fleet.jobs.reports import Down, JobState
+from pluto_fleet.process.realtime import RealTime
+from plutoc_runtime.domain.errors import BadInput, Failure, FlightFailed
+from plutoc_runtime.domain.model import Photo
 from tests.gateway.flights import THERE, Task
 from tests.gateway.processes import SPEED, Brain, deeds, pid, played, settings
 

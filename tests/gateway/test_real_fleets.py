@@ -14,14 +14,14 @@ from pluto_fleet.cli.flights import Flight, aloft, may_hover
 from pluto_fleet.cli.stand_ins import who_is_missing, with_stand_ins
 from pluto_fleet.drones.real_fleet import RealDrone, Wanted, real_data, real_fleet, real_of
 from pluto_fleet.files.fleet import DroneEntry, FleetFile
+from pluto_fleet.jobs.reports import DroneReport
 from pluto_fleet.simulation.drones import SimulatedNavigation
-from pluto_fleet.standing import Standing
-from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.changes import trip_data
-from plutoc_runtime.errors import BadInput
-from plutoc_runtime.faults import Faults
-from plutoc_runtime.model import Drone, Point
-from plutoc_runtime.status import DroneStatus, Status
+from plutoc_runtime.alone.faults import Faults
+from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.mission_data import trip_data
+from plutoc_runtime.domain.model import Drone, Point
+from plutoc_runtime.domain.status import DroneStatus, Status
 from tests.runtime import apps
 from tests.runtime.living import Living, enterable
 
@@ -128,10 +128,10 @@ class Unready:
         self.unready = {*drones}
         monkeypatch.setattr(SimulatedNavigation, "roll_call", self.answer)
 
-    async def answer(self, drone: str) -> Standing:
+    async def answer(self, drone: str) -> DroneReport:
         """Answer the roll call."""
         problems = ("its battery is too low: 3.5 V",) if drone in self.unready else ()
-        return Standing(
+        return DroneReport(
             drone=drone,
             reached=True,
             location=(0.5, 0.5, 0.0),

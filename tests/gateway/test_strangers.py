@@ -15,12 +15,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pluto_fleet.asking import Nobody
 from pluto_fleet.gateway.process import LOG, NOTE
 from pluto_fleet.gateway.starting import start, stop_directly
 from pluto_fleet.gateway.wire import LONGEST_TOLD
-from pluto_fleet.private import address_in
-from pluto_fleet.standing import Down
+from pluto_fleet.jobs.reports import Down
+from pluto_fleet.process.asking import Nobody
+from pluto_fleet.process.private import address_in
 from tests.gateway.processes import COMMAND, pid
 from tests.gateway.processes import settings as gateway_settings
 

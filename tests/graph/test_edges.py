@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from plutoc_runtime.status import IN_GRAPH, Status
+from plutoc_runtime.domain.status import IN_GRAPH, Status
 from tests.graph.fakes import codes, graph
 
 ABCD = "a = Pass\nb = Pass\nc = Pass\nd = Pass\nw = Work\n"

@@ -15,7 +15,7 @@ from plutoc.highlight.pygments_lexer import PlutoLexer
 from plutoc.highlight.rules import RULES
 from plutoc.highlight.textmate import SCOPES, grammar
 from plutoc.syntax.newlines import SETTINGS, WORDS
-from plutoc_runtime.quantities import UNITS
+from plutoc_runtime.domain.quantities import UNITS
 
 ROOT = Path(__file__).parents[2]
 EXAMPLES = sorted((ROOT / "examples").glob("*/*.pluto"))

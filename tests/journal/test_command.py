@@ -17,7 +17,7 @@ import pytest
 from pluto_fleet.cli import events, main, told
 from pluto_fleet.journal import place
 from pluto_fleet.journal.store import Store
-from plutoc_runtime.status import DroneStatus
+from plutoc_runtime.domain.status import DroneStatus
 from tests.runtime.files.an_app import APP
 
 ROOT = Path(__file__).parents[2]

@@ -12,7 +12,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from pluto_fleet.asking import note_of
+from pluto_fleet.process.asking import note_of
 
 PATIENCE = 120.0
 """Seconds until a life that does not end is called a failure."""

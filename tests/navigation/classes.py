@@ -7,7 +7,7 @@ from functools import wraps
 from typing import Any
 
 from pluto_fleet.drones import DroneEvent, DroneSetup, DroneTelemetry
-from plutoc_runtime.model import Point
+from plutoc_runtime.domain.model import Point
 from tests.navigation.simulated import Simulated
 
 NUMBER = 7

@@ -10,7 +10,7 @@ import pytest
 
 from pluto_fleet.drones import feeding
 from pluto_fleet.drones.feeding import Feeding
-from plutoc_runtime.model import Point
+from plutoc_runtime.domain.model import Point
 
 
 class Drone:

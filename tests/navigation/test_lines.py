@@ -9,7 +9,7 @@ from lines import Lines
 
 from pluto_fleet.drones.feeding import Feeding
 from pluto_fleet.drones.loading import make_localization
-from plutoc_runtime.model import Point
+from plutoc_runtime.domain.model import Point
 
 
 class Drone:

@@ -9,8 +9,8 @@ from math import inf, nan
 import pytest
 
 from pluto_fleet.drones.outcome import outcome_of
-from plutoc_runtime.errors import FlightFailed
-from plutoc_runtime.model import Photo, Point
+from plutoc_runtime.domain.errors import FlightFailed
+from plutoc_runtime.domain.model import Photo, Point
 
 
 @dataclass

@@ -9,7 +9,7 @@ import pytest
 from plutoc.plan.arriving import arriving
 from plutoc.plan.build import build
 from plutoc.plan.model import Body, Dispatch, Join, Loop, Switch
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.status import Status
 from tests.check.graphs import checked
 from tests.plan.graphs import GRAPHS
 from tests.plan.walks import kept, through_plan

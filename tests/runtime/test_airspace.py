@@ -9,10 +9,10 @@ import pytest
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
-from plutoc_runtime.airspace import MARGIN, Airspace
-from plutoc_runtime.energy import length
-from plutoc_runtime.geometry import enters, inside, outlined
-from plutoc_runtime.model import Point
+from plutoc_runtime.domain.airspace import MARGIN, Airspace
+from plutoc_runtime.domain.geometry import enters, inside, outlined
+from plutoc_runtime.domain.model import Point
+from plutoc_runtime.fleet.energy import length
 
 Polygon = tuple[tuple[float, float], ...]
 

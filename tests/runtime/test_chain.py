@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from plutoc_runtime.chain import Chain
+from plutoc_runtime.time.kernel import Chain
 
 
 class Thing:

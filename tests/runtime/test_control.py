@@ -7,13 +7,13 @@ from dataclasses import replace
 
 import pytest
 
-from pluto_fleet.live_engine import live_engine
-from pluto_fleet.standing import Down
-from pluto_fleet.testing.invariants import violations
-from plutoc_runtime.actions import Action
-from plutoc_runtime.context import Context
-from plutoc_runtime.errors import BadInput
-from plutoc_runtime.model import Drone, Trip
+from pluto_fleet.flight.live_engine import live_engine
+from pluto_fleet.jobs.reports import Down
+from pluto_fleet.trials.invariants import violations
+from plutoc_runtime.domain.actions import Action
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.model import Drone, Trip
+from plutoc_runtime.hooks.context import Context
 
 from . import apps
 from .living import Living, enterable, names

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from plutoc_runtime.errors import BadInput
-from plutoc_runtime.model import AfterTrip
-from plutoc_runtime.status import DroneStatus
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.model import AfterTrip
+from plutoc_runtime.domain.status import DroneStatus
 
 from . import apps
 from .living import Living, enterable, names

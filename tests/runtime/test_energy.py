@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.energy import docked, flight_seconds, needed, share
-from plutoc_runtime.model import Category
+from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.domain.model import Category
+from plutoc_runtime.fleet.energy import docked, flight_seconds, needed, share
 
 SCOUT = Category(name="scout", speed=0.5, flight_time=420)
 PLAIN = Airspace(cruise_height=1.2)

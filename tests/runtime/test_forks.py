@@ -8,11 +8,11 @@ from typing import Any
 
 import pytest
 
-from plutoc_runtime.actions import Action
-from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.context import Context
-from plutoc_runtime.model import Category
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.actions import Action
+from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.domain.model import Category
+from plutoc_runtime.domain.status import Status
+from plutoc_runtime.hooks.context import Context
 from tests.runtime import apps, in_real_time
 
 Fly = Callable[[Callable[..., object]], apps.Outcome]

@@ -9,15 +9,15 @@ from functools import partial, wraps
 import pytest
 
 from pluto_fleet.simulation.drones import SimulatedNavigation
-from plutoc_runtime.actions import Action
-from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.context import Context
-from plutoc_runtime.errors import ActionFailed, Failure, FlightFailed
-from plutoc_runtime.handle import LiveDrone, can_wait
-from plutoc_runtime.model import Category, Drone
-from plutoc_runtime.signals import Signal
-from plutoc_runtime.status import Status
-from plutoc_runtime.world import WorldData
+from plutoc_runtime.domain.actions import Action
+from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.domain.errors import ActionFailed, Failure, FlightFailed
+from plutoc_runtime.domain.fleet_data import WorldData
+from plutoc_runtime.domain.model import Category, Drone
+from plutoc_runtime.domain.status import Status
+from plutoc_runtime.hooks.context import Context
+from plutoc_runtime.hooks.live_drone import LiveDrone, can_wait
+from plutoc_runtime.time.future import Future
 from tests.runtime import apps, in_real_time
 
 Hook = Callable[..., object]
@@ -185,7 +185,7 @@ def test_an_answer_that_never_comes_ends_with_the_flight(
     async def never(self: SimulatedNavigation, drone: str, name: str) -> float:
         self.strike(drone, Failure.CRASH)
         try:
-            await Signal[None]()
+            await Future[None]()
         finally:
             over.append(name)
         return 0.0

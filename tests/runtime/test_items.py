@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from plutoc_runtime.actions import Action
-from plutoc_runtime.context import Context
-from plutoc_runtime.errors import ActionFailed
-from plutoc_runtime.faults import Faults
-from plutoc_runtime.model import Drone
-from plutoc_runtime.status import Status
+from plutoc_runtime.alone.faults import Faults
+from plutoc_runtime.domain.actions import Action
+from plutoc_runtime.domain.errors import ActionFailed
+from plutoc_runtime.domain.model import Drone
+from plutoc_runtime.domain.status import Status
+from plutoc_runtime.hooks.context import Context
 from tests.runtime import apps
 
 HOMES = ((0.5, 0.5, 0.0), (6.0, 0.5, 0.0))

@@ -12,25 +12,25 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet.asking import Nobody, ask, note_of
-from pluto_fleet.fly import live
+from pluto_fleet.flight.config import End, Lived, Setting, Stops
+from pluto_fleet.flight.fly import live
 from pluto_fleet.gateway.gateway import Gateway
 from pluto_fleet.gateway.ledger import MemoryLedger
 from pluto_fleet.gateway.link import Link
+from pluto_fleet.jobs.reports import Down
 from pluto_fleet.journal import header
 from pluto_fleet.journal.errors import JournalError
 from pluto_fleet.journal.store import Store
-from pluto_fleet.realtime import RealTime
-from pluto_fleet.setting import End, Lived, Setting, Stops
+from pluto_fleet.process.asking import Nobody, ask, note_of
+from pluto_fleet.process.realtime import RealTime
 from pluto_fleet.simulation.drones import SimulatedDrone, SimulatedNavigation
-from pluto_fleet.standing import Down
-from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.errors import BadInput
-from plutoc_runtime.faults import Faults
-from plutoc_runtime.model import Category
-from plutoc_runtime.status import Status
-from plutoc_runtime.trace import Event
-from plutoc_runtime.world import World
+from plutoc_runtime.alone.faults import Faults
+from plutoc_runtime.alone.world import World
+from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.model import Category
+from plutoc_runtime.domain.status import Status
+from plutoc_runtime.domain.trace import Event
 from tests.runtime import apps
 
 SCOUT = Category(name="scout", speed=1.0)
@@ -279,8 +279,8 @@ def test_on_a_full_disk_all_drones_land_and_nothing_more_is_told(
 
 def test_a_snapshot_is_taken_now_and_then(tried: Tried, monkeypatch: pytest.MonkeyPatch) -> None:
     """And the next life goes on from there."""
-    monkeypatch.setattr("pluto_fleet.one_life.SNAPSHOT_EVERY", 5)  # within a life
-    monkeypatch.setattr("pluto_fleet.one_life.SNAPSHOT_AT_END", 0)
+    monkeypatch.setattr("pluto_fleet.flight.live_flight.SNAPSHOT_EVERY", 5)  # within a life
+    monkeypatch.setattr("pluto_fleet.flight.live_flight.SNAPSHOT_AT_END", 0)
     stops = Stops()
     tried.on("trip.completed", lambda: stops.stop(Down.LAND))
     asyncio.run(tried.live(stops))

@@ -9,16 +9,16 @@ from typing import Any
 import pytest
 
 from pluto_fleet.cli.events import line_of
-from pluto_fleet.gateway.pilots import Pilots
+from pluto_fleet.flight.live_fleet import live_fleet
+from pluto_fleet.gateway.executor import Pilots
+from pluto_fleet.jobs.reports import DroneReport
 from pluto_fleet.journal.fold import Records
 from pluto_fleet.journal.memory import Memory
-from pluto_fleet.live_fleet import live_fleet
-from pluto_fleet.standing import Standing
-from plutoc_runtime.errors import BadInput, Failure
-from plutoc_runtime.kernel import FLEET
-from plutoc_runtime.model import Drone
-from plutoc_runtime.signals import Signal
-from plutoc_runtime.status import DroneStatus
+from plutoc_runtime.domain.errors import BadInput, Failure
+from plutoc_runtime.domain.model import Drone
+from plutoc_runtime.domain.status import DroneStatus
+from plutoc_runtime.time.future import Future
+from plutoc_runtime.time.kernel import FLEET
 from tests.runtime import apps
 from tests.runtime.living import Living, enterable, names
 
@@ -79,7 +79,7 @@ def test_a_lost_drone_flies_again_when_a_person_has_looked_after_it() -> None:
 def test_one_that_is_as_lost_as_before_stays_so(monkeypatch: pytest.MonkeyPatch) -> None:
     """It was not looked after: it is asked, and it is LOST again, with the reason."""
 
-    async def roll_call(drone: str) -> Standing:
+    async def roll_call(drone: str) -> DroneReport:
         return replace(fleet.navigation.bodies[drone].standing, problems=("it lies on its back",))
 
     fleet = living(*"ab")
@@ -100,7 +100,7 @@ def test_what_a_person_has_said_of_a_lost_drone_outlives_the_app() -> None:
     heard: list[str] = []
 
     async def never(_: str) -> bool:
-        await Signal[None]()
+        await Future[None]()
         return False
 
     navigation = fleet.gateway.navigation
@@ -199,7 +199,7 @@ def test_where_one_was_brought_back_it_is_told_so_before_another_is_refused() ->
     fleet.memory.append([json.dumps([begun])])
     heard: list[str] = []
 
-    async def roll_call(drone: str) -> Standing:
+    async def roll_call(drone: str) -> DroneReport:
         standing = fleet.navigation.bodies[drone].standing
         return replace(standing, problems=() if heard else ("it has crashed",))
 
@@ -249,13 +249,13 @@ def test_who_is_not_ready_is_named_and_in_the_end_not_waited_for(
 ) -> None:
     """The others fly; what a drone says of itself commands no terminal, and is not endless."""
 
-    async def roll_call(self: Pilots, drone: str) -> Standing:
+    async def roll_call(self: Pilots, drone: str) -> DroneReport:
         standing = fleet.navigation.bodies[drone].standing
         problems = ("its battery has 3.4 V", "\x1b[31m" + "x" * 1000) if drone == "cf1" else ()
         return replace(standing, problems=problems)
 
     async def fetched(drone: str) -> bool:
-        await Signal[None]()
+        await Future[None]()
         return False
 
     monkeypatch.setattr(Pilots, "roll_call", roll_call)

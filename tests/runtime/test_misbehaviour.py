@@ -10,21 +10,20 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet.raised import Interrupted, interrupted_by_a_person
+from pluto_fleet.process.signal_guard import Interrupted, interrupted_by_a_person
 from plutoc_blocks.gate_funnel.step import wait_for_all
 from plutoc_blocks.mission_creator.step import create_mission
 from plutoc_blocks.mission_evaluator.step import evaluate_mission
 from plutoc_blocks.mission_modifier.step import modify_mission
 from plutoc_blocks.priority_manager.step import raise_priority
-from plutoc_runtime import state
-from plutoc_runtime.actions import Action
-from plutoc_runtime.context import Context
-from plutoc_runtime.errors import ActionFailed
-from plutoc_runtime.kernel import Cancelled
-from plutoc_runtime.model import Mission
-from plutoc_runtime.run import Run
-from plutoc_runtime.status import Status
-from plutoc_runtime.verdict import Verdict
+from plutoc_runtime.domain.actions import Action
+from plutoc_runtime.domain.errors import ActionFailed, Cancelled
+from plutoc_runtime.domain.model import Mission
+from plutoc_runtime.domain.status import Status
+from plutoc_runtime.flow import mission as state
+from plutoc_runtime.flow.run import Run
+from plutoc_runtime.flow.verdict import Verdict
+from plutoc_runtime.hooks.context import Context
 from tests.runtime import apps
 
 Hook = Callable[..., object]

@@ -13,14 +13,14 @@ from hypothesis import strategies as st
 
 from pluto_fleet.journal.fold import Records
 from pluto_fleet.journal.values import value_data, value_of
-from plutoc_runtime.actions import Action
-from plutoc_runtime.context import Context
-from plutoc_runtime.errors import ActionFailed
-from plutoc_runtime.model import Mission, Photo
-from plutoc_runtime.plain import keepable
-from plutoc_runtime.status import Status
-from plutoc_runtime.verdict import Verdict
-from plutoc_runtime.words import LONGEST_VALUE, shown
+from plutoc_runtime.domain.actions import Action
+from plutoc_runtime.domain.errors import ActionFailed
+from plutoc_runtime.domain.model import Mission, Photo
+from plutoc_runtime.domain.status import Status
+from plutoc_runtime.domain.text import LONGEST_VALUE, shown
+from plutoc_runtime.flow.verdict import Verdict
+from plutoc_runtime.hooks.context import Context
+from plutoc_runtime.hooks.keepable import keepable
 from tests.runtime import apps
 from tests.runtime.living import Living, enterable
 

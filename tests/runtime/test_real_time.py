@@ -12,17 +12,17 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet.realtime import RealTime
+from pluto_fleet.process.realtime import RealTime
 from plutoc_blocks.mission_modifier.step import modify_mission
-from plutoc_runtime import state
-from plutoc_runtime.actions import Action
-from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.context import Context
-from plutoc_runtime.kernel import FLEET
-from plutoc_runtime.model import Category, Drone, Mission
-from plutoc_runtime.run import Run
-from plutoc_runtime.status import Status
-from plutoc_runtime.trace import Event
+from plutoc_runtime.domain.actions import Action
+from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.domain.model import Category, Drone, Mission
+from plutoc_runtime.domain.status import Status
+from plutoc_runtime.domain.trace import Event
+from plutoc_runtime.flow import mission as state
+from plutoc_runtime.flow.run import Run
+from plutoc_runtime.hooks.context import Context
+from plutoc_runtime.time.kernel import FLEET
 from tests.runtime import apps, in_real_time
 
 FAST = Category(name="scout", speed=200.0)
@@ -134,7 +134,7 @@ def test_a_hook_behind_a_plain_function_is_awaited_as_in_a_simulation() -> None:
 
 STUCK = """
 import asyncio, threading
-from pluto_fleet.realtime import RealTime
+from pluto_fleet.process.realtime import RealTime
 
 async def main():
     kernel = RealTime()

@@ -9,15 +9,15 @@ from typing import Any
 
 import pytest
 
+from pluto_fleet.jobs.reports import Down
 from pluto_fleet.journal.fold import Records
-from pluto_fleet.standing import Down
-from plutoc_runtime.actions import Action
-from plutoc_runtime.context import Context
-from plutoc_runtime.faults import Faults
-from plutoc_runtime.model import Drone, Trip
-from plutoc_runtime.results import Results
-from plutoc_runtime.status import Status
-from plutoc_runtime.verdict import Verdict
+from plutoc_runtime.alone.faults import Faults
+from plutoc_runtime.domain.actions import Action
+from plutoc_runtime.domain.model import Drone, Trip
+from plutoc_runtime.domain.results import Results
+from plutoc_runtime.domain.status import Status
+from plutoc_runtime.flow.verdict import Verdict
+from plutoc_runtime.hooks.context import Context
 
 from . import apps
 from .living import Living, enterable, names

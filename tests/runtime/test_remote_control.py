@@ -12,11 +12,11 @@ from pathlib import Path
 
 import pytest
 
-from pluto_fleet.asking import LONGEST, Ended, Nobody, Silent, ask, note_of
-from pluto_fleet.private import address_in, new_address, publish, withdraw
-from pluto_fleet.remote_control import listening, perform
-from pluto_fleet.standing import Down
-from plutoc_runtime.errors import BadInput
+from pluto_fleet.flight.commands import listening, perform
+from pluto_fleet.jobs.reports import Down
+from pluto_fleet.process.asking import LONGEST, Ended, Nobody, Silent, ask, note_of
+from pluto_fleet.process.private import address_in, new_address, publish, withdraw
+from plutoc_runtime.domain.errors import BadInput
 
 
 class Told:

@@ -8,20 +8,22 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet import interruption, rebuilding, recovery
+from pluto_fleet.flight import reconcile as interruption
+from pluto_fleet.flight import recovery
+from pluto_fleet.flight import restore as rebuilding
+from pluto_fleet.flight.live_engine import LiveEngine
+from pluto_fleet.flight.live_fleet import LiveFleet
+from pluto_fleet.flight.reconcile import Fate
 from pluto_fleet.gateway.gateway import Gateway
-from pluto_fleet.gateway.given import Given
+from pluto_fleet.gateway.job import Given
 from pluto_fleet.gateway.link import Link
-from pluto_fleet.interruption import Fate
+from pluto_fleet.jobs.reports import JobState
 from pluto_fleet.journal import values
-from pluto_fleet.journal.careful import Careful
+from pluto_fleet.journal.durable_link import Careful
 from pluto_fleet.journal.fold import Records
-from pluto_fleet.live_engine import LiveEngine
-from pluto_fleet.live_fleet import LiveFleet
-from pluto_fleet.standing import JobState
-from pluto_fleet.testing.book import Book
-from plutoc_runtime.fleet import Fleet
-from plutoc_runtime.status import DroneStatus
+from pluto_fleet.trials.book import Book
+from plutoc_runtime.domain.status import DroneStatus
+from plutoc_runtime.fleet.fleet import Fleet
 from tests.equivalence import mistakes
 
 Plant = Callable[[pytest.MonkeyPatch], None]

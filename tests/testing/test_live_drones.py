@@ -6,10 +6,10 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet.testing.explore import drawn_case
-from pluto_fleet.testing.rig import tried
-from plutoc_runtime.context import Context
-from plutoc_runtime.model import Drone
+from pluto_fleet.trials.explore import drawn_case
+from pluto_fleet.trials.rig import tried
+from plutoc_runtime.domain.model import Drone
+from plutoc_runtime.hooks.context import Context
 from tests.testing.examples import example, fleet_of
 
 

@@ -7,8 +7,8 @@ from io import StringIO
 import pytest
 
 from pluto_fleet.cli.progress import Progress
-from pluto_fleet.testing import command
-from pluto_fleet.testing.patience import EVERY, Patience
+from pluto_fleet.trials import command
+from pluto_fleet.trials.patience import EVERY, Patience
 from tests.testing.examples import example
 
 

@@ -12,20 +12,20 @@ from random import Random
 import pytest
 
 from pluto_fleet.files.fleet import default_fleet
-from pluto_fleet.testing import command as trials
-from pluto_fleet.testing import invariants
-from pluto_fleet.testing.alike import Alike
-from pluto_fleet.testing.command import test as trial
-from pluto_fleet.testing.explore import Tally, small_case
-from pluto_fleet.testing.options import Options
-from pluto_fleet.testing.report import report
-from pluto_fleet.testing.rule import Say, at
-from plutoc_runtime import enough
-from plutoc_runtime.app import App
-from plutoc_runtime.context import Context
-from plutoc_runtime.fleet import Fleet
-from plutoc_runtime.model import Drone
-from plutoc_runtime.trace import Event
+from pluto_fleet.trials import command as trials
+from pluto_fleet.trials import invariants
+from pluto_fleet.trials.alike import Alike
+from pluto_fleet.trials.command import test as trial
+from pluto_fleet.trials.explore import Tally, small_case
+from pluto_fleet.trials.options import Options
+from pluto_fleet.trials.report import report
+from pluto_fleet.trials.rule import Say, at
+from plutoc_runtime.alone import bound as enough
+from plutoc_runtime.domain.app import App
+from plutoc_runtime.domain.model import Drone
+from plutoc_runtime.domain.trace import Event
+from plutoc_runtime.fleet.fleet import Fleet
+from plutoc_runtime.hooks.context import Context
 from tests.testing.examples import app_of
 from tests.testing.mutants import free_in_flight
 from tests.testing.random_apps import random_app

@@ -6,7 +6,7 @@ import pytest
 
 from pluto_fleet.simulation.body import Body
 from pluto_fleet.simulation.drones import SimulatedNavigation
-from plutoc_runtime.energy import CLIMB_SPEED
+from plutoc_runtime.fleet.energy import CLIMB_SPEED
 from tests.testing import strangers
 
 

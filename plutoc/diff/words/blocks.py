@@ -10,7 +10,7 @@ from plutoc.diff.model import Change, Fact, Importance
 from plutoc.diff.phrases import so_often
 from plutoc.diff.roles import Role, limited, role
 from plutoc.graph.model import Node, Parameter, Plain
-from plutoc_runtime.fields import Entity
+from plutoc_runtime.domain.fields import Entity
 
 
 def _set(

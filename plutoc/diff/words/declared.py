@@ -11,7 +11,7 @@ from plutoc.diff.model import Change, Fact, Importance
 from plutoc.diff.phrases import listed, named
 from plutoc.graph.model import Action, Category, Graph, Hook, Library, Node, Parameter
 from plutoc.source import Span
-from plutoc_runtime.fields import Entity, Field
+from plutoc_runtime.domain.fields import Entity, Field
 
 
 def _said(

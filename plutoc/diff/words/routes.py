@@ -10,7 +10,7 @@ from plutoc.diff.model import Change, Importance, Spans
 from plutoc.diff.phrases import ahead, listed, named, whoever
 from plutoc.graph.model import Node
 from plutoc.source import Span
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.status import Status
 
 if TYPE_CHECKING:
     from plutoc.diff.journeys import Reroute

@@ -24,7 +24,7 @@ from plutoc.block import Gate
 from plutoc.plan.arriving import Brought, arriving
 from plutoc.plan.model import Body, Branch, End, Join, Plan, Step
 from plutoc.plan.rewrite import rewritten
-from plutoc_runtime.status import IN_GRAPH, WORST_FIRST
+from plutoc_runtime.domain.status import IN_GRAPH, WORST_FIRST
 
 
 def clones(plan: Plan) -> Plan:

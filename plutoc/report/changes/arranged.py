@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from plutoc.diff.model import Change, Difference, Importance
 from plutoc.source import Source, Span
-from plutoc_runtime.words import counted
+from plutoc_runtime.domain.text import counted
 
 HEADINGS = {
     Importance.SAFETY: "Safety and failures",

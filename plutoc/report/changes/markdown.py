@@ -11,7 +11,7 @@ from collections.abc import Collection, Mapping
 
 from plutoc.diff.model import Change, Difference
 from plutoc.report.changes.arranged import HEADINGS, headline, lines_of, sections
-from plutoc_runtime.words import printable
+from plutoc_runtime.domain.text import printable
 
 _TICKS = re.compile(r"`+")
 _MOST_CHANGES, _MOST_LINES, _WIDEST = 40, 60, 160

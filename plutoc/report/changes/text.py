@@ -5,7 +5,7 @@ from __future__ import annotations
 from plutoc.diff.model import Difference, Importance
 from plutoc.report.changes.arranged import HEADINGS, Shown, headline, lines_of, sections
 from plutoc.report.paint import BLUE, BOLD, RED, paint
-from plutoc_runtime.words import printable
+from plutoc_runtime.domain.text import printable
 
 
 def text(found: Difference, *, colour: bool) -> str:

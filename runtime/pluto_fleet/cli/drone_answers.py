@@ -14,8 +14,8 @@ from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol, TypeVar, cast
 
-from plutoc_runtime.errors import BadInput
-from plutoc_runtime.words import number, of, printable, quoted
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.text import number, of, printable, quoted
 
 from ..drones.feeding import Feeding
 from ..drones.loading import load_navigation, make_localization
@@ -23,10 +23,10 @@ from ..drones.making import make_one
 from ..drones.protocol import Identifiable, Locatable, Scannable
 from ..drones.real_fleet import RealDrone
 from ..files.behaviour import OWN
-from ..gateway.holding import Held, holding
+from ..gateway.drone_lock import Held, holding
 
 if TYPE_CHECKING:
-    from plutoc_runtime.model import Point
+    from plutoc_runtime.domain.model import Point
 
     from ..drones.protocol import DroneNavigation
     from ..drones.telemetry import DroneTelemetry

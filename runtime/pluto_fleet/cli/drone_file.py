@@ -9,9 +9,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from plutoc_runtime import output
-from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.errors import BadInput
-from plutoc_runtime.words import counted, number, place, printable
+from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.text import counted, number, place, printable
 
 from ..files.behaviour import APART, CRAZYFLIE
 from ..files.fleet import fleet_of
@@ -20,8 +20,8 @@ from ..files.toml_text import numbers, text
 from .drone_answers import heard
 
 if TYPE_CHECKING:
-    from plutoc_runtime.app import App
-    from plutoc_runtime.geometry import Corner
+    from plutoc_runtime.domain.app import App
+    from plutoc_runtime.domain.geometry import Corner
 
     from .drone_answers import Answer
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.words import percent, place
+from plutoc_runtime.domain.text import percent, place
 
 from .drone_answers import heard
 from .report import table

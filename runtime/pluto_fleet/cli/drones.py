@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from plutoc_runtime import output
-from plutoc_runtime.errors import BadInput
-from plutoc_runtime.trace import dumped
-from plutoc_runtime.words import counted, quoted
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.text import counted, quoted
+from plutoc_runtime.domain.trace import dumped
 
 from ..crazyflie.borrowed import require
 from ..files.behaviour import CRAZYFLIE
@@ -25,7 +25,7 @@ from .drone_file import write_fleet
 from .drone_table import drones_data, drones_table
 
 if TYPE_CHECKING:
-    from plutoc_runtime.app import App
+    from plutoc_runtime.domain.app import App
 
     from ..files.fleet import FleetFile
     from ..files.free_tables import Options

@@ -6,15 +6,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from ..controls import Before
 from ..files.toml_text import text, value
+from ..jobs.controls import Before
 
 if TYPE_CHECKING:
-    from plutoc_runtime.actions import Plain
-    from plutoc_runtime.kernel import Kernel
-    from plutoc_runtime.model import Item, Point
+    from plutoc_runtime.domain.actions import Plain
+    from plutoc_runtime.domain.model import Item, Point
+    from plutoc_runtime.time.kernel import Kernel
 
-    from ..controls import Controls
+    from ..jobs.controls import Controls
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

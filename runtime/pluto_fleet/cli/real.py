@@ -6,7 +6,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.errors import BadInput
+from plutoc_runtime.domain.errors import BadInput
 
 from ..crazyflie.borrowed import require
 from ..drones import refusals
@@ -18,7 +18,7 @@ from ..files.reading import shortened
 from ..files.real import navigation_of, not_real
 
 if TYPE_CHECKING:
-    from plutoc_runtime.app import App
+    from plutoc_runtime.domain.app import App
 
     from ..drones.protocol import DroneNavigation
     from ..files.drones import DroneEntry

@@ -6,8 +6,8 @@ from dataclasses import replace
 from itertools import count
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.errors import BadInput
-from plutoc_runtime.spots import free_spots
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.fleet.landing_sites import free_spots
 
 from ..files.behaviour import CRAZYFLIE, OWN
 from ..files.real import navigation_of

@@ -10,20 +10,20 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from plutoc_runtime import output
-from plutoc_runtime.errors import BadInput
-from plutoc_runtime.words import in_shell
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.text import in_shell
 
-from ..asking import Ended, Nobody, Silent, ask, note_of
 from ..gateway.starting import cut_directly, stop_directly
+from ..jobs.reports import Down
 from ..journal.errors import missing
 from ..journal.lock import holder
 from ..journal.place import gateway_folder
-from ..standing import Down
+from ..process.asking import Ended, Nobody, Silent, ask, note_of
 from . import stop_mark
 from .looked_after import looked_after
 
 if TYPE_CHECKING:
-    from plutoc_runtime.app import App
+    from plutoc_runtime.domain.app import App
 
     from .options import Options
 

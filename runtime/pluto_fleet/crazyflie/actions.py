@@ -10,15 +10,15 @@ from math import radians, tan
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.actions import PICK, RELEASE
-from plutoc_runtime.model import Photo
+from plutoc_runtime.domain.actions import PICK, RELEASE
+from plutoc_runtime.domain.model import Photo
 
 from ..drones.errors import ActionNotDone, PositionLost, Rejected
 from . import logs, parameters, words
 from .camera import NoPicture, Picture, picture
 
 if TYPE_CHECKING:
-    from plutoc_runtime.actions import Plain
+    from plutoc_runtime.domain.actions import Plain
 
     from .options import Options
     from .session import Session

@@ -13,7 +13,7 @@ from importlib.util import find_spec
 from threading import Lock, Thread
 from typing import Protocol
 
-from plutoc_runtime.errors import BadInput
+from plutoc_runtime.domain.errors import BadInput
 
 from ..drones.errors import NotReady
 from ..scaffolding import app_package

@@ -19,7 +19,7 @@ from .courses import NEAR, SLACK, hovers, is_speed, is_target, stop
 from .pace import pace_of
 
 if TYPE_CHECKING:
-    from plutoc_runtime.model import Point
+    from plutoc_runtime.domain.model import Point
 
     from .session import Session
     from .state import State

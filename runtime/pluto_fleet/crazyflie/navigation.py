@@ -30,8 +30,8 @@ from .options import options_of
 from .scan import scan
 
 if TYPE_CHECKING:
-    from plutoc_runtime.actions import Plain
-    from plutoc_runtime.model import Item, Point
+    from plutoc_runtime.domain.actions import Plain
+    from plutoc_runtime.domain.model import Item, Point
 
     from ..drones.setup import DroneSetup
     from .session import Session

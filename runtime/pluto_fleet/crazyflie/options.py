@@ -7,8 +7,8 @@ from dataclasses import dataclass, fields
 from math import sqrt
 from sys import float_info
 
-from plutoc_runtime.errors import BadInput
-from plutoc_runtime.words import number
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.text import number
 
 from . import words
 

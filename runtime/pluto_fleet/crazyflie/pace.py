@@ -12,13 +12,13 @@ from dataclasses import dataclass
 from math import dist, inf
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.energy import CLIMB_SPEED
+from plutoc_runtime.fleet.energy import CLIMB_SPEED
 
 from . import parameters, words
 from .courses import PEAK, seconds_for
 
 if TYPE_CHECKING:
-    from plutoc_runtime.model import Point
+    from plutoc_runtime.domain.model import Point
 
     from .session import Session
 

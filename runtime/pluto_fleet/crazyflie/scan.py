@@ -5,7 +5,7 @@ from __future__ import annotations
 import socket
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.errors import BadInput
+from plutoc_runtime.domain.errors import BadInput
 
 from ..drones.errors import LinkLost
 from . import words

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from . import parameters
 
 if TYPE_CHECKING:
-    from plutoc_runtime.model import Point
+    from plutoc_runtime.domain.model import Point
 
     from .session import Session
 

@@ -8,7 +8,7 @@ from math import dist, radians
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from plutoc_runtime.model import Point
+    from plutoc_runtime.domain.model import Point
 
 # Together 23 of the 26 bytes that a block may have: where it is and how it is belong to one moment.
 X, Y, Z, YAW = "stateEstimate.x", "stateEstimate.y", "stateEstimate.z", "stateEstimate.yaw"

@@ -6,7 +6,7 @@ import os
 from contextlib import suppress
 from pathlib import Path
 
-from ..private import is_private
+from ..process.private import is_private
 
 _NAME = "crazyflie"
 

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from math import isfinite, sqrt
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.words import in_shell, number, quoted
+from plutoc_runtime.domain.text import in_shell, number, quoted
 
 if TYPE_CHECKING:
-    from plutoc_runtime.model import Point
+    from plutoc_runtime.domain.model import Point
 
 PROTOCOL = 12
 """What the firmware must speak: since then it has a supervisor that says how it is."""

@@ -18,12 +18,12 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from plutoc_runtime.errors import BadInput
+from plutoc_runtime.domain.errors import BadInput
 
-from .. import again
-from ..asking import Nobody, ask
-from ..forked import deaf, in_children, not_for_children
-from ..remote_control import listening
+from ..flight.commands import listening
+from ..process import respawn as again
+from ..process.asking import Nobody, ask
+from ..process.forked import deaf, in_children, not_for_children
 from .camera import camera, port_of
 from .drone import Build, SimulatedCrazyflie
 from .record import InFiles, Point

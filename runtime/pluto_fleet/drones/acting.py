@@ -6,19 +6,19 @@ from collections.abc import Mapping
 from functools import partial
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.actions import BUILT_IN, PICK, RELEASE, Plain
-from plutoc_runtime.errors import Failure, FlightFailed
+from plutoc_runtime.domain.actions import BUILT_IN, PICK, RELEASE, Plain
+from plutoc_runtime.domain.errors import Failure, FlightFailed
 
-from .calls import shortened
 from .flying import in_the_air
-from .member import SPARE
 from .outcome import outcome_of
 from .protocol import Acts, Readable
+from .timeouts import shortened
+from .vehicle import SPARE
 
 if TYPE_CHECKING:
-    from plutoc_runtime.model import Item
+    from plutoc_runtime.domain.model import Item
 
-    from .member import Member
+    from .vehicle import Member
 
 READ = 5.0
 """Seconds that it may take to read a value, or to set one."""

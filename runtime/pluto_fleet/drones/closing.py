@@ -7,16 +7,16 @@ from collections.abc import Sequence
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.errors import FlightFailed
-from plutoc_runtime.words import place
+from plutoc_runtime.domain.errors import FlightFailed
+from plutoc_runtime.domain.text import place
 
 from .flying import DOWN, land
 from .linking import CONNECT
-from .member import AMPLE, SPARE
+from .vehicle import AMPLE, SPARE
 
 if TYPE_CHECKING:
     from .linking import Linking
-    from .member import Member
+    from .vehicle import Member
 
 LETTING_GO = 20.0
 """Seconds that a navigation may take to close a link."""

@@ -7,18 +7,18 @@ from collections.abc import Sequence
 from functools import partial
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.errors import FlightFailed
-from plutoc_runtime.spots import free_spot
+from plutoc_runtime.domain.errors import FlightFailed
+from plutoc_runtime.fleet.landing_sites import free_spot
 
 from . import flying
-from .member import LAND
 from .stray import is_over_no_fly
+from .vehicle import LAND
 
 if TYPE_CHECKING:
-    from plutoc_runtime.airspace import Airspace
-    from plutoc_runtime.model import Point
+    from plutoc_runtime.domain.airspace import Airspace
+    from plutoc_runtime.domain.model import Point
 
-    from .member import Member
+    from .vehicle import Member
 
 _PAUSE = 1.0
 """Seconds until it is tried again."""

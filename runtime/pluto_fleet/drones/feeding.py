@@ -12,10 +12,10 @@ from collections.abc import Callable, Mapping
 from math import isfinite
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.words import quoted
+from plutoc_runtime.domain.text import quoted
 
 if TYPE_CHECKING:
-    from plutoc_runtime.model import Point
+    from plutoc_runtime.domain.model import Point
 
     from .localization import Localization
     from .protocol import Locatable

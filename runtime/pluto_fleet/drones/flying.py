@@ -7,16 +7,16 @@ from functools import partial
 from math import dist, inf
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.errors import Failure, FlightFailed
-from plutoc_runtime.words import percent, place
+from plutoc_runtime.domain.errors import Failure, FlightFailed
+from plutoc_runtime.domain.text import percent, place
 
-from .member import LAND, LOOK, RISE, SLOW
 from .seen import RISING
+from .vehicle import LAND, LOOK, RISE, SLOW
 
 if TYPE_CHECKING:
-    from plutoc_runtime.model import Point
+    from plutoc_runtime.domain.model import Point
 
-    from .member import Member
+    from .vehicle import Member
 
 CUT = 2.0
 """Seconds within which motors must be off that a person wants off."""

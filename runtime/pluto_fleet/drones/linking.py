@@ -7,11 +7,11 @@ from contextlib import suppress
 from math import inf
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.errors import Failure, FlightFailed
-from plutoc_runtime.words import duration, place
+from plutoc_runtime.domain.errors import Failure, FlightFailed
+from plutoc_runtime.domain.text import duration, place
 
 if TYPE_CHECKING:
-    from .member import Member
+    from .vehicle import Member
 
 CONNECT = 15.0
 """Seconds for which others wait for a drone to be connected."""

@@ -6,17 +6,16 @@ import asyncio
 from functools import partial
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.errors import Failure, FlightFailed
-from plutoc_runtime.kernel import WHATEVER
-from plutoc_runtime.words import place
+from plutoc_runtime.domain.errors import ANY_ERROR, Failure, FlightFailed
+from plutoc_runtime.domain.text import place
 
-from .calls import shortened
 from .telemetry import BATTERY_LOW, CRASHED, LINK_LOST, LOCKED, POSITION_LOST
 from .timed import Timed
+from .timeouts import shortened
 
 if TYPE_CHECKING:
-    from .member import Member
     from .telemetry import DroneEvent
+    from .vehicle import Member
 
 BETWEEN = 0.01
 """Seconds between two events: one that never ends to have news would let nobody else do anything."""
@@ -35,7 +34,7 @@ async def listen(member: Member) -> None:
         pass
     except (asyncio.CancelledError, KeyboardInterrupt):
         raise
-    except WHATEVER as error:
+    except ANY_ERROR as error:
         calls.mistake("events", error)
 
 

@@ -18,14 +18,13 @@ from functools import cache
 from importlib import import_module
 from typing import TYPE_CHECKING, TypeVar, cast
 
-from plutoc_runtime.errors import BadInput
-from plutoc_runtime.kernel import WHATEVER
+from plutoc_runtime.domain.errors import ANY_ERROR, BadInput
 
 from . import refusals
-from .calls import shortened
 from .checking import problems
 from .kinds import CAPABILITIES, LOCALIZATION_METHODS, NAVIGATION_METHODS, Kind
 from .looking_up import look_up
+from .timeouts import shortened
 from .trial import tried
 
 if TYPE_CHECKING:
@@ -91,7 +90,7 @@ def _made(kind: Kind, name: str, of: Callable[[S], T], argument: S, whose: str) 
         return of(argument)
     except KeyboardInterrupt:
         raise
-    except WHATEVER as error:  # an option that it cannot use, mostly
+    except ANY_ERROR as error:  # an option that it cannot use, mostly
         raise refusals.not_made(kind, name, whose, _said(error)) from error
 
 
@@ -148,7 +147,7 @@ def _imported(kind: Kind, name: str, module: str, path: str) -> object:
         raise refusals.needs(kind, name, missing) from error
     except KeyboardInterrupt:
         raise
-    except WHATEVER as error:
+    except ANY_ERROR as error:
         raise refusals.not_imported(kind, name, _said(error)) from error
     for part in path.split("."):
         classes = [word for word, value in vars(found).items() if inspect.isclass(value)]

@@ -14,7 +14,7 @@ from importlib.util import resolve_name
 from typing import TYPE_CHECKING, NamedTuple
 
 from . import refusals
-from .calls import shortened
+from .timeouts import shortened
 
 if TYPE_CHECKING:
     from .kinds import Kind

@@ -16,9 +16,9 @@ from .team import Team, TeamDrone
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from plutoc_runtime.airspace import Airspace
-    from plutoc_runtime.kernel import Kernel
-    from plutoc_runtime.model import Category, Point
+    from plutoc_runtime.domain.airspace import Airspace
+    from plutoc_runtime.domain.model import Category, Point
+    from plutoc_runtime.time.kernel import Kernel
 
     from .protocol import DroneNavigation
     from .real_fleet import RealDrone, RealFleet

@@ -10,10 +10,10 @@ from __future__ import annotations
 from math import isfinite
 from typing import Any, SupportsFloat
 
-from plutoc_runtime.actions import PICK, RELEASE
-from plutoc_runtime.errors import Failure, FlightFailed
-from plutoc_runtime.model import Photo
-from plutoc_runtime.words import shown
+from plutoc_runtime.domain.actions import PICK, RELEASE
+from plutoc_runtime.domain.errors import Failure, FlightFailed
+from plutoc_runtime.domain.model import Photo
+from plutoc_runtime.domain.text import shown
 
 LONGEST = 60
 

@@ -29,8 +29,8 @@ from collections.abc import AsyncIterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 if TYPE_CHECKING:
-    from plutoc_runtime.actions import Plain
-    from plutoc_runtime.model import Item, Point
+    from plutoc_runtime.domain.actions import Plain
+    from plutoc_runtime.domain.model import Item, Point
 
     from .telemetry import DroneEvent, DroneTelemetry
 

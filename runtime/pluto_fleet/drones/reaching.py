@@ -5,14 +5,14 @@ from __future__ import annotations
 import asyncio
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.errors import Failure, FlightFailed
-from plutoc_runtime.words import place
+from plutoc_runtime.domain.errors import Failure, FlightFailed
+from plutoc_runtime.domain.text import place
 
-from .member import LOOK
+from .vehicle import LOOK
 
 if TYPE_CHECKING:
     from .linking import Linking
-    from .member import Member
+    from .vehicle import Member
 
 REACH = 120.0
 """Seconds for which a drone that lost its link is connected to again and again."""

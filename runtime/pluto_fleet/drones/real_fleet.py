@@ -6,12 +6,12 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.actions import BUILT_IN, Plain
+from plutoc_runtime.domain.actions import BUILT_IN, Plain
 
 from ..files.real import navigation_of, options_of
 
 if TYPE_CHECKING:
-    from plutoc_runtime.model import Mission
+    from plutoc_runtime.domain.model import Mission
 
     from ..files.fleet import FleetFile
 

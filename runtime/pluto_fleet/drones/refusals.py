@@ -9,8 +9,8 @@ from collections.abc import Sequence
 from difflib import get_close_matches
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.errors import BadInput
-from plutoc_runtime.words import duration, quoted
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.text import duration, quoted
 
 if TYPE_CHECKING:
     from .kinds import Kind

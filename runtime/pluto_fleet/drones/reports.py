@@ -18,7 +18,7 @@ from .errors import Crashed, LinkLost, OutsideArea, Rejected, TargetTimeout
 from .telemetry import CRASHED, DroneEvent, DroneTelemetry
 
 if TYPE_CHECKING:
-    from plutoc_runtime.model import Point
+    from plutoc_runtime.domain.model import Point
 
     from .setup import DroneSetup
 

@@ -8,10 +8,10 @@ from math import inf, isfinite
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from plutoc_runtime.model import Point
+    from plutoc_runtime.domain.model import Point
 
-    from .calls import Calls
     from .telemetry import DroneTelemetry
+    from .timeouts import Calls
 
 RISING = 3.0
 """Seconds after a take-off that was broken off until a drone is believed to stand on the ground."""

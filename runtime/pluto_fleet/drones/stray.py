@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.geometry import Polygon, distance, inside, tidy
-from plutoc_runtime.words import number, place
+from plutoc_runtime.domain.geometry import Polygon, distance, inside, tidy
+from plutoc_runtime.domain.text import number, place
 
 if TYPE_CHECKING:
-    from plutoc_runtime.airspace import Airspace
-    from plutoc_runtime.model import Point
+    from plutoc_runtime.domain.airspace import Airspace
+    from plutoc_runtime.domain.model import Point
 
 TOLERANCE = 0.3
 """Metres: positions are not exact, and a drone that is stopped goes on for a moment."""

@@ -12,27 +12,27 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, NoReturn
 
-from plutoc_runtime.actions import BUILT_IN, Plain
+from plutoc_runtime.domain.actions import BUILT_IN, Plain
 
-from ..standing import Standing
+from ..jobs.reports import DroneReport
 from . import acting, flying
 from .cargo import Cargo
 from .closing import close
 from .linking import Linking
 from .listening import listen
-from .member import Member, TeamDrone
 from .reaching import fetched, reach
+from .vehicle import Member, TeamDrone
 from .watch import Watch
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from plutoc_runtime.airspace import Airspace
-    from plutoc_runtime.errors import FlightFailed
-    from plutoc_runtime.kernel import Kernel
-    from plutoc_runtime.model import Item, Point, Telemetry
+    from plutoc_runtime.domain.airspace import Airspace
+    from plutoc_runtime.domain.errors import FlightFailed
+    from plutoc_runtime.domain.model import Item, Point, Telemetry
+    from plutoc_runtime.time.kernel import Kernel
 
-    from ..navigation import Job
+    from ..jobs.job import Job
     from .feeding import Feeding
     from .real_fleet import Wanted
 
@@ -175,16 +175,16 @@ class Team:
         """Whoever meets it takes off what it carries."""
         self._cargo.carries(drone, None)
 
-    async def roll_call(self, drone: str) -> Standing:
+    async def roll_call(self, drone: str) -> DroneReport:
         """Ask a drone where it is, and whether it may fly; say so if it does not answer."""
         await self._kernel.call_hook(self._links[drone].once)
         member = self._members[drone]
         problems: object = await self._kernel.call_hook(self._problems, member)
         return self._standing(member, problems if isinstance(problems, tuple) else ())
 
-    def _standing(self, member: Member, problems: tuple[str, ...]) -> Standing:
+    def _standing(self, member: Member, problems: tuple[str, ...]) -> DroneReport:
         seen = member.seen
-        return Standing(
+        return DroneReport(
             drone=member.id,
             reached=member.linked,
             location=seen.location,

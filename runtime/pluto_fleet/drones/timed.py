@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Awaitable, Callable, Generator
 from typing import Any, Generic, TypeVar
 
-from plutoc_runtime.kernel import WHATEVER
+from plutoc_runtime.domain.errors import ANY_ERROR
 
 T = TypeVar("T")
 
@@ -33,7 +33,7 @@ class Timed(Generic[T]):
             thrown = None
             try:
                 yield waits_for
-            except WHATEVER as error:
+            except ANY_ERROR as error:
                 thrown = error
 
 

@@ -10,7 +10,7 @@ from tempfile import TemporaryFile
 from typing import IO, TYPE_CHECKING
 
 from . import refusals
-from .calls import shortened
+from .timeouts import shortened
 
 if TYPE_CHECKING:
     from .kinds import Kind

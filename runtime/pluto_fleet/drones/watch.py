@@ -7,17 +7,17 @@ from collections.abc import Callable, Sequence
 from math import inf
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.errors import Failure, FlightFailed
-from plutoc_runtime.words import duration, percent, place
+from plutoc_runtime.domain.errors import Failure, FlightFailed
+from plutoc_runtime.domain.text import duration, percent, place
 
 from .coming_down import come_down
-from .member import LAND, RISE
 from .stray import strayed
+from .vehicle import LAND, RISE
 
 if TYPE_CHECKING:
-    from plutoc_runtime.airspace import Airspace
+    from plutoc_runtime.domain.airspace import Airspace
 
-    from .member import Member
+    from .vehicle import Member
 
 EACH = 0.1
 """Seconds between two looks."""

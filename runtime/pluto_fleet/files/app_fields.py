@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.fields import Entity, FieldType
+from plutoc_runtime.domain.fields import Entity, FieldType
 
 from . import errors, values
 
 if TYPE_CHECKING:
-    from plutoc_runtime.app import App
+    from plutoc_runtime.domain.app import App
 
     from .table import Table
 

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.model import AfterTrip
-from plutoc_runtime.quantities import Type
+from plutoc_runtime.domain.model import AfterTrip
+from plutoc_runtime.domain.quantities import Type
 
 from . import limits, values
 

@@ -8,8 +8,8 @@ from itertools import cycle, islice
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.files import FleetData
+from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.domain.fleet_data import FleetData
 
 from . import errors
 from .behaviour import APART, CRAZYFLIE, OWN, read_behaviour
@@ -21,8 +21,8 @@ from .table import Table
 from .world import read_world
 
 if TYPE_CHECKING:
-    from plutoc_runtime.app import App
-    from plutoc_runtime.model import Point
+    from plutoc_runtime.domain.app import App
+    from plutoc_runtime.domain.model import Point
 
 __all__ = ["DroneEntry", "FleetFile", "default_fleet", "fleet_of", "load_fleet"]
 

@@ -9,7 +9,7 @@ from .behaviour import CRAZYFLIE, OWN
 from .toml_text import key, numbers, text, value
 
 if TYPE_CHECKING:
-    from plutoc_runtime.world import WorldData
+    from plutoc_runtime.domain.fleet_data import WorldData
 
     from .drones import DroneEntry
     from .fleet import FleetFile

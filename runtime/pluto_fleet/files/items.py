@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.actions import PICK, RELEASE
+from plutoc_runtime.domain.actions import PICK, RELEASE
 
 from . import errors
 
 if TYPE_CHECKING:
-    from plutoc_runtime.model import Item, Trip
+    from plutoc_runtime.domain.model import Item, Trip
 
     from .table import Table
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from plutoc_runtime.words import number
+from plutoc_runtime.domain.text import number
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -5,15 +5,15 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.geometry import covers_ground
-from plutoc_runtime.quantities import Type
+from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.domain.geometry import covers_ground
+from plutoc_runtime.domain.quantities import Type
 
 from . import errors, values
 from .limits import HEIGHT, SIDE
 
 if TYPE_CHECKING:
-    from plutoc_runtime.geometry import Corner
+    from plutoc_runtime.domain.geometry import Corner
 
     from .table import Table
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.fields import Entity
-from plutoc_runtime.words import quoted
+from plutoc_runtime.domain.fields import Entity
+from plutoc_runtime.domain.text import quoted
 
 from . import errors, values
 from .app_fields import read_fields
@@ -15,9 +15,9 @@ from .table import Table
 from .trips import read_trips
 
 if TYPE_CHECKING:
-    from plutoc_runtime.airspace import Airspace
-    from plutoc_runtime.app import App
-    from plutoc_runtime.model import Mission
+    from plutoc_runtime.domain.airspace import Airspace
+    from plutoc_runtime.domain.app import App
+    from plutoc_runtime.domain.model import Mission
 
 
 def load_missions(path: Path, app: App, airspace: Airspace) -> list[Mission[Any]]:

@@ -9,8 +9,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from plutoc_runtime.errors import BadInput
-from plutoc_runtime.toml import line_of_long_key
+from plutoc_runtime.alone.toml import line_of_long_key
+from plutoc_runtime.domain.errors import BadInput
 
 from . import errors
 from .toml_places import Place, Places, line_of, places

@@ -9,7 +9,7 @@ from . import errors
 from .behaviour import CRAZYFLIE
 
 if TYPE_CHECKING:
-    from plutoc_runtime.app import App
+    from plutoc_runtime.domain.app import App
 
     from .fleet import DroneEntry, FleetFile
     from .free_tables import Options

@@ -5,11 +5,11 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.actions import PICK, RELEASE, Action, Plain
-from plutoc_runtime.fields import Entity
-from plutoc_runtime.model import NOTHING, Item, Point, Trip
-from plutoc_runtime.quantities import Type
-from plutoc_runtime.words import quoted
+from plutoc_runtime.domain.actions import PICK, RELEASE, Action, Plain
+from plutoc_runtime.domain.fields import Entity
+from plutoc_runtime.domain.model import NOTHING, Item, Point, Trip
+from plutoc_runtime.domain.quantities import Type
+from plutoc_runtime.domain.text import quoted
 
 from . import errors, values
 from .app_fields import read_fields
@@ -17,8 +17,8 @@ from .items import check_items
 from .limits import MASS
 
 if TYPE_CHECKING:
-    from plutoc_runtime.airspace import Airspace
-    from plutoc_runtime.app import App
+    from plutoc_runtime.domain.airspace import Airspace
+    from plutoc_runtime.domain.app import App
 
     from .table import Table
 

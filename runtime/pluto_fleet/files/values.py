@@ -7,13 +7,13 @@ from functools import partial
 from math import isfinite
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.fields import FieldType, time_of_day
-from plutoc_runtime.quantities import QUANTITIES, Type, parse_quantity, units_of
+from plutoc_runtime.domain.fields import FieldType, time_of_day
+from plutoc_runtime.domain.quantities import QUANTITIES, Type, parse_quantity, units_of
 
 from .limits import PLACE, TIME, Limit
 
 if TYPE_CHECKING:
-    from plutoc_runtime.actions import Plain
+    from plutoc_runtime.domain.actions import Plain
 
 LARGEST = 1e9
 """No field needs more, and nothing that is computed from less overflows: 30 years, for a time."""

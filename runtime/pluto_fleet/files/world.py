@@ -5,8 +5,8 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.quantities import Type
-from plutoc_runtime.world import Feature, Source, WorldData
+from plutoc_runtime.domain.fleet_data import Feature, Source, WorldData
+from plutoc_runtime.domain.quantities import Type
 
 from . import values
 from .limits import RADIUS

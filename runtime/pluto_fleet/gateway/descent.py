@@ -10,21 +10,21 @@ from functools import partial
 from itertools import islice
 from typing import TYPE_CHECKING, Any, Protocol
 
-from plutoc_runtime.energy import docked
-from plutoc_runtime.errors import FlightFailed
-from plutoc_runtime.kernel import FLEET, Kernel, Task
+from plutoc_runtime.domain.errors import FlightFailed
+from plutoc_runtime.fleet.energy import docked
+from plutoc_runtime.time.kernel import FLEET, Kernel, Task
 
-from ..standing import Down
+from ..jobs.reports import Down
 from .traffic.choosing import Goer
 from .traffic.courses import Course, course
 from .traffic.timetable import Timetable, timetable
 from .traffic.ways_home import ways_home
 
 if TYPE_CHECKING:
-    from plutoc_runtime.airspace import Airspace
-    from plutoc_runtime.model import Category, Point
+    from plutoc_runtime.domain.airspace import Airspace
+    from plutoc_runtime.domain.model import Category, Point
 
-    from .pilots import Pilots
+    from .executor import Pilots
     from .traffic.detours import Section
     from .traffic.traffic import Traffic
 

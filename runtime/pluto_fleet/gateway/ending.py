@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.kernel import FLEET, Kind
+from plutoc_runtime.time.kernel import FLEET, Kind
 
-from ..standing import Down
+from ..jobs.reports import Down
 
 if TYPE_CHECKING:
-    from plutoc_runtime.signals import Signal
+    from plutoc_runtime.time.future import Future
 
     from .gateway import Gateway
     from .server import Server
@@ -26,7 +26,7 @@ class Ending:
     brain is kept waiting for that.
     """
 
-    def __init__(self, gateway: Gateway, over: Signal[None], settings: Settings) -> None:
+    def __init__(self, gateway: Gateway, over: Future[None], settings: Settings) -> None:
         self._gateway, self._over = gateway, over
         self._second = settings.speed
         self._idle, self._patience = settings.idle, settings.patience

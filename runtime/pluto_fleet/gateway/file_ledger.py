@@ -9,8 +9,8 @@ from contextlib import suppress
 from pathlib import Path
 from zlib import crc32
 
+from ..jobs.reports import Entry, JobState
 from ..journal.values import value_data, value_of
-from ..standing import Entry, JobState
 from .ledger import Written
 
 _SPARE = 1000

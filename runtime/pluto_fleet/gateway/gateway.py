@@ -10,22 +10,22 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.errors import BadInput, FlightFailed
-from plutoc_runtime.kernel import FLEET, Cancelled, Kernel, Kind, Task
+from plutoc_runtime.domain.errors import BadInput, Cancelled, FlightFailed
+from plutoc_runtime.time.kernel import FLEET, Kernel, Kind, Task
 
-from ..standing import Down, RollCall, Standing
+from ..jobs.reports import Down, DroneReport, FleetReport
 from .descent import Craft, Descent
 from .envelope import Envelope
+from .executor import Leaving, Pilots
 from .jobs import Jobs
 from .link import Link
-from .pilots import Leaving, Pilots
 from .traffic.traffic import Traffic
 
 if TYPE_CHECKING:
-    from plutoc_runtime.airspace import Airspace
+    from plutoc_runtime.domain.airspace import Airspace
 
-    from ..controls import Controls
-    from .given import Report
+    from ..jobs.controls import Controls
+    from .job import Report
     from .ledger import Ledger
 
 
@@ -163,16 +163,16 @@ class Gateway:
 
     # All drones
 
-    async def call(self) -> RollCall:
+    async def call(self) -> FleetReport:
         """Ask every drone how it stands, and settle by that what has become of every job."""
         spawn = self.kernel.spawn
         asked = [
             spawn(self._ask(drone), key, f"{drone} is asked") for drone, key in self._keys.items()
         ]
         drones = {drone: await task for drone, task in zip(self._keys, asked, strict=True)}
-        return RollCall(drones=drones, jobs=self.jobs.settle(drones, self._epoch > 1))
+        return FleetReport(drones=drones, jobs=self.jobs.settle(drones, self._epoch > 1))
 
-    async def _ask(self, drone: str) -> Standing:
+    async def _ask(self, drone: str) -> DroneReport:
         standing = await self.navigation.roll_call(drone)
         if standing.reached:
             self.jobs.boots[drone] = standing.boot

@@ -7,16 +7,16 @@ from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.errors import Failure, FlightFailed
-from plutoc_runtime.kernel import Kernel, Key, Kind
+from plutoc_runtime.domain.errors import Failure, FlightFailed
+from plutoc_runtime.time.kernel import Kernel, Key, Kind
 
-from ..standing import Entry, JobState, Standing, outcome
-from .given import Given, Report
+from ..jobs.reports import DroneReport, Entry, JobState, outcome
+from .job import Given, Report
 
 if TYPE_CHECKING:
-    from plutoc_runtime.navigation import Navigation
+    from plutoc_runtime.fleet.navigation import Navigation
 
-    from ..navigation import Job
+    from ..jobs.job import Job
     from .envelope import Envelope
     from .ledger import Ledger
 
@@ -38,7 +38,7 @@ class Jobs:
         """By their ids; an `Entry` is settled, or of another life of the gateway."""
         if ledger is not None:
             self._known.update((entry.id, entry) for entry in ledger.entries())
-        self._remembered: dict[str, Standing] = {}
+        self._remembered: dict[str, DroneReport] = {}
         """Who says to have done a job, by the job's id: nobody else may know of it any more."""
         self._current: dict[str, Given] = {}
         """What drones fly, or hover for, by the drones' ids."""
@@ -147,7 +147,7 @@ class Jobs:
 
     # What drones tell
 
-    def settle(self, drones: Mapping[str, Standing], again: bool) -> Mapping[str, Entry]:
+    def settle(self, drones: Mapping[str, DroneReport], again: bool) -> Mapping[str, Entry]:
         """Find out from the drones what has become of actions that had begun; return all jobs.
 
         `again`: it is not the journal's first life, so what they remember may be of earlier ones.
@@ -162,7 +162,7 @@ class Jobs:
                 self._known[id] = self._settled(job, drones.get(job.drone))
         return {id: job.entry if isinstance(job, Given) else job for id, job in self._known.items()}
 
-    def _settled(self, job: Given | Entry, drone: Standing | None) -> Given | Entry:
+    def _settled(self, job: Given | Entry, drone: DroneReport | None) -> Given | Entry:
         if drone is None or drone.done is None:
             return job
         if job.id in drone.done:
@@ -175,7 +175,7 @@ class Jobs:
         self._keep(entry)
         return entry
 
-    def _believe(self, drone: Standing) -> None:
+    def _believe(self, drone: DroneReport) -> None:
         """Take the drone's word for what it did, where the ledger was damaged."""
         for id in drone.done or ():
             if id not in self._known:
@@ -192,7 +192,7 @@ class Jobs:
         self._kernel.schedule(self._kernel.now, Kind.FLIGHT, self._keys[drone], call)
 
 
-def _done(id: str, drone: Standing) -> Entry:
+def _done(id: str, drone: DroneReport) -> Entry:
     value = (drone.done or {})[id]
     return Entry(id=id, drone=drone.drone, state=JobState.DONE, boot=drone.boot, value=value)
 

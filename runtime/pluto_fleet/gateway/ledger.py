@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 from typing import Protocol
 
-from ..standing import Entry, JobState
+from ..jobs.reports import Entry, JobState
 
 
 class Written(Protocol):

@@ -5,17 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable, Coroutine
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
-from plutoc_runtime.errors import Failure, FlightFailed
-from plutoc_runtime.kernel import FLEET, Kind
-from plutoc_runtime.signals import Signal
+from plutoc_runtime.domain.errors import Failure, FlightFailed
+from plutoc_runtime.time.future import Future
+from plutoc_runtime.time.kernel import FLEET, Kind
 
 if TYPE_CHECKING:
-    from plutoc_runtime.model import Point, Telemetry
+    from plutoc_runtime.domain.model import Point, Telemetry
 
-    from ..navigation import Job
-    from ..standing import Down, RollCall, Standing
+    from ..jobs.job import Job
+    from ..jobs.reports import Down, DroneReport, FleetReport
     from .gateway import Gateway
-    from .given import Report
+    from .job import Report
 
 T = TypeVar("T")
 
@@ -110,7 +110,7 @@ class Link:
         """Bring a drone home after a failed flight."""
         return await self._command(drone, self._gateway.recover(drone))
 
-    async def roll_call(self, drone: str) -> Standing:
+    async def roll_call(self, drone: str) -> DroneReport:
         """Ask a drone where it is and what it has done."""
         standing = await self._navigation.roll_call(drone)
         if not self._is_heard:
@@ -142,7 +142,7 @@ class Link:
 
     # What only the gateway does
 
-    async def call(self) -> RollCall:
+    async def call(self) -> FleetReport:
         """Ask all drones and the ledger how everything stands; from now on the link is heard.
 
         If the drones are being brought down, that is seen through first.
@@ -200,5 +200,5 @@ class Link:
 
 async def _for_ever() -> NoReturn:
     """Wait for what never happens."""
-    await Signal[None]()
+    await Future[None]()
     raise AssertionError

@@ -15,29 +15,29 @@ from errno import EDQUOT, EFBIG, ENOSPC
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.errors import BadInput
-from plutoc_runtime.signals import Signal
-from plutoc_runtime.words import printable
-from plutoc_runtime.world import World
+from plutoc_runtime.alone.world import World
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.text import printable
+from plutoc_runtime.time.future import Future
 
 from ..drones.real_fleet import SLACK
-from ..forked import deaf, in_children, not_for_children
-from ..private import new_address, publish, withdraw
-from ..realtime import RealTime
+from ..process.forked import deaf, in_children, not_for_children
+from ..process.private import new_address, publish, withdraw
+from ..process.realtime import RealTime
 from ..simulation.drones import SimulatedNavigation
 from ..simulation.keeping import Keeper
 from ..simulation.moments import this_moment
+from .drone_lock import LEAVING, holding
 from .ending import Ending
 from .file_ledger import FileLedger
 from .gateway import Gateway
-from .holding import LEAVING, holding
 from .server import Server
 from .settings import Settings, settings_of
 from .sightings import SEEN, Sightings
 from .wire import LONGEST_TOLD
 
 if TYPE_CHECKING:
-    from ..controls import Controls
+    from ..jobs.controls import Controls
 
 NOTE, SETTINGS, LEDGER, LOCK, LOG = "gateway", "settings.json", "ledger", "lock", "log"
 """What lies in its folder; NOTE says where it listens."""
@@ -150,7 +150,7 @@ async def _command(
         patience=settings.patience * settings.speed,
         leaving=seen.leaving,
     )
-    over: Signal[None] = Signal()
+    over: Future[None] = Future()
     ending = Ending(gateway, over, settings)
     server = Server(gateway, _say, ending.goodbye)
     ending.server = server

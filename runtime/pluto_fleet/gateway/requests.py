@@ -6,10 +6,10 @@ from collections.abc import Callable, Coroutine
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.errors import BadInput
-from plutoc_runtime.words import shown
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.text import shown
 
-from ..standing import Down
+from ..jobs.reports import Down
 from .wire import Message, roll_data, standing_data
 
 if TYPE_CHECKING:

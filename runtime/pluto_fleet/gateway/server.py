@@ -12,11 +12,11 @@ from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.errors import BadInput, FlightFailed
-from plutoc_runtime.kernel import FLEET, Cancelled, Task
-from plutoc_runtime.words import quoted, shown
+from plutoc_runtime.domain.errors import BadInput, Cancelled, FlightFailed
+from plutoc_runtime.domain.text import quoted, shown
+from plutoc_runtime.time.kernel import FLEET, Task
 
-from ..standing import Down
+from ..jobs.reports import Down
 from .link import Busy
 from .requests import asked
 from .wire import (

@@ -16,13 +16,13 @@ from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.errors import Failure
+from plutoc_runtime.domain.errors import Failure
 
 from ..journal.values import point_of
 
 if TYPE_CHECKING:
-    from plutoc_runtime.errors import FlightFailed
-    from plutoc_runtime.model import Point, Telemetry
+    from plutoc_runtime.domain.errors import FlightFailed
+    from plutoc_runtime.domain.model import Point, Telemetry
 
 SEEN = "seen.json"
 """The file, in the gateway's folder."""

@@ -13,20 +13,20 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.errors import BadInput
+from plutoc_runtime.domain.errors import BadInput
 
-from .. import again
-from ..asking import ask
-from ..forked import not_for_children
-from ..private import address_in
-from ..standing import Down
+from ..jobs.reports import Down
+from ..process import respawn as again
+from ..process.asking import ask
+from ..process.forked import not_for_children
+from ..process.private import address_in
 from .process import ANOTHER_RUNS, LOCK, LOG, NO_ROOM, NOTE, SETTINGS
 from .remote import SILENCE, RemoteLink
 from .settings import Settings, data_of
 from .wire import LONGEST_HEARD
 
 if TYPE_CHECKING:
-    from plutoc_runtime.kernel import Kernel
+    from plutoc_runtime.time.kernel import Kernel
 
 _WITHIN, _EACH = 10.0, 0.01
 """Seconds that a gateway may take to begin, and between two looks."""

@@ -9,18 +9,18 @@ from dataclasses import dataclass, field
 from math import isinf
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.errors import Failure, FlightFailed
+from plutoc_runtime.domain.errors import Failure, FlightFailed
 
+from ..jobs.reports import DroneReport, Entry, FleetReport, JobState
 from ..journal.values import item_data, item_of, point_of, value_data, value_of
-from ..standing import Entry, JobState, RollCall, Standing
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from plutoc_runtime.actions import Plain
-    from plutoc_runtime.model import Item, Point, Telemetry
+    from plutoc_runtime.domain.actions import Plain
+    from plutoc_runtime.domain.model import Item, Point, Telemetry
 
-    from ..navigation import Job
+    from ..jobs.job import Job
 
 SILENT = 2.0
 """Seconds without a word after which a drone's place is no longer news."""
@@ -117,7 +117,7 @@ def seen(telemetry: Telemetry) -> tuple[object, ...]:
     return *telemetry.location, telemetry.battery_level, telemetry.landed, since
 
 
-def standing_data(standing: Standing) -> dict[str, object]:
+def standing_data(standing: DroneReport) -> dict[str, object]:
     """Return a drone's answer as plain data."""
     done = standing.done
     return {
@@ -133,15 +133,15 @@ def standing_data(standing: Standing) -> dict[str, object]:
     }
 
 
-def standing_of(data: Message) -> Standing:
+def standing_of(data: Message) -> DroneReport:
     """Return a drone's answer."""
     done = data["done"]
     values = None if done is None else {id: value_of(value) for id, value in done.items()}
     known = {"location": point_of(data["location"]), "problems": tuple(data["problems"])}
-    return Standing(**{**data, **known, "done": values})
+    return DroneReport(**{**data, **known, "done": values})
 
 
-def roll_data(roll: RollCall) -> dict[str, object]:
+def roll_data(roll: FleetReport) -> dict[str, object]:
     """Return a roll call as plain data."""
     return {
         "drones": [standing_data(standing) for standing in roll.drones.values()],
@@ -161,14 +161,14 @@ def roll_data(roll: RollCall) -> dict[str, object]:
     }
 
 
-def roll_of(data: Message) -> RollCall:
+def roll_of(data: Message) -> FleetReport:
     """Return a roll call."""
     standings = map(standing_of, data["drones"])
     entries = [
         Entry(**{**job, "state": JobState(job["state"]), "value": value_of(job["value"])})
         for job in data["jobs"]
     ]
-    return RollCall(
+    return FleetReport(
         drones={standing.drone: standing for standing in standings},
         jobs={entry.id: entry for entry in entries},
     )

@@ -7,9 +7,9 @@ from random import Random
 
 import pytest
 
-from pluto_fleet.standing import Down
-from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.model import Point
+from pluto_fleet.jobs.reports import Down
+from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.domain.model import Point
 from tests.gateway.traffic.skies import Sky, is_home
 
 TEN = 10

@@ -11,10 +11,10 @@ from pluto_fleet.gateway.traffic.choosing import Goer
 from pluto_fleet.gateway.traffic.courses import course
 from pluto_fleet.gateway.traffic.timetable import Timetable, timetable
 from pluto_fleet.gateway.traffic.ways_home import ways_home
+from pluto_fleet.jobs.reports import Down
 from pluto_fleet.simulation.drones import SimulatedDrone
-from pluto_fleet.standing import Down
-from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.model import Point
+from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.domain.model import Point
 from tests.gateway.traffic.real_skies import FLIES_ON, late
 from tests.gateway.traffic.skies import ENDURING, Sky, is_home
 

@@ -6,10 +6,10 @@ from random import Random
 
 import pytest
 
-from pluto_fleet.standing import Down
-from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.kernel import FLEET
-from plutoc_runtime.model import Point
+from pluto_fleet.jobs.reports import Down
+from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.domain.model import Point
+from plutoc_runtime.time.kernel import FLEET
 from tests.gateway.traffic.skies import Restless, Sky, is_home
 
 CASES = 40

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 
-from plutoc_runtime.model import Point
+from plutoc_runtime.domain.model import Point
 from tests.navigation.simulated import Simulated
 
 FOUND_BY = "test_the_event_loop_is_never_held_up"

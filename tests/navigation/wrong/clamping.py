@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from plutoc_runtime.model import Point
+from plutoc_runtime.domain.model import Point
 from tests.navigation.simulated import Simulated
 
 FOUND_BY = "test_a_bad_target_is_refused_before_anything_moves"

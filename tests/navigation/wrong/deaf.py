@@ -5,7 +5,7 @@ from __future__ import annotations
 from contextlib import suppress
 
 from pluto_fleet.drones import LinkLost
-from plutoc_runtime.model import Point
+from plutoc_runtime.domain.model import Point
 from tests.navigation.simulated import Simulated
 
 FOUND_BY = "test_a_drone_that_falls_silent_is_a_lost_link"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 
-from plutoc_runtime.model import Point
+from plutoc_runtime.domain.model import Point
 from tests.navigation.simulated import Simulated
 
 FOUND_BY = "test_go_to_returns_on_arrival_and_not_before"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from pluto_fleet.drones import DroneTelemetry
-from plutoc_runtime.model import Point
+from plutoc_runtime.domain.model import Point
 from tests.navigation.simulated import Simulated
 
 FOUND_BY = "test_it_counts_in_metres_and_radians_in_the_maps_frame"

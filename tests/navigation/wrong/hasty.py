@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pluto_fleet.drones import DroneSetup
 from pluto_fleet.simulation.body import SimulatedDrone
-from plutoc_runtime.model import Category
+from plutoc_runtime.domain.model import Category
 from tests.navigation.simulated import Simulated
 
 FOUND_BY = "test_it_is_never_faster_than_it_was_told"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pluto_fleet.drones import Rejected
-from plutoc_runtime.model import Point
+from plutoc_runtime.domain.model import Point
 from tests.navigation.simulated import Simulated
 
 FOUND_BY = "test_go_to_is_refused_on_the_ground"

@@ -8,8 +8,8 @@ from math import inf
 from pathlib import Path
 
 from pluto_fleet.drones import DroneEvent, DroneSetup, DroneTelemetry, LinkLost
-from plutoc_runtime.actions import Plain
-from plutoc_runtime.model import Item, Point
+from plutoc_runtime.domain.actions import Plain
+from plutoc_runtime.domain.model import Item, Point
 
 RECORD: list[tuple[str, str]] = []
 """(uri, what was asked)."""

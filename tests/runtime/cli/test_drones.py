@@ -11,7 +11,7 @@ import pytest
 from pluto_fleet.cli import drone_answers
 from pluto_fleet.drones import feeding
 from pluto_fleet.files.fleet import load_fleet
-from pluto_fleet.gateway.holding import holding
+from pluto_fleet.gateway.drone_lock import holding
 from tests.runtime.cli import fake_drones
 from tests.runtime.cli.conftest import Command
 from tests.runtime.cli.fake_drones import ASKED, RECORD, THERE, at

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from pluto_fleet.cli import start
-from plutoc_runtime.app import App
+from plutoc_runtime.domain.app import App
 
 
 @pytest.fixture

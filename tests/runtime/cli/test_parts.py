@@ -13,9 +13,9 @@ from pluto_fleet.cli.events import line_of
 from pluto_fleet.cli.progress import Progress
 from pluto_fleet.cli.report import table
 from pluto_fleet.cli.summary import Run, spread, summary
-from plutoc_runtime.faults import shares
-from plutoc_runtime.trace import dumped
-from plutoc_runtime.words import duration, mass, number, quoted
+from plutoc_runtime.alone.faults import shares
+from plutoc_runtime.domain.text import duration, mass, number, quoted
+from plutoc_runtime.domain.trace import dumped
 
 
 def test_the_summary_counts_successes_and_times_only_those() -> None:

@@ -9,8 +9,8 @@ from typing import Any
 
 import pytest
 
-from plutoc_runtime.app import App
-from plutoc_runtime.faults import FAULTS, Faults
+from plutoc_runtime.alone.faults import FAULTS, Faults
+from plutoc_runtime.domain.app import App
 from tests.runtime.cli.conftest import Command
 from tests.runtime.files.an_app import APP, POLLINATE
 

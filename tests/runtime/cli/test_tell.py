@@ -10,14 +10,14 @@ from threading import Event, Thread
 
 import pytest
 
-from pluto_fleet.asking import note_of
 from pluto_fleet.cli import stop_mark
+from pluto_fleet.flight.commands import listening
 from pluto_fleet.gateway.process import NOTE
+from pluto_fleet.jobs.reports import Down
 from pluto_fleet.journal.lock import Lock
 from pluto_fleet.journal.place import gateway_folder
-from pluto_fleet.remote_control import listening
-from pluto_fleet.standing import Down
-from plutoc_runtime.errors import BadInput
+from pluto_fleet.process.asking import note_of
+from plutoc_runtime.domain.errors import BadInput
 from tests.runtime.cli.conftest import Command
 
 

@@ -15,11 +15,11 @@ from pluto_fleet.files import drones
 from pluto_fleet.files.fleet import DroneEntry, FleetFile, default_fleet, load_fleet
 from pluto_fleet.files.fleet_text import fleet_text
 from pluto_fleet.files.real import navigation_of, not_real, options_of
-from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.app import App
-from plutoc_runtime.errors import BadInput
-from plutoc_runtime.model import AfterTrip, Point
-from plutoc_runtime.world import Feature, Source, WorldData
+from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.domain.app import App
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.fleet_data import Feature, Source, WorldData
+from plutoc_runtime.domain.model import AfterTrip, Point
 from tests.runtime.files.an_app import APP, PLAIN
 
 FULL = """

@@ -13,12 +13,12 @@ from hypothesis import strategies as st
 from pluto_fleet.files.fleet import FleetFile, load_fleet
 from pluto_fleet.files.limits import APART, RADIUS, SIDE
 from pluto_fleet.files.missions import load_missions
-from pluto_fleet.plan_check import problems
-from pluto_fleet.testing.blows import Blow, Kind
-from pluto_fleet.testing.case import Case, Weather
-from pluto_fleet.testing.rig import Rig
-from plutoc_runtime.errors import BadInput
-from plutoc_runtime.model import Mission
+from pluto_fleet.files.plan_check import problems
+from pluto_fleet.trials.blows import Blow, Kind
+from pluto_fleet.trials.case import Case, Weather
+from pluto_fleet.trials.rig import Rig
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.model import Mission
 from tests.runtime.files.extremes import CATEGORIES, Extremes, extreme_app
 
 DRONE = '[[drone]]\nid = "a"\ncategory = "scout"\nhome = [1, 1]\n'

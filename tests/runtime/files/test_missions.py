@@ -12,10 +12,10 @@ from hypothesis import strategies as st
 
 from pluto_fleet.files.missions import load_missions
 from pluto_fleet.files.reading import LARGEST, read
-from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.errors import BadInput
-from plutoc_runtime.model import Item, Mission
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.model import Item, Mission
+from plutoc_runtime.domain.status import Status
 from tests.runtime.files.an_app import APP, PLAIN, FieldMission, FieldTrip
 
 SIZE = (20.0, 12.0)

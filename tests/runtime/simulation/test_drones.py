@@ -8,15 +8,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pluto_fleet.controls import Controls
-from pluto_fleet.realtime import RealTime
-from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.energy import needed
-from plutoc_runtime.errors import Failure
-from plutoc_runtime.kernel import FLEET, Kernel
-from plutoc_runtime.model import Category, Item, Photo, Point
-from plutoc_runtime.motion import standing
-from plutoc_runtime.virtual import VirtualTime
+from pluto_fleet.jobs.controls import Controls
+from pluto_fleet.process.realtime import RealTime
+from plutoc_runtime.alone.motion import standing
+from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.domain.errors import Failure
+from plutoc_runtime.domain.model import Category, Item, Photo, Point
+from plutoc_runtime.fleet.energy import needed
+from plutoc_runtime.time.kernel import FLEET, Kernel
+from plutoc_runtime.time.virtual import VirtualTime
 from tests.runtime.simulation.flights import (
     CLIMB,
     HOME,

@@ -9,15 +9,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pluto_fleet.realtime import RealTime
+from pluto_fleet.process.realtime import RealTime
 from pluto_fleet.simulation.drones import SimulatedNavigation
-from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.energy import docked
-from plutoc_runtime.errors import Failure, FlightFailed
-from plutoc_runtime.faults import Faults, draw
-from plutoc_runtime.kernel import FLEET
-from plutoc_runtime.model import Item, Point
-from plutoc_runtime.virtual import VirtualTime
+from plutoc_runtime.alone.faults import Faults, draw
+from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.domain.errors import Failure, FlightFailed
+from plutoc_runtime.domain.model import Item, Point
+from plutoc_runtime.fleet.energy import docked
+from plutoc_runtime.time.kernel import FLEET
+from plutoc_runtime.time.virtual import VirtualTime
 from tests.runtime.simulation.flights import CLIMB, HOME, SCOUT, Team, failure, fly, order, team
 
 FAR = (4.0, 5.0, 1.2)

@@ -7,7 +7,7 @@ import json
 from typing import Any
 
 from pluto_fleet.station.plan.plan import Plan
-from pluto_fleet.station.scene import Scene
+from pluto_fleet.station.updates import Scene
 from tests.runtime.files.an_app import APP
 from tests.station.plan.drawing import FLEET
 

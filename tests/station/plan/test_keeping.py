@@ -18,8 +18,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from pluto_fleet.station.plan.plan import Plan
-from plutoc_runtime.errors import BadInput
-from plutoc_runtime.fields import Entity
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.fields import Entity
 from tests.runtime.files.an_app import APP, PLAIN
 from tests.station.plan.drawing import FLEET, PLANS, Json, a_plan, mission, trip
 

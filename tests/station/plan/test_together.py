@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, invariant, rule
 
 from pluto_fleet.station.plan.plan import Plan, Stale
-from plutoc_runtime.errors import BadInput
+from plutoc_runtime.domain.errors import BadInput
 from tests.station.plan.drawing import MISSIONS, Json, a_plan, drawn, keyed, mission, trip
 
 KEYS = ["mission-one", "mission-two"]

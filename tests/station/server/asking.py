@@ -14,7 +14,7 @@ from pluto_fleet.station.web.api import Api
 from pluto_fleet.station.web.audit import Audit
 from pluto_fleet.station.web.guard import Guard
 from pluto_fleet.station.web.http import Reply, Request
-from plutoc_runtime.errors import BadInput
+from plutoc_runtime.domain.errors import BadInput
 
 HOST = "127.0.0.1:8765"
 OURS = {

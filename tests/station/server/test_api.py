@@ -10,7 +10,7 @@ import pytest
 
 from pluto_fleet.station.commands import Malformed
 from pluto_fleet.station.web.answers import ADDRESSES
-from plutoc_runtime.errors import BadInput
+from plutoc_runtime.domain.errors import BadInput
 
 from .asking import OURS, AStation, asked, request, said, without
 

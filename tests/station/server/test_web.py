@@ -15,11 +15,12 @@ from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.typing import Origin
 
-from pluto_fleet.station.web import crowd, server
+from pluto_fleet.station.web import connections as crowd
+from pluto_fleet.station.web import server
 from pluto_fleet.station.web.borrowed import borrowed
 from pluto_fleet.station.web.guard import Guard
 from pluto_fleet.station.web.listening import address, listening, port_of
-from plutoc_runtime.errors import BadInput
+from plutoc_runtime.domain.errors import BadInput
 
 from .asking import SEEN
 from .serving import Served, served, status

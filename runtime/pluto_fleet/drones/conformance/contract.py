@@ -5,7 +5,7 @@ from __future__ import annotations
 from itertools import pairwise
 from math import dist, hypot, isfinite, pi
 
-from plutoc_runtime.errors import Failure
+from plutoc_runtime.domain.errors import Failure
 
 from ..checking import problems
 from ..loading import NAVIGATION

@@ -18,7 +18,7 @@ from .record import Record, Sample, Step, Truth
 if TYPE_CHECKING:
     from collections.abc import AsyncIterator
 
-    from plutoc_runtime.model import Point
+    from plutoc_runtime.domain.model import Point
 
     from ..protocol import DroneNavigation
 

@@ -7,12 +7,12 @@ from itertools import pairwise
 from math import cos, dist, hypot, isfinite, sin
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.errors import Failure
+from plutoc_runtime.domain.errors import Failure
 
 from .record import said
 
 if TYPE_CHECKING:
-    from plutoc_runtime.model import Point
+    from plutoc_runtime.domain.model import Point
 
     from .record import Record, Sample
 

@@ -9,14 +9,14 @@ from itertools import pairwise
 from math import ceil, dist, sqrt
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.energy import CLIMB_SPEED
-from plutoc_runtime.geometry import between
+from plutoc_runtime.domain.geometry import between
+from plutoc_runtime.fleet.energy import CLIMB_SPEED
 
-from .claims import Box, box_of
 from .detours import Section
+from .reservations import Box, box_of
 
 if TYPE_CHECKING:
-    from plutoc_runtime.model import Point
+    from plutoc_runtime.domain.model import Point
 
 PIECE, SHORT = 0.5, 0.2
 """Metres: where two ways come near each other, one drone waits until another has left a piece. Where

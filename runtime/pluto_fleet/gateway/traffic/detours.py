@@ -8,8 +8,8 @@ from math import dist
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from plutoc_runtime.airspace import Airspace
-    from plutoc_runtime.model import Point
+    from plutoc_runtime.domain.airspace import Airspace
+    from plutoc_runtime.domain.model import Point
 
 FURTHEST, SHARE = 1.5, 0.05
 """How many metres higher or lower a drone flies to let another pass; on long ways, which share."""

@@ -6,14 +6,14 @@ from collections.abc import Iterator, Mapping
 from itertools import islice
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.energy import docked
-from plutoc_runtime.spots import free_spots, is_free
+from plutoc_runtime.fleet.energy import docked
+from plutoc_runtime.fleet.landing_sites import free_spots, is_free
 
 from .detours import LOWEST, Section
 
 if TYPE_CHECKING:
-    from plutoc_runtime.airspace import Airspace
-    from plutoc_runtime.model import Point, Telemetry
+    from plutoc_runtime.domain.airspace import Airspace
+    from plutoc_runtime.domain.model import Point, Telemetry
 
     from ..descent import Craft
 

@@ -6,12 +6,12 @@ from itertools import pairwise
 from math import dist, inf
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.energy import CLIMB_SPEED
+from plutoc_runtime.fleet.energy import CLIMB_SPEED
 
-from .claims import Claim, meets
+from .reservations import Claim, meets
 
 if TYPE_CHECKING:
-    from plutoc_runtime.model import Category, Point
+    from plutoc_runtime.domain.model import Category, Point
 
 _HALVINGS = 4
 """So often a leg is halved to find how far a drone must fly on it before it has left a way."""

@@ -6,20 +6,20 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from math import hypot
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.errors import Failure, FlightFailed
-from plutoc_runtime.kernel import FLEET, Kernel, Kind, Timer
+from plutoc_runtime.domain.errors import Failure, FlightFailed
+from plutoc_runtime.time.kernel import FLEET, Kernel, Kind, Timer
 
-from .claims import Claim, box_of, meets, nearest
 from .detours import Section, sections
 from .landing import Ground
 from .obstacles import Obstacle
-from .waiting import Wait
+from .reservations import Claim, box_of, meets, nearest
+from .wait_queue import Wait
 
 if TYPE_CHECKING:
-    from plutoc_runtime.airspace import Airspace
-    from plutoc_runtime.model import Point
+    from plutoc_runtime.domain.airspace import Airspace
+    from plutoc_runtime.domain.model import Point
 
-    from ...controls import Controls
+    from ...jobs.controls import Controls
     from ..descent import Craft
 
 AGAIN = 0.5

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 from .detours import Section
 
 if TYPE_CHECKING:
-    from plutoc_runtime.airspace import Airspace
-    from plutoc_runtime.model import Point
+    from plutoc_runtime.domain.airspace import Airspace
+    from plutoc_runtime.domain.model import Point
 
     from ..descent import Craft
 

@@ -1,0 +1,244 @@
+"""One real drone of the team: what it can be told, and why it takes no commands when it takes none."""
+
+from __future__ import annotations
+
+from collections.abc import Awaitable, Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, TypeVar
+
+from plutoc_runtime.domain.errors import Failure, FlightFailed
+from plutoc_runtime.domain.text import place
+from plutoc_runtime.fleet.energy import CLIMB_SPEED, docked
+
+from .command_queue import Lane
+from .protocol import CaredFor
+from .seen import EMPTY, Seen
+from .timeouts import Calls, shortened
+
+if TYPE_CHECKING:
+    from plutoc_runtime.domain.model import Category, Point
+
+    from .cargo import Cargo
+    from .protocol import DroneNavigation
+
+T = TypeVar("T")
+
+LAND, RISE = "land", "take off"
+"""What it does while it lands, or rises."""
+PREFLIGHT, HOLD, RECOVER = 12.0, 8.0, 8.0
+"""Seconds that these may take."""
+LOOK = 0.05
+"""Seconds between two looks at what it tells."""
+CLIMB_LIMIT = 2 * CLIMB_SPEED
+"""Metres per second, up and down, at most: the mean is about what plans count with."""
+AMPLE, SPARE = 3.0, 10.0
+"""A flight may take so many times what it takes at full speed, and so many seconds more."""
+SLOW = 1.0
+"""Metres per second at which a flight is waited for, where a category is faster: a drone may not be."""
+MANY = 20
+"""Reasons of one preflight that are heard."""
+STALE = 0.5
+"""Seconds of silence that bear a navigation out which says that the link is lost."""
+RECENTLY = 3.0
+"""Seconds for which a drone that was seen in the air is believed to have fallen out of it."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TeamDrone:
+    """A drone of the fleet, and what flies it."""
+
+    id: str
+    category: Category
+    home: Point
+    navigation: DroneNavigation
+
+
+class Member:
+    """A drone in the hands of its navigation. All of it happens in asyncio's loop."""
+
+    def __init__(
+        self,
+        drone: TeamDrone,
+        cargo: Cargo,
+        say: Callable[[str], object],
+        clock: Callable[[], float],
+    ) -> None:
+        self.drone, self.id, self.navigation = drone, drone.id, drone.navigation
+        self.blind: Callable[[], str | None] = _seeing
+        """Says why it does not know where it is, if somebody else must tell it and does not."""
+        self.lacks: Callable[[], tuple[str, ...]] = tuple
+        """Says what the plan asks for, and its hardware does not do."""
+        self.cargo, self.calls = cargo, Calls(drone.id, say, clock)
+        self.seen = Seen(
+            drone.home,
+            drone.category.flight_time,
+            lambda: self.navigation.telemetry,
+            self.calls,
+        )
+        self.lane = Lane(self.hover)
+        self.linked = False
+        self.on_lost: Callable[[], object] = _nobody
+        """Told when its link is lost."""
+        self.out_of_reach = f"{drone.id} has not been reached yet"
+        """Why it is not linked, if it is not."""
+        self.boot = 0
+        """How often it was found switched off and on again."""
+        self.down: FlightFailed | None = None
+        """Why it takes no commands though it is linked, if it takes none."""
+        self.needs_a_hand = False
+        """Only somebody who has put it home ends that."""
+        self.looked_after = False
+        """A person has looked after it, which it has not been told yet."""
+        self.is_cut = False
+        """Its motors are being cut, or were: nothing may turn them on again."""
+        self.must_land = False
+        """It comes down by itself, as soon as it can."""
+        self.adrift = False
+        """It comes down because it does not know where it is: it is not to go anywhere else."""
+        self.speed = drone.category.top_speed or drone.category.speed
+        self.climb = min(CLIMB_LIMIT, self.speed)
+
+    # How it is
+
+    @property
+    def is_docked(self) -> bool:
+        """Whether it stands at home."""
+        return self.seen.landed and docked(self.seen.location, self.drone.home)
+
+    @property
+    def has_crashed(self) -> bool:
+        """Whether it takes no commands because it fell."""
+        return self.down is not None and self.down.failure is Failure.CRASH
+
+    @property
+    def flew_lately(self) -> bool:
+        """Whether it flies, or did a moment ago."""
+        return not self.seen.landed or self.calls.clock() - self.seen.flew < RECENTLY
+
+    def check(self) -> None:
+        """Raise why it takes no commands, if it takes none."""
+        if self.down is not None:
+            raise FlightFailed(self.down.failure, str(self.down))
+        if not self.linked:
+            raise FlightFailed(Failure.LINK, self.out_of_reach)
+
+    def lost(self, why: str) -> None:
+        """Its link is gone: what it does ends here, as far as anybody can tell."""
+        if not self.linked:
+            return
+        seen, now = self.seen, self.calls.clock()
+        self.linked = False
+        self.out_of_reach = f"{self.id} lost its link at {place(seen.location)}: {why}"
+        self.calls.say(self.out_of_reach)
+        self.on_lost()
+        if now < seen.rises_until:  # it was about to take off, and may have done so
+            seen.rises_until = now + EMPTY * self.drone.category.flight_time
+        self.lane.fail(FlightFailed(Failure.LINK, self.out_of_reach))
+
+    def crashed(self, why: str) -> None:
+        """It fell out of the air: somebody must look after it."""
+        self.must_land = False
+        self.refuse(FlightFailed(Failure.CRASH, why))
+
+    def must_come_down(self, why: FlightFailed, *, needs_a_hand: bool = True) -> None:
+        """It flies no further: from now on it comes down by itself."""
+        self.must_land = True
+        self.refuse(why, needs_a_hand=needs_a_hand)
+
+    def loses_its_place(self, why: str) -> None:
+        """It does not know any more where it is: what it would do there it must not do."""
+        self.adrift = True
+        if self.must_land:
+            return
+        reason = f"{self.id} does not know where it is, and lands: {why}"
+        self.must_come_down(FlightFailed(Failure.LINK, reason), needs_a_hand=False)
+
+    def refuse(self, why: FlightFailed, *, needs_a_hand: bool = False) -> None:
+        """It takes no commands from now on; what it does ends here."""
+        self.calls.say(str(why))
+        self.down, self.needs_a_hand = why, needs_a_hand
+        if not (self.must_land and self.lane.doing == LAND):
+            self.lane.fail(why)
+
+    def is_well(self) -> None:
+        """It takes commands again."""
+        self.down, self.needs_a_hand = None, False
+        self.must_land = self.is_cut = self.adrift = False
+
+    async def hears_of_care(self) -> bool:
+        """Tell it that a person has looked after it, if one has and it wants to know; False: in vain.
+
+        One that flies need not know: what befalls it later nobody has looked after.
+        """
+        if not (self.looked_after and self.linked):
+            return True
+        self.looked_after = False
+        if self.seen.landed and isinstance(self.navigation, CaredFor):
+            try:
+                await self.calls.call("recover", RECOVER, self.navigation.looked_after)
+            except FlightFailed as error:
+                self.calls.say(str(error))
+                self.looked_after = error.failure is Failure.LINK  # it may not have heard
+                return self.looked_after
+        return True
+
+    async def preflight(self) -> tuple[str, ...]:
+        """Return why it may not take off now."""
+        try:
+            reasons = await self.calls.call(
+                "answer its preflight", PREFLIGHT, self.navigation.preflight
+            )
+        except FlightFailed as error:
+            return (str(error),)
+        one = (reasons,) if isinstance(reasons, str) else reasons
+        told = self.calls.ask(
+            "preflight", lambda: tuple(shortened(str(why)) for why in one)[:MANY], None
+        )
+        if told is None:
+            told = ("its preflight gave no list of reasons",)
+        blind = self.blind()
+        return told if blind is None else (*told, blind)
+
+    def break_off(self) -> None:
+        """Stop whatever it does, and hover; but who must land does."""
+        if not self.must_land:
+            why = f"{self.id} was told to break it off"
+            self.lane.fail(FlightFailed(Failure.REFUSED, why))
+
+    # How that is done
+
+    async def go(
+        self, what: str, seconds: float, method: Callable[..., Awaitable[T]], *args: object
+    ) -> T:
+        """Have it do something that takes so long at full speed, and return what came of it."""
+        try:
+            return await self.calls.call(what, seconds * AMPLE + SPARE, method, *args)
+        except FlightFailed as error:
+            self._hears(error)
+            raise
+
+    def _hears(self, error: FlightFailed) -> None:
+        """Believe what a failed command says of the drone: that may be known before it is seen."""
+        if error.failure is Failure.LINK and self.seen.silence > STALE:
+            self.lost(str(error))
+        elif error.failure is Failure.CRASH and self.flew_lately:
+            self.crashed(str(error))
+        elif error.failure is Failure.BATTERY and not self.seen.landed:
+            self.must_come_down(error)
+
+    async def hover(self) -> None:
+        """Hover, after whatever was broken off; where it cannot, the log says why."""
+        await self.calls.parted()
+        if self.linked and not self.seen.landed and not self.is_cut:
+            try:
+                await self.calls.call("hover", HOLD, self.navigation.hold)
+            except FlightFailed as error:
+                self.calls.say(f"{self.id} was to hover: {error}")
+
+
+def _nobody() -> None:
+    """Nobody is told."""
+
+
+def _seeing() -> None:
+    """It knows where it is by itself."""
