@@ -57,22 +57,18 @@ def state(
 # The worker
 
 
-def test_a_call_that_hangs_is_given_up_and_the_next_one_is_not_held_up() -> None:
+async def test_a_call_that_hangs_is_given_up_and_the_next_one_is_not_held_up() -> None:
     released = Event()
-
-    async def use() -> None:
-        worker = Worker("cf1")
-        assert await worker.call(lambda: 5, 1.0) == 5
-        with pytest.raises(ZeroDivisionError):
-            await worker.call(lambda: 1 / 0, 1.0)
-        with pytest.raises(LinkLost, match=r"did not take a command for cf1 in 0\.05 s"):
-            await worker.call(released.wait, 0.05)
-        with pytest.raises(LinkLost):  # at once: the thread is not waited for again
-            await worker.call(lambda: 5, 1e9)
-        released.set()
-        worker.end()
-
-    asyncio.run(use())
+    worker = Worker("cf1")
+    assert await worker.call(lambda: 5, 1.0) == 5
+    with pytest.raises(ZeroDivisionError):
+        await worker.call(lambda: 1 / 0, 1.0)
+    with pytest.raises(LinkLost, match=r"did not take a command for cf1 in 0\.05 s"):
+        await worker.call(released.wait, 0.05)
+    with pytest.raises(LinkLost):  # at once: the thread is not waited for again
+        await worker.call(lambda: 5, 1e9)
+    released.set()
+    worker.end()
 
 
 def test_a_call_that_is_not_waited_for_any_more_is_not_made() -> None:

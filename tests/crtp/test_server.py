@@ -70,16 +70,13 @@ async def faults_of(server: Server) -> None:
     assert await answered(uri) is None
 
 
-def test_each_drone_has_a_port_and_its_own_faults() -> None:
-    async def whole() -> None:
-        server = Server([Build(id=id, home=home) for id, home in HOMES.items()], InMemory())
-        await server.start()
-        try:
-            await faults_of(server)
-        finally:
-            await server.close()
-
-    asyncio.run(whole())
+async def test_each_drone_has_a_port_and_its_own_faults() -> None:
+    server = Server([Build(id=id, home=home) for id, home in HOMES.items()], InMemory())
+    await server.start()
+    try:
+        await faults_of(server)
+    finally:
+        await server.close()
 
 
 @pytest.fixture

@@ -204,7 +204,7 @@ def test_an_app_that_says_nothing_is_not_waited_for(note: Path, tmp_path: Path) 
             ask(note, {"command": "pause", "mission": None}, 0.01)
 
 
-def test_an_app_that_ends_first_leaves_one_in_doubt(note: Path) -> None:
+async def test_an_app_that_ends_first_leaves_one_in_doubt(note: Path) -> None:
     """That is told, and not that all went well."""
     asked, over = asyncio.Event(), asyncio.Event()
 
@@ -213,14 +213,11 @@ def test_an_app_that_ends_first_leaves_one_in_doubt(note: Path) -> None:
         await over.wait()
         return "done"
 
-    async def scenario() -> None:
-        async with listening(note, never):
-            doubt = asyncio.create_task(asyncio.to_thread(ask, note, {"command": "pause"}, 5.0))
-            await asked.wait()
-        with pytest.raises(Ended, match="before it could say whether that was done"):
-            await doubt
-
-    asyncio.run(scenario())
+    async with listening(note, never):
+        doubt = asyncio.create_task(asyncio.to_thread(ask, note, {"command": "pause"}, 5.0))
+        await asked.wait()
+    with pytest.raises(Ended, match="before it could say whether that was done"):
+        await doubt
 
 
 def test_nothing_flies_that_could_not_be_stopped(

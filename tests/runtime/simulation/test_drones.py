@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
-
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -333,7 +331,7 @@ def test_drones_that_arrive_together_are_taken_in_the_fleets_order() -> None:
     assert arrived == ["cf1", "cf2"]
 
 
-def test_the_same_drones_fly_in_real_time() -> None:
+async def test_the_same_drones_fly_in_real_time() -> None:
     """On asyncio's clock nothing else changes: a millimetre, and a leg that is cancelled."""
 
     async def flight(kernel: Kernel, navigation: Team) -> None:
@@ -353,11 +351,8 @@ def test_the_same_drones_fly_in_real_time() -> None:
         assert telemetry.landed
         assert telemetry.battery_level < 1
 
-    async def main() -> None:
-        kernel = RealTime()
-        await kernel.run(kernel.spawn(flight(kernel, team(kernel)), FLEET, "flight"))
-
-    asyncio.run(main())
+    kernel = RealTime()
+    await kernel.run(kernel.spawn(flight(kernel, team(kernel)), FLEET, "flight"))
 
 
 def test_who_stands_somewhere_from_a_moment_to_come_is_there_already() -> None:

@@ -89,7 +89,7 @@ def test_without_the_token_nothing_changes_and_one_waits_to_be_told(
     assert len(ask.paused) == 2
 
 
-def test_many_who_guess_keep_no_owner_out() -> None:
+async def test_many_who_guess_keep_no_owner_out() -> None:
     ask = asked(token="sesame")
     gate = asyncio.Event()
 
@@ -100,15 +100,11 @@ def test_many_who_guess_keep_no_owner_out() -> None:
     stop = request("POST", "/api/stop", {"id": "1"}, without(authorization="Bearer sesame"))
     start = request("POST", "/api/start", {"id": "2"}, without(authorization="Bearer sesame"))
     guess = request("POST", "/api/start", {"id": "3"})
-
-    async def scene() -> None:
-        guesses = [asyncio.create_task(ask.api.answer(guess)) for _ in range(200)]
-        assert (await ask.api.answer(start)).status == 200
-        assert (await ask.api.answer(stop)).status == 200
-        gate.set()
-        assert {(await each).status for each in guesses} == {401}
-
-    asyncio.run(scene())
+    guesses = [asyncio.create_task(ask.api.answer(guess)) for _ in range(200)]
+    assert (await ask.api.answer(start)).status == 200
+    assert (await ask.api.answer(stop)).status == 200
+    gate.set()
+    assert {(await each).status for each in guesses} == {401}
 
 
 BAD_BODIES = [
@@ -266,33 +262,29 @@ def test_of_too_many_commands_some_are_refused_but_never_what_brings_drones_down
     assert [ask("POST", "/api/start", {"id": "x"}).status for _ in range(11)][9:] == [200, 429]
 
 
-def test_a_stop_is_taken_when_all_others_wait() -> None:
+async def test_a_stop_is_taken_when_all_others_wait() -> None:
     gate = asyncio.Event()
     station = AStation(busy=gate.wait)
     ask = asked(station)
-
-    async def scene() -> None:
-        waiting = []
-        for n in range(64):
-            ask.times.append(float(n))
-            start = request("POST", "/api/start", {"id": f"{n}"})
-            waiting.append(asyncio.create_task(ask.api.answer(start)))
-            await asyncio.sleep(0)
-        poll = request("GET", "/api/live")
-        polls = [asyncio.create_task(ask.api.answer(poll)) for _ in range(33)]
+    waiting = []
+    for n in range(64):
+        ask.times.append(float(n))
+        start = request("POST", "/api/start", {"id": f"{n}"})
+        waiting.append(asyncio.create_task(ask.api.answer(start)))
         await asyncio.sleep(0)
-        one_more = await ask.api.answer(request("POST", "/api/start", {"id": "one more"}))
-        assert one_more.status == 503
-        assert (await ask.api.answer(request("GET", "/"))).status == 200
-        assert (await ask.api.answer(request("POST", "/api/stop", {"id": "s"}))).status == 200
-        cut = request("POST", "/api/cut-motors", {"id": "c", "drone": "cf1"})
-        assert (await ask.api.answer(cut)).status == 200
-        assert [what for what, _ in station.done] == ["stop", "cut-motors"]
-        gate.set()
-        assert {(await each).status for each in waiting} == {200}
-        assert [(await each).status for each in polls] == [200] * 32 + [503]
-
-    asyncio.run(scene())
+    poll = request("GET", "/api/live")
+    polls = [asyncio.create_task(ask.api.answer(poll)) for _ in range(33)]
+    await asyncio.sleep(0)
+    one_more = await ask.api.answer(request("POST", "/api/start", {"id": "one more"}))
+    assert one_more.status == 503
+    assert (await ask.api.answer(request("GET", "/"))).status == 200
+    assert (await ask.api.answer(request("POST", "/api/stop", {"id": "s"}))).status == 200
+    cut = request("POST", "/api/cut-motors", {"id": "c", "drone": "cf1"})
+    assert (await ask.api.answer(cut)).status == 200
+    assert [what for what, _ in station.done] == ["stop", "cut-motors"]
+    gate.set()
+    assert {(await each).status for each in waiting} == {200}
+    assert [(await each).status for each in polls] == [200] * 32 + [503]
 
 
 @pytest.mark.parametrize(
