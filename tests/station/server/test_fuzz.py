@@ -144,16 +144,20 @@ def may_command(request: Request) -> bool:
 
 @settings(max_examples=150, derandomize=True, deadline=None)
 @given(asked=st.lists(requests(), min_size=1, max_size=10), token=st.sampled_from([None, "sesame"]))
-async def test_no_request_finds_a_mistake(asked: list[Request], token: str | None) -> None:
+def test_no_request_finds_a_mistake(asked: list[Request], token: str | None) -> None:
     station = WithAPlan()
     guard = Guard(host="127.0.0.1", port=8765, token=token)
     api = Api(station, guard, Audit(None), pause=no_pause)
-    for request in asked:
-        before = station.changed
-        reply = await api.answer(request)
-        sound(reply)
-        if not may_command(request) or reply.status != 200:
-            assert station.changed == before
+
+    async def scene() -> None:
+        for request in asked:
+            before = station.changed
+            reply = await api.answer(request)
+            sound(reply)
+            if not may_command(request) or reply.status != 200:
+                assert station.changed == before
+
+    asyncio.run(scene())
 
 
 @settings(max_examples=60, derandomize=True, deadline=None)
@@ -214,7 +218,7 @@ RAW = st.lists(LINES | st.binary(max_size=6), min_size=1, max_size=14).map(b"".j
 
 @settings(max_examples=8, derandomize=True, deadline=None)
 @given(asked=st.lists(RAW, min_size=30, max_size=60))
-async def test_no_bytes_find_a_mistake(asked: list[bytes]) -> None:
+def test_no_bytes_find_a_mistake(asked: list[bytes]) -> None:
     async def scene(station: Served) -> None:
         host = station.host.encode()
         answers = [station.say(raw.replace(b"%s", host), b"\r\n\r\n\r\n\r\n") for raw in asked]
@@ -222,6 +226,9 @@ async def test_no_bytes_find_a_mistake(asked: list[bytes]) -> None:
             assert not answer or status(answer) < 500
             assert b"Traceback" not in answer
 
-    async with served() as station:
-        await scene(station)
-        await station.stop()
+    async def whole() -> None:
+        async with served() as station:
+            await scene(station)
+            await station.stop()
+
+    asyncio.run(whole())
