@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from pluto_fleet.gateway import remote, starting
-from pluto_fleet.gateway.process import LOG
+from pluto_fleet.gateway.process import LOG, main
 from pluto_fleet.gateway.starting import connect, let_end, speed_in, still_runs, stop_directly
 from pluto_fleet.jobs.reports import Down, JobState
 from pluto_fleet.process.realtime import RealTime
@@ -291,3 +291,18 @@ def test_a_folder_that_cannot_be_written_is_said_so(tmp_path: Path) -> None:
             await brain.linked()
 
     played(tmp_path, play)
+
+
+@pytest.mark.parametrize("arguments", [[], ["--help"], ["a", "b"]])
+def test_starting_it_by_hand_is_answered_that_apps_do(
+    arguments: list[str],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    """And nothing is left in the folder."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "--help").mkdir()
+    assert main(arguments) == 2
+    assert "an app starts this by itself" in capsys.readouterr().err
+    assert not list((tmp_path / "--help").iterdir())

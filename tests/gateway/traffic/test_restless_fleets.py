@@ -11,6 +11,8 @@ from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.model import Point
 from plutoc_runtime.time.kernel import FLEET
 from tests.gateway.traffic.skies import Restless, Sky, is_home
+from traffic import APART, flown, measured
+from traffic import crossings as crossing
 
 CASES = 40
 
@@ -69,3 +71,12 @@ def test_a_stop_in_between_brings_all_down(seed: int) -> None:
     if how is Down.HOME:
         assert sum(is_home(sky, drone) for drone in sky.drones) >= len(sky.drones) - 1
     sky.kernel.close()
+
+
+@pytest.mark.parametrize(("runs", "drones"), [(60, 2), (6, 10)])
+def test_trips_that_cross_keep_apart(runs: int, drones: int) -> None:
+    """No two drones come nearer; without a distance some would."""
+    assert measured(runs, drones, 10.0).nearest >= APART - 1e-6
+    assert any(
+        flown(*crossing(seed, drones, 10.0), 10.0, 0.0).nearest < APART for seed in range(runs)
+    )
