@@ -39,7 +39,7 @@ NO_FAULTS = Faults()
 
 
 def seen(fly: Callable[..., Outcome], app: App, example: Example, fleet: Any, **how: Any) -> object:
-    """Return all that anybody could see of a run, to the last bit."""
+    """Return all that can be seen of a run, to the last bit."""
     try:
         flown = fly(app, deepcopy(example.missions), fleet, until=A_WEEK, on_event=None, **how)
     except BadInput as error:

@@ -57,25 +57,21 @@ def state(
 # The worker
 
 
-def test_a_call_that_hangs_is_given_up_and_nobody_is_held_up_after_it() -> None:
+async def test_a_call_that_hangs_is_given_up_and_the_next_one_is_not_held_up() -> None:
     released = Event()
-
-    async def use() -> None:
-        worker = Worker("cf1")
-        assert await worker.call(lambda: 5, 1.0) == 5
-        with pytest.raises(ZeroDivisionError):
-            await worker.call(lambda: 1 / 0, 1.0)
-        with pytest.raises(LinkLost, match=r"did not take a command for cf1 in 0\.05 s"):
-            await worker.call(released.wait, 0.05)
-        with pytest.raises(LinkLost):  # at once: the thread is not waited for again
-            await worker.call(lambda: 5, 1e9)
-        released.set()
-        worker.end()
-
-    asyncio.run(use())
+    worker = Worker("cf1")
+    assert await worker.call(lambda: 5, 1.0) == 5
+    with pytest.raises(ZeroDivisionError):
+        await worker.call(lambda: 1 / 0, 1.0)
+    with pytest.raises(LinkLost, match=r"did not take a command for cf1 in 0\.05 s"):
+        await worker.call(released.wait, 0.05)
+    with pytest.raises(LinkLost):  # at once: the thread is not waited for again
+        await worker.call(lambda: 5, 1e9)
+    released.set()
+    worker.end()
 
 
-def test_a_call_that_nobody_waits_for_any_more_is_not_made() -> None:
+def test_a_call_that_is_not_waited_for_any_more_is_not_made() -> None:
     made: list[str] = []
 
     async def use() -> None:
@@ -124,7 +120,7 @@ def test_where_it_was_long_ago_says_nothing_of_its_speed() -> None:
 
 
 @given(sent=st.floats(0.0, 16777.0), passed=st.floats(0.0, 9.0), x=st.floats(-500.0, 500.0))
-def test_it_is_never_sent_far_to_stop_whatever_its_telemetry_makes_believe(
+def test_it_is_never_sent_far_to_stop_no_matter_what_its_telemetry_makes_believe(
     sent: float, passed: float, x: float
 ) -> None:
     target, seconds = courses.stop(state(0.0, sent=sent), state(0.1, x=x, sent=sent + passed))
@@ -153,7 +149,7 @@ def test_a_drone_hovers_once_it_has_not_moved_for_a_moment() -> None:
     comes = [state(tick / 10, x=0.04 * tick) for tick in range(6)]
     sways = [state(tick / 10, x=0.02 * (tick % 2)) for tick in range(6)]
     assert not courses.hovers(comes, near) and courses.hovers(sways, near)
-    assert not courses.hovers(sways[:3], near)  # nobody knows yet
+    assert not courses.hovers(sways[:3], near)  # that is not known yet
     stands = [state(0.5 + tick / 10, x=0.2) for tick in (1, 2, 3)]
     assert not courses.hovers([*comes, *stands[:2]], near)
     assert courses.hovers([*comes, *stands], near)
@@ -283,7 +279,7 @@ def told(*variances: float, every: float = 0.25) -> Certainty:
 
 
 @pytest.mark.parametrize("variance", [0.0004, 0.001, 0.003])
-def test_whoever_is_seen_by_lighthouse_camera_or_radio_beacons_is_sure_enough(
+def test_one_seen_by_lighthouse_camera_or_radio_beacons_is_sure_enough(
     variance: float,
 ) -> None:
     """What was measured of drones at rest: radio beacons are the worst of them."""
@@ -291,7 +287,7 @@ def test_whoever_is_seen_by_lighthouse_camera_or_radio_beacons_is_sure_enough(
     assert told(*[variance] * 5).sure(1.0, SURE_WITHIN)
 
 
-def test_whoever_was_not_sure_within_the_last_second_is_not_sure() -> None:
+def test_one_not_sure_within_the_last_second_is_not_sure() -> None:
     assert not told(*[1e-5] * 8, 0.5).sure(2.0, SURE_WITHIN)
     assert not told(*[1e-5] * 8, nan).sure(2.0, SURE_WITHIN)
     assert told(*[1e-5] * 8, 0.5).variance == 0.5
@@ -307,7 +303,7 @@ def test_one_that_only_sees_the_ground_pass_by_is_steady_once_its_variance_stays
         assert not certainty.sure(tick / 4, SURE_WITHIN)
 
 
-def test_what_it_said_long_ago_makes_nobody_sure() -> None:
+def test_what_it_said_long_ago_does_not_make_it_sure() -> None:
     certainty = told(*[0.0] * 8)
     assert certainty.sure(2.0, SURE_WITHIN) and not certainty.sure(9.0, SURE_WITHIN)
 
@@ -368,7 +364,7 @@ def test_one_variable_may_be_what_every_other_quantity_is_measured_by() -> None:
 # Tables of contents
 
 
-def test_tables_are_kept_where_nobody_else_may_write(
+def test_tables_are_kept_where_no_other_user_may_write(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """For cflib runs what it finds in them."""

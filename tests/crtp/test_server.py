@@ -25,7 +25,7 @@ HOMES = {"cf1": (1.0, 2.0, 0.0), "cf2": (3.0, 2.0, 0.0)}
 
 
 class Talk(asyncio.DatagramProtocol):
-    """Somebody who talks to one drone."""
+    """A client that talks to one drone."""
 
     def __init__(self) -> None:
         self.heard: asyncio.Queue[bytes] = asyncio.Queue()
@@ -34,7 +34,7 @@ class Talk(asyncio.DatagramProtocol):
         self.heard.put_nowait(data)
 
     def error_received(self, exc: Exception) -> None:
-        self.heard.put_nowait(b"nobody")
+        self.heard.put_nowait(b"refused")
 
 
 async def answered(uri: str, said: bytes = ECHO) -> bytes | None:
@@ -63,23 +63,20 @@ async def faults_of(server: Server) -> None:
     await server.let("cf1", "latency", 0.02)
     assert await answered(uri) == ECHO
     await server.let("cf1", "gone", True)
-    assert await answered(uri) in (b"nobody", None)
+    assert await answered(uri) in (b"refused", None)
     await server.let("cf1", "gone", False)
     assert await answered(uri) == ECHO
     await server.let("cf1", "loss", 1.0)
     assert await answered(uri) is None
 
 
-def test_each_drone_has_a_port_and_its_own_faults() -> None:
-    async def whole() -> None:
-        server = Server([Build(id=id, home=home) for id, home in HOMES.items()], InMemory())
-        await server.start()
-        try:
-            await faults_of(server)
-        finally:
-            await server.close()
-
-    asyncio.run(whole())
+async def test_each_drone_has_a_port_and_its_own_faults() -> None:
+    server = Server([Build(id=id, home=home) for id, home in HOMES.items()], InMemory())
+    await server.start()
+    try:
+        await faults_of(server)
+    finally:
+        await server.close()
 
 
 @pytest.fixture
@@ -114,7 +111,7 @@ def test_a_process_refuses_what_cannot_be_asked(folder: Path) -> None:
         process.told(folder, "dance")
 
 
-def test_a_process_streams_pictures_to_whoever_asks_for_a_camera(folder: Path) -> None:
+def test_a_process_streams_pictures_to_a_client_that_asks_for_a_camera(folder: Path) -> None:
     process.start(folder, HOMES, COMMAND)
     host, _, port = process.told(folder, "camera").rpartition(":")
     with socket.create_connection((host, int(port)), timeout=5) as line:

@@ -78,7 +78,7 @@ def left_in_the_air(deeds: Sequence[Deed]) -> Iterator[str]:
 
 
 def astray(deeds: Sequence[Deed], size: tuple[float, float]) -> Iterator[str]:
-    """Yield the commands to fly where nobody wants a drone: far outside of the floor, or high up."""
+    """Yield the commands to fly where no drone is wanted: far outside of the floor, or high up."""
     for deed in deeds:
         if deed.what == "go_to":
             x, y, z = (deed.values[axis] for axis in "xyz")

@@ -1,4 +1,4 @@
-"""One input through the whole compiler, and what must hold of what comes out."""
+"""One input through the whole compiler, and what must hold of all that comes out."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def source_of(random: Random) -> tuple[str, bytes]:
 
 
 def trial(random: Random, *, on_disk: bool = False) -> Outcome:
-    """Make an input and compile it; what is raised, `Rejected` aside, is a bug of ours."""
+    """Make an input and compile it; all that is raised, `Rejected` aside, is a bug of ours."""
     way, data = source_of(random)
     try:
         source = Source("fuzz.pluto", data.decode())

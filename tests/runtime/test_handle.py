@@ -101,7 +101,7 @@ def test_a_drone_that_has_it_not_fails_the_action(
 
 @pytest.mark.parametrize("real", [False, True])
 def test_a_drone_is_let_go_when_the_action_is_over(real: bool) -> None:
-    """Whoever keeps the handle can neither ask nor set anything any more."""
+    """One that keeps the handle can neither ask nor set anything any more."""
     kept: list[LiveDrone] = []
 
     async def grip(drone: Drone, trip: apps.Trip, context: Context) -> None:
@@ -147,7 +147,7 @@ def test_a_plain_function_is_told_that_it_must_be_async(real: bool) -> None:
 
 
 def test_a_modifier_has_no_live_drone() -> None:
-    """Its drone is on the way, or somebody else's."""
+    """Its drone is on the way, or another mission's."""
 
     def look(mission: apps.Mission, context: Context) -> None:
         context.live(kept[0])
@@ -179,7 +179,7 @@ def test_what_no_drone_can_be_set_to_is_the_hooks_fault(name: str, value: float,
 def test_an_answer_that_never_comes_ends_with_the_flight(
     monkeypatch: pytest.MonkeyPatch, real: bool
 ) -> None:
-    """Something else fails the trip: the question is called off, and keeps nobody."""
+    """Something else fails the trip: the question is called off, and keeps no drone."""
     over: list[str] = []
 
     async def never(self: SimulatedNavigation, drone: str, name: str) -> float:

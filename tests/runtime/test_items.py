@@ -34,7 +34,7 @@ def test_a_drone_with_an_item_aboard_is_not_handed_to_another_mission() -> None:
     assert order.index("X") > order.index("C")
 
 
-def test_a_failure_with_an_item_aboard_ends_the_mission_whatever_the_graph_says() -> None:
+def test_a_failure_with_an_item_aboard_ends_the_mission_against_the_graph() -> None:
     async def fails(drone: object, trip: object, context: object) -> None:
         raise ActionFailed("the door is shut")
 

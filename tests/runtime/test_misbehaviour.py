@@ -66,9 +66,7 @@ class Speechless(Exception):
         (Speechless(), "raised Speechless"),
     ],
 )
-def test_whatever_a_hook_raises_is_its_missions_fault_alone(
-    error: BaseException, says: str
-) -> None:
+def test_any_error_of_a_hook_is_its_missions_fault_alone(error: BaseException, says: str) -> None:
     def at_once(mission: Mission[apps.Trip], context: Context) -> None:
         raise error
 
@@ -272,7 +270,7 @@ def test_a_failure_after_another_trips_end_is_charged_to_no_trip(max_attempts: i
     assert [(event["trip"], event["attempt"]) for event in launched] == [("A", 1), ("B", 1)]
 
 
-def test_a_trip_that_flew_and_failed_is_charged_once_whatever_hooks_say_then() -> None:
+def test_a_trip_that_flew_and_failed_is_charged_once_though_hooks_say_otherwise_then() -> None:
     """It failed in flight, was put back, and a hook failed the mission again before it flew."""
     said: list[int] = []
 

@@ -194,7 +194,7 @@ def test_what_an_action_gives_is_kept_as_far_as_it_can_be(make: Callable[[], obj
 
 
 @pytest.mark.parametrize("make", ODD.values(), ids=ODD)
-def test_whatever_fails_an_action_is_a_reason_of_some_length(make: Callable[[], object]) -> None:
+def test_any_failure_of_an_action_is_a_reason_of_some_length(make: Callable[[], object]) -> None:
     def fails(trip: Any) -> None:
         raise ActionFailed(make())
 

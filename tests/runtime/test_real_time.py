@@ -96,7 +96,7 @@ def hooked(hook: Callable[..., object]) -> str:
         (asyncio.CancelledError(), "hook raises raised CancelledError"),
     ],
 )
-def test_whatever_a_hook_raises_ends_its_mission_and_never_hangs(
+def test_any_error_of_a_hook_ends_its_mission_and_never_hangs(
     error: BaseException, says: str
 ) -> None:
     def raises(drone: Drone, trip: apps.Trip, context: Context) -> None:
@@ -156,7 +156,7 @@ print("left")
 """
 
 
-def test_a_hook_that_never_comes_back_keeps_nobody_from_leaving() -> None:
+def test_a_hook_that_never_comes_back_keeps_no_one_from_leaving() -> None:
     path = [*sys.path]
     code = f"import sys; sys.path[:0] = {path!r}\n{STUCK}"
     ended = subprocess.run(

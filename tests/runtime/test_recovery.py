@@ -209,7 +209,7 @@ def test_a_drone_whose_flight_was_over_for_its_dead_brain_is_called_off() -> Non
         ("x", "UNCERTAIN", 1),
     ],
 )
-def test_the_apps_own_probe_may_know_what_nobody_else_does(
+def test_the_apps_own_probe_may_know_what_nothing_else_does(
     seen: object, end: str, flights: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     spray = OwnAction(name="spray", hook=_spray)

@@ -104,7 +104,7 @@ def test_a_round_counts_anew(tmp_path: Path, command: Command) -> None:
     assert "1 of 1 mission completed" in out
 
 
-def test_rounds_that_nobody_has_planned_do_not_count_anew(tmp_path: Path, command: Command) -> None:
+def test_rounds_that_were_not_planned_do_not_count_anew(tmp_path: Path, command: Command) -> None:
     """A hook that asks for one more round, each time, is no bound."""
 
     async def one_more(run: Run[FieldMission]) -> Status:

@@ -300,7 +300,7 @@ def test_a_fleet_that_is_written_is_read_the_same(tmp_path: Path) -> None:
     )
 )
 def test_options_are_kept_as_they_are(options: dict[str, object]) -> None:
-    """Whatever TOML can hold of texts, numbers, booleans, lists and tables, written and read."""
+    """All that TOML can hold of texts, numbers, booleans, lists and tables, written and read."""
     drone = DroneEntry(id="a", category="scout", home=(1.0, 1.0, 0.0), options=options)
     with tempfile.TemporaryDirectory() as folder:
         text = fleet_text(FleetFile(airspace=Airspace(), drones=(drone,)))

@@ -64,8 +64,8 @@ def test_a_quantity_that_was_not_named_is_the_usual_one() -> None:
     assert (found["quantity"], found["unit"]) == ("temperature", "°C")
 
 
-def test_a_unit_that_nobody_has_declared_is_not_made_up() -> None:
-    """What a real drone's sensor gives has the unit of its sensor, which nobody knows here."""
+def test_an_undeclared_unit_is_not_made_up() -> None:
+    """What a real drone's sensor gives has the unit of its sensor, which is not known here."""
     assert told("measure", 21.0, {})["unit"] is None
     assert told("measure", 3.0, dict(UNITS), quantity="radon")["unit"] is None
 

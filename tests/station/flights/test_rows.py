@@ -1,4 +1,4 @@
-"""What everybody sees of a mission."""
+"""What all pages see of a mission."""
 
 from __future__ import annotations
 

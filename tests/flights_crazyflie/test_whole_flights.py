@@ -1,7 +1,12 @@
-"""An example flies Crazyflies through the unmodified cflib (they are simulated down to the radio)."""
+"""Whole flights of Crazyflies through the unmodified cflib: to their end, and with killed processes."""
 
 from __future__ import annotations
 
+from pathlib import Path
+
+import pytest
+
+from tests.flights_crazyflie.campaign import fly
 from tests.flights_crazyflie.conftest import NewFlight
 from tests.flights_crazyflie.judge import (
     astray,
@@ -10,7 +15,8 @@ from tests.flights_crazyflie.judge import (
     left_in_the_air,
     nearest,
 )
-from tests.flights_crazyflie.plans import SIZE, WARD, fleet, missions, targets
+from tests.flights_crazyflie.plans import SIZE, WARD, fleet, missions, quick_package, targets
+from tests.flights_crazyflie.scenarios import SCENARIOS
 from tests.kill.trial import gateway_of
 
 APART = 0.5
@@ -29,3 +35,21 @@ def test_all_trips_are_completed_at_their_targets_and_every_drone_lands_before_i
     assert [*dropped(deeds), *left_in_the_air(deeds), *astray(deeds, SIZE)] == []
     least, who = nearest(trace)
     assert least > APART, who
+
+
+pytest.importorskip("cflib")
+
+CHOSEN = ("kill -9 of the brain", "kill -9 of the gateway")
+
+
+@pytest.fixture(scope="module")
+def quick(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder that the app's package is imported from."""
+    return quick_package(tmp_path_factory.mktemp("quick"))
+
+
+@pytest.mark.parametrize("name", CHOSEN)
+def test_it_ends_as_meant(name: str, quick: Path, tmp_path: Path) -> None:
+    scenario = next(one for one in SCENARIOS if one.name == name)
+    flight, wrong = fly(scenario, quick, tmp_path)
+    assert wrong == [], flight.told
