@@ -28,7 +28,7 @@ def test_silence_in_the_air_is_a_lost_link(tmp_path: Path, command: str) -> None
             assert await flown.until(lambda: flies.is_set) == pytest.approx(1.1, abs=0.15)
             failed = await flown.failure(team.go_to("cf1", (5.0, 1.0, 1.0)))
             assert failed.failure is Failure.LINK
-            assert not team.telemetry("cf1").landed
+            assert not team.telemetry["cf1"].landed
             assert "hold" not in drone.told
             drone.answers = True
 
@@ -117,7 +117,7 @@ def test_a_drone_that_cannot_fly_any_more_counts_as_landed(tmp_path: Path) -> No
 
     async def flight() -> None:
         async with flying(tmp_path) as flown:
-            drone, seen = await flown.up(), flown.team.telemetry("cf1")
+            drone, seen = await flown.up(), flown.team.telemetry["cf1"]
             drone.goes_silent()
             assert await flown.until(lambda: seen.landed) == pytest.approx(504, abs=2)
 
@@ -131,7 +131,7 @@ def test_a_link_that_is_lost_in_the_take_off_leaves_a_drone_in_the_air(tmp_path:
         drone = FakeDrone()
         drone.hangs = {"takeoff"}
         async with flying(tmp_path, drone) as flown:
-            seen = flown.team.telemetry("cf1")
+            seen = flown.team.telemetry["cf1"]
             await flown.do(flown.team.roll_call("cf1"))
             rises = flown.begin(flown.team.takeoff("cf1", 1.0))
             await flown.until(lambda: not seen.landed, 1)

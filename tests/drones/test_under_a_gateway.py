@@ -17,6 +17,7 @@ from pluto_fleet.gateway.file_ledger import FileLedger
 from pluto_fleet.gateway.gateway import Gateway
 from pluto_fleet.gateway.server import Server
 from pluto_fleet.gateway.wire import line
+from pluto_fleet.jobs.telemetry import Publisher
 from plutoc_runtime.domain.errors import Failure, FlightFailed
 from plutoc_runtime.domain.model import Point
 from plutoc_runtime.time.future import Future
@@ -195,7 +196,9 @@ def test_a_goodbye_leaves_nobody_behind_in_the_air(tmp_path: Path, back: bool) -
         async with commanded(tmp_path, 2, PATIENCE) as (flown, gateway):
             over, link, lost = Future[None](), gateway.link(1), flown.drones["cf2"]
             ending = Ending(gateway, over, settings(real=NOBODY, speed=1.0))
-            server = Server(gateway, flown.log.append, ending.goodbye)
+            server = Server(
+                gateway, Publisher(flown.team.telemetry), flown.log.append, ending.goodbye
+            )
             ending.server = server
             ours, theirs = socket.socketpair()
             server.accept(*await asyncio.open_unix_connection(sock=ours))

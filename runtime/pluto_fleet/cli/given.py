@@ -48,7 +48,7 @@ class Given(Before):
         )
 
     def _here(self, drone: str, height: float) -> Point:
-        x, y, _ = self._controls.telemetry(drone).location
+        x, y, _ = self._controls.telemetry[drone].location
         return x, y, height
 
     def _climb(self, drone: str) -> float:
@@ -56,7 +56,7 @@ class Given(Before):
 
     async def takeoff(self, drone: str, height: float) -> None:
         """Rise straight up to a height; does nothing for a drone that flies."""
-        if self._controls.telemetry(drone).landed:
+        if self._controls.telemetry[drone].landed:
             self._note(drone, "take off", self._here(drone, height), self._climb(drone))
         await self._controls.takeoff(drone, height)
 
@@ -67,7 +67,7 @@ class Given(Before):
 
     async def land(self, drone: str) -> None:
         """Land here; does nothing for a drone that stands on the ground."""
-        if not self._controls.telemetry(drone).landed:
+        if not self._controls.telemetry[drone].landed:
             self._note(drone, "land", self._here(drone, 0.0), self._climb(drone))
         await self._controls.land(drone)
 
@@ -102,7 +102,7 @@ class Given(Before):
 
     def break_off(self, drone: str) -> None:
         """Stop whatever a drone does, and hover; a command under way raises `FlightFailed`."""
-        if not self._controls.telemetry(drone).landed:
+        if not self._controls.telemetry[drone].landed:
             self._note(drone, "stop, and hover")
         self._controls.break_off(drone)
 

@@ -128,7 +128,7 @@ class Descent:
 
     def _ways_home(self, drone: Craft) -> list[Section]:
         """Return ways home; none where it is there, or cannot get there."""
-        telemetry, traffic = self._pilots.telemetry(drone.id), self._traffic
+        telemetry, traffic = self._pilots.telemetry[drone.id], self._traffic
         if telemetry.landed and docked(telemetry.location, drone.home):
             return []
         if traffic is not None and traffic.ground.below(drone.id, drone.home) is None:
@@ -168,7 +168,7 @@ class Descent:
     async def _follows(self, drone: str) -> None:
         """Fly as far as nobody is in the way who was to pass before; and so on, to the end."""
         last = len(self._plan.courses[drone].pieces) - 1
-        telemetry, at = self._pilots.telemetry(drone), 0
+        telemetry, at = self._pilots.telemetry[drone], 0
         try:
             self._pilots.begins(drone)
             while at < last:
@@ -190,7 +190,7 @@ class Descent:
     def _stretch(self, drone: str) -> Section:
         """Return what a drone flies next, from where it is: it may have been stopped on the way."""
         (first, last), one = self._at[drone], self._plan.courses[drone]
-        telemetry = self._pilots.telemetry(drone)
+        telemetry = self._pilots.telemetry[drone]
         here = telemetry.location
         first = max(first, one.piece_at(here, first, last) - 1)
         return one.stretch(here, telemetry.landed, first, last)
@@ -215,7 +215,7 @@ class Descent:
             return first > piece
         if last <= piece and first == last:
             return False
-        here = self._pilots.telemetry(drone).location
+        here = self._pilots.telemetry[drone].location
         return self._plan.courses[drone].piece_at(here, first, last) > piece
 
     def _send(self, drone: str, command: _Command) -> None:
@@ -223,7 +223,7 @@ class Descent:
         self._tasks.append(self._kernel.spawn(_well(command), key, f"{drone} comes down"))
 
     def _is_landed(self, drone: Craft) -> bool:
-        return self._pilots.telemetry(drone.id).landed
+        return self._pilots.telemetry[drone.id].landed
 
 
 async def _well(command: _Command) -> bool:

@@ -67,7 +67,7 @@ class Gateway:
         self.envelope = Envelope(airspace)
         self.drones, self._airspace, self._apart = tuple(drones), airspace, apart
         self._keys = {drone.id: FLEET + 1 + drone.index for drone in drones}
-        self.jobs = Jobs(kernel, self.navigation, self._keys, self.envelope, ledger)
+        self.jobs = Jobs(kernel, self.navigation.fly, self._keys, self.envelope, ledger)
         self._link: Link | None = None
         self.line: Callable[[Report], Report] | None = None
         """What lies between a brain and its reports in a simulation: it wraps whoever hears them."""
@@ -124,8 +124,7 @@ class Gateway:
     @property
     def flies(self) -> bool:
         """Whether any drone is in the air."""
-        telemetry = self.navigation.telemetry
-        return any(not telemetry(drone.id).landed for drone in self.drones)
+        return any(not known.landed for known in self.navigation.telemetry.values())
 
     def _watch(self, patience: float) -> None:
         """Land everything when nothing was heard for too long; look again when that may be so."""

@@ -14,8 +14,6 @@ from ..jobs.reports import DroneReport, Entry, JobState, outcome
 from .job import Given, Report
 
 if TYPE_CHECKING:
-    from plutoc_runtime.fleet.navigation import Navigation
-
     from ..jobs.job import Job
     from .envelope import Envelope
     from .ledger import Ledger
@@ -27,12 +25,12 @@ class Jobs:
     def __init__(
         self,
         kernel: Kernel,
-        navigation: Navigation[Job],
+        fly: Callable[[Job, Report], None],
         keys: Mapping[str, Key],
         envelope: Envelope,
         ledger: Ledger | None,
     ) -> None:
-        self._kernel, self._navigation, self._keys = kernel, navigation, keys
+        self._kernel, self._fly, self._keys = kernel, fly, keys
         self._envelope, self._ledger = envelope, ledger
         self._known: dict[str, Given | Entry] = {}
         """By their ids; an `Entry` is settled, or of another life of the gateway."""
@@ -62,7 +60,7 @@ class Jobs:
             self._post(drone, partial(report, FlightFailed(Failure.REFUSED, problem)))
             return
         self._known[given.id] = self._current[drone] = given
-        self._navigation.fly(given, given.report)
+        self._fly(given, given.report)
 
     def _repeated(self, known: Given | Entry, report: Report) -> None:
         """Answer who gives a job once more by what is known of it, never by a flight."""

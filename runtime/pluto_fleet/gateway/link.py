@@ -48,7 +48,7 @@ class Link:
 
     def telemetry(self, drone: str) -> Telemetry:
         """Return what is known of a drone; the value stays current."""
-        return self._navigation.telemetry(drone)
+        return self._navigation.telemetry[drone]
 
     def fly(self, job: Job, report: Report) -> None:
         """Give a drone its job. One that was done already is not flown, but reported once more."""

@@ -21,6 +21,7 @@ from plutoc_runtime.domain.text import printable
 from plutoc_runtime.time.future import Future
 
 from ..drones.real_fleet import SLACK
+from ..jobs.telemetry import Publisher
 from ..process.forked import deaf, in_children, not_for_children
 from ..process.private import new_address, publish, withdraw
 from ..process.realtime import RealTime
@@ -95,12 +96,9 @@ def taken(folder: Path) -> int | None:
 async def run(folder: Path, settings: Settings) -> None:
     """Reach the drones, or let the simulated world go on, and let brains command until all is over."""
     kernel = RealTime(settings.speed)
-    drones = [drone.id for drone in settings.drones]
     if settings.real is None:
         simulated = _simulated(folder, settings, kernel)
-        seen = Sightings(
-            folder / SEEN, drones, simulated.telemetry, down=simulated.down, speed=settings.speed
-        )
+        seen = Sightings(folder / SEEN, simulated.telemetry, down=simulated.down)
         await _command(folder, settings, kernel, simulated, seen)
         return
     from ..drones.making import make_team  # a simulation does without
@@ -109,7 +107,7 @@ async def run(folder: Path, settings: Settings) -> None:
     with holding(uris, patience=LEAVING):
         team = make_team(kernel, settings.drones, settings.real, settings.airspace, folder, _say)
         team.begin()
-        seen = Sightings(folder / SEEN, drones, team.telemetry, down=team.down)
+        seen = Sightings(folder / SEEN, team.telemetry, down=team.down)
         try:
             await _command(folder, settings, kernel, team, seen)
         finally:
@@ -152,7 +150,8 @@ async def _command(
     )
     over: Future[None] = Future()
     ending = Ending(gateway, over, settings)
-    server = Server(gateway, _say, ending.goodbye)
+    publisher = Publisher(controls.telemetry)
+    server = Server(gateway, publisher, _say, ending.goodbye)
     ending.server = server
     for number in (signal.SIGTERM, signal.SIGINT):
         asyncio.get_running_loop().add_signal_handler(number, kernel.post, ending.told_to_end)
@@ -161,7 +160,7 @@ async def _command(
     note = folder / NOTE
     address = new_address(note)
     listening = await asyncio.start_unix_server(server.accept, address, limit=LONGEST_TOLD)
-    watching = asyncio.ensure_future(seen.watch())
+    watching = seen.subscribe(publisher, settings.speed)
     try:
         publish(note, address)
         _say("the gateway is ready")

@@ -32,6 +32,7 @@ from .wire import (
 if TYPE_CHECKING:
     from asyncio import StreamReader, StreamWriter
 
+    from ..jobs.telemetry import Publisher, Subscription
     from .gateway import Gateway
     from .link import Link
 
@@ -43,8 +44,8 @@ _UNREAD = 64 * 1024 * 1024
 """Bytes that a brain may leave unread before it is given up."""
 _EACH = 0.1
 """Seconds on the wall between two looks at the drones."""
-_ALIVE = 10
-"""After so many looks without any change something is said all the same."""
+_ALIVE = 1.0
+"""Seconds without any change after which something is said all the same."""
 
 Say = Callable[[str], object]
 
@@ -52,8 +53,11 @@ Say = Callable[[str], object]
 class Server:
     """Everybody who is connected."""
 
-    def __init__(self, gateway: Gateway, say: Say, on_goodbye: Callable[[], object]) -> None:
-        self.gateway, self.say, self.on_goodbye = gateway, say, on_goodbye
+    def __init__(
+        self, gateway: Gateway, publisher: Publisher, say: Say, on_goodbye: Callable[[], object]
+    ) -> None:
+        self.gateway, self.publisher = gateway, publisher
+        self.say, self.on_goodbye = say, on_goodbye
         self.connected: dict[asyncio.Task[None], Connection] = {}
 
     @property
@@ -97,8 +101,8 @@ class Connection:
         self._was_cut = False
         self._under_way: dict[int, Task[Any]] = {}
         """Commands that are not answered yet, by their numbers."""
-        self._seen: dict[str, tuple[object, ...]] = {}
-        """What was told of the drones last."""
+        self._telemetry: Subscription[tuple[object, ...]] | None = None
+        """None: it has never commanded."""
         self.leaves = False
         """Whether it has said goodbye."""
 
@@ -109,7 +113,6 @@ class Connection:
 
     async def serve(self, reader: StreamReader) -> None:
         """Do what is asked, line by line, until nothing more comes."""
-        watch = asyncio.ensure_future(self._watch())
         try:
             with suppress(OSError):
                 while told := await reader.readline():
@@ -117,7 +120,7 @@ class Connection:
         except ValueError:  # no line may be so long
             self._refuse(f"a line was longer than {LONGEST_TOLD} bytes")
         finally:
-            watch.cancel()
+            self._tell_no_telemetry()
             self._gateway.kernel.post(self._leave)
             with suppress(OSError):
                 self._writer.close()
@@ -141,26 +144,17 @@ class Connection:
 
     # What drones look like
 
-    async def _watch(self) -> None:
-        """Tell what has changed, some times a second."""
-        quiet = 0
-        while True:
-            await asyncio.sleep(_EACH)
-            if self.link is not None:
-                changed = self._changed()
-                quiet = 0 if changed else quiet + 1
-                if changed or quiet >= _ALIVE:
-                    quiet = 0
-                    self._tell({"seen": changed})
+    def _tell_seen(self, changed: Message, late: float) -> None:
+        if self.link is not None:
+            self._tell({"seen": changed})
 
-    def _changed(self) -> dict[str, tuple[object, ...]]:
+    def _tell_no_telemetry(self) -> None:
+        if self._telemetry is not None:
+            self._telemetry.cancel()
+
+    def _changed(self) -> Message:
         """Return what has changed of the drones since it was told last."""
-        telemetry, changed = self._gateway.navigation.telemetry, {}
-        for drone, before in self._seen.items():
-            now = seen(telemetry(drone))
-            if now != before:
-                self._seen[drone] = changed[drone] = now
-        return changed
+        return {} if self._telemetry is None else self._telemetry.changed()
 
     # What is asked
 
@@ -228,10 +222,11 @@ class Connection:
 
     def _link(self, epoch: int) -> None:
         self.link = self._gateway.link(epoch, self._lost)
-        drones = self._gateway.drones
-        telemetry = self._gateway.navigation.telemetry
-        self._seen = {drone.id: seen(telemetry(drone.id)) for drone in drones}
-        self._tell({"linked": self._seen})
+        self._tell_no_telemetry()  # this connection may have commanded before
+        self._telemetry = self._server.publisher.subscribe(
+            self._tell_seen, every=_EACH, view=seen, unchanged=_ALIVE
+        )
+        self._tell({"linked": self._changed()})
         self._server.say(f"a brain commands, number {epoch}")
 
     def _lost(self) -> None:
@@ -293,7 +288,7 @@ class Connection:
             self._gateway.kernel.crash(error)
 
     def _known(self, drone: str) -> str:
-        if drone not in self._seen:
+        if drone not in self._server.publisher.drones:
             raise BadInput(f"there is no drone {shown(drone)}")
         return drone
 

@@ -105,7 +105,7 @@ def result_of(data: Message) -> object:
     return value_of(data["value"])
 
 
-def seen(telemetry: Telemetry) -> tuple[object, ...]:
+def seen(drone: str, telemetry: Telemetry) -> tuple[object, ...]:
     """Return what is known of a drone, in short.
 
     Last comes since when it is silent, in seconds since 1970: None where it is not, 0 where it was

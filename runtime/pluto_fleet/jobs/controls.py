@@ -21,8 +21,9 @@ if TYPE_CHECKING:
 class Controls(Protocol):
     """A team of drones, by their ids, one command at a time for each."""
 
-    def telemetry(self, drone: str) -> Telemetry:
-        """Return what is known of a drone; the value stays current."""
+    @property
+    def telemetry(self) -> Mapping[str, Telemetry]:
+        """What is known of each drone; the values stay current."""
         ...
 
     def why_not(self, drone: str, action: str, parameters: Mapping[str, Plain]) -> str | None:
@@ -108,10 +109,8 @@ class Before:
 
     def __init__(self, controls: Controls) -> None:
         self._controls = controls
-
-    def telemetry(self, drone: str) -> Telemetry:
-        """Return what is known of a drone; the value stays current."""
-        return self._controls.telemetry(drone)
+        self.telemetry = controls.telemetry
+        """What is known of each drone."""
 
     def why_not(self, drone: str, action: str, parameters: Mapping[str, Plain]) -> str | None:
         """Return why a drone's hardware cannot do a built-in action, or None."""

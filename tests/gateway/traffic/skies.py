@@ -182,7 +182,7 @@ class Restless:
         await self.sky.goes_home(drone)
 
     def _mishap(self, drone: str) -> None:
-        if not self.sky.navigation.telemetry(drone).landed:
+        if not self.sky.navigation.telemetry[drone].landed:
             what = self.chance.choice([Failure.LINK, Failure.CRASH, Failure.BATTERY, None])
             if what is not None:
                 self.sky.navigation.strike(drone, what)
@@ -190,5 +190,5 @@ class Restless:
 
 def is_home(sky: Sky, drone: SimulatedDrone) -> bool:
     """Say whether a drone stands in its dock."""
-    telemetry = sky.navigation.telemetry(drone.id)
+    telemetry = sky.navigation.telemetry[drone.id]
     return telemetry.landed and docked(telemetry.location, drone.home)

@@ -54,7 +54,7 @@ class Traffic:
     ) -> None:
         self._kernel, self._controls, self._airspace = kernel, controls, airspace
         self._drones = {drone.id: drone for drone in drones}
-        self._telemetry = {drone.id: controls.telemetry(drone.id) for drone in drones}
+        self._telemetry = controls.telemetry
         self.apart, self.step = apart, apart + slack
         self.limit = self.step - _EXACT
         self.is_real = slack > 0
