@@ -16,8 +16,8 @@ from pluto_fleet.gateway.ending import LINGERS, Ending
 from pluto_fleet.gateway.file_ledger import FileLedger
 from pluto_fleet.gateway.gateway import Gateway
 from pluto_fleet.gateway.server import Server
-from pluto_fleet.gateway.wire import line
 from pluto_fleet.jobs.telemetry import Publisher
+from pluto_fleet.process.ipc import line
 from plutoc_runtime.domain.errors import Failure, FlightFailed
 from plutoc_runtime.domain.model import Point
 from plutoc_runtime.time.future import Future
@@ -201,7 +201,9 @@ def test_a_goodbye_leaves_nobody_behind_in_the_air(tmp_path: Path, back: bool) -
             )
             ending.server = server
             ours, theirs = socket.socketpair()
-            server.accept(*await asyncio.open_unix_connection(sock=ours))
+            serving = asyncio.ensure_future(
+                server.serve(*await asyncio.open_unix_connection(sock=ours))
+            )
             reader, writer = await asyncio.open_unix_connection(sock=theirs)
             flown.kernel.post(ending.look)
             await flown.do(link.call())
@@ -219,6 +221,6 @@ def test_a_goodbye_leaves_nobody_behind_in_the_air(tmp_path: Path, back: bool) -
             assert lost.motors is not back
             assert seconds < 30 if back else seconds > LINGERS - 2
             writer.close()
-            await server.close()
+            await serving
 
     run(flight())

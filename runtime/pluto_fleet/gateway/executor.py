@@ -79,7 +79,7 @@ class Pilots:
             self._done(job, report), self._key(job.drone), name
         )
 
-    async def _done(self, job: Job, report: Callable[[object], None]) -> None:
+    async def _done(self, job: Job, report: Callable[[object], object]) -> None:
         try:
             result = await self._flown(job)
         except FlightFailed as error:

@@ -12,6 +12,7 @@ import time
 from collections.abc import Sequence
 from contextlib import suppress
 from errno import EDQUOT, EFBIG, ENOSPC
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -23,7 +24,7 @@ from plutoc_runtime.time.future import Future
 from ..drones.real_fleet import SLACK
 from ..jobs.telemetry import Publisher
 from ..process.forked import deaf, in_children, not_for_children
-from ..process.private import new_address, publish, withdraw
+from ..process.ipc import listening
 from ..process.realtime import RealTime
 from ..simulation.drones import SimulatedNavigation
 from ..simulation.keeping import Keeper
@@ -35,7 +36,7 @@ from .gateway import Gateway
 from .server import Server
 from .settings import Settings, settings_of
 from .sightings import SEEN, Sightings
-from .wire import LONGEST_TOLD
+from .wire import MAX_COMMAND
 
 if TYPE_CHECKING:
     from ..jobs.controls import Controls
@@ -157,22 +158,25 @@ async def _command(
         asyncio.get_running_loop().add_signal_handler(number, kernel.post, ending.told_to_end)
     no_more = in_children(deaf)
     signal.signal(signal.SIGHUP, signal.SIG_IGN)
-    note = folder / NOTE
-    address = new_address(note)
-    listening = await asyncio.start_unix_server(server.accept, address, limit=LONGEST_TOLD)
-    watching = seen.subscribe(publisher, settings.speed)
+    turned_away = partial(_say, "a client was turned away: too many are connected")
     try:
-        publish(note, address)
-        _say("the gateway is ready")
-        kernel.post(ending.look)
-        await kernel.run(over)
+        async with listening(
+            folder / NOTE,
+            server.serve,
+            max_line=MAX_COMMAND,
+            last_words=0.0,
+            turned_away=turned_away,
+        ):
+            watching = seen.subscribe(publisher, settings.speed)
+            try:
+                _say("the gateway is ready")
+                kernel.post(ending.look)
+                await kernel.run(over)
+            finally:
+                watching.cancel()
+                seen.keep()
     finally:
         no_more()
-        watching.cancel()
-        seen.keep()
-        listening.close()
-        withdraw(note)
-        await server.close()
     _say("the gateway ends: all drones are down")
 
 

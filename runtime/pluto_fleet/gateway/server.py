@@ -6,7 +6,6 @@ the socket may land the drones, whether the brain answers or not.
 
 from __future__ import annotations
 
-import asyncio
 from collections.abc import Callable, Coroutine, Sequence
 from contextlib import suppress
 from functools import partial
@@ -17,17 +16,9 @@ from plutoc_runtime.domain.text import quoted, shown
 from plutoc_runtime.time.kernel import FLEET, Cancelled, Task
 
 from ..jobs.reports import Down
+from ..process.ipc import Message, line, message_in
 from .link import Busy
-from .requests import asked
-from .wire import (
-    LONGEST_TOLD,
-    Message,
-    job_of,
-    line,
-    message_in,
-    result_data,
-    seen,
-)
+from .wire import MAX_COMMAND, job_of, result_data, roll_data, seen, standing_data
 
 if TYPE_CHECKING:
     from asyncio import StreamReader, StreamWriter
@@ -36,8 +27,6 @@ if TYPE_CHECKING:
     from .gateway import Gateway
     from .link import Link
 
-_AT_ONCE = 32
-"""Who may be connected at the same time."""
 _PENDING = 10_000
 """Commands of one brain that may be under way."""
 _UNREAD = 64 * 1024 * 1024
@@ -58,38 +47,27 @@ class Server:
     ) -> None:
         self.gateway, self.publisher = gateway, publisher
         self.say, self.on_goodbye = say, on_goodbye
-        self.connected: dict[asyncio.Task[None], Connection] = {}
+        self.connected: list[Connection] = []
 
     @property
     def has_a_brain(self) -> bool:
-        """Whether somebody commands."""
-        return any(
-            connection.link is not None and not connection.leaves
-            for connection in self.connected.values()
-        )
+        """Whether a brain commands."""
+        return any(one.link is not None and not one.leaves for one in self.connected)
 
-    def accept(self, reader: StreamReader, writer: StreamWriter) -> None:
-        """Serve somebody, unless there are too many."""
-        if len(self.connected) >= _AT_ONCE:
-            self.say("somebody was turned away: too many are connected")
-            writer.transport.abort()
-            return
+    async def serve(self, reader: StreamReader, writer: StreamWriter) -> None:
+        """Serve a connection, until it ends."""
         connection = Connection(self, writer)
-        task = asyncio.ensure_future(connection.serve(reader))
-        self.connected[task] = connection
-        task.add_done_callback(self.connected.pop)
+        self.connected.append(connection)
+        try:
+            await connection.serve(reader)
+        finally:
+            self.connected.remove(connection)
 
     def hang_up(self) -> None:
         """Let those go who have said goodbye: whatever is still to be done, they need not wait."""
-        for connection in self.connected.values():
+        for connection in self.connected:
             if connection.leaves:
                 connection.hang_up()
-
-    async def close(self) -> None:
-        """Say goodbye to everybody."""
-        for task in list(self.connected):
-            task.cancel()
-        await asyncio.gather(*self.connected, return_exceptions=True)
 
 
 class Connection:
@@ -118,7 +96,7 @@ class Connection:
                 while told := await reader.readline():
                     self._gateway.kernel.post(self._hear, told)
         except ValueError:  # no line may be so long
-            self._refuse(f"a line was longer than {LONGEST_TOLD} bytes")
+            self._refuse(f"a line was longer than {MAX_COMMAND} bytes")
         finally:
             self._tell_no_telemetry()
             self._gateway.kernel.post(self._leave)
@@ -266,7 +244,7 @@ class Connection:
                 self.leaves = True
                 self._server.on_goodbye()
             case _:
-                self._begin(int(message["n"]), what, asked(link, what, message, self._known))
+                self._begin(int(message["n"]), what, _asked(link, what, message, self._known))
 
     def _begin(self, number: int, what: str, command: Coroutine[Any, Any, object]) -> None:
         if number in self._under_way or len(self._under_way) >= _PENDING:
@@ -297,6 +275,43 @@ class Connection:
 
     def _report(self, number: int, result: object) -> None:
         self._tell({"report": number, **result_data(result), "seen": self._changed()})
+
+
+def _asked(
+    link: Link, what: str, message: Message, known: Callable[[Any], str]
+) -> Coroutine[Any, Any, object]:
+    """Return what answers a message; `known` refuses drones that there are not."""
+    if what == "call":
+        return _as_data(roll_data, link.call)
+    if what == "down":
+        return link.bring_down(Down(message["how"]))
+    drone = known(message["drone"])
+    match what:
+        case "hold":
+            return link.hold(drone)
+        case "read":
+            return link.read(drone, str(message["name"]))
+        case "write":
+            return link.write(drone, str(message["name"]), float(message["value"]))
+        case "takeoff":
+            return link.takeoff(drone, float(message["height"]))
+        case "go_to":
+            x, y, z = map(float, message["target"])
+            return link.go_to(drone, (x, y, z))
+        case "land":
+            return link.land(drone)
+        case "recover":
+            return link.recover(drone)
+        case "roll_call":
+            return _as_data(standing_data, partial(link.roll_call, drone))
+        case _:
+            raise BadInput(f"this gateway cannot {shown(what)}")
+
+
+async def _as_data(
+    write: Callable[[Any], object], ask: Callable[[], Coroutine[Any, Any, object]]
+) -> object:
+    return write(await ask())
 
 
 def _call_off(task: Task[Any]) -> None:
