@@ -12,9 +12,9 @@ import pytest
 
 from pluto_fleet.drones import BATTERY_LOW
 from pluto_fleet.drones.real_fleet import RealFleet
-from pluto_fleet.gateway.ending import LINGERS, Ending
-from pluto_fleet.gateway.file_ledger import FileLedger
 from pluto_fleet.gateway.gateway import Gateway
+from pluto_fleet.gateway.ledger import FileLedger
+from pluto_fleet.gateway.process import LINGERS, Ending
 from pluto_fleet.gateway.server import Server
 from pluto_fleet.jobs.telemetry import Publisher
 from pluto_fleet.process.ipc import line

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from pluto_fleet.gateway.link import Busy
+from pluto_fleet.gateway.gateway import Busy
 from pluto_fleet.jobs.reports import Down, FleetReport, JobState
 from plutoc_runtime.alone.faults import Faults
 from plutoc_runtime.domain.errors import BadInput, Failure, FlightFailed

@@ -14,9 +14,8 @@ import pytest
 
 from pluto_fleet.flight.config import End, Lived, Setting, Stops
 from pluto_fleet.flight.fly import live
-from pluto_fleet.gateway.gateway import Gateway
+from pluto_fleet.gateway.gateway import Gateway, Link
 from pluto_fleet.gateway.ledger import MemoryLedger
-from pluto_fleet.gateway.link import Link
 from pluto_fleet.jobs.reports import Down
 from pluto_fleet.journal import header
 from pluto_fleet.journal.errors import JournalError

@@ -14,17 +14,16 @@ from plutoc_runtime.time.kernel import FLEET, WHATEVER, Cancelled, Kernel, Task
 
 from ..jobs.job import motors_cut
 from .envelope import Envelope
-from .motor_stop import CutMotors
-from .traffic.detours import Section
+from .ledger import CutMotors
+from .traffic.ways import Section
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.airspace import Airspace
     from plutoc_runtime.domain.model import Point, Telemetry
 
-    from ..jobs.controls import Controls
+    from ..jobs.controls import Controls, Craft
     from ..jobs.job import Job
     from ..jobs.reports import DroneReport
-    from .descent import Craft
     from .ledger import Ledger
     from .traffic.traffic import Traffic, Ways
 

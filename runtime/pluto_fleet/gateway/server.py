@@ -17,15 +17,14 @@ from plutoc_runtime.time.kernel import FLEET, Cancelled, Task
 
 from ..jobs.reports import Down
 from ..process.ipc import Message, line, message_in
-from .link import Busy
+from .gateway import Busy
 from .wire import MAX_COMMAND, job_of, result_data, roll_data, seen, standing_data
 
 if TYPE_CHECKING:
     from asyncio import StreamReader, StreamWriter
 
     from ..jobs.telemetry import Publisher, Subscription
-    from .gateway import Gateway
-    from .link import Link
+    from .gateway import Gateway, Link
 
 _PENDING = 10_000
 """Commands of one brain that may be under way."""
