@@ -125,7 +125,7 @@ class Instant:
         """Return what is known of a drone."""
         return self._docked
 
-    def fly(self, job: Job, report: Callable[[object], None]) -> None:
+    def fly(self, job: Job, report: Callable[[object], object]) -> None:
         """Report what was measured: in real time at once, and as something that comes by itself."""
         kernel = self._kernel
         if isinstance(kernel, RealTime):
@@ -183,7 +183,7 @@ class Instant:
         drones: Mapping[str, Any] = {name: await self.roll_call(name) for name in self._drones}
         return FleetReport(drones=drones, jobs={})
 
-    def attach(self, id: str, report: Callable[[object], None]) -> None:
+    def attach(self, id: str, report: Callable[[object], object]) -> None:
         """Nothing was given before."""
 
     def forget(self, id: str) -> None:

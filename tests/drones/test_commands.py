@@ -19,24 +19,28 @@ PILLS = Item(name="pills", mass=0.004)
 
 async def test_a_flight_is_told_step_by_step(tmp_path: Path) -> None:
     """Each command returns when the drone is there; the telemetry says so."""
-    async with flying(tmp_path) as flown:
-        team, seen = flown.team, flown.team.telemetry("cf1")
-        assert (seen.location, seen.battery_level, seen.landed) == ((1, 1, 0), 0.0, True)
-        standing = await flown.do(team.roll_call("cf1"))
-        assert standing.reached
-        assert (standing.landed, standing.problems, standing.done) == (True, (), None)
-        team.begins("cf1", None, 0.0)
-        await flown.do(team.takeoff("cf1", 1.0))
-        assert not seen.landed
-        await flown.do(team.takeoff("cf1", 1.0))  # it flies already
-        await flown.do(team.go_to("cf1", (3.0, 1.0, 1.0)))
-        assert seen.location == pytest.approx((3, 1, 1), abs=0.1)
-        assert await flown.do(team.act("cf1", "measure", {}, None, "j")) == 21.5
-        await flown.do(team.land("cf1"))
-        assert seen.landed
-        await flown.do(team.land("cf1"))
-        told = ["takeoff 1", "go to 3 1 1", "measure", "land"]
-        assert flown.drones["cf1"].told == told
+
+    async def flight() -> None:
+        async with flying(tmp_path) as flown:
+            team, seen = flown.team, flown.team.telemetry["cf1"]
+            assert (seen.location, seen.battery_level, seen.landed) == ((1, 1, 0), 0.0, True)
+            standing = await flown.do(team.roll_call("cf1"))
+            assert standing.reached
+            assert (standing.landed, standing.problems, standing.done) == (True, (), None)
+            team.begins("cf1", None, 0.0)
+            await flown.do(team.takeoff("cf1", 1.0))
+            assert not seen.landed
+            await flown.do(team.takeoff("cf1", 1.0))  # it flies already
+            await flown.do(team.go_to("cf1", (3.0, 1.0, 1.0)))
+            assert seen.location == pytest.approx((3, 1, 1), abs=0.1)
+            assert await flown.do(team.act("cf1", "measure", {}, None, "j")) == 21.5
+            await flown.do(team.land("cf1"))
+            assert seen.landed
+            await flown.do(team.land("cf1"))
+            told = ["takeoff 1", "go to 3 1 1", "measure", "land"]
+            assert flown.drones["cf1"].told == told
+
+    run(flight())
 
 
 async def test_all_drones_are_connected_at_once_and_a_silent_one_delays_no_other(
@@ -145,19 +149,23 @@ async def test_a_takeoff_that_is_broken_off_before_the_drone_says_that_it_flies_
     tmp_path: Path,
 ) -> None:
     """The command may have reached it: until that is known it counts as in the air."""
-    drone = FakeDrone()
-    drone.hangs = {"takeoff"}
-    async with flying(tmp_path, drone) as flown:
-        await flown.do(flown.team.roll_call("cf1"))
-        seen = flown.team.telemetry("cf1")
-        rises = flown.begin(flown.team.takeoff("cf1", 1.0))
-        await flown.until(lambda: not seen.landed, 1)
-        flown.kernel.post(rises.cancel)
-        assert not seen.landed
-        drone.hangs.clear()
-        await flown.do(flown.team.land("cf1"))
-        assert drone.told == ["hold", "land"]
-        assert seen.landed
+
+    async def flight() -> None:
+        drone = FakeDrone()
+        drone.hangs = {"takeoff"}
+        async with flying(tmp_path, drone) as flown:
+            await flown.do(flown.team.roll_call("cf1"))
+            seen = flown.team.telemetry["cf1"]
+            rises = flown.begin(flown.team.takeoff("cf1", 1.0))
+            await flown.until(lambda: not seen.landed, 1)
+            flown.kernel.post(rises.cancel)
+            assert not seen.landed
+            drone.hangs.clear()
+            await flown.do(flown.team.land("cf1"))
+            assert drone.told == ["hold", "land"]
+            assert seen.landed
+
+    run(flight())
 
 
 async def test_who_stands_on_the_ground_is_not_sent_anywhere(tmp_path: Path) -> None:
@@ -199,26 +207,30 @@ async def test_an_action_of_the_apps_own_reads_and_writes(tmp_path: Path) -> Non
 
 
 @pytest.mark.parametrize("hangs", [False, True])
-async def test_cut_motors_waits_for_nothing(tmp_path: Path, hangs: bool) -> None:
-    """No matter what the drone does, and however its navigation hangs in that."""
-    async with flying(tmp_path) as flown:
-        drone, team = await flown.up(), flown.team
-        drone.fell = Rejected  # it says no more than that it will not
-        if hangs:
-            drone.hangs = drone.clings = {"go_to", "hold"}
-        flies = flown.begin(team.go_to("cf1", (5.0, 1.0, 1.0)))
-        await flown.until(lambda: "fly" in team._members["cf1"].lane.doing)
-        before = the_loop().time()
-        await flown.do(team.cut("cf1"))
-        assert the_loop().time() - before < 0.2
-        assert not drone.motors
-        await flown.until(lambda: flies.is_set, 1)
-        assert str(flies.error) == "cf1's motors were cut"
-        assert drone.told[-1] == "emergency stop"
-        assert "motors were cut" in str(await flown.failure(team.takeoff("cf1", 1.0)))
-        flown.begin(team.land("cf1"))
-        flown.kernel.post(team.break_off, "cf1")
-        await flown.until(lambda: team.telemetry("cf1").landed)
-        assert drone.told[-1] == "emergency stop"
-        team.mended("cf1")
-        team.begins("cf1", None, 0.0)
+def test_cut_motors_waits_for_nothing(tmp_path: Path, hangs: bool) -> None:
+    """Whatever the drone does, and however its navigation hangs in that."""
+
+    async def flight() -> None:
+        async with flying(tmp_path) as flown:
+            drone, team = await flown.up(), flown.team
+            drone.fell = Rejected  # it says no more than that it will not
+            if hangs:
+                drone.hangs = drone.clings = {"go_to", "hold"}
+            flies = flown.begin(team.go_to("cf1", (5.0, 1.0, 1.0)))
+            await flown.until(lambda: "fly" in team._members["cf1"].lane.doing)
+            before = the_loop().time()
+            await flown.do(team.cut("cf1"))
+            assert the_loop().time() - before < 0.2
+            assert not drone.motors
+            await flown.until(lambda: flies.is_set, 1)
+            assert str(flies.error) == "cf1's motors were cut"
+            assert drone.told[-1] == "emergency stop"
+            assert "motors were cut" in str(await flown.failure(team.takeoff("cf1", 1.0)))
+            flown.begin(team.land("cf1"))
+            flown.kernel.post(team.break_off, "cf1")
+            await flown.until(lambda: team.telemetry["cf1"].landed)
+            assert drone.told[-1] == "emergency stop"
+            team.mended("cf1")
+            team.begins("cf1", None, 0.0)
+
+    run(flight())

@@ -13,22 +13,26 @@ from tests.drones.teams import flying
 
 
 @pytest.mark.parametrize("command", ["go_to", "hold"])
-async def test_silence_in_the_air_is_a_lost_link(tmp_path: Path, command: str) -> None:
-    """After a second, in a flight or while it hovers, though its navigation notices nothing."""
-    async with flying(tmp_path) as flown:
-        drone, team = await flown.up(), flown.team
-        drone.hangs = {"go_to"}
-        flies = flown.begin(
-            team.hold("cf1") if command == "hold" else team.go_to("cf1", (5.0, 1.0, 1.0))
-        )
-        await flown.until(lambda: team._members["cf1"].lane.doing)
-        drone.goes_silent()
-        assert await flown.until(lambda: flies.is_set) == pytest.approx(1.1, abs=0.15)
-        failed = await flown.failure(team.go_to("cf1", (5.0, 1.0, 1.0)))
-        assert failed.failure is Failure.LINK
-        assert not team.telemetry("cf1").landed
-        assert "hold" not in drone.told
-        drone.answers = True
+def test_silence_in_the_air_is_a_lost_link(tmp_path: Path, command: str) -> None:
+    """After a second, in a flight or while it hovers, whatever its navigation notices."""
+
+    async def flight() -> None:
+        async with flying(tmp_path) as flown:
+            drone, team = await flown.up(), flown.team
+            drone.hangs = {"go_to"}
+            flies = flown.begin(
+                team.hold("cf1") if command == "hold" else team.go_to("cf1", (5.0, 1.0, 1.0))
+            )
+            await flown.until(lambda: team._members["cf1"].lane.doing)
+            drone.goes_silent()
+            assert await flown.until(lambda: flies.is_set) == pytest.approx(1.1, abs=0.15)
+            failed = await flown.failure(team.go_to("cf1", (5.0, 1.0, 1.0)))
+            assert failed.failure is Failure.LINK
+            assert not team.telemetry["cf1"].landed
+            assert "hold" not in drone.told
+            drone.answers = True
+
+    run(flight())
 
 
 async def test_a_drone_that_comes_back_can_be_flown_home(tmp_path: Path) -> None:
@@ -92,28 +96,36 @@ async def test_a_roll_call_tries_a_lost_drone_once_more_and_does_not_hang(tmp_pa
         assert not standing.reached
 
 
-async def test_a_drone_that_cannot_fly_any_more_counts_as_landed(tmp_path: Path) -> None:
-    """Its battery must be empty by then: it is not waited for to come down."""
-    async with flying(tmp_path) as flown:
-        drone, seen = await flown.up(), flown.team.telemetry("cf1")
-        drone.goes_silent()
-        assert await flown.until(lambda: seen.landed) == pytest.approx(504, abs=2)
+def test_a_drone_that_cannot_fly_any_more_counts_as_landed(tmp_path: Path) -> None:
+    """Its battery must be empty by then: nobody waits for it to come down."""
+
+    async def flight() -> None:
+        async with flying(tmp_path) as flown:
+            drone, seen = await flown.up(), flown.team.telemetry["cf1"]
+            drone.goes_silent()
+            assert await flown.until(lambda: seen.landed) == pytest.approx(504, abs=2)
+
+    run(flight())
 
 
 async def test_a_link_that_is_lost_in_the_take_off_leaves_a_drone_in_the_air(
     tmp_path: Path,
 ) -> None:
     """It has not said that it flies, but it may."""
-    drone = FakeDrone()
-    drone.hangs = {"takeoff"}
-    async with flying(tmp_path, drone) as flown:
-        seen = flown.team.telemetry("cf1")
-        await flown.do(flown.team.roll_call("cf1"))
-        rises = flown.begin(flown.team.takeoff("cf1", 1.0))
-        await flown.until(lambda: not seen.landed, 1)
-        drone.goes_silent()
-        await flown.until(lambda: rises.is_set, 2)
-        assert await flown.until(lambda: seen.landed) > 400
+
+    async def flight() -> None:
+        drone = FakeDrone()
+        drone.hangs = {"takeoff"}
+        async with flying(tmp_path, drone) as flown:
+            seen = flown.team.telemetry["cf1"]
+            await flown.do(flown.team.roll_call("cf1"))
+            rises = flown.begin(flown.team.takeoff("cf1", 1.0))
+            await flown.until(lambda: not seen.landed, 1)
+            drone.goes_silent()
+            await flown.until(lambda: rises.is_set, 2)
+            assert await flown.until(lambda: seen.landed) > 400
+
+    run(flight())
 
 
 async def test_a_drone_on_the_ground_is_linked_again_quietly(tmp_path: Path) -> None:

@@ -155,19 +155,23 @@ async def test_who_holds_up_the_loop_is_named(tmp_path: Path) -> None:
 
 async def test_telemetry_that_makes_no_sense_is_silence(tmp_path: Path) -> None:
     """A drone that does not know where it is cannot be flown."""
-    async with flying(tmp_path) as flown:
-        drone = await flown.up()
-        seen = flown.team.telemetry("cf1")
-        before = seen.location
-        drone.put((float("nan"), 1.0, 1.0))
-        failed = await flown.failure(flown.team.hold("cf1"))
-        assert failed.failure is Failure.LINK
-        assert seen.location == before
-        drone.put((1.0, 1.0, 1.0))
-        drone.raises = {"telemetry": KeyError("x")}
-        assert seen.location == before
-        assert any("made a mistake: KeyError" in line for line in flown.log)
-        drone.raises = {}
+
+    async def flight() -> None:
+        async with flying(tmp_path) as flown:
+            drone = await flown.up()
+            seen = flown.team.telemetry["cf1"]
+            before = seen.location
+            drone.put((float("nan"), 1.0, 1.0))
+            failed = await flown.failure(flown.team.hold("cf1"))
+            assert failed.failure is Failure.LINK
+            assert seen.location == before
+            drone.put((1.0, 1.0, 1.0))
+            drone.raises = {"telemetry": KeyError("x")}
+            assert seen.location == before
+            assert any("made a mistake: KeyError" in line for line in flown.log)
+            drone.raises = {}
+
+    run(flight())
 
 
 async def test_answers_that_are_none_are_mistakes(tmp_path: Path) -> None:

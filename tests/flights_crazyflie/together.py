@@ -22,8 +22,9 @@ from pluto_fleet.crazyflie.courses import SHORTEST, seconds_for
 from pluto_fleet.crazyflie.pace import AS_IT_COMES
 from pluto_fleet.crtp.record import Deed, Point
 from pluto_fleet.drones.vehicle import CLIMB_LIMIT
+from pluto_fleet.journal.place import commands_note
 from pluto_fleet.journal.values import point_of
-from pluto_fleet.process.asking import ask, note_of
+from pluto_fleet.process.ipc import ask
 from tests.apart import apart
 from tests.flights_crazyflie.flight import Flight
 from tests.flights_crazyflie.judge import astray, dropped, left_in_the_air, nearest
@@ -91,7 +92,7 @@ def stopped(how: str, source: Path, folder: Path, speed: float) -> Figures:
         flight.until(lambda: _all_there(flight), 120.0)
         places = {id: point_of(one["at"]) for id, one in flight.state.items()}
         began = time.monotonic()
-        ask(note_of(flight.journal), {"command": "stop", "how": how}, 90.0)
+        ask(commands_note(flight.journal), {"command": "stop", "how": how}, 90.0)
         code = flight.wait()
         deeds = flight.deeds
         problems = [*dropped(deeds), *left_in_the_air(deeds), *astray(deeds, SIZE)]

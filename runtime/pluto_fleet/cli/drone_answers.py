@@ -22,7 +22,7 @@ from ..drones.loading import load_navigation, make_localization
 from ..drones.making import make_one
 from ..drones.protocol import Identifiable, Locatable, Scannable
 from ..drones.real_fleet import RealDrone
-from ..files.behaviour import OWN
+from ..files.fleet import OWN
 from ..gateway.drone_lock import Held, holding
 
 if TYPE_CHECKING:
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
     from ..drones.protocol import DroneNavigation
     from ..drones.telemetry import DroneTelemetry
-    from ..files.free_tables import Options
+    from ..files.options import Options
 
 CONNECT, ANSWER, CLOSE, SCAN = 15.0, 12.0, 10.0, 90.0
 """Seconds that each may take."""

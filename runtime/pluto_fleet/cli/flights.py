@@ -20,10 +20,9 @@ from ..flight.config import End, Lived, Setting, Stops
 from ..flight.fly import Recovered, live
 from ..gateway.settings import settings_for
 from ..gateway.starting import connect
-from ..journal.place import gateway_folder
+from ..journal.place import commands_note, gateway_folder
 from ..journal.store import Store
 from ..process import respawn as again
-from ..process.asking import note_of
 from . import leaving, stop_mark
 from .events import line_of
 from .flown import finished, has_ended, records_in, report_of, waiting_lines
@@ -159,7 +158,7 @@ async def lives(
         missions=flight.missions,
         fleet=flight.fleet,
         connect=lambda kernel, epoch, lost: connect(folder, settings, kernel, epoch, lost),
-        note=note_of(flight.journal),
+        note=commands_note(flight.journal),
         tell=watcher.tell,
         speed=flight.speed,
         sim=flight.sim,

@@ -8,9 +8,7 @@ from typing import TYPE_CHECKING
 
 from plutoc_runtime.domain.errors import BadInput
 
-from ..files.behaviour import CRAZYFLIE, OWN
-from ..files.real import navigation_of
-from ..jobs.landing_sites import free_spots
+from ..files.fleet import CRAZYFLIE, OWN, navigation_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

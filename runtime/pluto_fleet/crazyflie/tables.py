@@ -6,7 +6,7 @@ import os
 from contextlib import suppress
 from pathlib import Path
 
-from ..process.private import is_private
+from ..process.ipc import is_private
 
 _NAME = "crazyflie"
 

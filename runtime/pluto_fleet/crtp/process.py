@@ -20,10 +20,9 @@ from typing import Any
 
 from plutoc_runtime.domain.errors import BadInput
 
-from ..flight.commands import listening
 from ..process import respawn as again
-from ..process.asking import Nobody, ask
 from ..process.forked import deaf, in_children, not_for_children
+from ..process.ipc import NotRunning, answering, ask, listening
 from .camera import camera, port_of
 from .drone import Build, SimulatedCrazyflie
 from .record import InFiles, Point
@@ -75,7 +74,7 @@ def start(
     _STARTED[folder] = process
     until = time.monotonic() + _PATIENCE
     while time.monotonic() < until and process.poll() is None:
-        with suppress(Nobody):
+        with suppress(NotRunning):
             return uris_in(folder)
         time.sleep(0.01)
     raise BadInput(f"the simulated drones did not start; what they said is in {folder / LOG}")
@@ -135,7 +134,7 @@ async def _run(folder: Path) -> None:
     await server.start({id: int(one.get("port", 0)) for id, one in kept.items()})
     desk = _Desk(server, over)
     try:
-        async with listening(folder / NOTE, desk.answer):
+        async with listening(folder / NOTE, answering(desk.answer)):
             while not over.is_set():
                 record.flush()
                 _write(folder, _state(server))

@@ -57,6 +57,10 @@ class Team:
         self._kernel, self._wanted = kernel, tuple(wanted)
         self._cargo, self._feeding = Cargo(folder, say), feeding
         self._members = {drone.id: Member(drone, self._cargo, say, clock) for drone in drones}
+        self.telemetry: Mapping[str, Telemetry] = {
+            id: member.seen for id, member in self._members.items()
+        }
+        """What is known of each drone; the values stay current."""
         self._links = {id: Linking(member) for id, member in self._members.items()}
         self._watch = Watch(tuple(self._members.values()), airspace, say, clock)
         self._tasks: list[asyncio.Task[None]] = []
@@ -93,10 +97,6 @@ class Team:
             await self._feeding.close()
 
     # What the gateway's kernel commands
-
-    def telemetry(self, drone: str) -> Telemetry:
-        """Return what is known of a drone; the value stays current."""
-        return self._members[drone].seen
 
     def down(self, drone: str) -> FlightFailed | None:
         """Return why a drone takes no commands though it can be reached; None: it takes them."""

@@ -73,10 +73,8 @@ class SimulatedNavigation:
         self.record = record
         """Told of everything that drones do to the world, right before it is so."""
         self.bodies = {drone.id: Body(drone, kernel.time) for drone in drones}
-
-    def telemetry(self, drone: str) -> Telemetry:
-        """Return what is known of a drone; the value stays current."""
-        return self.bodies[drone]
+        self.telemetry: Mapping[str, Telemetry] = self.bodies
+        """What is known of each drone; the values stay current."""
 
     def down(self, drone: str) -> FlightFailed | None:
         """Return why a drone takes no commands; None: it takes them."""

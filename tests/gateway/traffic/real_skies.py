@@ -6,7 +6,7 @@ from dataclasses import replace
 from itertools import combinations
 from math import dist, inf, sqrt
 
-from pluto_fleet.files.real import PACE
+from pluto_fleet.files.fleet import PACE
 from pluto_fleet.jobs.reports import Down
 from pluto_fleet.simulation.body import Body
 from pluto_fleet.simulation.drones import SimulatedDrone, SimulatedNavigation

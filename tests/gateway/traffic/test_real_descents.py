@@ -10,7 +10,7 @@ import pytest
 from pluto_fleet.gateway.traffic.choosing import Goer
 from pluto_fleet.gateway.traffic.courses import course
 from pluto_fleet.gateway.traffic.timetable import Timetable, timetable
-from pluto_fleet.gateway.traffic.ways_home import ways_home
+from pluto_fleet.gateway.traffic.ways import ways_home
 from pluto_fleet.jobs.reports import Down
 from pluto_fleet.simulation.drones import SimulatedDrone
 from plutoc_runtime.domain.airspace import Airspace

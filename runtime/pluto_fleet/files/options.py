@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from . import errors, values
 
 if TYPE_CHECKING:
-    from .table import Table
+    from .reading import Table
 
 Options = Mapping[str, object]
 """Texts, numbers, booleans, and lists and tables of these."""
