@@ -23,9 +23,8 @@ from pluto_fleet.crazyflie.pace import Pace
 from pluto_fleet.crazyflie.state import State, state_of
 from pluto_fleet.crazyflie.tables import kept_in
 from pluto_fleet.crazyflie.worker import Worker
-from pluto_fleet.crtp.body import Body
-from pluto_fleet.crtp.profile import State as Start
-from pluto_fleet.crtp.profile import profile
+from pluto_fleet.crtp.body import AxisState as Start
+from pluto_fleet.crtp.body import Body, profile
 from pluto_fleet.drones import BATTERY_LOW, CRASHED, LOCKED, LinkLost
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.model import Point

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from pluto_fleet.crtp.drone import Build
-from pluto_fleet.crtp.ports import Port, unpacked
+from pluto_fleet.crtp.packets import Port, unpacked
 from pluto_fleet.crtp.supervisor import Supervisor
 from pluto_fleet.drones import NotReady, Rejected
 from tests.crazyflie.hangar import FAST, Flight, Hangar, as_tests, hangar
@@ -27,7 +27,7 @@ async def one_that_has_landed_is_disarmed_and_armed_anew(folder: Path) -> None:
         for _ in range(2):
             await cf.takeoff(0.5, FAST)
             await cf.land(FAST)
-        told = [deed.what for deed in one.deeds if deed.what != "setpoints end"]
+        told = [command.what for command in one.commands if command.what != "setpoints end"]
         assert told[:4] == ["arm", "takeoff", "land", "down"]
         assert told[4:] == ["disarm", "arm", "takeoff", "land", "down"]
 
@@ -98,7 +98,7 @@ async def one_that_is_down_is_not_told_to_land_again(folder: Path) -> None:
         await cf.takeoff(0.3, FAST)
         _loses_answers(one, Port.HIGH_LEVEL)
         await cf.land(FAST)
-        told = [deed.what for deed in one.deeds]
+        told = [command.what for command in one.commands]
         assert told.count("land") > 2 and told[-1] == "down" and told.count("down") == 1
 
 
@@ -139,7 +139,7 @@ async def nothing_is_above_its_commander_when_it_takes_off(folder: Path) -> None
         await cf.takeoff(0.5, FAST)
         await cf.go_to((1.3, 2.0, 0.5), FAST)
         await cf.land(FAST)
-        told = [deed.what for deed in one.deeds]
+        told = [command.what for command in one.commands]
         before, after = told[: told.index("takeoff")], told[told.index("takeoff") :]
         assert "setpoints end" in before and "setpoints end" not in after
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pluto_fleet.crazyflie.options import options_of
-from pluto_fleet.crtp.stand_in import fitted
+from pluto_fleet.crtp.equipment import fitted
 
 CAMERA = "127.0.0.1:5000"
 

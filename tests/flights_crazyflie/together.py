@@ -20,7 +20,7 @@ from tempfile import mkdtemp
 
 from pluto_fleet.crazyflie.courses import SHORTEST, seconds_for
 from pluto_fleet.crazyflie.pace import AS_IT_COMES
-from pluto_fleet.crtp.record import Deed, Point
+from pluto_fleet.crtp.flight_log import CommandRecord, Point
 from pluto_fleet.drones.vehicle import CLIMB_LIMIT
 from pluto_fleet.journal.place import commands_note
 from pluto_fleet.journal.values import point_of
@@ -94,8 +94,8 @@ def stopped(how: str, source: Path, folder: Path, speed: float) -> Figures:
         began = time.monotonic()
         ask(commands_note(flight.journal), {"command": "stop", "how": how}, 90.0)
         code = flight.wait()
-        deeds = flight.deeds
-        problems = [*dropped(deeds), *left_in_the_air(deeds), *astray(deeds, SIZE)]
+        commands = flight.commands
+        problems = [*dropped(commands), *left_in_the_air(commands), *astray(commands, SIZE)]
         if code != STOPPED:
             problems.append(f"exit code {code}")
         for id, home in homes(TEN).items():
@@ -105,9 +105,13 @@ def stopped(how: str, source: Path, folder: Path, speed: float) -> Figures:
         if least < APART:
             problems.append(f"{least:.2f} m apart: {who}")
         goals = homes(TEN) if how == "rtl" else {}
-        flown = Counter(deed.drone for deed in deeds if deed.what == "go_to" and deed.time > began)
+        flown = Counter(
+            command.drone
+            for command in commands
+            if command.what == "go_to" and command.time > began
+        )
         alone = (_alone(at, goals.get(id), speed, flown[id]) for id, at in places.items())
-        return Figures(how, _last(deeds) - began, max(alone), least, tuple(problems))
+        return Figures(how, _last(commands) - began, max(alone), least, tuple(problems))
     finally:
         flight.end()
 
@@ -127,9 +131,9 @@ def _alone(where: Point, home: Point | None, speed: float, courses: int) -> floa
     return SHORTEST + way + AS_IT_COMES.seconds_down(z, CLIMB_LIMIT) + _SETTLES * courses
 
 
-def _last(deeds: Sequence[Deed]) -> float:
+def _last(commands: Sequence[CommandRecord]) -> float:
     """Return when the last was down."""
-    return max(deed.time for deed in deeds if deed.what == "down")
+    return max(command.time for command in commands if command.what == "down")
 
 
 def main() -> int:
