@@ -14,14 +14,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pluto_fleet.crazyflie import borrowed, courses, words
+from pluto_fleet.crazyflie import courses, driver, words
 from pluto_fleet.crazyflie.alarms import Alarms
 from pluto_fleet.crazyflie.battery import Battery, level_at_rest
 from pluto_fleet.crazyflie.certainty import Certainty
 from pluto_fleet.crazyflie.options import LOST_BEYOND, SURE_WITHIN, options_of
 from pluto_fleet.crazyflie.pace import Pace
 from pluto_fleet.crazyflie.state import State, state_of
-from pluto_fleet.crazyflie.tables import kept_in
+from pluto_fleet.crazyflie.driver import cache_folder
 from pluto_fleet.crazyflie.worker import Worker
 from pluto_fleet.crtp.body import AxisState as Start
 from pluto_fleet.crtp.body import Body, profile
@@ -375,12 +375,12 @@ def test_tables_are_kept_where_nobody_else_may_write(
     flight.mkdir()
     monkeypatch.setenv("XDG_CACHE_HOME", str(cache))
     ours = cache / "pluto" / "crazyflie"
-    assert kept_in(flight) == str(ours) and ours.stat().st_mode & 0o077 == 0
+    assert cache_folder(flight) == str(ours) and ours.stat().st_mode & 0o077 == 0
     ours.chmod(0o777)
-    assert kept_in(flight) == str(flight / "crazyflie")
+    assert cache_folder(flight) == str(flight / "crazyflie")
     (flight / "crazyflie").chmod(0o777)
-    assert kept_in(flight) is None
-    assert kept_in(tmp_path / "nowhere") is None
+    assert cache_folder(flight) is None
+    assert cache_folder(tmp_path / "nowhere") is None
 
 
 # cflib
@@ -403,9 +403,9 @@ def test_cflib_s_tracebacks_become_reasons(cflib: str, we: str) -> None:
 
 
 def test_without_cflib_it_is_said_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(borrowed, "find_spec", lambda _: None)
+    monkeypatch.setattr(driver, "find_spec", lambda _: None)
     with pytest.raises(BadInput, match=r"cflib is needed: pip install 'pluto-fleet\[crazyflie\]'$"):
-        borrowed.require()
+        driver.require()
     assert words.no_cflib("alfalfa").endswith("pip install 'alfalfa[crazyflie]'")
 
 
@@ -414,7 +414,7 @@ def test_importing_the_navigation_imports_no_cflib() -> None:
         "import sys; import pluto_fleet.crazyflie.navigation;"
         "print([name for name in sys.modules if name.partition('.')[0] in ('cflib', 'numpy')])"
     )
-    runtime = str(Path(borrowed.__file__).parents[2])
+    runtime = str(Path(driver.__file__).parents[2])
     done = subprocess.run(
         [sys.executable, "-W", "error", "-c", code],
         env={"PYTHONPATH": runtime},

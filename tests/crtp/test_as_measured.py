@@ -50,9 +50,9 @@ def test_by_uwb_it_sways_more_and_stays_within_a_decimetre() -> None:
         bench = Bench(replace(CF1, noise=noise))
         bench.up()
         bench.passes(5.0)
-        bench.record.places.clear()
+        bench.record.positions.clear()
         bench.passes(20.0)
-        return max(dist(place.at, (1.0, 2.0, 1.0)) for place in bench.record.places)
+        return max(dist(place.at, (1.0, 2.0, 1.0)) for place in bench.record.positions)
 
     assert 2.0 * farthest(0.01) < farthest(0.1) < 0.12
 

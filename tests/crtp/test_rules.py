@@ -35,7 +35,7 @@ def test_it_rises_smoothly_and_stays_near_its_way() -> None:
         bench.passes(0.1)
         heights.append(bench.z)
     assert heights == sorted(heights) and max(heights) < 1.1
-    assert max(abs(place.at[0] - 1.0) for place in bench.record.places) < 0.03
+    assert max(abs(place.at[0] - 1.0) for place in bench.record.positions) < 0.03
 
 
 def test_arming_is_over_three_seconds_after_it_has_landed() -> None:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from plutoc_runtime.domain.errors import BadInput
 
-from ..crazyflie.borrowed import require
+from ..crazyflie.driver import require
 from ..drones import refusals
 from ..drones.loading import hears, load_localization, load_navigation
 from ..drones.making import make_one, top_speed

@@ -6,10 +6,11 @@ import asyncio
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from .borrowed import HIGH_LEVEL, SUPERVISOR
+from .driver import HIGH_LEVEL, SUPERVISOR
 
 if TYPE_CHECKING:
-    from .borrowed import Cf, Packet
+    from cflib.crazyflie import Crazyflie as Cf
+    from cflib.crtp.crtpstack import CRTPPacket
 
 _ANSWER = 0x80
 """The supervisor sets this bit in its answers."""
@@ -29,10 +30,10 @@ class Acknowledgements:
     def listen(self, cf: Cf, tell: Callable[..., None]) -> None:
         """Hear all answers; called in the worker, as they come in a thread of cflib's."""
 
-        def high_level(packet: Packet) -> None:
+        def high_level(packet: CRTPPacket) -> None:
             tell(self._hear, HIGH_LEVEL, packet.channel, bytes(packet.data))
 
-        def supervisor(packet: Packet) -> None:
+        def supervisor(packet: CRTPPacket) -> None:
             tell(self._hear, SUPERVISOR, packet.channel, bytes(packet.data))
 
         cf.add_port_callback(HIGH_LEVEL, high_level)

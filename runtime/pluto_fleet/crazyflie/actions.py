@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Mapping
-from dataclasses import dataclass
 from itertools import count
 from math import radians, tan
 from pathlib import Path
@@ -58,19 +57,15 @@ def why_not(
     return words.no_action(drone, action)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Hands:
-    """What a drone needs to do something."""
-
-    session: Session
-    readings: logs.Readings
-    options: Options
-    folder: Path
-
-
-async def act(hands: Hands, action: str, parameters_: Mapping[str, Plain]) -> object:
+async def act(
+    session: Session,
+    readings: logs.Readings,
+    options: Options,
+    folder: Path,
+    action: str,
+    parameters_: Mapping[str, Plain],
+) -> object:
     """Do an action, and return what came of it; raise `ActionNotDone` if it was not done."""
-    session, options = hands.session, hands.options
     reason = why_not(session.drone, options, session, action, parameters_)
     if reason is not None:
         raise ActionNotDone(reason)
@@ -79,11 +74,11 @@ async def act(hands: Hands, action: str, parameters_: Mapping[str, Plain]) -> ob
         if action == MEASURE:
             name = options.variable_of(_quantity(parameters_))
             assert name is not None  # or there is a reason why not
-            value = await hands.readings.mean(name, options.measure_seconds)
+            value = await readings.mean(name, options.measure_seconds)
             await _check_place(session)
             return value
         if action == PHOTO and options.camera is not None:
-            return await _photo(hands, options.camera)
+            return await _photo(session, options.camera, options.camera_view, folder)
         if options.grip is not None:
             value = options.grip.pick if action == PICK else options.grip.release
             await parameters.write(session, options.grip.parameter, value)
@@ -108,9 +103,10 @@ def _quantity(parameters_: Mapping[str, Plain]) -> str:
     return str(parameters_.get("quantity", "temperature"))
 
 
-async def _photo(hands: Hands, camera: tuple[str, int]) -> Photo:
+async def _photo(
+    session: Session, camera: tuple[str, int], view: tuple[float, float], folder: Path
+) -> Photo:
     """Take a picture straight down and keep it as a file."""
-    session = hands.session
     before = session.now().position
     try:
         taken = await picture(camera)
@@ -121,8 +117,8 @@ async def _photo(hands: Hands, camera: tuple[str, int]) -> Photo:
     await _check_place(session)
     after = session.now().position
     x, y, z = (round((a + b) / 2, 3) for a, b in zip(before, after, strict=True))
-    across, along = (2.0 * z * tan(radians(angle) / 2.0) for angle in hands.options.camera_view)
-    file = await _kept(session.worker, hands.folder, session.drone, taken)
+    across, along = (2.0 * z * tan(radians(angle) / 2.0) for angle in view)
+    file = await _kept(session.worker, folder, session.drone, taken)
     return Photo(position=(x, y, z), width=round(across, 3), height=round(along, 3), file=str(file))
 
 

@@ -11,11 +11,12 @@ from typing import TYPE_CHECKING
 
 from ..drones.errors import NotReady
 from . import words
-from .borrowed import SUPERVISOR
 from .commander import answered, forget_course, let_commander_rule
+from .driver import SUPERVISOR
 
 if TYPE_CHECKING:
-    from .borrowed import Cf
+    from cflib.crazyflie import Crazyflie as Cf
+
     from .session import Session
     from .state import State
 

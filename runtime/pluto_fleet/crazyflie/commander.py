@@ -12,10 +12,11 @@ from typing import TYPE_CHECKING
 
 from ..drones.errors import LinkLost, Rejected
 from . import words
-from .borrowed import HIGH_LEVEL
+from .driver import HIGH_LEVEL
 
 if TYPE_CHECKING:
-    from .borrowed import Cf
+    from cflib.crazyflie import Crazyflie as Cf
+
     from .session import Session
     from .state import State
 

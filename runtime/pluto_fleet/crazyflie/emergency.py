@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from ..drones.errors import LinkLost
 from . import words
-from .borrowed import LOCALIZATION
+from .driver import LOCALIZATION, packet
 from .worker import Worker
 
 if TYPE_CHECKING:
@@ -27,10 +27,7 @@ async def cut(session: Session) -> None:
     else:
 
         def send() -> None:
-            packet = session.borrowed.packet()
-            packet.set_header(LOCALIZATION, _OLD_CHANNEL)
-            packet.data = _OLD_STOP
-            cf.send_packet(packet)
+            cf.send_packet(packet(LOCALIZATION, _OLD_CHANNEL, _OLD_STOP))
 
     def off(state: State) -> bool:
         return not state.steered and (state.locked or state.crashed or not state.flies)

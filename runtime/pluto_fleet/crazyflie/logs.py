@@ -16,7 +16,9 @@ from . import words
 from .state import CERTAINTY, STATE, state_of
 
 if TYPE_CHECKING:
-    from .borrowed import Borrowed, Cf, LogConfig
+    from cflib.crazyflie import Crazyflie as Cf
+    from cflib.crazyflie.log import LogConfig
+
     from .session import Session
 
 _STATE_MS, _CERTAINTY_MS, _ONE_MS = 100, 250, 100
@@ -24,7 +26,7 @@ _STATE_MS, _CERTAINTY_MS, _ONE_MS = 100, 250, 100
 
 def begin(session: Session) -> None:
     """Let it tell how it is, from now on; called in the worker, once the tables are there."""
-    borrowed, cf = session.borrowed, session.cf
+    cf = session.cf
 
     def state(sent: int, values: Mapping[str, float], _: object) -> None:
         session.tell(session.hear, state_of(values, time.monotonic(), sent / 1000.0))
@@ -41,7 +43,7 @@ def begin(session: Session) -> None:
         there = [variable for variable in variables if has(cf, variable)]
         session.lacks += tuple(variable for variable in variables if variable not in there)
         if there:
-            _block(borrowed, cf, name, there, period, hear).start()
+            _block(cf, name, there, period, hear).start()
 
 
 def has(cf: Cf, name: str) -> bool:
@@ -52,14 +54,15 @@ def has(cf: Cf, name: str) -> bool:
 
 
 def _block(
-    borrowed: Borrowed,
     cf: Cf,
     name: str,
     variables: list[str],
     period: int,
     hear: Callable[[int, Mapping[str, float], object], None],
 ) -> LogConfig:
-    block = borrowed.log_config(name, period)
+    from cflib.crazyflie.log import LogConfig
+
+    block = LogConfig(name, period)
     for variable in variables:
         block.add_variable(variable)
     block.data_received_cb.add_callback(hear)
@@ -114,7 +117,7 @@ class Readings:
             def hear(_: int, values: Mapping[str, float], __: object) -> None:
                 self._session.tell(self._heard, name, float(values[name]))
 
-            block = _block(self._session.borrowed, cf, name, [name], _ONE_MS, hear)
+            block = _block(cf, name, [name], _ONE_MS, hear)
             self._blocks[name] = block
         block.start()
 

@@ -82,7 +82,7 @@ class Crazyflie:
     async def _open(self, uri: str) -> None:
         if self._session is not None:
             self._commanded = self._session.commanded
-            self._session.let_go()
+            self._session.release()
             self._session = None
         await self._left()  # two links to one drone would take each other's packets
         session = await open_session(self._id, uri, self._setup.folder, self)
@@ -108,7 +108,7 @@ class Crazyflie:
                 with suppress(NavigationError):
                     await flying.land(session, _LANDING)
             self._session = None
-            session.let_go()
+            session.release()
         await self._left()
         if not self._closed:
             self._closed = True
@@ -131,7 +131,7 @@ class Crazyflie:
         """It tells nothing any more."""
         self._events.put_nowait(DroneEvent(kind=LINK_LOST, reason=why))
 
-    def leaves(self, gone: asyncio.Future[None]) -> None:
+    def releasing(self, gone: asyncio.Future[None]) -> None:
         """A link to it is being put away."""
         self._leaving = {one for one in self._leaving if not one.done()} | {gone}
 
@@ -219,13 +219,8 @@ class Crazyflie:
 
     async def act(self, action: str, parameters: Mapping[str, Plain], item: Item | None) -> object:
         """Do an action where it hovers."""
-        hands = actions.Hands(
-            session=self._linked(),
-            readings=self._reader(),
-            options=self._options,
-            folder=self._setup.folder,
-        )
-        return await actions.act(hands, action, parameters)
+        session, folder = self._linked(), self._setup.folder
+        return await actions.act(session, self._reader(), self._options, folder, action, parameters)
 
     async def read(self, name: str) -> float:
         """Return a log variable, or else a parameter."""

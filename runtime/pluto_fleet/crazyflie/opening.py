@@ -9,12 +9,11 @@ from typing import TYPE_CHECKING
 
 from ..drones.errors import LinkLost
 from . import logs, words
-from .borrowed import LINK_CONTROL, PLATFORM, borrowed
+from .driver import LINK_CONTROL, PLATFORM, cache_folder, forget_dead_radios, load, packet
 from .session import Observer, Session
-from .tables import kept_in
 
 if TYPE_CHECKING:
-    from .borrowed import Borrowed, Cf
+    from cflib.crazyflie import Crazyflie as Cf
 
 _IMPORT, _OPEN = 20.0, 5.0
 ANSWER, TELEMETRY = 5.0, 3.0
@@ -29,14 +28,14 @@ async def open_session(drone: str, uri: str, folder: Path, observer: Observer) -
     try:
         await _open(session, folder)
     except BaseException:  # cancelled, too: nothing may be left of it
-        session.let_go()
+        session.release()
         raise
     return session
 
 
 async def _open(session: Session, folder: Path) -> None:
-    found = await session.worker.call(borrowed, _IMPORT)
-    await session.worker.call(lambda: _begin(session, found, folder), _OPEN)
+    await session.worker.call(load, _IMPORT)
+    await session.worker.call(lambda: _begin(session, folder), _OPEN)
     await _answer(session)
     # Its pings measure what nobody asks for, and the thread that sends them may die holding the lock
     # that every other sender needs.
@@ -46,11 +45,13 @@ async def _open(session: Session, folder: Path) -> None:
         raise LinkLost(words.no_telemetry(session.drone))
 
 
-def _begin(session: Session, found: Borrowed, folder: Path) -> None:
+def _begin(session: Session, folder: Path) -> None:
     """Open the link; called in the worker."""
-    found.forget_dead_radios()
-    cf = found.crazyflie(rw_cache=kept_in(folder))
-    session.listen(found, cf)
+    from cflib.crazyflie import Crazyflie
+
+    forget_dead_radios()
+    cf = Crazyflie(rw_cache=cache_folder(folder))
+    session.listen(cf)
     cf.open_link(session.uri)
 
 
@@ -85,10 +86,5 @@ def _entries(cf: Cf) -> int:
 def _ask_again(session: Session, cf: Cf) -> None:
     """Ask once more what cflib asks only once: who it is, and its protocol's version."""
     if cf.platform.get_protocol_version() < 0:
-        packet = session.borrowed.packet()
-        if session.answered:
-            packet.set_header(PLATFORM, 1)
-        else:
-            packet.set_header(LINK_CONTROL, 1)
-        packet.data = b"\0"
-        cf.send_packet(packet)
+        port = PLATFORM if session.answered else LINK_CONTROL
+        cf.send_packet(packet(port, 1, b"\0"))

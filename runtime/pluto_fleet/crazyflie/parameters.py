@@ -12,7 +12,9 @@ from ..drones.errors import LinkLost, Rejected
 from . import words
 
 if TYPE_CHECKING:
-    from .borrowed import Cf, Element
+    from cflib.crazyflie import Crazyflie as Cf
+    from cflib.crazyflie.param import ParamTocElement as Element
+
     from .session import Session
 
 _ALL, _ONE = 12.0, 3.0

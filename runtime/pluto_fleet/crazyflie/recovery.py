@@ -6,11 +6,12 @@ from typing import TYPE_CHECKING
 
 from ..drones.errors import NotReady
 from . import words
-from .borrowed import SUPERVISOR
 from .commander import answered, forget_course
+from .driver import SUPERVISOR
 
 if TYPE_CHECKING:
-    from .borrowed import Cf
+    from cflib.crazyflie import Crazyflie as Cf
+
     from .session import Session
 
 _RECOVER, _DONE = 2, 1

@@ -9,11 +9,12 @@ from plutoc_runtime.domain.errors import BadInput
 
 from ..drones.errors import LinkLost
 from . import words
-from .borrowed import borrowed
+from .driver import load
 from .worker import Worker
 
 if TYPE_CHECKING:
-    from .borrowed import Radio
+    from cflib.crtp.radiodriver import _SharedRadioInstance as Radio
+
     from .options import Options
 
 _RATES = ((2, "2M"), (1, "1M"), (0, "250K"))
@@ -38,9 +39,11 @@ def _look(options: Options) -> list[str]:
     found = [uri for uri in options.udp if _answers(uri)]
     if not options.addresses:
         return found
-    radios = borrowed().radios
+    load()
+    from cflib.crtp.radiodriver import RadioManager
+
     try:
-        radio = radios.open(0)
+        radio = RadioManager.open(0)
     except Exception as error:  # cflib raises just that
         raise LinkLost(words.no_scan(words.cause(str(error)))) from error
     try:

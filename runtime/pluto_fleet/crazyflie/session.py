@@ -18,12 +18,12 @@ from ..drones.errors import Crashed, LinkLost, Locked, NavigationError
 from . import words
 from .acknowledgements import Acknowledgements
 from .certainty import Certainty
-from .letting_go import let_go
+from .driver import release_link
 from .state import State
 from .worker import Worker
 
 if TYPE_CHECKING:
-    from .borrowed import Borrowed, Cf
+    from cflib.crazyflie import Crazyflie as Cf
 
 SILENCE = 1.0
 """Seconds without a word, after which a link counts as lost; a word is expected ten times a second."""
@@ -47,7 +47,7 @@ class Observer(Protocol):
         """It tells nothing any more."""
         ...
 
-    def leaves(self, gone: asyncio.Future[None]) -> None:
+    def releasing(self, gone: asyncio.Future[None]) -> None:
         """The link is being put away, until this is done."""
         ...
 
@@ -88,7 +88,6 @@ class Session:
         self._since = time.monotonic()
         self._silent = False
         self._next = asyncio.Event()
-        self._borrowed: Borrowed | None = None
         self._cf: Cf | None = None
         self._looking = self.loop.call_later(SILENCE, self._look)
 
@@ -99,9 +98,9 @@ class Session:
         with suppress(RuntimeError):  # the loop is closed: nobody listens any longer
             self.loop.call_soon_threadsafe(call, *args)
 
-    def listen(self, borrowed: Borrowed, cf: Cf) -> None:
+    def listen(self, cf: Cf) -> None:
         """Hear what happens to the link; called in the worker, before it is opened."""
-        self._borrowed, self._cf = borrowed, cf
+        self._cf = cf
         loses = self.uri.startswith("udp://")
         cf.connected.add_callback(lambda _: self.tell(self.established.set))
         cf.fully_connected.add_callback(lambda _: self.tell(self.complete.set))
@@ -164,13 +163,6 @@ class Session:
         if self._cf is None:
             raise LinkLost(words.not_connected(self.drone))
         return self._cf
-
-    @property
-    def borrowed(self) -> Borrowed:
-        """What cflib has besides."""
-        if self._borrowed is None:
-            raise LinkLost(words.not_connected(self.drone))
-        return self._borrowed
 
     @property
     def silent_for(self) -> float:
@@ -279,9 +271,9 @@ class Session:
 
     # Its end
 
-    def let_go(self) -> None:
+    def release(self) -> None:
         """End it in a thread of its own: never by a command to the drone."""
-        self.lost = self.lost or "it was let go"
+        self.lost = self.lost or "it was closed"
         self._looking.cancel()
         self._wake()
         gone: asyncio.Future[None] = self.loop.create_future()
@@ -292,5 +284,5 @@ class Session:
 
         self.worker.end()
         cf, self._cf = self._cf, None
-        let_go(self.drone, cf, lambda: self.tell(told))
-        self._observer.leaves(gone)
+        release_link(self.drone, cf, lambda: self.tell(told))
+        self._observer.releasing(gone)

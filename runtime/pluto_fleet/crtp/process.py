@@ -121,9 +121,7 @@ def main(arguments: Sequence[str]) -> int:
 
 async def _run(folder: Path) -> None:
     kept, log = _kept(folder), FileLog(folder)
-    server = Server(
-        [_build(id, number, one) for number, (id, one) in enumerate(kept.items())], record
-    )
+    server = Server([_build(id, number, one) for number, (id, one) in enumerate(kept.items())], log)
     for id, drone in server.drones.items():
         _restore(drone, kept[id])
     over = asyncio.Event()
