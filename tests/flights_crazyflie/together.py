@@ -18,8 +18,7 @@ from math import dist
 from pathlib import Path
 from tempfile import mkdtemp
 
-from pluto_fleet.crazyflie.courses import SHORTEST, seconds_for
-from pluto_fleet.crazyflie.pace import AS_IT_COMES
+from pluto_fleet.crazyflie.trajectory import DEFAULT_LIMITS, SHORTEST, shortest_duration
 from pluto_fleet.crtp.flight_log import CommandRecord, Point
 from pluto_fleet.drones.vehicle import CLIMB_LIMIT
 from pluto_fleet.journal.place import commands_note
@@ -127,8 +126,8 @@ def _all_there(flight: Flight) -> bool:
 def _alone(where: Point, home: Point | None, speed: float, courses: int) -> float:
     """Return the seconds that a drone takes to come down with nobody else in the air."""
     x, y, z = where
-    way = 0.0 if home is None else seconds_for(dist((x, y), home[:2]), speed)
-    return SHORTEST + way + AS_IT_COMES.seconds_down(z, CLIMB_LIMIT) + _SETTLES * courses
+    way = 0.0 if home is None else shortest_duration(dist((x, y), home[:2]), speed)
+    return SHORTEST + way + DEFAULT_LIMITS.seconds_down(z, CLIMB_LIMIT) + _SETTLES * courses
 
 
 def _last(commands: Sequence[CommandRecord]) -> float:

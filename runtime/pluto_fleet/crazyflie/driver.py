@@ -22,7 +22,7 @@ from plutoc_runtime.domain.errors import BadInput
 from ..drones.errors import NotReady
 from ..process.ipc import is_private
 from ..scaffolding import app_package
-from . import words
+from . import messages
 
 if TYPE_CHECKING:
     from cflib.crazyflie import Crazyflie as Cf
@@ -37,7 +37,7 @@ _LOADING = Lock()
 def require() -> None:
     """Raise `BadInput` with the line that installs it, where there is no cflib; imports nothing."""
     if find_spec("cflib") is None:
-        raise BadInput(words.no_cflib(_package()))
+        raise BadInput(messages.no_cflib(_package()))
 
 
 def load() -> None:
@@ -47,7 +47,7 @@ def load() -> None:
             import cflib.crazyflie
             import cflib.crtp.radiodriver
         except ImportError as error:
-            raise NotReady(f"{words.no_cflib(_package())} ({error})") from error
+            raise NotReady(f"{messages.no_cflib(_package())} ({error})") from error
         # what goes wrong is said here, in our words
         logging.getLogger("cflib").addHandler(logging.NullHandler())
         if not cflib.crtp.CLASSES:  # once a process: each time adds all drivers
@@ -86,7 +86,7 @@ _NAME = "crazyflie"
 def cache_folder(flight: Path) -> str | None:
     """Return a folder for them: the user's own cache, else one of this flight, else None.
 
-    cflib runs what it finds there, so nobody else may write it.
+    cflib runs what it finds there, so no other user may write it.
     """
     with suppress(OSError, RuntimeError):  # there is no home folder
         given = os.environ.get("XDG_CACHE_HOME", "")
@@ -112,7 +112,7 @@ _HANGS = 0.3
 
 
 class NullLink:
-    """A link to nobody, for what cflib sends and expects while it is put away."""
+    """A link without an other end, for what cflib sends and expects while it is put away."""
 
     needs_resending = False
 
@@ -133,7 +133,7 @@ def release_link(drone: str, cf: Cf | None, done: Callable[[], None]) -> None:
 
     def work() -> None:
         if cf is not None:
-            with suppress(Exception):  # whatever is wrong with it: nobody uses it any more
+            with suppress(Exception):  # a broken connection is not used any more
                 _put_away(cf)
         done()
 
@@ -171,9 +171,9 @@ def _dismiss(cf: Cf) -> None:
 
 
 def _cut(cf: Cf) -> None:
-    """Take the link away while nobody sends, so that cflib says no goodbye even to nowhere.
+    """Take the link away while nothing is sent, so that cflib says no goodbye even to nowhere.
 
-    Whoever sends looks for a link and then uses it, under a lock. One that fell over while it sent has
+    A sender looks for a link and then uses it, under a lock. One that fell over while it sent has
     left it locked, and all others wait for ever: they are let in, and find no link.
     """
     lock: Lock | None = getattr(cf, "_send_lock", None)
@@ -181,7 +181,7 @@ def _cut(cf: Cf) -> None:
         lock.acquire(timeout=_SENDING)
     cf.link = None
     if lock is not None:
-        with suppress(RuntimeError):  # whoever had it was only slow
+        with suppress(RuntimeError):  # its holder was only slow
             lock.release()
 
 
