@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 from plutoc_runtime.domain.errors import FlightFailed
 from plutoc_runtime.fleet.landing_sites import free_spot
 
-from . import flying
+from .flying import come_down as descend
+from .flying import fly
 from .stray import is_over_no_fly
 from .vehicle import LAND
 
@@ -45,7 +46,7 @@ async def _down(member: Member, airspace: Airspace, others: Sequence[Point]) -> 
     elif is_over_no_fly(airspace, here):
         x, y, _ = free_spot(airspace, here, others, _BESIDE)
         try:
-            await flying.fly(member, (x, y, min(max(here[2], _BESIDE), airspace.ceiling)))
+            await fly(member, (x, y, min(max(here[2], _BESIDE), airspace.ceiling)))
         except FlightFailed as error:
             member.calls.say(f"{member.id} was to leave the no-fly area: {error}")
-    await flying.come_down(member)
+    await descend(member)

@@ -11,7 +11,7 @@ from plutoc_runtime.domain.errors import Failure, FlightFailed
 from plutoc_runtime.domain.text import percent, place
 
 from .seen import RISING
-from .vehicle import LAND, LOOK, RISE, SLOW
+from .vehicle import LAND, RISE, SLOW
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Point
@@ -85,11 +85,9 @@ async def come_down(member: Member) -> None:
     seconds = max(0.0, member.seen.location[2]) / member.climb
     await member.go("land", seconds, member.navigation.land, member.climb)
     member.seen.rises_until = -inf
-    for _ in range(round(DOWN / LOOK)):  # what it told last may be older than that
-        if member.seen.landed:
-            return
-        await asyncio.sleep(LOOK)
-    raise FlightFailed(Failure.ACTION, f"{member.id} was to land, and flies all the same")
+    # what it told last may be older than that
+    if not await member.until(lambda: member.seen.landed, DOWN):
+        raise FlightFailed(Failure.ACTION, f"{member.id} was to land, and flies all the same")
 
 
 async def hold(member: Member) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
 
@@ -41,8 +40,8 @@ class Kind:
     methods: tuple[Method, ...]
     together: tuple[tuple[Method, ...], ...] = ()
     """What only some have: all of such a group, or none of it."""
-    ours: tuple[tuple[str, Callable[[], object]], ...] = ()
-    """Those that the runtime has itself, by name; nobody's package takes their place."""
+    ours: tuple[tuple[str, str], ...] = ()
+    """Those of this library: each name and its `module:Class`, seen from here; no package replaces them."""
 
 
 NAVIGATION_METHODS = (

@@ -11,7 +11,6 @@ from plutoc_runtime.domain.text import place
 from plutoc_runtime.time.kernel import WHATEVER
 
 from .telemetry import BATTERY_LOW, CRASHED, LINK_LOST, LOCKED, POSITION_LOST
-from .timed import Timed
 from .timeouts import shortened
 
 if TYPE_CHECKING:
@@ -28,7 +27,7 @@ async def listen(member: Member) -> None:
     try:
         events = member.navigation.events().__aiter__()
         while True:
-            event = await Timed(events.__anext__(), calls.clock, calls.took)
+            event = await calls.timed(events.__anext__())
             calls.ask("events", partial(hear, member, event), None)
             await asyncio.sleep(BETWEEN)
     except StopAsyncIteration:

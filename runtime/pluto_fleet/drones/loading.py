@@ -37,15 +37,9 @@ S = TypeVar("S")
 T = TypeVar("T")
 
 
-def _crazyflie() -> object:
-    from ..crazyflie.navigation import Crazyflie  # few look at it
-
-    return Crazyflie
-
-
 NAVIGATION = Kind(
     word="navigation",
-    ours=(("crazyflie", _crazyflie),),
+    ours=(("crazyflie", "..crazyflie.navigation:Crazyflie"),),
     group="plutoc.navigations",
     argument="setup",
     such_as="my_drones.parrot:Parrot",
@@ -99,7 +93,8 @@ def _made(kind: Kind, name: str, of: Callable[[S], T], argument: S, whose: str) 
 def _loaded(kind: Kind, name: str) -> object:
     ours = dict(kind.ours)
     if name in ours:
-        return ours[name]()
+        module, path = ours[name].split(":")
+        return getattr(import_module(module, __package__), path)
     written = name if ":" in name else _offered(kind, name)
     module, path = _apart(kind, name, written)
     if written is name:

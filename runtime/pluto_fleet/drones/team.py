@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, NoReturn
 from plutoc_runtime.domain.actions import BUILT_IN, Plain
 
 from ..jobs.reports import DroneReport
+from ..jobs.telemetry import Publisher
 from . import acting, flying
 from .cargo import Cargo
 from .closing import close
@@ -22,7 +23,7 @@ from .linking import Linking
 from .listening import listen
 from .reaching import fetched, reach
 from .vehicle import Member, TeamDrone
-from .watch import Watch
+from .watch import EACH, Watch
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -33,6 +34,7 @@ if TYPE_CHECKING:
     from plutoc_runtime.time.kernel import Kernel
 
     from ..jobs.job import Job
+    from ..jobs.telemetry import Subscription
     from .feeding import Feeding
     from .real_fleet import Wanted
 
@@ -64,6 +66,7 @@ class Team:
         self._links = {id: Linking(member) for id, member in self._members.items()}
         self._watch = Watch(tuple(self._members.values()), airspace, say, clock)
         self._tasks: list[asyncio.Task[None]] = []
+        self._watching: Subscription[float] | None = None
         for member in self._members.values():
             member.lacks = partial(self._lacks, member)
             if feeding is not None:
@@ -73,15 +76,26 @@ class Team:
         """Connect to all drones at once, and watch them; waits for none of them."""
         if self._feeding is not None:
             self._feeding.start()
-        self._tasks.append(asyncio.ensure_future(self._watch.run()))
+        self._watching = Publisher(self.telemetry).subscribe(
+            self._look, every=EACH, view=lambda _, known: known.silence
+        )
         for member in self._members.values():
             self._tasks.append(asyncio.ensure_future(listen(member)))
             self._tasks.append(self._links[member.id].start())
         for task in self._tasks:
             task.add_done_callback(self._ended)
 
+    def _look(self, _: Mapping[str, float], late: float) -> None:
+        """Let the monitor look; without it no drone may fly: if it breaks, all ends, and all land."""
+        try:
+            self._watch.hear(late)
+        except Exception as error:
+            if self._watching is not None:
+                self._watching.cancel()
+            self._kernel.post(_raise, error)
+
     def _ended(self, task: asyncio.Task[None]) -> None:
-        """Nobody may fly where nobody watches: if that breaks, all ends, and all land first."""
+        """If what keeps a link or hears events breaks, all ends, and all land first."""
         error = None if task.cancelled() else task.exception()
         if error is not None:
             self._kernel.post(_raise, error)
@@ -89,6 +103,8 @@ class Team:
     async def close(self) -> None:
         """Land what flies, wait until it has, and let go of all drones; nothing is left of it."""
         await close([(member, self._links[id]) for id, member in self._members.items()])
+        if self._watching is not None:
+            self._watching.cancel()
         tasks = [*self._tasks, *self._watch.stop()]
         for task in tasks:
             task.cancel()

@@ -72,6 +72,10 @@ class Calls:
         finally:
             self.took(self.clock() - began)
 
+    def timed(self, awaited: Awaitable[T]) -> Timed[T]:
+        """Return what to await instead, so that the log says how long each of its steps blocked."""
+        return Timed(awaited, self.clock, self.took)
+
     def mistake(self, what: str, error: BaseException) -> FlightFailed:
         """Put a mistake of the navigation into the log, and return what becomes of a flight."""
         said = shortened(f"{type(error).__name__}: {_text(error)}".removesuffix(": "))
@@ -102,7 +106,7 @@ class Calls:
 
     async def _outcome(self, what: str, method: Callable[[], Awaitable[T]]) -> Callable[[], T]:
         try:
-            value = await Timed(method(), self.clock, self.took)
+            value = await self.timed(method())
         except (asyncio.CancelledError, KeyboardInterrupt):
             raise
         except WHATEVER as error:  # even SystemExit: it would end the flights of all others

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import Awaitable, Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeVar
@@ -225,6 +226,14 @@ class Member:
             self.crashed(str(error))
         elif error.failure is Failure.BATTERY and not self.seen.landed:
             self.must_come_down(error)
+
+    async def until(self, holds: Callable[[], bool], limit: float) -> bool:
+        """Wait until something holds of what it tells, and say whether it does within the limit."""
+        for _ in range(round(limit / LOOK)):
+            if holds():
+                return True
+            await asyncio.sleep(LOOK)
+        return holds()
 
     async def hover(self) -> None:
         """Hover, after whatever was broken off; where it cannot, the log says why."""

@@ -47,16 +47,12 @@ class Watch:
         self._fallen_since = {member.id: inf for member in members}
         self._landings: dict[str, asyncio.Task[None]] = {}
 
-    async def run(self) -> None:
-        """Look, until cancelled."""
-        while True:
-            due = self._clock() + EACH
-            await asyncio.sleep(EACH)
-            late = self._clock() - due
-            if late > LATE:
-                self._say(f"the gateway was kept from watching its drones for {duration(late)}")
-            for member in self._members:
-                self.look(member, late)
+    def hear(self, late: float) -> None:
+        """Look at all drones; `late`: seconds after the look was due."""
+        if late > LATE:
+            self._say(f"the gateway was kept from watching its drones for {duration(late)}")
+        for member in self._members:
+            self.look(member, late)
 
     def stop(self) -> list[asyncio.Task[None]]:
         """Bring nobody down any more; return what ends now."""
