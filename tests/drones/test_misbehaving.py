@@ -248,7 +248,7 @@ def test_if_the_watch_breaks_all_ends_and_all_land_first(tmp_path: Path) -> None
         with pytest.raises(ZeroDivisionError):
             async with flying(tmp_path, drone) as flown:
                 await flown.up()
-                flown.team._members["cf1"].blind = lambda: str(1 / 0)
+                flown.team._vehicles["cf1"].position_problem = lambda: str(1 / 0)
                 await flown.until(lambda: flown.kernel.crashed)
         assert not drone.motors
 

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from statistics import fmean
 from typing import TYPE_CHECKING
 
-from ..drones.telemetry import BATTERY_LOW, CRASHED, LOCKED, POSITION_LOST, DroneEvent
+from ..drones.protocol import BATTERY_LOW, CRASHED, LOCKED, POSITION_LOST, DroneEvent
 from . import messages
 from .state import LOW_POWER
 

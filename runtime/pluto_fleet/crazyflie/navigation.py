@@ -9,7 +9,7 @@ from math import inf
 from typing import TYPE_CHECKING
 
 from ..drones.errors import LinkLost, NavigationError, NotReady, Rejected
-from ..drones.telemetry import LINK_LOST, DroneEvent, DroneTelemetry
+from ..drones.protocol import LINK_LOST, DroneEvent, DroneTelemetry
 from . import (
     actions,
     connection,
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from plutoc_runtime.domain.actions import Plain
     from plutoc_runtime.domain.model import Item, Point
 
-    from ..drones.setup import DroneSetup
+    from ..drones.protocol import DroneSetup
     from .session import CrazyflieSession
     from .state import State
 
