@@ -41,7 +41,7 @@ async def test_one_that_has_not_crashed_is_told_nothing(folder: Path) -> None:
     async with hangar(folder) as one:
         await one.navigation.connect()
         await one.navigation.looked_after()
-        assert one.deeds == []
+        assert one.commands == []
 
 
 async def test_a_deck_that_fails_is_said_by_name(folder: Path) -> None:

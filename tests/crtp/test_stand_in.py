@@ -6,9 +6,7 @@ import os
 from pathlib import Path
 
 from pluto_fleet.crazyflie.options import options_of
-from pluto_fleet.crtp.process import is_flown
-from pluto_fleet.crtp.stand_in import fitted
-from pluto_fleet.gateway.process import taken
+from pluto_fleet.crtp.equipment import fitted
 
 CAMERA = "127.0.0.1:5000"
 

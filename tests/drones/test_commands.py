@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from pluto_fleet.drones import Rejected
-from pluto_fleet.drones.real_fleet import Wanted
+from pluto_fleet.drones.real_fleet import RequiredAction
 from plutoc_runtime.domain.errors import Failure, FlightFailed
 from plutoc_runtime.domain.model import Category, Item
 from tests.drones.fakes import FakeDrone
@@ -71,40 +71,50 @@ async def test_a_drone_that_is_slower_than_its_category_is_waited_for(tmp_path: 
 
 async def test_a_roll_call_says_what_keeps_a_drone_from_flying(tmp_path: Path) -> None:
     """Its preflight, and the actions of the plan that its category has and its hardware has not."""
-    category = Category(name="scout", actions=frozenset({"take_photo", "measure"}))
-    drone = FakeDrone()
-    drone.reasons = ("its position is uncertain", "\x1b[2Jlocked")
-    drone.lacks = {"take_photo", "pick_item"}
-    wanted = [Wanted(action=name, parameters={}) for name in ("take_photo", "pick_item")]
-    async with flying(tmp_path, drone, category=category, wanted=wanted) as flown:
-        problems = (await flown.do(flown.team.roll_call("cf1"))).problems
-        assert problems == (
-            "its position is uncertain",
-            "\\x1b[2Jlocked",
-            "cf1 cannot take_photo",
-        )
-        assert flown.team.why_not("cf1", "take_photo", {}) == "cf1 cannot take_photo"
-        assert flown.team.why_not("cf1", "dance", {}) == "cf1 has no action dance"
-        failed = await flown.failure(flown.team.takeoff("cf1", 1.0))
-        assert failed.failure is Failure.REFUSED
-        assert "cf1 is not ready: its position is uncertain; " in str(failed)
-        assert drone.told == []
+
+    async def flight() -> None:
+        category = Category(name="scout", actions=frozenset({"take_photo", "measure"}))
+        drone = FakeDrone()
+        drone.reasons = ("its position is uncertain", "\x1b[2Jlocked")
+        drone.lacks = {"take_photo", "pick_item"}
+        wanted = [
+            RequiredAction(action=name, parameters={}) for name in ("take_photo", "pick_item")
+        ]
+        async with flying(tmp_path, drone, category=category, wanted=wanted) as flown:
+            problems = (await flown.do(flown.team.roll_call("cf1"))).problems
+            assert problems == (
+                "its position is uncertain",
+                "\\x1b[2Jlocked",
+                "cf1 cannot take_photo",
+            )
+            assert flown.team.why_not("cf1", "take_photo", {}) == "cf1 cannot take_photo"
+            assert flown.team.why_not("cf1", "dance", {}) == "cf1 has no action dance"
+            failed = await flown.failure(flown.team.takeoff("cf1", 1.0))
+            assert failed.failure is Failure.REFUSED
+            assert "cf1 is not ready: its position is uncertain; " in str(failed)
+            assert drone.told == []
+
+    run(flight())
 
 
-async def test_a_drone_without_the_hardware_of_the_plan_is_not_handed_out(tmp_path: Path) -> None:
-    """After the roll call it is waited for until it has been mended."""
-    drone, wanted = FakeDrone(), [Wanted(action="take_photo", parameters={})]
-    drone.lacks = {"take_photo"}
-    async with flying(tmp_path, drone, wanted=wanted) as flown:
-        standing = await flown.do(flown.team.roll_call("cf1"))
-        assert standing.problems == ("cf1 cannot take_photo",)
-        assert await flown.do(flown.team.reach("cf1"))
-        with pytest.raises(FlightFailed, match="cf1 is not ready: cf1 cannot take_photo"):
-            flown.team.begins("cf1", None, 0.0)
-        fetched = flown.begin(flown.team.fetched("cf1"))
-        the_loop().call_later(60, drone.lacks.clear)
-        assert await flown.until(lambda: fetched.is_set) > 59
-        assert fetched.result()
+def test_a_drone_without_the_hardware_of_the_plan_is_not_handed_out(tmp_path: Path) -> None:
+    """After the roll call it is waited for until somebody has mended it."""
+
+    async def flight() -> None:
+        drone, wanted = FakeDrone(), [RequiredAction(action="take_photo", parameters={})]
+        drone.lacks = {"take_photo"}
+        async with flying(tmp_path, drone, wanted=wanted) as flown:
+            standing = await flown.do(flown.team.roll_call("cf1"))
+            assert standing.problems == ("cf1 cannot take_photo",)
+            assert await flown.do(flown.team.reach("cf1"))
+            with pytest.raises(FlightFailed, match="cf1 is not ready: cf1 cannot take_photo"):
+                flown.team.begins("cf1", None, 0.0)
+            fetched = flown.begin(flown.team.fetched("cf1"))
+            the_loop().call_later(60, drone.lacks.clear)
+            assert await flown.until(lambda: fetched.is_set) > 59
+            assert fetched.result()
+
+    run(flight())
 
 
 async def test_no_drone_takes_off_below_its_reserve(tmp_path: Path) -> None:
@@ -134,15 +144,19 @@ async def test_what_is_broken_off_ends_in_a_hover(tmp_path: Path) -> None:
 
 async def test_a_command_that_is_not_wanted_any_more_ends_in_a_hover(tmp_path: Path) -> None:
     """As when the kernel cancels it."""
-    async with flying(tmp_path) as flown:
-        drone = await flown.up()
-        flies = flown.begin(flown.team.go_to("cf1", (5.0, 1.0, 1.0)))
-        await flown.until(lambda: drone.place[0] > 2)
-        flown.kernel.post(flies.cancel)
-        await flown.until(lambda: drone.told[-1] == "hold", 1)
-        hovers = flown.begin(flown.team.hold("cf1"))
-        await flown.until(lambda: flown.team._members["cf1"].lane.doing == "hover", 1)
-        flown.kernel.post(hovers.cancel)
+
+    async def flight() -> None:
+        async with flying(tmp_path) as flown:
+            drone = await flown.up()
+            flies = flown.begin(flown.team.go_to("cf1", (5.0, 1.0, 1.0)))
+            await flown.until(lambda: drone.place[0] > 2)
+            flown.kernel.post(flies.cancel)
+            await flown.until(lambda: drone.told[-1] == "hold", 1)
+            hovers = flown.begin(flown.team.hold("cf1"))
+            await flown.until(lambda: flown.team._vehicles["cf1"].commands.doing == "hover", 1)
+            flown.kernel.post(hovers.cancel)
+
+    run(flight())
 
 
 async def test_a_takeoff_that_is_broken_off_before_the_drone_says_that_it_flies_is_no_landing(
@@ -217,7 +231,7 @@ def test_cut_motors_waits_for_nothing(tmp_path: Path, hangs: bool) -> None:
             if hangs:
                 drone.hangs = drone.clings = {"go_to", "hold"}
             flies = flown.begin(team.go_to("cf1", (5.0, 1.0, 1.0)))
-            await flown.until(lambda: "fly" in team._members["cf1"].lane.doing)
+            await flown.until(lambda: "fly" in team._vehicles["cf1"].commands.doing)
             before = the_loop().time()
             await flown.do(team.cut("cf1"))
             assert the_loop().time() - before < 0.2

@@ -217,12 +217,16 @@ async def test_one_that_is_never_out_of_news_holds_up_no_one(tmp_path: Path) -> 
         assert flown.log.count("cf1: news: still here") == 1
 
 
-async def test_if_the_watch_breaks_all_ends_and_all_land_first(tmp_path: Path) -> None:
-    """No drone flies that is not watched."""
-    drone = FakeDrone()
-    with pytest.raises(ZeroDivisionError):
-        async with flying(tmp_path, drone) as flown:
-            await flown.up()
-            flown.team._members["cf1"].blind = lambda: str(1 / 0)
-            await flown.until(lambda: flown.kernel.crashed)
-    assert not drone.motors
+def test_if_the_watch_breaks_all_ends_and_all_land_first(tmp_path: Path) -> None:
+    """Nobody flies where nobody watches."""
+
+    async def flight() -> None:
+        drone = FakeDrone()
+        with pytest.raises(ZeroDivisionError):
+            async with flying(tmp_path, drone) as flown:
+                await flown.up()
+                flown.team._vehicles["cf1"].position_problem = lambda: str(1 / 0)
+                await flown.until(lambda: flown.kernel.crashed)
+        assert not drone.motors
+
+    run(flight())

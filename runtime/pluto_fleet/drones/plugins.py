@@ -1,22 +1,82 @@
-"""What is said of a navigation or a localization that cannot be used: one function a sentence.
-
-Nothing has flown then, nor has anything of it been called.
-"""
+"""What a fleet file may name, navigations and localizations: their methods as data, and what is
+said of a class that cannot be used."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from difflib import get_close_matches
-from typing import TYPE_CHECKING
+from enum import Enum
 
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.text import duration, quoted
 
-if TYPE_CHECKING:
-    from .kinds import Kind
+
+class CallStyle(Enum):
+    """How a method is called."""
+
+    WAITS = "async def"
+    AT_ONCE = "def"
+    ITERATES = "an async generator"
+    PROPERTY = "a property"
 
 
-def no_such_name(kind: Kind, name: str, names: Sequence[str]) -> BadInput:
+@dataclass(frozen=True, slots=True)
+class Method:
+    """A method that the runtime calls, by place and never by name."""
+
+    name: str
+    shape: CallStyle = CallStyle.WAITS
+    takes: tuple[str, ...] = ()
+    of_class: bool = False
+    """Whether it is called without a drone: of the class."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PluginKind:
+    """Something that a fleet file names, and a package may offer."""
+
+    word: str
+    group: str
+    """Of entry points."""
+    argument: str
+    """What the class is called with."""
+    such_as: str
+    """One that somebody could write."""
+    methods: tuple[Method, ...]
+    together: tuple[tuple[Method, ...], ...] = ()
+    """What only some have: all of such a group, or none of it."""
+    ours: tuple[tuple[str, str], ...] = ()
+    """Those of this library: each name and its `module:Class`, seen from here; no package replaces them."""
+
+
+NAVIGATION_METHODS = (
+    Method("connect"),
+    Method("preflight"),
+    Method("takeoff", takes=("height", "speed")),
+    Method("go_to", takes=("target", "speed")),
+    Method("hold"),
+    Method("land", takes=("speed",)),
+    Method("emergency_stop"),
+    Method("close"),
+    Method("telemetry", CallStyle.PROPERTY),
+    Method("events", CallStyle.ITERATES),
+)
+CAPABILITIES = (
+    (
+        Method("why_not", CallStyle.AT_ONCE, ("action", "parameters")),
+        Method("act", takes=("action", "parameters", "item")),
+    ),
+    (Method("read", takes=("name",)), Method("write", takes=("name", "value"))),
+    (Method("locate", takes=("position",)),),
+    (Method("looked_after"),),
+    (Method("identify"),),
+    (Method("scan", takes=("options",), of_class=True),),
+)
+LOCALIZATION_METHODS = (Method("positions", CallStyle.ITERATES),)
+
+
+def no_such_name(kind: PluginKind, name: str, names: Sequence[str]) -> BadInput:
     found = get_close_matches(name, names, n=1, cutoff=0.6)
     hint = f"did you mean {quoted(found[0])}? " if found else ""
     there = f"there is: {', '.join(names)}; or write" if names else "write"
@@ -26,46 +86,46 @@ def no_such_name(kind: Kind, name: str, names: Sequence[str]) -> BadInput:
     )
 
 
-def several(kind: Kind, name: str, values: Sequence[str]) -> BadInput:
+def several(kind: PluginKind, name: str, values: Sequence[str]) -> BadInput:
     return BadInput(
         f"several installed packages offer a {kind.word} {quoted(name)}: "
         f"name the class itself, one of {', '.join(quoted(value) for value in values)}"
     )
 
 
-def no_class_written(kind: Kind, name: str) -> BadInput:
+def no_class_written(kind: PluginKind, name: str) -> BadInput:
     return BadInput(f'{quoted(name)} names no {kind.word}: write module:Class, "my_drones:Parrot"')
 
 
-def no_such_module(kind: Kind, name: str, module: str) -> BadInput:
+def no_such_module(kind: PluginKind, name: str, module: str) -> BadInput:
     return BadInput(
         f"the {kind.word} {quoted(name)} is in no module that is installed: there is no "
         f"{quoted(module)}; install its package with pip, or put its folder into PYTHONPATH"
     )
 
 
-def of_python(kind: Kind, name: str, module: str) -> BadInput:
+def of_python(kind: PluginKind, name: str, module: str) -> BadInput:
     return BadInput(
         f"the {kind.word} {quoted(name)} is none: {quoted(module)} is a module of Python's own"
     )
 
 
-def no_text(kind: Kind, name: str, module: str) -> BadInput:
+def no_text(kind: PluginKind, name: str, module: str) -> BadInput:
     return BadInput(
         f"the {kind.word} {quoted(name)} cannot be looked up: {quoted(module)} has no text in"
         f" Python; its package can offer the class by an entry point, {kind.group}"
     )
 
 
-def needs(kind: Kind, name: str, missing: str) -> BadInput:
+def needs(kind: PluginKind, name: str, missing: str) -> BadInput:
     return BadInput(f"the {kind.word} {quoted(name)} needs {quoted(missing)}: install it with pip")
 
 
-def not_imported(kind: Kind, name: str, why: str) -> BadInput:
+def not_imported(kind: PluginKind, name: str, why: str) -> BadInput:
     return BadInput(f"the {kind.word} {quoted(name)} cannot be imported: {why}")
 
 
-def hangs(kind: Kind, name: str, module: str, seconds: float, said: str) -> BadInput:
+def hangs(kind: PluginKind, name: str, module: str, seconds: float, said: str) -> BadInput:
     last = f"; the last it said: {said}" if said else ""
     return BadInput(
         f"the {kind.word} {quoted(name)} cannot be imported: {quoted(module)} was not done with"
@@ -73,7 +133,7 @@ def hangs(kind: Kind, name: str, module: str, seconds: float, said: str) -> BadI
     )
 
 
-def ends_all(kind: Kind, name: str, module: str, how: str, said: str) -> BadInput:
+def ends_all(kind: PluginKind, name: str, module: str, how: str, said: str) -> BadInput:
     last = f"; the last it said: {said}" if said else ""
     return BadInput(
         f"the {kind.word} {quoted(name)} cannot be imported: {quoted(module)} ends the process"
@@ -81,7 +141,7 @@ def ends_all(kind: Kind, name: str, module: str, how: str, said: str) -> BadInpu
     )
 
 
-def no_such_class(kind: Kind, name: str, wanted: str, there: Sequence[str]) -> BadInput:
+def no_such_class(kind: PluginKind, name: str, wanted: str, there: Sequence[str]) -> BadInput:
     found = get_close_matches(wanted, there, n=1, cutoff=0.6)
     hint = f"; did you mean {quoted(found[0])}?" if found else ""
     return BadInput(
@@ -89,15 +149,15 @@ def no_such_class(kind: Kind, name: str, wanted: str, there: Sequence[str]) -> B
     )
 
 
-def not_a_class(kind: Kind, name: str) -> BadInput:
+def not_a_class(kind: PluginKind, name: str) -> BadInput:
     return BadInput(f"the {kind.word} {quoted(name)} is no class")
 
 
-def lacks(kind: Kind, name: str, problems: Sequence[str]) -> BadInput:
+def lacks(kind: PluginKind, name: str, problems: Sequence[str]) -> BadInput:
     return BadInput(f"the {kind.word} {quoted(name)} cannot be used: {'; '.join(problems)}")
 
 
-def not_made(kind: Kind, name: str, whose: str, why: str) -> BadInput:
+def not_made(kind: PluginKind, name: str, whose: str, why: str) -> BadInput:
     return BadInput(f"the {kind.word} {quoted(name)} could not be made{whose}: {why}")
 
 

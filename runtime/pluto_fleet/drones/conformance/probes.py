@@ -1,15 +1,18 @@
-"""Finds out where an event loop is held up, and how long, by looking on from another thread.
+"""What a navigation does to its process: blocks the event loop, or leaves something behind.
 
-A busy machine holds up a loop as well, and is nobody's fault: so it is not the clock that counts, but
-how often in a row the loop was seen in the very same turn, doing something. A loop that starts a
-thread waits for the machine, too: until that thread runs.
+A busy machine holds up a loop as well: so it is not the clock that counts, but how often in a row the
+loop was seen in the very same turn, doing something. A loop that starts a thread waits for the machine,
+too: until that thread runs.
 """
 
 from __future__ import annotations
 
 import asyncio
+import gc
+import socket
 import sys
 import threading
+from dataclasses import dataclass
 from pathlib import Path
 from types import FrameType
 from typing import Self
@@ -82,3 +85,52 @@ def _place(frame: FrameType) -> str:
         at = at.f_back
     at = at or frame
     return f"in {at.f_code.co_name}, {at.f_code.co_filename}:{at.f_lineno}"
+
+
+_EXECUTOR = "asyncio_"
+"""Threads of the loop's own pool: the loop ends them."""
+
+
+@dataclass(frozen=True, slots=True)
+class Resources:
+    """What resources is at one moment, in the running loop's process."""
+
+    threads: frozenset[threading.Thread]
+    tasks: frozenset[asyncio.Task[object]]
+    sockets: frozenset[tuple[int, int]]
+    """Each by its identity and its file descriptor."""
+
+
+def resources() -> Resources:
+    """Look around."""
+    return Resources(
+        threads=frozenset(
+            thread
+            for thread in threading.enumerate()
+            if not thread.daemon and not thread.name.startswith(_EXECUTOR)
+        ),
+        tasks=frozenset(asyncio.all_tasks()),
+        sockets=frozenset(
+            (id(one), one.fileno())
+            for one in gc.get_objects()
+            if type(one) is socket.socket and one.fileno() >= 0
+        ),
+    )
+
+
+async def left_since(before: Resources, seconds: float = 1.0) -> list[str]:
+    """Return what has come since and is still resources after a while, a few words each."""
+    loop = asyncio.get_running_loop()
+    limit = loop.time() + seconds
+    while found := _found(before, resources()):
+        if loop.time() > limit:
+            break
+        await asyncio.sleep(0.05)
+    return found
+
+
+def _found(before: Resources, now: Resources) -> list[str]:
+    threads = [f"the thread {one.name}" for one in now.threads - before.threads]
+    tasks = [f"the task {one.get_coro()}" for one in now.tasks - before.tasks]
+    sockets = [f"a socket, number {number}" for _, number in now.sockets - before.sockets]
+    return sorted(threads) + sorted(tasks) + sorted(sockets)

@@ -1,19 +1,24 @@
-"""How full a battery is, by its volts: at rest by its curve, in the air by what flying costs.
+"""A Crazyflie's battery and its alarms, both found in what it tells of itself.
 
 Under load a small battery shows some tenths of a volt less than it has, and much less than that would
-mean at rest. What it loses is measured anew at each take-off, as batteries get older.
+mean at rest: at rest its curve says how full it is, in the air also what flying costs. That is
+measured anew at each take-off, as batteries get older.
 """
 
 from __future__ import annotations
 
 from bisect import bisect_right
+from collections.abc import Iterator
 from statistics import fmean
 from typing import TYPE_CHECKING
 
+from ..drones.protocol import BATTERY_LOW, CRASHED, LOCKED, POSITION_LOST, DroneEvent
+from . import messages
 from .state import LOW_POWER
 
 if TYPE_CHECKING:
     from .state import State
+
 
 # One lithium cell at rest.
 _VOLTS = (3.27, 3.61, 3.69, 3.73, 3.77, 3.80, 3.84, 3.87, 3.95, 4.02, 4.11, 4.18)
@@ -44,7 +49,7 @@ def level_at_rest(volts: float) -> float:
     return _LEVELS[at - 1] + share * (_LEVELS[at] - _LEVELS[at - 1])
 
 
-class Battery:
+class BatteryGauge:
     """What is left in one drone's battery."""
 
     def __init__(self, cells: int = 1) -> None:
@@ -91,3 +96,49 @@ class Battery:
             return
         self._sags.append(self.rest - volts)
         self._sag = min(_MOST, max(_LEAST, fmean(self._sags)))
+
+
+LOW_FOR = 3.0
+"""Seconds that it must be low: a burst of the motors costs volts, too."""
+_WELL = 3.5
+"""Volts of a cell at which a battery counts as another one, or as charged."""
+
+
+class AlarmDetector:
+    """What has been told already: each thing is told once, when it begins."""
+
+    def __init__(self, cells: int = 1) -> None:
+        self._cells = cells
+        self._crashed = self._locked = self._low = self._adrift = False
+        self._low_since: float | None = None
+
+    def hear(self, state: State) -> Iterator[DroneEvent]:
+        """Yield what has happened since the last state."""
+        if state.crashed and not self._crashed:
+            yield DroneEvent(kind=CRASHED, reason=messages.LIES)
+        if state.locked and not self._locked:
+            why = messages.LOCKED_BY_DECK if state.deck_failed else messages.IS_LOCKED
+            yield DroneEvent(kind=LOCKED, reason=why)
+        self._crashed, self._locked = state.crashed, state.locked
+        if self._battery_low(state):
+            yield DroneEvent(kind=BATTERY_LOW, reason=messages.low(state.volts))
+
+    def hear_of_its_place(self, adrift: bool, variance: float) -> Iterator[DroneEvent]:
+        """Yield that it does not know its place in the air any more, when that begins."""
+        if adrift and not self._adrift:
+            yield DroneEvent(kind=POSITION_LOST, reason=messages.adrift(variance))
+        self._adrift = adrift
+
+    def _battery_low(self, state: State) -> bool:
+        """Say whether it has just become so low that it must come down."""
+        volts = state.volts / self._cells
+        if state.power != LOW_POWER and not 0.0 < volts < LOW:
+            self._low_since = None
+            self._low = self._low and volts < _WELL
+            return False
+        if self._low_since is None:
+            self._low_since = state.time
+        if self._low or state.time - self._low_since < LOW_FOR:
+            return False
+        self._low = True
+        return True

@@ -11,6 +11,7 @@ from plutoc_runtime.domain.text import in_shell, number, quoted
 if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Point
 
+
 PROTOCOL = 12
 """What the firmware must speak: since then it has a supervisor that says how it is."""
 
@@ -83,12 +84,12 @@ def cause(message: str) -> str:
     if "too many packets lost" in whole:
         return "too many packets are lost: it is off, or out of range"
     if "connection refused" in whole:
-        return "nobody listens there"
+        return "no program listens there"
     return first or "cflib does not say why"
 
 
 def no_scan(why: str) -> str:
-    return f"the radio finds nobody: {why}"
+    return f"the radio finds no drone: {why}"
 
 
 def no_address(address: str) -> str:

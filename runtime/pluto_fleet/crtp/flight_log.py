@@ -17,7 +17,7 @@ _LARGEST = 200_000_000
 """Bytes of a trace, after which no more is written."""
 
 
-class Deed(NamedTuple):
+class CommandRecord(NamedTuple):
     """One command that a drone was given, or what else happened to it."""
 
     time: float
@@ -29,7 +29,7 @@ class Deed(NamedTuple):
     values: Mapping[str, float]
 
 
-class Place(NamedTuple):
+class PositionRecord(NamedTuple):
     """Where a drone was."""
 
     time: float
@@ -37,35 +37,35 @@ class Place(NamedTuple):
     at: Point
 
 
-class Record(Protocol):
+class FlightLog(Protocol):
     """Whoever is told what happens; times are those of `time.monotonic`."""
 
-    def did(self, deed: Deed) -> None:
+    def command(self, command: CommandRecord) -> None:
         """Hear of a command."""
         ...
 
-    def was(self, place: Place) -> None:
+    def position(self, place: PositionRecord) -> None:
         """Hear where a drone is that is above the ground."""
         ...
 
 
-class InMemory:
+class MemoryLog:
     """A record for tests in this process."""
 
     def __init__(self) -> None:
-        self.deeds: list[Deed] = []
-        self.places: list[Place] = []
+        self.commands: list[CommandRecord] = []
+        self.positions: list[PositionRecord] = []
 
-    def did(self, deed: Deed) -> None:
+    def command(self, command: CommandRecord) -> None:
         """Keep a command."""
-        self.deeds.append(deed)
+        self.commands.append(command)
 
-    def was(self, place: Place) -> None:
+    def position(self, place: PositionRecord) -> None:
         """Keep where a drone was."""
-        self.places.append(place)
+        self.positions.append(place)
 
 
-class InFiles:
+class FileLog:
     """A record in two files of a folder, which are gone on with if they are there."""
 
     def __init__(self, folder: Path) -> None:
@@ -73,13 +73,13 @@ class InFiles:
         self._trace: TextIO = (folder / TRACE).open("a", encoding="utf-8")
         self._size = self._trace.tell()
 
-    def did(self, deed: Deed) -> None:
+    def command(self, command: CommandRecord) -> None:
         """Write a command down at once."""
         with suppress(OSError):  # a full disk is no reason to fall
-            self._commands.write(json.dumps(deed._asdict()) + "\n")
+            self._commands.write(json.dumps(command._asdict()) + "\n")
             self._commands.flush()
 
-    def was(self, place: Place) -> None:
+    def position(self, place: PositionRecord) -> None:
         """Write down where a drone was, some time soon."""
         if self._size > _LARGEST:
             return
@@ -100,18 +100,19 @@ class InFiles:
             self._trace.close()
 
 
-def deeds_in(folder: Path) -> Sequence[Deed]:
+def commands_in(folder: Path) -> Sequence[CommandRecord]:
     """Read the commands back."""
     lines = (folder / COMMANDS).read_text(encoding="utf-8").splitlines()
     read = (json.loads(line) for line in lines)
-    return [Deed(**{**one, "at": tuple(one["at"])}) for one in read]
+    return [CommandRecord(**{**one, "at": tuple(one["at"])}) for one in read]
 
 
-def trace_in(folder: Path) -> Sequence[Place]:
+def trace_in(folder: Path) -> Sequence[PositionRecord]:
     """Read back where the drones were; a last line that is only half there is left out."""
     text = (folder / TRACE).read_text(encoding="utf-8")
     lines = text[: text.rfind("\n") + 1].splitlines()
     rows = (line.split(",") for line in lines)
     return [
-        Place(float(time), drone, (float(x), float(y), float(z))) for time, drone, x, y, z in rows
+        PositionRecord(float(time), drone, (float(x), float(y), float(z)))
+        for time, drone, x, y, z in rows
     ]
