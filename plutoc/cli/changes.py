@@ -26,7 +26,7 @@ def rewrite(path: Path, before: str, after: str) -> None:
     """
     target = Path(os.path.realpath(path))
 
-    def save(aside: str, data: bytes) -> None:
+    def save(aside: str | Path, data: bytes) -> None:
         Path(aside).write_bytes(data)
         shutil.copymode(target, aside)
 
