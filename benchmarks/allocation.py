@@ -28,14 +28,14 @@ from random import Random
 from typing import TYPE_CHECKING
 
 from measuring.options import at_least_one
-from plutoc_runtime.model import Category, Drone, Point, Trip
-from plutoc_runtime.policies.batch_optimal import batch_optimal
-from plutoc_runtime.policies.first import first
-from plutoc_runtime.policies.least_used import least_used
-from plutoc_runtime.policies.nearest import nearest
+from plutoc_runtime.domain.model import Category, Drone, Point, Trip
+from plutoc_runtime.fleet.policies.batch_optimal import batch_optimal
+from plutoc_runtime.fleet.policies.first import first
+from plutoc_runtime.fleet.policies.least_used import least_used
+from plutoc_runtime.fleet.policies.nearest import nearest
 
 if TYPE_CHECKING:
-    from plutoc_runtime.policy import OneByOne
+    from plutoc_runtime.fleet.policy import OneByOne
 
 FLEETS = (10, 100, 1_000, 10_000)
 SHARES = ((10, 10), (30, 30), (100, 100), (300, 300), (1_000, 1_000), (1_000, 1_100), (1_000, 1))

@@ -56,9 +56,9 @@ WARNED = SOUND.replace("max_attempts: 3", "max_attempts: 0").replace(
 )
 """A trip that always fails is flown for ever: the warning shows how it goes round."""
 HOOKS = """\
-from plutoc_runtime.model import Mission
-from plutoc_runtime.results import Results
-from plutoc_runtime.verdict import Verdict
+from plutoc_runtime.domain.model import Mission
+from plutoc_runtime.domain.results import Results
+from plutoc_runtime.flow.verdict import Verdict
 
 
 def find_blooms(mission: Mission, results: Results) -> Verdict:

@@ -21,14 +21,14 @@ from pathlib import Path
 
 from measuring.instant import APP, Instant, ground, plan
 from measuring.options import at_least_one
+from pluto_fleet.flight.recorded_flight import Life
 from pluto_fleet.journal.fold import Records
 from pluto_fleet.journal.replay import replayed
 from pluto_fleet.journal.store import Store
 from pluto_fleet.journal.writer import Writer
-from pluto_fleet.life import Life
-from pluto_fleet.realtime import RealTime
-from plutoc_runtime.kernel import FLEET, Kind
-from plutoc_runtime.virtual import VirtualTime
+from pluto_fleet.process.realtime import RealTime
+from plutoc_runtime.time.kernel import FLEET, Kind
+from plutoc_runtime.time.virtual import VirtualTime
 
 HEADER = {"event": "journal.begun", "app": APP.name}
 GROUPS = (1, 10, 100, 1_000)

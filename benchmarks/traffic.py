@@ -23,10 +23,10 @@ from random import Random
 
 sys.path[:0] = [str(Path(__file__).parents[1])]
 
-from pluto_fleet.standing import Down
-from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.kernel import FLEET
-from plutoc_runtime.model import Point
+from pluto_fleet.jobs.reports import Down
+from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.domain.model import Point
+from plutoc_runtime.time.kernel import FLEET
 from tests.gateway.traffic.real_skies import SLACK
 from tests.gateway.traffic.real_skies import late as late_for_real
 from tests.gateway.traffic.skies import Sky

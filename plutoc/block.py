@@ -12,9 +12,9 @@ from enum import Enum
 from types import MappingProxyType
 from typing import Any
 
-from plutoc_runtime.fields import Field
-from plutoc_runtime.quantities import Type
-from plutoc_runtime.status import IN_GRAPH, Status
+from plutoc_runtime.domain.fields import Field
+from plutoc_runtime.domain.quantities import Type
+from plutoc_runtime.domain.status import IN_GRAPH, Status
 
 Transitions = Mapping[Status, frozenset[Status]]
 """For each status that a block accepts, the statuses that it can then emit."""
@@ -149,7 +149,7 @@ class Block:
     limit: Callable[..., Any] | None = None
     """What it adds to a wait for the end of the trip, so that one wait can stand for several blocks.
 
-    Called as `limit(run, **parameters, **fields)`, it gives a `plutoc_runtime.watching.Limit`, or None
+    Called as `limit(run, **parameters, **fields)`, it gives a `plutoc_runtime.trips.deadlines.Limit`, or None
     for no limit. The block's step must do no more than to wait under that limit.
     """
     evaluates: bool = False

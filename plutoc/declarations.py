@@ -13,10 +13,10 @@ from sys import float_info
 from typing import Any
 
 from plutoc.block import Block, Choice, Gate, HookKind, HookParam, Narrowed, Param
-from plutoc_runtime.fields import Entity, Field, FieldType
-from plutoc_runtime.quantities import Type
-from plutoc_runtime.status import Status
-from plutoc_runtime.words import bounded, printable, shown
+from plutoc_runtime.domain.fields import Entity, Field, FieldType
+from plutoc_runtime.domain.quantities import Type
+from plutoc_runtime.domain.status import Status
+from plutoc_runtime.domain.text import bounded, printable, shown
 
 _FLAGS = (
     "emits_by_hook",

@@ -18,8 +18,8 @@ from tempfile import TemporaryDirectory
 from time import perf_counter
 
 from pluto_fleet.cli.report import table
-from pluto_fleet.testing.invariants import violations
-from plutoc_runtime.faults import shares
+from pluto_fleet.trials.invariants import violations
+from plutoc_runtime.alone.faults import shares
 from tests.flying import MISHAPS, NAMES, Example, built
 
 HEADER = ("example", "runs", "missions", "completed", "failed", "flights", "mishaps", "violations")

@@ -14,15 +14,15 @@ from typing import TYPE_CHECKING, Any
 
 from pluto_fleet.files.fleet import load_fleet
 from pluto_fleet.files.missions import load_missions
-from pluto_fleet.simulate import simulate
-from pluto_fleet.testing.invariants import Items, items_of
+from pluto_fleet.flight.simulate import simulate
+from pluto_fleet.trials.invariants import Items, items_of
 from plutoc.cli import main
-from plutoc_runtime.faults import Faults
-from plutoc_runtime.trace import Event
+from plutoc_runtime.alone.faults import Faults
+from plutoc_runtime.domain.trace import Event
 
 if TYPE_CHECKING:
-    from plutoc_runtime.model import Mission
-    from plutoc_runtime.session import Outcome
+    from plutoc_runtime.domain.model import Mission
+    from plutoc_runtime.flow.session import Outcome
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 NAMES = sorted(path.parent.name for path in EXAMPLES.glob("*/app.pluto"))

@@ -75,12 +75,12 @@ def test_declarations_load_no_event_loop() -> None:
         [sys.executable, "-c", program], capture_output=True, text=True, check=True
     )
     loaded = set(done.stdout.split())
-    assert "plutoc_runtime.transitions" in loaded or "plutoc_runtime.status" in loaded
+    assert "plutoc_runtime.trips.transitions" in loaded or "plutoc_runtime.domain.status" in loaded
     assert not {"asyncio", "argparse", "black", "jinja2"} & loaded
 
 
 def test_the_compiler_names_no_block() -> None:
-    """It asks for properties: a block of somebody else's is as good as ours."""
+    """It asks for properties: a block of another author's is as good as ours."""
     names = {block.name for block in BLOCKS}
     named = [
         (path.relative_to(COMPILER).as_posix(), line)

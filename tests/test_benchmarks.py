@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -83,3 +84,21 @@ def test_the_choice_of_drones_is_measured() -> None:
     assert list(told["queue_s"]) == [f"{name} {size}" for name in policies for size in (2, 60)]
     assert len(told["choice_us"]) == 6
     assert list(told["share_ms"]) == ["3 x 2"]
+
+
+def test_the_house_is_measured() -> None:
+    """Each package has its line, and so have the rings."""
+    sizes, *rings = python(str(ROOT / "benchmarks" / "house.py")).stdout.split("\n\n")
+    named = {line.split()[0] for line in sizes.splitlines()[1:]}
+    assert {"plutoc", "runtime/plutoc_runtime", "runtime/pluto_fleet", "tests"} <= named
+    titles = [ring.partition(":")[0] for ring in rings]
+    assert titles == ["rings between rooms", "rings between files"]
+
+
+def test_the_path_of_a_trip_is_measured() -> None:
+    """It leads through more files where a gateway keeps drones apart."""
+    said = python(str(ROOT / "benchmarks" / "trip_path.py")).stdout
+    counted = re.findall(r"files (\d+), moves (\d+) until ([a-z.]+)", said)
+    assert [end for _, _, end in counted] == ["mission.ended", "drone.free"] * 2
+    alone, *_, together = (int(files) for files, _, _ in counted)
+    assert 5 < alone < together

@@ -16,9 +16,9 @@ from .process import Notes, kernel_says
 from .work import Work, fails
 
 if TYPE_CHECKING:
-    from plutoc_runtime.flight import Flight
-    from plutoc_runtime.kernel import Kernel, Kind
-    from plutoc_runtime.model import Point
+    from plutoc_runtime.domain.model import Point
+    from plutoc_runtime.time.kernel import Kernel, Kind
+    from plutoc_runtime.trips.flight import Flight
 
 HOME: Point = (1.0, 1.0, 0.0)
 """Where all drones stand."""
@@ -64,7 +64,7 @@ class FromTheLoop(Still):
     def fly(self, job: Flight, report: Report) -> None:
         """Fly, then report."""
         trip = job.trip
-        failed = fails(job.state.mission.index, trip.index, trip.attempt - 1)
+        failed = fails(job.mission.index, trip.index, trip.attempt - 1)
         result = self.crash if failed else None
         if self.flight:
             self.notes.launched(job.drone, self.loop.time())
@@ -92,7 +92,7 @@ class AllTogether(Still):
     def fly(self, job: Flight, report: Report) -> None:
         """Wait for the others."""
         trip = job.trip
-        failed = fails(job.state.mission.index, trip.index, trip.attempt - 1)
+        failed = fails(job.mission.index, trip.index, trip.attempt - 1)
         self.up.append(report)
         self.results.append(self.crash if failed else None)
         self.flying += 1
@@ -120,6 +120,6 @@ class ThroughTheKernel(Still):
 
     def fly(self, job: Flight, report: Report) -> None:
         """Fly, then report."""
-        trip, kernel, mission = job.trip, self.kernel, job.state.mission.index
+        trip, kernel, mission = job.trip, self.kernel, job.mission.index
         result = self.crash if fails(mission, trip.index, trip.attempt - 1) else None
         kernel.schedule(kernel.now, self.kind, self.key(mission), partial(report, result))

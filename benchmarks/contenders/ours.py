@@ -18,9 +18,9 @@ from .process import Notes, parser, report
 from .work import Done, Work
 
 if TYPE_CHECKING:
-    from plutoc_runtime.kernel import Kernel, Task
-    from plutoc_runtime.model import Mission
-    from plutoc_runtime.trace import Event
+    from plutoc_runtime.domain.model import Mission
+    from plutoc_runtime.domain.trace import Event
+    from plutoc_runtime.time.kernel import Kernel, Task
 
 TARGET = (1.0, 1.0, 1.2)
 """Where all trips go: straight up from home."""
@@ -40,14 +40,14 @@ def load() -> None:
     bind("measured._runtime")
     import_module("measured.flow")
     for name in (
-        "plutoc_runtime.airspace",
-        "plutoc_runtime.errors",
+        "plutoc_runtime.domain.airspace",
+        "plutoc_runtime.domain.errors",
         "pluto_fleet.files.fleet",
-        "pluto_fleet.journal_line",
-        "plutoc_runtime.kernel",
-        "pluto_fleet.realtime",
-        "plutoc_runtime.session",
-        "plutoc_runtime.virtual",
+        "pluto_fleet.journal.event_line",
+        "plutoc_runtime.time.kernel",
+        "pluto_fleet.process.realtime",
+        "plutoc_runtime.flow.session",
+        "plutoc_runtime.time.virtual",
     ):
         runtime(name)
 
@@ -57,7 +57,7 @@ class Journal:
 
     def __init__(self) -> None:
         self.lines: list[str] = []
-        self._line: Callable[[Event], str] = runtime("pluto_fleet.journal_line").line
+        self._line: Callable[[Event], str] = runtime("pluto_fleet.journal.event_line").line
 
     def note(self, event: Event) -> None:
         """Format an event."""
@@ -100,13 +100,13 @@ def started(
     app, files = import_module("measured.flow").APP, runtime("pluto_fleet.files.fleet")
     category = app.categories[0].name
     fleet = files.FleetFile(
-        airspace=runtime("plutoc_runtime.airspace").Airspace(),
+        airspace=runtime("plutoc_runtime.domain.airspace").Airspace(),
         drones=tuple(
             files.DroneEntry(id=str(number), category=category, home=HOME)
             for number in range(work.drones)
         ),
     )
-    session = runtime("plutoc_runtime.session").Session(
+    session = runtime("plutoc_runtime.flow.session").Session(
         app, fleet, kernel, navigation, listeners(given)
     )
     plan = missions(work, AN_HOUR if given.together else None)
@@ -125,7 +125,7 @@ def told(plan: Sequence[Mission[Any]]) -> Done:
 
 def crash() -> Exception:
     """Return what is reported of a flight that failed."""
-    errors = runtime("plutoc_runtime.errors")
+    errors = runtime("plutoc_runtime.domain.errors")
     failed: Exception = errors.FlightFailed(errors.Failure.CRASH, "the hash says so")
     return failed
 
@@ -137,7 +137,7 @@ def listeners(given: argparse.Namespace) -> list[Callable[[Event], object]]:
 
 async def in_real_time(given: argparse.Namespace, work: Work, notes: Notes) -> Done:
     """Fly on asyncio."""
-    kernel = runtime("pluto_fleet.realtime").RealTime()
+    kernel = runtime("pluto_fleet.process.realtime").RealTime()
     flights = AllTogether if given.together else FromTheLoop
     plan, over = started(given, work, kernel, flights(crash(), kernel, work, notes))
     await kernel.run(over)
@@ -146,8 +146,8 @@ async def in_real_time(given: argparse.Namespace, work: Work, notes: Notes) -> D
 
 def in_virtual_time(given: argparse.Namespace, work: Work) -> Done:
     """Fly in a simulation."""
-    kernel = runtime("plutoc_runtime.virtual").VirtualTime()
-    events = runtime("plutoc_runtime.kernel")
+    kernel = runtime("plutoc_runtime.time.virtual").VirtualTime()
+    events = runtime("plutoc_runtime.time.kernel")
     navigation = ThroughTheKernel(crash(), kernel, events.Kind.FLIGHT, events.mission_key)
     plan, over = started(given, work, kernel, navigation)
     kernel.run(over)

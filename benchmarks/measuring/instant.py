@@ -7,25 +7,26 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from pluto_fleet.files.fleet import DroneEntry, FleetFile
-from pluto_fleet.navigation import Job
-from pluto_fleet.realtime import RealTime
-from pluto_fleet.standing import Down, RollCall, Standing
+from pluto_fleet.files.drones import DroneEntry
+from pluto_fleet.files.fleet import FleetFile
+from pluto_fleet.jobs.job import Job
+from pluto_fleet.jobs.reports import Down, DroneReport, FleetReport
+from pluto_fleet.process.realtime import RealTime
 from plutoc_blocks.clock.step import wait_for_time
 from plutoc_blocks.drone_allocator.step import allocate_drone
 from plutoc_blocks.mission_creator.step import create_mission
 from plutoc_blocks.trip_launcher.step import launch_trip
 from plutoc_blocks.trip_monitor.step import watch_trip
-from plutoc_runtime import model
-from plutoc_runtime.actions import BUILT_IN
-from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.app import App
-from plutoc_runtime.fields import Entity, Field, FieldType
-from plutoc_runtime.kernel import FLEET, Kernel, Kind
-from plutoc_runtime.model import Category, Point
-from plutoc_runtime.policies.first import first
-from plutoc_runtime.run import Run
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain import model
+from plutoc_runtime.domain.actions import BUILT_IN
+from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.domain.app import App
+from plutoc_runtime.domain.fields import Entity, Field, FieldType
+from plutoc_runtime.domain.model import Category, Point
+from plutoc_runtime.domain.status import Status
+from plutoc_runtime.fleet.policies.first import first
+from plutoc_runtime.flow.run import Run
+from plutoc_runtime.time.kernel import FLEET, Kernel, Kind
 
 HOME: Point = (1.0, 1.0, 0.0)
 SECONDS = 10.0
@@ -125,7 +126,7 @@ class Instant:
         """Return what is known of a drone."""
         return self._docked
 
-    def fly(self, job: Job, report: Callable[[object], None]) -> None:
+    def fly(self, job: Job, report: Callable[[object], object]) -> None:
         """Report what was measured: in real time at once, and as something that comes by itself."""
         kernel = self._kernel
         if isinstance(kernel, RealTime):
@@ -165,9 +166,9 @@ class Instant:
         """Come home."""
         return True
 
-    async def roll_call(self, drone: str) -> Standing:
+    async def roll_call(self, drone: str) -> DroneReport:
         """Say that nothing has happened."""
-        return Standing(
+        return DroneReport(
             drone=drone,
             reached=True,
             location=HOME,
@@ -178,12 +179,12 @@ class Instant:
             done={},
         )
 
-    async def call(self) -> RollCall:
+    async def call(self) -> FleetReport:
         """Ask every drone."""
         drones: Mapping[str, Any] = {name: await self.roll_call(name) for name in self._drones}
-        return RollCall(drones=drones, jobs={})
+        return FleetReport(drones=drones, jobs={})
 
-    def attach(self, id: str, report: Callable[[object], None]) -> None:
+    def attach(self, id: str, report: Callable[[object], object]) -> None:
         """Nothing was given before."""
 
     def forget(self, id: str) -> None:

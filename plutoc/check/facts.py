@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from plutoc.check.flow import Facts, Place, ordered
 from plutoc.graph.model import Node
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.status import Status
 
 OUTCOMES = (Status.STANDBY, Status.COMPLETED, Status.FAILED)
 """How a trip can end: well with more to fly, well as the last one, or not well."""

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from plutoc.graph.model import Edge, Graph
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.status import Status
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -24,7 +24,7 @@ from plutoc.cli.say import say
 from plutoc.diagnostic import Rejected
 from plutoc.foreign_code import Terminated
 from plutoc_runtime import output
-from plutoc_runtime.words import printable
+from plutoc_runtime.domain.text import printable
 
 
 def main(argv: Sequence[str] | None = None) -> int:

@@ -13,7 +13,7 @@ from pathlib import Path
 from plutoc.cli.endings import UsageError
 from plutoc.cli.files import shown
 from plutoc.emit.write import CannotWrite, Change, Changes, write
-from plutoc_runtime.words import printable
+from plutoc_runtime.domain.text import printable
 
 _NO_END = "\n\\ No newline at end of file"
 
@@ -26,8 +26,8 @@ def rewrite(path: Path, before: str, after: str) -> None:
     """
     target = Path(os.path.realpath(path))
 
-    def save(aside: str | Path, data: bytes) -> None:
-        Path(aside).write_bytes(data)
+    def save(aside: Path, data: bytes) -> None:
+        aside.write_bytes(data)
         shutil.copymode(target, aside)
 
     change = Change(path=target.name, before=before, after=after)

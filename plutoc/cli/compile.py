@@ -22,13 +22,13 @@ from plutoc.cli.options import Options
 from plutoc.cli.say import say, speak, worded
 from plutoc.compile import Compiled, analyse, compile_source, planned
 from plutoc.diagnostic import Diagnostic, Rejected
-from plutoc.emit.carry import NoLibrary
+from plutoc.emit.embed import NoLibrary
 from plutoc.emit.errors import never_written, outdated, place_of
 from plutoc.emit.lock import NAME as LOCK
-from plutoc.emit.recorded import only_forgets
+from plutoc.emit.lock import only_forgets
 from plutoc.emit.write import CannotWrite, Changes, Refused, compare, record_of, write
 from plutoc.source import Source
-from plutoc_runtime.words import counted, printable
+from plutoc_runtime.domain.text import counted, printable
 
 if TYPE_CHECKING:
     from plutoc.graph.model import Graph

@@ -13,7 +13,7 @@ from plutoc.check.model import Checked
 from plutoc.cli.endings import UsageError
 from plutoc.source import Source
 from plutoc.syntax.parse import LARGEST
-from plutoc_runtime.words import printable
+from plutoc_runtime.domain.text import printable
 
 HOOKS = "hooks.py"
 STANDARD_INPUT = Path("-")

@@ -14,7 +14,7 @@ from plutoc.graph.scope import check_app_name
 from plutoc.source import Source, Span
 from plutoc.syntax.tree import Name
 from plutoc_runtime import output
-from plutoc_runtime.words import printable
+from plutoc_runtime.domain.text import printable
 
 _IN_STARTER = "my_app"
 """The app's name in the files of the starter."""

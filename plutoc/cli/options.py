@@ -296,19 +296,19 @@ def _shown(text: str) -> str:
 
 
 def _mishaps(text: str) -> str:
-    from plutoc_runtime.faults import shares  # only `run` asks
+    from plutoc_runtime.alone.faults import shares  # only `run` asks
 
     return _handed_on(shares, text)
 
 
 def _time(text: str) -> str:
-    from plutoc_runtime.quantities import time_from
+    from plutoc_runtime.domain.quantities import time_from
 
     return _handed_on(time_from, text)
 
 
 def _count(text: str) -> str:
-    from plutoc_runtime.words import quoted
+    from plutoc_runtime.domain.text import quoted
 
     try:
         number = int(text)

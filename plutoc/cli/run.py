@@ -25,11 +25,11 @@ from plutoc.emit.write import CannotWrite, compare, write
 from plutoc.foreign_code import Terminated
 from plutoc.source import Source
 from plutoc_runtime import output
-from plutoc_runtime.words import printable
+from plutoc_runtime.domain.text import printable
 
 FLEET = "fleet.toml"
 MISSIONS = "missions.toml"
-TRIALS = "pluto_fleet.testing"
+TRIALS = "pluto_fleet.trials"
 
 
 def run(options: Options) -> int:

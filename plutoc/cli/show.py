@@ -18,7 +18,7 @@ from plutoc.registry import STD, RegistryError, blocks_of, installed_packages
 from plutoc.report import block_page
 from plutoc.report.pictures import NoGraphviz, dot, dot_to_svg, json, mermaid
 from plutoc_runtime import output
-from plutoc_runtime.words import printable
+from plutoc_runtime.domain.text import printable
 
 
 def graph(options: Options) -> int:

@@ -7,8 +7,9 @@ from enum import Enum
 
 from plutoc.check.model import Checked
 from plutoc.diagnostic import Diagnostic
+from plutoc.graph.model import Node
 from plutoc.source import Source, Span
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.status import Status
 
 Fact = bool | int | float | str | tuple[str, ...] | None
 """What a change leads from, or to: a value in SI units, names, or None where there is nothing."""
@@ -65,3 +66,20 @@ class Difference:
     old: Source
     new: Source
     changes: tuple[Change, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Reroute:
+    """Missions leave a block with these statuses for somewhere else than before."""
+
+    old: Node
+    new: Node
+    statuses: tuple[Status, ...]
+    before: tuple[str, ...]
+    """Blocks of the old app, by their names there, or `end`."""
+    after: tuple[str, ...]
+
+    @property
+    def forks(self) -> bool:
+        """Say whether missions are in several places at once, before or after."""
+        return len(self.before) > 1 or len(self.after) > 1

@@ -6,7 +6,7 @@ from enum import Enum
 
 from plutoc.block import Block
 from plutoc.graph.model import Node
-from plutoc_runtime.fields import Entity, FieldType
+from plutoc_runtime.domain.fields import Entity, FieldType
 
 
 class Role(Enum):

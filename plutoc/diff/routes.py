@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from plutoc.check.model import Checked
 from plutoc.graph.model import END
-from plutoc_runtime.status import IN_GRAPH, Status
+from plutoc_runtime.domain.status import IN_GRAPH, Status
 
 Leaving = tuple[str, Status]
 """A block, and the status that a mission leaves it with."""

@@ -26,7 +26,7 @@ def place_of(graph: Graph) -> Place:
 
 
 def edited(place: Place, path: str, text: str, wanted: str | None) -> Diagnostic:
-    """A file that is made of the app, and that somebody changed."""
+    """A file that is made of the app, and was changed by hand."""
     gone = "" if wanted is not None else ", and the app does not need this file any more"
     return error(
         "P4001",

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from textwrap import wrap
 
 from plutoc.block import HookKind
 from plutoc.check.model import Checked
-from plutoc.emit.fields import fields_of
-from plutoc.emit.imports import Import, import_lines, names
-from plutoc.emit.python import LINE_LENGTH, builtins_alias, formatted, shadows
-from plutoc.emit.render import render
+from plutoc.emit.model_file import fields_of
+from plutoc.emit.python import LINE_LENGTH, Import, builtins_alias, import_lines, names, shadows
+from plutoc.emit.render import formatted, render
 from plutoc.emit.stubs import Stub, in_order, stubs
 from plutoc.graph.model import Graph
-from plutoc_runtime.fields import Entity
-from plutoc_runtime.quantities import PYTHON
+from plutoc_runtime.domain.fields import Entity
+from plutoc_runtime.domain.quantities import PYTHON
 
 MISSION_OFFERS = (
     "`name`, `status`, `reason`, `trips` (still to do, in order), `completed_trips`, `current` "
@@ -88,19 +88,12 @@ def stub(checked: Checked, name: str) -> str:
 
 def _offers(what: str, basics: str, graph: Graph, entity: Entity) -> list[str]:
     own = [f", `{field.name}`" for field in fields_of(graph) if field.on is entity]
-    return _filled(f"A {what} offers {basics}{''.join(own)}.")
-
-
-def _filled(text: str) -> list[str]:
-    """Return a text in lines that fit; `textwrap` takes longer to import than all of the stubs."""
-    first, *words = text.split()
-    lines = [first]
-    for word in words:
-        if len(lines[-1]) + 1 + len(word) <= LINE_LENGTH:
-            lines[-1] += f" {word}"
-        else:
-            lines.append(word)
-    return lines
+    return wrap(
+        f"A {what} offers {basics}{''.join(own)}.",
+        LINE_LENGTH,
+        break_long_words=False,
+        break_on_hyphens=False,
+    )
 
 
 def _imports(graph: Graph, found: Iterable[Stub]) -> list[Import]:

@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from plutoc.block import Block
-from plutoc.emit.fields import fields_of
-from plutoc.emit.markup import fence, markdown, toml_text
-from plutoc.emit.python import header
+from plutoc.emit.markup import fence, header, markdown, toml_text
+from plutoc.emit.model_file import fields_of
 from plutoc.emit.render import render
 from plutoc.emit.test_file import MissionTable, able, sample
 from plutoc.graph.model import Graph

@@ -1,4 +1,4 @@
-"""The stubs of hooks: typed and documented, and right at once where nobody writes more."""
+"""The stubs of hooks: typed and documented, and right as they stand."""
 
 from __future__ import annotations
 
@@ -6,10 +6,30 @@ from dataclasses import dataclass
 
 from plutoc.block import HookKind
 from plutoc.check.model import Checked
-from plutoc.emit.python import annotation, literal, status_tuple
+from plutoc.emit.python import annotation, status_tuple
 from plutoc.graph.model import Action, Graph, Hook, Parameter
-from plutoc_runtime.quantities import PYTHON, Type
-from plutoc_runtime.status import IN_GRAPH, Status
+from plutoc_runtime.domain.quantities import PYTHON, Type
+from plutoc_runtime.domain.status import IN_GRAPH, Status
+
+EXPORTS = {
+    "ActionFailed": "._runtime.domain.errors",
+    "Category": "._runtime.domain.model",
+    "Context": "._runtime.hooks.context",
+    "Drone": "._runtime.domain.model",
+    "Item": "._runtime.domain.model",
+    "LiveDrone": "._runtime.hooks.live_drone",
+    "Mission": ".model",
+    "Photo": "._runtime.domain.model",
+    "Point": "._runtime.domain.model",
+    "Result": ".model",
+    "Results": ".model",
+    "Status": "._runtime.domain.status",
+    "Trip": ".model",
+    "Verdict": "._runtime.flow.verdict",
+}
+"""The types that hooks are written with, and where they are."""
+_FOR_HOOKS = ("Context", "LiveDrone", "Verdict")
+
 
 UNITS = {
     Type.MASS: "in kilograms",
@@ -46,6 +66,13 @@ def stubs(checked: Checked) -> list[Stub]:
     return [made[name] for name in in_order(graph)]
 
 
+def exports_of(graph: Graph, *, former: bool) -> dict[str, str]:
+    """Return what a package offers: without a hook, and without one left over, less is carried."""
+    if graph.hooks or graph.actions or former:
+        return EXPORTS
+    return {name: home for name, home in EXPORTS.items() if name not in _FOR_HOOKS}
+
+
 def in_order(graph: Graph) -> list[str]:
     """Return the names of all hooks, actions among them, as the app declares them."""
     actions = [(action.span.start, action.name) for action in graph.actions]
@@ -80,7 +107,7 @@ def _hook(hook: Hook, checked: Checked, taken: set[str]) -> Stub:
                 coroutine="",
                 signature="(mission: Mission, results: Results) -> Verdict",
                 doc=["Judge a finished mission by what its actions gave."],
-                lines=[f"return Verdict(ok=True, log=({literal(_all_pass(hook.name))},))"],
+                lines=[f'return Verdict(ok=True, log=("{_all_pass(hook.name)}",))'],
                 uses=("Mission", "Results", "Verdict"),
             )
         case HookKind.POLICY:
@@ -162,4 +189,4 @@ def _all_pass(name: str) -> str:
 
 
 def _log(name: str) -> str:
-    return f"context.log({literal(_yet(name))})"
+    return f'context.log("{_yet(name)}")'

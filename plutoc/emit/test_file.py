@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from plutoc.emit.markup import toml_text
 from plutoc.emit.render import render
 from plutoc.graph.model import Action, Category, Graph
-from plutoc_runtime.actions import BUILT_IN, PICK, RELEASE
-from plutoc_runtime.quantities import Type
+from plutoc_runtime.domain.actions import BUILT_IN, PICK, RELEASE
+from plutoc_runtime.domain.quantities import Type
 
 _SAMPLES = {Type.INT: "1", Type.BOOL: "true", Type.TEXT: '"text"', Type.PERCENT: "0.5"}
 """What a trip gives for a parameter without a default; for all other types, 1.0."""

@@ -9,7 +9,7 @@ from dataclasses import replace
 from plutoc.diagnostic import Diagnostic, in_order
 from plutoc.graph.wording import related
 from plutoc.source import Source
-from plutoc_runtime.words import counted
+from plutoc_runtime.domain.text import counted
 
 _OF_THE_APP = frozenset({"P1011", "P1021", "P1022", "P1024", "P1032"})
 """Codes of names that an app declares itself: one missing declaration is one mistake."""

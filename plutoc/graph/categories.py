@@ -10,7 +10,7 @@ from plutoc.graph.uncertain_names import UncertainNames
 from plutoc.graph.values import once_each, typed, written
 from plutoc.source import Source
 from plutoc.syntax.tree import Argument, CategoryDecl
-from plutoc_runtime.quantities import Type
+from plutoc_runtime.domain.quantities import Type
 
 IMPLICIT = "drone"
 """The name of the category of an app that declares none."""

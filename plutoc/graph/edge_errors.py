@@ -10,7 +10,7 @@ from plutoc.graph.names import in_snake_case
 from plutoc.graph.wording import all_of, alternatives, meant, related
 from plutoc.source import Source, Span
 from plutoc.syntax.tree import Name
-from plutoc_runtime.status import IN_GRAPH, Status
+from plutoc_runtime.domain.status import IN_GRAPH, Status
 
 
 def unknown_block(

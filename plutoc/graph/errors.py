@@ -18,8 +18,8 @@ from plutoc.graph.wording import (
 )
 from plutoc.source import Source, Span
 from plutoc.syntax.tree import Name
-from plutoc_runtime.quantities import UNITS, Type
-from plutoc_runtime.status import IN_GRAPH
+from plutoc_runtime.domain.quantities import UNITS, Type
+from plutoc_runtime.domain.status import IN_GRAPH
 
 
 def malformed_name(source: Source, name: Name) -> Diagnostic:

@@ -14,8 +14,8 @@ from plutoc.graph.scope import ACTION, HOOK_ROLES
 from plutoc.graph.values import typed, written
 from plutoc.source import Source
 from plutoc.syntax import tree
-from plutoc_runtime.quantities import Type
-from plutoc_runtime.status import IN_GRAPH, Status
+from plutoc_runtime.domain.quantities import Type
+from plutoc_runtime.domain.status import IN_GRAPH, Status
 
 REPEATS = ("safe", "once", "ask")
 

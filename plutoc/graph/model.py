@@ -7,8 +7,8 @@ from functools import cached_property
 
 from plutoc.block import Block, HookKind
 from plutoc.source import Source, Span
-from plutoc_runtime.quantities import Type
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.quantities import Type
+from plutoc_runtime.domain.status import Status
 
 START = "start"
 END = "end"

@@ -30,8 +30,8 @@ from plutoc.syntax.tree import (
     HookDecl,
     Name,
 )
-from plutoc_runtime.actions import BUILT_IN
-from plutoc_runtime.status import IN_GRAPH
+from plutoc_runtime.domain.actions import BUILT_IN
+from plutoc_runtime.domain.status import IN_GRAPH
 
 
 def resolve(file: File, blocks: Blocks) -> tuple[Graph, tuple[Diagnostic, ...]]:

@@ -23,7 +23,7 @@ from plutoc.syntax.tree import (
     RequiresDecl,
     VersionDecl,
 )
-from plutoc_runtime.actions import BUILT_IN
+from plutoc_runtime.domain.actions import BUILT_IN
 
 BLOCK, CATEGORY, ACTION, PREFIX = "a block", "a category", "an action", "a package's prefix"
 HOOK_ROLES = {"evaluator": "an evaluator", "modifier": "a modifier", "policy": "a policy"}

@@ -12,7 +12,7 @@ from plutoc.graph.scope import BLOCK, Scope
 from plutoc.graph.uncertain_names import UncertainNames
 from plutoc.source import Source
 from plutoc.syntax.tree import FlowDecl
-from plutoc_runtime.status import IN_GRAPH, Status
+from plutoc_runtime.domain.status import IN_GRAPH, Status
 
 _MOST_PROPOSALS = 100
 """Near names are looked for so often: it takes long among many, and more is not read."""

@@ -9,7 +9,7 @@ from plutoc.graph.wording import a_kind, either, meant, related, there_are, unit
 from plutoc.source import Source, Span
 from plutoc.syntax.texts import written_out
 from plutoc.syntax.tree import Name
-from plutoc_runtime.quantities import Type, units_of
+from plutoc_runtime.domain.quantities import Type, units_of
 
 
 def unknown_argument(

@@ -9,7 +9,7 @@ from plutoc.graph import value_errors
 from plutoc.graph.model import Plain
 from plutoc.source import Source
 from plutoc.syntax.tree import Argument, Bool, List, Name, Number, Quantity, Text, Value
-from plutoc_runtime.quantities import QUANTITIES, UNITS, Type, to_si
+from plutoc_runtime.domain.quantities import QUANTITIES, UNITS, Type, to_si
 
 _WANTED = {
     Type.INT: "a whole number",

@@ -8,7 +8,7 @@ from plutoc.diagnostic import Related
 from plutoc.graph.names import near
 from plutoc.source import Source, Span
 from plutoc.syntax.errors import described
-from plutoc_runtime.quantities import Type
+from plutoc_runtime.domain.quantities import Type
 
 _UNITS = {
     **dict.fromkeys(("millisecond", "msec"), "ms"),

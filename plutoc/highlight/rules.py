@@ -13,8 +13,8 @@ from json import dumps
 
 from plutoc.graph.model import END, START
 from plutoc.syntax.tokens import SETTINGS, WORDS
-from plutoc_runtime.quantities import UNITS, Type
-from plutoc_runtime.status import IN_GRAPH
+from plutoc_runtime.domain.quantities import UNITS, Type
+from plutoc_runtime.domain.status import IN_GRAPH
 
 _UNITS = "|".join(re.escape(unit) for unit in sorted(UNITS, key=len, reverse=True))
 

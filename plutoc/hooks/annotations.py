@@ -7,7 +7,7 @@ import builtins
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from plutoc.emit.exports import EXPORTS
+from plutoc.emit.stubs import EXPORTS
 from plutoc.graph.names import near
 from plutoc.hooks.module import Module
 from plutoc.hooks.python import annotation

@@ -14,7 +14,7 @@ from plutoc.hooks.expected import Expected
 from plutoc.hooks.module import Function, Module, node_span
 from plutoc.source import Source
 from plutoc.syntax.tokens import shortened
-from plutoc_runtime.quantities import PYTHON
+from plutoc_runtime.domain.quantities import PYTHON
 
 _ARRIVES = {
     "drone": "Drone",

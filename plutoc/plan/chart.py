@@ -7,14 +7,14 @@ anew in every body: a block may stand in two of them, and get other statuses in 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from enum import Enum
 
 from plutoc.block import Gate
 from plutoc.check.model import Checked
 from plutoc.graph.model import END, Edge
 from plutoc.plan.model import Place
-from plutoc_runtime.status import IN_GRAPH, WORST_FIRST, Status
+from plutoc_runtime.domain.status import IN_GRAPH, WORST_FIRST, Status
 
 Leads = Mapping[Status, tuple[int, "Spot | None", str]]
 """For each status that leaves a spot: the edge's number, the target, and its name."""
@@ -45,7 +45,7 @@ class Spot:
     kind: Kind
     name: str
     """The block's, or the gate's; for a fork that of the block before it."""
-    branches: tuple[Edge, ...] = ()
+    branches: tuple[Edge, ...] = field(default=(), hash=False)  # a fork may have thousands
     gate: str = ""
     copy: int = 0
     """Counts the places that the source has once and that are written more than once."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.status import Status
 
 
 class BadPlan(Exception):

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from plutoc.check.model import Checked
 from plutoc.graph.model import Node
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.status import Status
 
 Place = str | None
 """The block at which an interrupted mission goes on; None: it begins."""

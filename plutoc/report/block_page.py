@@ -6,9 +6,9 @@ from collections.abc import Iterable, Iterator
 from inspect import cleandoc
 
 from plutoc.block import AnyParam, Block, Choice, HookParam, Param
-from plutoc_runtime.fields import Field, FieldType
-from plutoc_runtime.quantities import Type, units_of
-from plutoc_runtime.status import IN_GRAPH, Status
+from plutoc_runtime.domain.fields import Field, FieldType
+from plutoc_runtime.domain.quantities import Type, units_of
+from plutoc_runtime.domain.status import IN_GRAPH, Status
 
 
 def first_line(block: Block) -> str:

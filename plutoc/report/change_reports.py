@@ -10,7 +10,7 @@ from typing import NamedTuple
 from plutoc.diff.model import Change, Difference, Importance
 from plutoc.report.terminal import BLUE, BOLD, RED, paint
 from plutoc.source import Source, Span
-from plutoc_runtime.words import counted, printable
+from plutoc_runtime.domain.text import counted, printable
 
 HEADINGS = {
     Importance.SAFETY: "Safety and failures",

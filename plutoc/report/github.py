@@ -6,7 +6,7 @@ The format is of GitHub's own page "Workflow commands for GitHub Actions".
 from __future__ import annotations
 
 from plutoc.diagnostic import Diagnostic, Related
-from plutoc_runtime.words import printable
+from plutoc_runtime.domain.text import printable
 
 _Properties = dict[str, str | int]
 

@@ -9,7 +9,7 @@ from itertools import pairwise
 from plutoc.report.marks import Mark, under
 from plutoc.report.terminal import BLUE, columns, paint, shown
 from plutoc.source import Source, Span
-from plutoc_runtime.words import printable
+from plutoc_runtime.domain.text import printable
 
 _NEAR = 2
 """Places so many lines apart share a window."""

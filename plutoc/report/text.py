@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from plutoc.diagnostic import Diagnostic, Related, Severity
 from plutoc.report.snippet import Place, draw, last_line, windows
 from plutoc.report.terminal import BLUE, BOLD, CYAN, RED, YELLOW, paint
-from plutoc_runtime.words import printable
+from plutoc_runtime.domain.text import printable
 
 
 def render(diagnostics: Iterable[Diagnostic], *, colour: bool, limit: int = 20) -> str:

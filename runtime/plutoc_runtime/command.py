@@ -12,18 +12,18 @@ from io import TextIOWrapper
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .errors import BadInput
-from .status import Status
-from .words import counted, duration, printable
+from .domain.errors import BadInput
+from .domain.status import Status
+from .domain.text import counted, duration, printable
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser
     from types import ModuleType
 
-    from .app import App
-    from .session import Outcome
+    from .domain.app import App
+    from .flow.session import Outcome
 
-SEAM = (1, 0)
+SEAM = (2, 0)
 _SEAM = ".".join(map(str, SEAM))
 
 _EXTRAS = {"serve": "[station]", "drones": "[crazyflie]", "--plot": "[plot]", "--runs": ""}
@@ -95,7 +95,7 @@ def _tell(text: str, code: int = 0) -> int:
 
 
 def _run(name: str, load: Callable[[], App], argv: Sequence[str]) -> int:
-    from .hooks import loaded
+    from .hooks.calls import loaded
 
     if argv[:1] == ["--version"]:
         from importlib.metadata import distributions  # slow to import
@@ -118,10 +118,10 @@ def _run(name: str, load: Callable[[], App], argv: Sequence[str]) -> int:
 
 
 def _checked(app: App, options: Any) -> int:
-    from .alone import default_fleet, simulate
-    from .capability import problems
-    from .faults import Faults
-    from .files import load_fleet, load_missions
+    from .alone.faults import Faults
+    from .alone.files import load_fleet, load_missions
+    from .alone.simulate import default_fleet, simulate
+    from .fleet.reach import problems
 
     beside = options.missions.parent / "fleet.toml"
     if options.fleet is None and os.path.lexists(beside):
@@ -143,8 +143,8 @@ def _checked(app: App, options: Any) -> int:
 
 
 def _told(name: str, outcome: Outcome, options: Any) -> int:
-    from .session import outcome_data
-    from .trace import dumped
+    from .domain.trace import dumped
+    from .flow.session import outcome_data
 
     if options.trace is not None:
         try:
@@ -180,8 +180,8 @@ def _report(outcome: Outcome) -> Iterator[str]:
 def _parser(app: App) -> ArgumentParser:
     from argparse import ArgumentParser
 
-    from .faults import shares
-    from .quantities import time_from, typed
+    from .alone.faults import shares
+    from .domain.quantities import time_from, typed
 
     more = "fly, resume, tell, decide, journal, drones and serve come with the library pluto-fleet"
     parser = ArgumentParser(prog=app.name, description=app.title, epilog=more, allow_abbrev=False)

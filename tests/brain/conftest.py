@@ -10,7 +10,7 @@ import pytest
 from tests.flying import NAMES, Example, built
 
 if TYPE_CHECKING:
-    from plutoc_runtime.app import App
+    from plutoc_runtime.domain.app import App
 
 
 @pytest.fixture(scope="session", params=NAMES)

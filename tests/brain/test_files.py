@@ -14,21 +14,21 @@ from hypothesis import strategies as st
 from pluto_fleet.files import fleet as full_fleet
 from pluto_fleet.files import missions as full_missions
 from pluto_fleet.files.fleet_text import fleet_text
-from pluto_fleet.testing.drawing import drawn_missions
-from pluto_fleet.testing.plan_text import missions_text
-from plutoc_runtime import alone, files
-from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.errors import BadInput
-from plutoc_runtime.files import DroneData, FleetData
-from plutoc_runtime.model import AfterTrip
-from plutoc_runtime.world import Feature, Source, WorldData
+from pluto_fleet.trials.drawing import drawn_missions
+from pluto_fleet.trials.plan_text import missions_text
+from plutoc_runtime.alone import files
+from plutoc_runtime.alone import simulate as alone
+from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.fleet_data import DroneData, Feature, FleetData, Source, WorldData
+from plutoc_runtime.domain.model import AfterTrip
 from tests.flying import EXAMPLES
 from tests.runtime.files.an_app import APP, PLAIN
 from tests.runtime.files.test_fleet import FULL
 
 if TYPE_CHECKING:
-    from plutoc_runtime.app import App
-    from plutoc_runtime.model import Mission
+    from plutoc_runtime.domain.app import App
+    from plutoc_runtime.domain.model import Mission
     from tests.flying import Example
 
 

@@ -16,7 +16,7 @@ from plutoc.diagnostic import Diagnostic, Rejected
 from plutoc.graph.model import END, START, Edge, Graph, Hook, Node
 from plutoc.source import Source, Span
 from plutoc_blocks import BLOCKS
-from plutoc_runtime.status import IN_GRAPH, Status
+from plutoc_runtime.domain.status import IN_GRAPH, Status
 
 KINDS: dict[str, Block] = {block.name: block for block in BLOCKS}
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.status import Status
 from tests.check.graphs import BASIC, checked, codes, findings
 from tests.check.test_sound_graphs import ALFALFA, SOUND
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from plutoc.diagnostic import Severity
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.status import Status
 from tests.check.graphs import BASIC, GATED, checked, codes, findings
 
 RETRY = """

@@ -17,7 +17,7 @@ from plutoc.check.model import Checked
 from plutoc.check.run import check
 from plutoc.diagnostic import Rejected
 from plutoc.graph.model import END, START
-from plutoc_runtime.status import WORST_FIRST, Status
+from plutoc_runtime.domain.status import WORST_FIRST, Status
 from tests.check.graphs import build
 from tests.check.test_sound_graphs import SOUND
 

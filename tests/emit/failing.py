@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Coroutine
 from typing import Any
 
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.status import Status
 
 Branch = Callable[[Any, Status], Coroutine[Any, Any, Status]]
 

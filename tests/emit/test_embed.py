@@ -17,7 +17,7 @@ from plutoc.emit.modules import EmbedError
 from plutoc.registry import STD
 from plutoc_blocks.clock.step import wait_for_time
 from plutoc_blocks.gate_fifo.step import pass_first
-from plutoc_runtime.policies.nearest import nearest
+from plutoc_runtime.fleet.policies.nearest import nearest
 
 RUNTIME = Path(plutoc_runtime.__path__[0])
 NUMBERS = count()
@@ -58,15 +58,15 @@ def test_only_what_is_needed_is_carried() -> None:
     """A block that nobody uses, and a policy that nobody chose, stay behind."""
     files = embed([carried(wait_for_time), carried(nearest)], ["plutoc_runtime.command"])
     blocks = [path for path in files if path.startswith("_runtime/blocks/")]
-    policies = [path for path in files if path.startswith("_runtime/policies/")]
+    policies = [path for path in files if path.startswith("_runtime/fleet/policies/")]
     assert blocks == ["_runtime/blocks/__init__.py", "_runtime/blocks/clock.py"]
     names = ("__init__", "nearest")
-    assert policies == [f"_runtime/policies/{name}.py" for name in names]
+    assert policies == [f"_runtime/fleet/policies/{name}.py" for name in names]
 
 
 def test_imports_inside_functions_count() -> None:
     """The command line loads its commands when they are asked for: they are carried all the same."""
-    assert "_runtime/alone.py" in embed([], ["plutoc_runtime.command"])
+    assert "_runtime/alone/simulate.py" in embed([], ["plutoc_runtime.command"])
 
 
 def test_packages_are_whole() -> None:
@@ -90,20 +90,20 @@ def test_generated_code_imports_a_function_from_its_new_home() -> None:
     """Ours lie in the folder itself, others' in a folder of their package."""
     assert carried(wait_for_time).home == "._runtime.blocks.clock"
     assert carried(wait_for_time, "survey").home == "._runtime.blocks.survey.clock"
-    assert carried(nearest).home == "._runtime.policies.nearest"
+    assert carried(nearest).home == "._runtime.fleet.policies.nearest"
 
 
 def test_modules_beside_a_step_come_along(make: Make) -> None:
     """However it imports them, a step keeps the modules of its own package."""
     package, scan = make(
         "from math import pi\n\n"
-        "from plutoc_runtime import words\n"
-        "from plutoc_runtime.status import (\n    Status,\n)\n\n"
+        "from plutoc_runtime.domain import text\n"
+        "from plutoc_runtime.domain.status import (\n    Status,\n)\n\n"
         "from .grid import cells\n"
         "from ..shared import é; from OWN.deep import depth  # from plutoc_runtime.x\n\n\n"
         "def scan(run, status):\n"
-        "    from plutoc_runtime.words import counted\n\n"
-        "    return Status, cells, é, depth, pi, words, counted\n",
+        "    from plutoc_runtime.domain.text import counted\n\n"
+        "    return Status, cells, é, depth, pi, text, counted\n",
         **{
             "scan/grid": "cells = 3\n",
             "shared": "from OWN.deep import depth\n\né = depth\n",
@@ -121,16 +121,16 @@ def test_modules_beside_a_step_come_along(make: Make) -> None:
     ]
     assert files[f"{folder}/scan.py"] == (
         "from math import pi\n\n"
-        "from ... import words\n"
-        "from ...status import (\n    Status,\n)\n\n"
+        "from ...domain import text\n"
+        "from ...domain.status import (\n    Status,\n)\n\n"
         "from .scan_grid import cells\n"
         "from .shared import é; from .deep import depth  # from plutoc_runtime.x\n\n\n"
         "def scan(run, status):\n"
-        "    from ...words import counted\n\n"
-        "    return Status, cells, é, depth, pi, words, counted\n"
+        "    from ...domain.text import counted\n\n"
+        "    return Status, cells, é, depth, pi, text, counted\n"
     )
     assert files[f"{folder}/shared.py"] == "from .deep import depth\n\né = depth\n"
-    assert {"_runtime/words.py", "_runtime/status.py"} <= files.keys()
+    assert {"_runtime/domain/text.py", "_runtime/domain/status.py"} <= files.keys()
     assert package not in "".join(files.values())
 
 
@@ -142,11 +142,14 @@ SCAN = "\n\ndef scan(run, status): ...\n"
     [
         ("import pytest", "pytest is not of the standard library"),
         ("from pytest import fixture", "pytest is neither of the standard library"),
-        ("import plutoc_runtime.words", "write `from plutoc_runtime.words import …` instead"),
+        (
+            "import plutoc_runtime.domain.text",
+            "write `from plutoc_runtime.domain.text import …` instead",
+        ),
         ("from plutoc.block import Block", "plutoc.block is neither of the standard library"),
         ("from . import grid", "is not a module with a file of its own"),
-        ("from plutoc_runtime . words import counted", "on one line"),
-        ("from \\\n plutoc_runtime.words import counted", "on one line"),
+        ("from plutoc_runtime . domain . text import counted", "on one line"),
+        ("from \\\n plutoc_runtime.domain.text import counted", "on one line"),
     ],
 )
 def test_what_cannot_be_carried_is_refused_with_its_place(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import fields
 
 from plutoc.graph.categories import PARAMS
-from plutoc_runtime.model import Category
+from plutoc_runtime.domain.model import Category
 
 
 def test_a_category_that_is_left_at_its_defaults_means_the_same_to_the_runtime() -> None:

@@ -22,8 +22,8 @@ from plutoc.emit.flow_file import flow_file
 from plutoc.emit.markup import one_line
 from plutoc.emit.package import Package, emit
 from plutoc.emit.project_files import project_file
-from plutoc.emit.python import owned
 from plutoc.emit.readme_file import readme
+from plutoc.emit.render import owned
 from plutoc.graph.app_names import taken_app_name
 from plutoc.plan.model import Plan
 from tests.emit.apps import ODD_NAMES, PARCELS, PLAIN
@@ -119,7 +119,7 @@ def test_simulating_loads_nothing_of_the_station(tmp_path: Path) -> None:
     )
     code_and_modules = run(folder, "-c", code).splitlines()[-1].split()
     assert code_and_modules[0] == "0"
-    assert "plain._runtime.engine" in code_and_modules
+    assert "plain._runtime.flow.engine" in code_and_modules
     assert not [one for one in code_and_modules if "pluto_fleet.station" in one or "uvicorn" in one]
 
 

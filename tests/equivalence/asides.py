@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import product
 
-from plutoc_runtime.status import WORST_FIRST
+from plutoc_runtime.domain.status import WORST_FIRST
 from tests.equivalence.drawing import C, Drawing, Ends, F, S, Statuses, U, ordered
 
 RETRIES = ("", "max_attempts: 0", "max_attempts: 1", "max_attempts: 2", "max_attempts: 3")

@@ -20,7 +20,7 @@ from plutoc.plan.verify import verify
 from plutoc.registry import STD, Blocks, blocks_of
 from plutoc.source import Source
 from plutoc.syntax.parse import read
-from plutoc_runtime.status import IN_GRAPH
+from plutoc_runtime.domain.status import IN_GRAPH
 from tests.equivalence import coverage, strangers
 from tests.equivalence.flows import NOTHING, Overrides, Package, packaged
 from tests.equivalence.fly import Record, difference, record

@@ -8,7 +8,7 @@ from random import Random
 
 from plutoc.block import Block
 from plutoc_blocks import BLOCKS
-from plutoc_runtime.status import IN_GRAPH, Status
+from plutoc_runtime.domain.status import IN_GRAPH, Status
 from tests.equivalence import strangers
 
 U, R, S, C, F = IN_GRAPH
@@ -37,7 +37,7 @@ class Drawing:
     most: int
     """How many blocks it should have, about."""
     strange: bool = False
-    """It uses somebody else's blocks, too."""
+    """It uses another author's blocks, too."""
     words: list[str] = field(default_factory=list)
     """Categories, actions and hooks."""
     blocks: dict[str, str] = field(default_factory=dict)

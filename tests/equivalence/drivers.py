@@ -9,23 +9,23 @@ from heapq import heappop, heappush
 from selectors import DefaultSelector, SelectorKey
 from typing import TYPE_CHECKING, Any, TypeVarTuple
 
-from pluto_fleet.realtime import RealTime
-from pluto_fleet.simulate import Simulation
-from plutoc_runtime.errors import BadInput
-from plutoc_runtime.session import Outcome
+from pluto_fleet.flight.simulate import Simulation
+from pluto_fleet.process.realtime import RealTime
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.flow.session import Outcome
 
 if TYPE_CHECKING:
     from pluto_fleet.files.fleet import FleetFile
-    from plutoc_runtime.app import App
-    from plutoc_runtime.faults import Faults
-    from plutoc_runtime.model import Mission
-    from plutoc_runtime.trace import Event
+    from plutoc_runtime.alone.faults import Faults
+    from plutoc_runtime.domain.app import App
+    from plutoc_runtime.domain.model import Mission
+    from plutoc_runtime.domain.trace import Event
 
 Arguments = TypeVarTuple("Arguments")
 
 
 class _Jumping(asyncio.SelectorEventLoop):
-    """A loop in which nobody waits: where all others would sleep, it is later already."""
+    """A loop in which nothing waits: where all others would sleep, it is later already."""
 
     def __init__(self) -> None:
         self.now = 0.0

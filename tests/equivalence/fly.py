@@ -1,4 +1,4 @@
-"""Flies an app in a world, and keeps everything that anybody could see of it."""
+"""Flies an app in a world, and keeps everything that can be seen of it."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, Protocol
 
-from pluto_fleet.simulate import simulate
-from plutoc_runtime.errors import BadInput
-from plutoc_runtime.model import Drone, Mission
-from plutoc_runtime.session import Outcome
-from plutoc_runtime.trace import Event
+from pluto_fleet.flight.simulate import simulate
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.model import Drone, Mission
+from plutoc_runtime.domain.trace import Event
+from plutoc_runtime.flow.session import Outcome
 from tests.equivalence.behaviour import Behaviour
 from tests.equivalence.flows import Package
 from tests.equivalence.patience import Spins
@@ -19,13 +19,13 @@ from tests.equivalence.worlds import World
 
 if TYPE_CHECKING:
     from pluto_fleet.files.fleet import FleetFile
-    from plutoc_runtime.app import App, Flow
-    from plutoc_runtime.faults import Faults
-    from plutoc_runtime.run import Run
-    from plutoc_runtime.status import Status
+    from plutoc_runtime.alone.faults import Faults
+    from plutoc_runtime.domain.app import App, Flow
+    from plutoc_runtime.domain.status import Status
+    from plutoc_runtime.flow.run import Run
 
 ANY: tuple[type[Exception], ...] = (Exception,)
-"""Whatever ends a run is kept, and compared."""
+"""All that ends a run is kept, and compared."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -25,14 +25,14 @@ from plutoc.plan.passes.watch import watch as watch_pass
 from plutoc.plan.rewrite import rewritten
 from plutoc_blocks.gate_fifo.step import pass_first
 from plutoc_blocks.timer_monitor.step import timer_limit
-from plutoc_runtime.signals import Signal
-from plutoc_runtime.watching import watch
+from plutoc_runtime.flow.run import watch
+from plutoc_runtime.time.future import Future
 
 if TYPE_CHECKING:
-    from plutoc_runtime.flight import Flight
-    from plutoc_runtime.run import Branch, Run
-    from plutoc_runtime.status import Status
-    from plutoc_runtime.watching import Limit
+    from plutoc_runtime.domain.status import Status
+    from plutoc_runtime.flow.run import Branch, Run
+    from plutoc_runtime.trips.deadlines import Limit
+    from plutoc_runtime.trips.flight import Flight
 
 
 def swap_arms(step: Step, _: Step) -> Body:
@@ -117,7 +117,7 @@ def spare_the_first_arrow(plan: Plan) -> Plan:
 
 
 def spare_every_arrow(plan: Plan) -> Plan:
-    """Spare every bare arrow to a gate that waits for all, whatever the others bring."""
+    """Spare every bare arrow to a gate that waits for all, no matter what the others bring."""
     return _spared(plan, Gate.ALL)
 
 
@@ -137,7 +137,7 @@ def _spared(plan: Plan, kind: Gate) -> Plan:
 
 
 def leave_out_what_has_a_default(plan: Plan) -> Plan:
-    """Leave a parameter out that has a default, whatever its value is."""
+    """Leave a parameter out that has a default, of any value."""
     left_out = [
         (node.name, name)
         for node in plan.checked.graph.nodes
@@ -168,7 +168,7 @@ async def pass_first_and_leave_the_rest(
     run: Run[Any], status: Status, *branches: Branch[Any]
 ) -> Status:
     """A gate that forgets to call the other branches off."""
-    first: Signal[Any] = Signal()
+    first: Future[Any] = Future()
     for clone in run.fork(status, branches):
         clone.watch(first.set)
     arrived: Status = (await first).result()
@@ -182,9 +182,9 @@ async def wait_for_any(run: Run[Any], status: Status, *branches: Branch[Any]) ->
 
 def watch_and_never_let_go(run: Run[Any], *limits: Limit | None) -> Flight:
     """A wait whose limits go on when it is called off."""
-    nobody = copy(run)
-    nobody.task = None
-    return watch(nobody, *limits)
+    taskless = copy(run)
+    taskless.task = None
+    return watch(taskless, *limits)
 
 
 def limit_by_default(

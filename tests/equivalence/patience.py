@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from plutoc_runtime.run import Run
+    from plutoc_runtime.flow.run import Run
 
 AT_ONCE = 3_000
 """Calls of blocks at one instant. Four missions with patient hooks need a few hundred."""

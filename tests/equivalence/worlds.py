@@ -11,16 +11,17 @@ from dataclasses import dataclass, field
 from random import Random
 from typing import Any
 
-from pluto_fleet.files.fleet import DroneEntry, FleetFile
-from plutoc.emit.fields import fields_of
+from pluto_fleet.files.drones import DroneEntry
+from pluto_fleet.files.fleet import FleetFile
+from plutoc.emit.model_file import fields_of
 from plutoc.graph.model import Graph
-from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.app import App
-from plutoc_runtime.faults import Faults
-from plutoc_runtime.fields import Entity, Field, FieldType
-from plutoc_runtime.model import AfterTrip, Item, Mission, Point, Trip
-from plutoc_runtime.quantities import Type
-from plutoc_runtime.status import Status
+from plutoc_runtime.alone.faults import Faults
+from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.domain.app import App
+from plutoc_runtime.domain.fields import Entity, Field, FieldType
+from plutoc_runtime.domain.model import AfterTrip, Item, Mission, Point, Trip
+from plutoc_runtime.domain.quantities import Type
+from plutoc_runtime.domain.status import Status
 
 Plain = bool | int | float | str | None
 TIMES = (0.0, 0.5, 2.0, 5.0, 7.0, 9.0, 11.0, 13.0, 15.0, 17.0, 21.0, 25.0, 30.0, 60.0)

@@ -10,14 +10,14 @@ from pathlib import Path
 import pytest
 
 from pluto_fleet.files.fleet import default_fleet
-from pluto_fleet.simulate import simulate
+from pluto_fleet.flight.simulate import simulate
 from plutoc import registry
 from plutoc.cli import main
 from plutoc.diagnostic import Rejected
 from plutoc.graph.resolve import resolve
 from plutoc.source import Source
 from plutoc.syntax.parse import parse
-from plutoc_runtime.faults import Faults
+from plutoc_runtime.alone.faults import Faults
 
 DOCS = Path(__file__).parents[2] / "docs"
 PAGES = sorted([DOCS / "language.md", *DOCS.glob("tutorial/*.md")])
@@ -144,7 +144,7 @@ def with_name(name: str, language: str) -> str:
 
 def test_reference_lists_what_trips_missions_and_drones_offer() -> None:
     """Every public attribute of the three stands on the page."""
-    from plutoc_runtime.model import Drone, Mission, Trip
+    from plutoc_runtime.domain.model import Drone, Mission, Trip
 
     text = (DOCS / "tutorial/hooks.md").read_text("utf-8")
     # what the runtime needs of them, and hooks do not

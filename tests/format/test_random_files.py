@@ -1,4 +1,4 @@
-"""Files that are never written, but may be: random statements in a random layout."""
+"""Files that no one would write, but may: random statements in a random layout."""
 
 from __future__ import annotations
 

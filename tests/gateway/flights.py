@@ -5,18 +5,18 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from pluto_fleet.gateway.file_ledger import FileLedger
+from pluto_fleet.gateway.executor import Leaving
 from pluto_fleet.gateway.gateway import Gateway
-from pluto_fleet.gateway.ledger import MemoryLedger
-from pluto_fleet.gateway.pilots import Leaving
-from pluto_fleet.simulation.drones import SimulatedDrone, SimulatedNavigation
-from plutoc_runtime.actions import BUILT_IN, Plain
-from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.faults import Faults
-from plutoc_runtime.kernel import FLEET, Kernel
-from plutoc_runtime.model import Category, Item, Point
-from plutoc_runtime.virtual import VirtualTime
-from plutoc_runtime.world import World
+from pluto_fleet.gateway.ledger import FileLedger, MemoryLedger
+from pluto_fleet.simulation.body import SimulatedDrone
+from pluto_fleet.simulation.drones import SimulatedNavigation
+from plutoc_runtime.alone.faults import Faults
+from plutoc_runtime.alone.world import World
+from plutoc_runtime.domain.actions import BUILT_IN, Plain
+from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.domain.model import Category, Item, Point
+from plutoc_runtime.time.kernel import FLEET, Kernel
+from plutoc_runtime.time.virtual import VirtualTime
 
 SCOUT = Category(name="scout", speed=0.5, flight_time=420, charge_time=1200)
 PILLS = Item(name="pills", mass=0.004)

@@ -15,13 +15,13 @@ from pluto_fleet.gateway.process import LOCK
 from pluto_fleet.gateway.remote import RemoteLink
 from pluto_fleet.gateway.settings import Settings
 from pluto_fleet.gateway.starting import connect
-from pluto_fleet.realtime import RealTime
+from pluto_fleet.process.realtime import RealTime
 from pluto_fleet.simulation.body import SimulatedDrone
 from pluto_fleet.simulation.keeping import DEEDS
-from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.faults import Faults
-from plutoc_runtime.kernel import FLEET
-from plutoc_runtime.signals import Signal
+from plutoc_runtime.alone.faults import Faults
+from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.time.future import Future
+from plutoc_runtime.time.kernel import FLEET
 from tests.gateway.flights import SCOUT, Task
 
 T = TypeVar("T")
@@ -60,14 +60,14 @@ class Brain:
 
     def __init__(self, kernel: RealTime, folder: Path, **other: Any) -> None:
         self.kernel, self.folder, self._settings = kernel, folder, settings(**other)
-        self.lost: Signal[None] = Signal()
+        self.lost: Future[None] = Future()
         self.epoch = 0
         self.links: list[RemoteLink] = []
 
     async def linked(self) -> RemoteLink:
         """Link to the gateway; start one if there is none."""
         self.epoch += 1
-        self.lost = lost = Signal[None]()
+        self.lost = lost = Future[None]()
         link = await connect(
             self.folder,
             self._settings,
@@ -85,7 +85,7 @@ class Brain:
 
     async def flown(self, link: RemoteLink, job: Task) -> object:
         """Fly a job to its end, and return what was reported."""
-        ended: Signal[object] = Signal()
+        ended: Future[object] = Future()
         self.kernel.post(link.fly, job, ended.set)
         return await self.kernel.run(ended)
 

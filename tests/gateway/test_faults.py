@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import pytest
 
-from pluto_fleet.gateway.line import LOST, Line
+from pluto_fleet.gateway.lossy_line import LOST, Line
+from pluto_fleet.jobs.reports import Down, JobState
 from pluto_fleet.simulation.radio import ANSWER, COMMAND, Radio
-from pluto_fleet.standing import Down, JobState
-from plutoc_runtime.errors import Failure, FlightFailed
-from plutoc_runtime.kernel import FLEET
-from plutoc_runtime.virtual import VirtualTime
+from plutoc_runtime.domain.errors import Failure, FlightFailed
+from plutoc_runtime.time.kernel import FLEET
+from plutoc_runtime.time.virtual import VirtualTime
 from tests.gateway.flights import Field, Task
 from tests.runtime.simulation.flights import failure, fly
 
@@ -65,14 +65,14 @@ def test_single_commands_are_late_too_and_can_be_broken_off() -> None:
     radio.break_off("cf1")
     field.advance(10)
     assert isinstance(rising.error, FlightFailed)
-    assert field.navigation.telemetry("cf1").landed
+    assert field.navigation.telemetry["cf1"].landed
     fly(field.kernel, radio.takeoff("cf1", 1.2))
     assert field.kernel.now == 11 + 2 + 4 + 3
     fly(field.kernel, field.gateway.link(1).bring_down(Down.LAND))
-    assert field.navigation.telemetry("cf1").landed
+    assert field.navigation.telemetry["cf1"].landed
 
 
-def test_a_report_that_is_lost_breaks_the_line_and_is_told_to_whoever_attaches() -> None:
+def test_a_report_that_is_lost_breaks_the_line_and_is_told_to_the_next_who_attaches() -> None:
     """The brain notices that the line is broken, and asks."""
     field, lost, heard = Field(), list[str](), list[object]()
     fates = iter([LOST, 0.0])
@@ -111,7 +111,7 @@ def test_a_mishap_can_be_had_at_any_moment(what: Failure) -> None:
     assert isinstance(error, FlightFailed)
     assert error.failure is what
     field.advance(10)
-    assert field.navigation.telemetry("cf1").landed
+    assert field.navigation.telemetry["cf1"].landed
     assert isinstance(field.kernel, VirtualTime)
     assert failure(field.kernel, field.navigation.takeoff("cf1", 1.2)).failure is what
 

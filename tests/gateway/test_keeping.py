@@ -1,4 +1,4 @@
-"""The simulated world on the disk: whoever reads it back finds it where it has come to meanwhile."""
+"""The simulated world on the disk: read back, it is where it has come to meanwhile."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ import pytest
 
 from pluto_fleet.simulation.keeping import DEEDS, DRONES, Keeper
 from pluto_fleet.simulation.moments import Moment, this_moment
-from plutoc_runtime.errors import Failure, FlightFailed
-from plutoc_runtime.faults import Faults
-from plutoc_runtime.kernel import FLEET
+from plutoc_runtime.alone.faults import Faults
+from plutoc_runtime.domain.errors import Failure, FlightFailed
+from plutoc_runtime.time.kernel import FLEET
 from tests.gateway.flights import PILLS, THERE, Field, Task
 from tests.runtime.simulation.flights import failure, fly
 
@@ -42,21 +42,21 @@ class Kept(Field):
         return Kept(folder, self.wall() + seconds, faults)
 
 
-def test_a_drone_flies_on_while_nobody_looks(tmp_path: Path) -> None:
+def test_a_drone_flies_on_while_it_is_not_looked_at(tmp_path: Path) -> None:
     """To the end of its leg, and its battery drains; there it hovers, and can be flown on."""
     field = Kept(tmp_path)
     field.gateway.link(1).fly(Task(), lambda _: None)
     field.advance(6)
     field = field.later(tmp_path, 3)
-    telemetry = field.navigation.telemetry("cf1")
+    telemetry = field.navigation.telemetry["cf1"]
     assert telemetry.location == pytest.approx((2.5, 3, 1.2))
     assert telemetry.battery_level == pytest.approx(1 - 9 / 420)
     field = field.later(tmp_path, 60)
-    telemetry = field.navigation.telemetry("cf1")
+    telemetry = field.navigation.telemetry["cf1"]
     assert telemetry.location == pytest.approx(THERE)
     assert not telemetry.landed
     fly(field.virtual, field.navigation.land("cf1"))
-    assert field.later(tmp_path, 5).navigation.telemetry("cf1").landed
+    assert field.later(tmp_path, 5).navigation.telemetry["cf1"].landed
 
 
 def test_what_was_done_and_is_aboard_is_remembered(tmp_path: Path) -> None:
@@ -131,13 +131,13 @@ def test_what_cannot_be_written_down_is_not_done(tmp_path: Path) -> None:
 
 
 def test_a_landing_is_seen_through(tmp_path: Path) -> None:
-    """Whoever sinks when its gateway dies touches down."""
+    """A drone that sinks when its gateway dies touches down."""
     field = Kept(tmp_path)
     fly(field.virtual, field.navigation.takeoff("cf1", 1.2))
     field.kernel.spawn(field.navigation.land("cf1"), FLEET, "land")
     field.advance(1)
     field = field.later(tmp_path, 1)
-    telemetry = field.navigation.telemetry("cf1")
+    telemetry = field.navigation.telemetry["cf1"]
     assert telemetry.location == pytest.approx((1, 1, 0.6))
     assert not telemetry.landed
     field.advance(10)
@@ -152,19 +152,19 @@ def test_mishaps_stay_what_they_were(tmp_path: Path, what: Failure) -> None:
     fly(field.virtual, field.navigation.takeoff("cf1", 1.2))
     field.navigation.strike("cf1", what)
     field = field.later(tmp_path, 10)
-    assert field.navigation.telemetry("cf1").landed
+    assert field.navigation.telemetry["cf1"].landed
     error = failure(field.virtual, field.navigation.takeoff("cf1", 1.2))
     assert error.failure is what
     assert fly(field.virtual, field.gateway.recover("cf1")) is (what is not Failure.CRASH)
 
 
 def test_what_was_drawn_to_go_wrong_goes_wrong_all_the_same(tmp_path: Path) -> None:
-    """Whether anybody looks or not, at its own moment."""
+    """Looked at or not, at its own moment."""
     field = Kept(tmp_path, faults=Faults(crash=1))
     field.gateway.link(1).fly(Task(), lambda _: None)
     field.advance(0)
     field = field.later(tmp_path, 30)
-    assert field.navigation.telemetry("cf1").landed
+    assert field.navigation.telemetry["cf1"].landed
     assert failure(field.virtual, field.navigation.takeoff("cf1", 1)).failure is Failure.CRASH
 
 

@@ -1,4 +1,4 @@
-"""Whoever may open the gateway's socket can say what they like: nothing breaks."""
+"""A program that may open the gateway's socket can say what it likes: nothing breaks."""
 
 from __future__ import annotations
 
@@ -15,12 +15,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pluto_fleet.asking import Nobody
 from pluto_fleet.gateway.process import LOG, NOTE
 from pluto_fleet.gateway.starting import start, stop_directly
-from pluto_fleet.gateway.wire import LONGEST_TOLD
-from pluto_fleet.private import address_in
-from pluto_fleet.standing import Down
+from pluto_fleet.gateway.wire import MAX_COMMAND
+from pluto_fleet.jobs.reports import Down
+from pluto_fleet.process.ipc import NotRunning, address_in
 from tests.gateway.processes import COMMAND, pid
 from tests.gateway.processes import settings as gateway_settings
 
@@ -87,13 +86,13 @@ def test_its_socket_is_where_only_its_owner_goes(folder: Path) -> None:
         ((LINK, message(do="takeoff", drone="cf1", height=10**400, n=1)), "is not complete"),
         ((LINK, message(do="down", how="up", n=1)), "that message is not complete"),
         ((LINK, message(do="somersault", drone="cf1", n=1)), "this gateway cannot 'somersault'"),
-        ((b'{"do": "' + b"x" * LONGEST_TOLD + b'"}\n',), "a line was longer than"),
+        ((b'{"do": "' + b"x" * MAX_COMMAND + b'"}\n',), "a line was longer than"),
     ],
 )
 def test_what_makes_no_sense_is_refused_and_logged(
     folder: Path, lines: tuple[bytes, ...], why: str
 ) -> None:
-    """In words; whoever said it may go on, but for lines without an end."""
+    """In words; the client may go on, but for lines without an end."""
     refusal = said(folder, *lines)[-1]
     assert refusal["ok"] is False
     assert why in refusal["said"]
@@ -149,10 +148,10 @@ facts = st.fixed_dictionaries(
 
 @settings(max_examples=100)
 @given(st.lists(facts | st.dictionaries(st.text(max_size=5), anything), max_size=6))
-def test_whatever_is_said_the_gateway_goes_on(
+def test_after_any_message_the_gateway_goes_on(
     folder: Path, messages: list[dict[str, object]]
 ) -> None:
-    """Any messages, from somebody who has linked."""
+    """Any messages, from a client that has linked."""
     said(folder, LINK, *(json.dumps(one).encode() + b"\n" for one in messages))
     assert pid(folder) is not None
     assert said(folder, LINK)[0].keys() == {"linked"}
@@ -160,7 +159,7 @@ def test_whatever_is_said_the_gateway_goes_on(
 
 def test_nobody_is_there_when_there_is_no_gateway(tmp_path: Path) -> None:
     """Whoever wants the drones down is told so."""
-    with pytest.raises(Nobody):
+    with pytest.raises(NotRunning):
         stop_directly(tmp_path, Down.LAND, 1)
 
 

@@ -11,20 +11,19 @@ from pluto_fleet.gateway.settings import data_of, settings_of
 from pluto_fleet.gateway.wire import (
     job_data,
     job_of,
-    line,
-    message_in,
     result_data,
     result_of,
     roll_data,
     roll_of,
 )
+from pluto_fleet.jobs.reports import DroneReport, Entry, FleetReport, JobState
+from pluto_fleet.process.ipc import line, message_in
 from pluto_fleet.simulation.body import SimulatedDrone
-from pluto_fleet.standing import Entry, JobState, RollCall, Standing
-from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.errors import Failure, FlightFailed
-from plutoc_runtime.faults import Faults
-from plutoc_runtime.model import Category, Photo
-from plutoc_runtime.world import Feature, Source, WorldData
+from plutoc_runtime.alone.faults import Faults
+from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.domain.errors import Failure, FlightFailed
+from plutoc_runtime.domain.fleet_data import Feature, Source, WorldData
+from plutoc_runtime.domain.model import Category, Photo
 from tests.gateway.flights import Task
 from tests.gateway.processes import settings
 
@@ -83,7 +82,7 @@ def test_jobs_arrive_as_they_were(
 @given(
     st.lists(
         st.builds(
-            Standing,
+            DroneReport,
             drone=names,
             reached=st.booleans(),
             location=places,
@@ -108,9 +107,9 @@ def test_jobs_arrive_as_they_were(
         )
     ),
 )
-def test_a_roll_call_arrives_as_it_was(drones: list[Standing], jobs: list[Entry]) -> None:
+def test_a_roll_call_arrives_as_it_was(drones: list[DroneReport], jobs: list[Entry]) -> None:
     """Of all drones and of all jobs."""
-    roll = RollCall(
+    roll = FleetReport(
         drones={standing.drone: standing for standing in drones},
         jobs={entry.id: entry for entry in jobs},
     )

@@ -9,8 +9,8 @@ from plutoc.graph.resolve import resolve
 from plutoc.registry import Blocks, RegistryError
 from plutoc.source import Source
 from plutoc.syntax.parse import parse
-from plutoc_runtime.quantities import Type
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.quantities import Type
+from plutoc_runtime.domain.status import Status
 
 
 def step() -> None:

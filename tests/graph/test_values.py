@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from plutoc.graph.model import Choose
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.status import Status
 from tests.graph.fakes import codes, graph
 
 

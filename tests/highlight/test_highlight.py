@@ -14,7 +14,7 @@ from pygments import token
 from plutoc.highlight.pygments_lexer import PlutoLexer
 from plutoc.highlight.rules import RULES, SCOPES, grammar
 from plutoc.syntax.tokens import SETTINGS, WORDS
-from plutoc_runtime.quantities import UNITS
+from plutoc_runtime.domain.quantities import UNITS
 
 ROOT = Path(__file__).parents[2]
 EXAMPLES = sorted((ROOT / "examples").glob("*/*.pluto"))

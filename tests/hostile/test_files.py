@@ -48,7 +48,7 @@ def test_an_odd_file_is_read_or_refused(
 
 
 def test_what_is_no_file_is_refused(plutoc: Call, here: Path) -> None:
-    """A folder, a device that never ends, a pipe without a writer, links in a circle."""
+    """A folder, a device that never ends, a pipe into which nothing is written, links in a circle."""
     Path("folder.pluto").mkdir()
     os.mkfifo("pipe.pluto")
     Path("zero.pluto").symlink_to("/dev/zero")
@@ -72,7 +72,7 @@ def test_what_is_no_file_is_refused(plutoc: Call, here: Path) -> None:
             assert (done.code, words in done.err) == (code, True), (name, command, done)
 
 
-def test_a_pipe_with_a_writer_is_read(plutoc: Call, here: Path) -> None:
+def test_a_pipe_into_which_something_is_written_is_read(plutoc: Call, here: Path) -> None:
     """As a shell hands it on: `plutoc check <(make-an-app)`."""
     reading, writing = os.pipe()
     os.write(writing, APP.encode())

@@ -148,7 +148,7 @@ def unmarked(line: str) -> str:
 @given(TEXTS)
 @example("".join(ALWAYS))
 def test_a_title_is_one_plain_line_of_the_readme(text: str) -> None:
-    """No link, no picture, no HTML, no heading, no code, no formula, no mention of anybody."""
+    """No link, no picture, no HTML, no heading, no code, no formula, no mention of a person."""
     from plutoc.emit.readme_file import readme
 
     written = readme(checked(text).graph, "crop.pluto", "flowchart TD\n").splitlines()

@@ -6,8 +6,8 @@ from collections.abc import AsyncIterator, Callable, Coroutine, Mapping
 from functools import wraps
 from typing import Any
 
-from pluto_fleet.drones import DroneEvent, DroneSetup, DroneTelemetry
-from plutoc_runtime.model import Point
+from pluto_fleet.drones.protocol import DroneEvent, DroneSetup, DroneTelemetry
+from plutoc_runtime.domain.model import Point
 from tests.navigation.simulated import Simulated
 
 NUMBER = 7
@@ -105,7 +105,7 @@ class Choosy(Good):
 
 
 class Cameras:
-    """Somebody who sees the drones."""
+    """A localization that sees the drones."""
 
     def __init__(self, options: Mapping[str, object]) -> None:
         self.options = options

@@ -21,7 +21,7 @@ from plutoc.plan.show import show
 from plutoc.plan.verify import verify
 from plutoc.source import Source
 from plutoc.syntax.parse import parse
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.status import Status
 from tests.check.graphs import BASIC, checked
 from tests.plan.graphs import GRAPHS, routes
 from tests.plan.plans import structured

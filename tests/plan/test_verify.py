@@ -7,7 +7,7 @@ from functools import partial
 
 import pytest
 
-from plutoc.emit.walk import steps
+from plutoc.plan.bodies import steps
 from plutoc.plan.errors import BadPlan
 from plutoc.plan.model import (
     Arm,
@@ -29,7 +29,7 @@ from plutoc.plan.model import (
 )
 from plutoc.plan.rewrite import rewritten, rewritten_body
 from plutoc.plan.verify import verify
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.status import Status
 from tests.check.graphs import checked
 from tests.plan.graphs import GRAPHS, MAZE, routes
 from tests.plan.plans import after, structured

@@ -24,7 +24,7 @@ from plutoc.plan.model import (
 from plutoc.plan.optimise import optimised
 from plutoc.plan.rewrite import rewritten
 from plutoc.plan.verify import verify
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.status import Status
 from tests.check.graphs import BASIC, checked
 from tests.plan.test_show_entries import CHAIN, LOOP_THAT_ASKS
 

@@ -17,7 +17,7 @@ from plutoc.plan.model import Plan
 from plutoc.plan.optimise import stages
 from plutoc.plan.show import show
 from plutoc.plan.verify import verify
-from plutoc_runtime.status import IN_GRAPH, Status
+from plutoc_runtime.domain.status import IN_GRAPH, Status
 from tests.check import graphs
 from tests.check.test_walks import edited
 from tests.plan.graphs import GRAPHS, random_graphs

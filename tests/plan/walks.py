@@ -31,7 +31,7 @@ from plutoc.plan.model import (
     Switch,
     Watch,
 )
-from plutoc_runtime.status import IN_GRAPH, WORST_FIRST, Status
+from plutoc_runtime.domain.status import IN_GRAPH, WORST_FIRST, Status
 
 
 class Enough(Exception):

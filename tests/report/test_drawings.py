@@ -1,4 +1,4 @@
-"""Pictures of graphs: complete, valid, and safe with any title."""
+"""Pictures of graphs: complete, valid, and safe for every title."""
 
 from __future__ import annotations
 

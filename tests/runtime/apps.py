@@ -6,8 +6,9 @@ from collections.abc import Callable, Coroutine, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from pluto_fleet.files.fleet import DroneEntry, FleetFile
-from pluto_fleet.simulate import simulate
+from pluto_fleet.files.drones import DroneEntry
+from pluto_fleet.files.fleet import FleetFile
+from pluto_fleet.flight.simulate import simulate
 from plutoc_blocks.clock.step import wait_for_time
 from plutoc_blocks.drone_allocator.step import allocate_drone
 from plutoc_blocks.gap_monitor.step import watch_gap
@@ -20,18 +21,18 @@ from plutoc_blocks.priority_manager.step import raise_priority
 from plutoc_blocks.timer_monitor.step import watch_timer
 from plutoc_blocks.trip_launcher.step import launch_trip
 from plutoc_blocks.trip_monitor.step import watch_trip
-from plutoc_runtime import model
-from plutoc_runtime.actions import BUILT_IN, Action
-from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.app import App
-from plutoc_runtime.faults import Faults
-from plutoc_runtime.model import AfterTrip, Category, Item, Point
-from plutoc_runtime.policies.nearest import nearest
-from plutoc_runtime.policy import Policy
-from plutoc_runtime.run import Run
-from plutoc_runtime.session import Outcome
-from plutoc_runtime.status import Status
-from plutoc_runtime.trace import Event
+from plutoc_runtime.alone.faults import Faults
+from plutoc_runtime.domain import model
+from plutoc_runtime.domain.actions import BUILT_IN, Action
+from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.domain.app import App
+from plutoc_runtime.domain.model import AfterTrip, Category, Item, Point
+from plutoc_runtime.domain.status import Status
+from plutoc_runtime.domain.trace import Event
+from plutoc_runtime.fleet.policies.nearest import nearest
+from plutoc_runtime.fleet.policy import Policy
+from plutoc_runtime.flow.run import Run
+from plutoc_runtime.flow.session import Outcome
 
 __all__ = ["Outcome"]
 

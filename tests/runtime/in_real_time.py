@@ -6,12 +6,12 @@ import asyncio
 from collections.abc import Callable, Sequence
 
 from pluto_fleet.files.fleet import FleetFile
-from pluto_fleet.realtime import RealTime
-from pluto_fleet.simulate import Simulation
-from plutoc_runtime.app import App
-from plutoc_runtime.faults import Faults
-from plutoc_runtime.session import Outcome
-from plutoc_runtime.trace import Event
+from pluto_fleet.flight.simulate import Simulation
+from pluto_fleet.process.realtime import RealTime
+from plutoc_runtime.alone.faults import Faults
+from plutoc_runtime.domain.app import App
+from plutoc_runtime.domain.trace import Event
+from plutoc_runtime.flow.session import Outcome
 from tests.runtime import apps
 
 

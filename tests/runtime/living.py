@@ -8,22 +8,23 @@ from dataclasses import replace
 from typing import Any
 
 from pluto_fleet.files.fleet import FleetFile
+from pluto_fleet.flight.recorded_flight import Life
 from pluto_fleet.gateway.gateway import Gateway
 from pluto_fleet.gateway.ledger import MemoryLedger
+from pluto_fleet.jobs.reports import Down
 from pluto_fleet.journal.fold import Records
 from pluto_fleet.journal.memory import Memory
-from pluto_fleet.life import Life
-from pluto_fleet.simulation.drones import Deed, SimulatedDrone, SimulatedNavigation
-from pluto_fleet.standing import Down
-from plutoc_runtime.app import App
-from plutoc_runtime.faults import Faults
-from plutoc_runtime.fields import Entity, Field, FieldType
-from plutoc_runtime.kernel import FLEET, Kind
-from plutoc_runtime.model import Mission
-from plutoc_runtime.signals import Signal
-from plutoc_runtime.trace import Event
-from plutoc_runtime.virtual import VirtualTime
-from plutoc_runtime.world import World
+from pluto_fleet.simulation.body import SimulatedDrone
+from pluto_fleet.simulation.drones import Deed, SimulatedNavigation
+from plutoc_runtime.alone.faults import Faults
+from plutoc_runtime.alone.world import World
+from plutoc_runtime.domain.app import App
+from plutoc_runtime.domain.fields import Entity, Field, FieldType
+from plutoc_runtime.domain.model import Mission
+from plutoc_runtime.domain.trace import Event
+from plutoc_runtime.time.future import Future
+from plutoc_runtime.time.kernel import FLEET, Kind
+from plutoc_runtime.time.virtual import VirtualTime
 
 from . import apps
 from .mortal import Mortal
@@ -89,7 +90,7 @@ class Living:
         )
         self.gateway = Gateway(self.kernel, self.navigation, drones, space, ledger=MemoryLedger())
         self.events: list[Event] = []
-        self.done: Signal[float] = Signal()
+        self.done: Future[float] = Future()
         self._epoch = 0
         self._brain = Mortal(self.kernel)
         self.life = self._new_life()
@@ -115,7 +116,7 @@ class Living:
         disk.life = life
         return life
 
-    def _is_done(self, task: Signal[float]) -> None:
+    def _is_done(self, task: Future[float]) -> None:
         if task.error is None:  # else everything was stopped
             self.done.set(task.result())
 
@@ -158,7 +159,7 @@ class Living:
         self.die()
         decided = {"t": self.kernel.now, "event": "mission.decided", "mission": mission}
         self.memory.append([json.dumps([{**decided, "answer": answer}])])
-        self.done = Signal()
+        self.done = Future()
         self.live_on()
 
     def run(self, until: float = 100_000.0) -> list[str]:

@@ -7,16 +7,16 @@ from typing import Any
 
 import pytest
 
-from plutoc_runtime.errors import BadInput
-from plutoc_runtime.faults import Faults
-from plutoc_runtime.model import AfterTrip, Category, Drone, Trip
-from plutoc_runtime.policies.batch_optimal import batch_optimal
-from plutoc_runtime.policies.first import first
-from plutoc_runtime.policies.least_used import least_used
-from plutoc_runtime.policies.nearest import nearest
-from plutoc_runtime.policies.own import own_policy
-from plutoc_runtime.policy import Policy
-from plutoc_runtime.status import Status
+from plutoc_runtime.alone.faults import Faults
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.model import AfterTrip, Category, Drone, Trip
+from plutoc_runtime.domain.status import Status
+from plutoc_runtime.fleet.policies.batch_optimal import batch_optimal
+from plutoc_runtime.fleet.policies.first import first
+from plutoc_runtime.fleet.policies.least_used import least_used
+from plutoc_runtime.fleet.policies.nearest import nearest
+from plutoc_runtime.fleet.policies.own import own_policy
+from plutoc_runtime.fleet.policy import Policy
 from tests.runtime import apps
 
 HOMES = ((0.5, 0.5, 0.0), (9.5, 0.5, 0.0), (18.5, 0.5, 0.0))
@@ -235,7 +235,7 @@ def test_a_drone_that_was_not_given_is_offered_again() -> None:
     assert asked[:3] == [["cf1", "cf2", "cf3"], ["cf2", "cf3"], ["cf2", "cf3"]]
 
 
-def test_candidates_come_in_the_fleets_order_whenever_they_came_free() -> None:
+def test_candidates_come_in_the_fleets_order_in_any_order_of_coming_free() -> None:
     asked: list[list[str]] = []
 
     def last(trip: Trip, candidates: Sequence[Drone]) -> Drone:

@@ -13,17 +13,17 @@ from plutoc_blocks.mission_creator.step import create_mission
 from plutoc_blocks.mission_modifier.step import modify_mission
 from plutoc_blocks.trip_launcher.step import launch_trip
 from plutoc_blocks.trip_monitor.step import watch_trip
-from plutoc_runtime.policies.nearest import nearest
-from plutoc_runtime.policies.own import own_policy
-from plutoc_runtime.policy import Policy
-from plutoc_runtime.run import Run
-from plutoc_runtime.session import Outcome
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.status import Status
+from plutoc_runtime.fleet.policies.nearest import nearest
+from plutoc_runtime.fleet.policies.own import own_policy
+from plutoc_runtime.fleet.policy import Policy
+from plutoc_runtime.flow.run import Run
+from plutoc_runtime.flow.session import Outcome
 from tests.runtime import apps
 
 
 def fly(step: Callable[..., Any], hook: Callable[..., Any], policy: Policy = nearest) -> Outcome:
-    """Fly one trip, with a block of somebody's and a modifier in a fork behind it."""
+    """Fly one trip, with a block of another author's and a modifier in a fork behind it."""
 
     async def flow(run: Run[apps.Mission]) -> Status:
         # create = MissionCreator
@@ -69,7 +69,7 @@ def log_of(outcome: Outcome) -> str:
     return "\n".join(outcome.log)
 
 
-def test_an_error_that_nobody_expected_names_the_block() -> None:
+def test_an_unexpected_error_names_the_block() -> None:
     """A block's step in a branch of a fork fails: that is a mistake of ours or of its maker."""
     with pytest.raises(ZeroDivisionError) as raised:
         fly(broken, nothing)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from pluto_fleet.gateway.line import Line
-from plutoc_runtime.context import Context
-from plutoc_runtime.status import Status
+from pluto_fleet.gateway.lossy_line import Line
+from plutoc_runtime.domain.status import Status
+from plutoc_runtime.hooks.context import Context
 
 from . import apps
 from .living import Living, enterable, names

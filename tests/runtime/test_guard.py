@@ -7,9 +7,9 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet.raised import guard_hooks, interrupted_by_a_person
-from plutoc_runtime import guard
-from plutoc_runtime.kernel import Cancelled
+from pluto_fleet.process.signal_guard import guard_hooks, interrupted_by_a_person
+from plutoc_runtime.domain import guard
+from plutoc_runtime.domain.errors import Cancelled
 
 
 @pytest.fixture(autouse=True)

@@ -5,12 +5,12 @@ from __future__ import annotations
 import os
 
 from plutoc_blocks.clock.step import wait_for_time
-from plutoc_runtime.signals import Signal
+from plutoc_runtime.time.future import Future
 
 
 def test_these_tests_run_on_the_copy_that_is_meant() -> None:
     embedded = "PLUTO_EMBEDDED" in os.environ
     home = "carrier._runtime" if embedded else "plutoc_runtime"
-    assert Signal.__module__ == f"{home}.signals"
+    assert Future.__module__ == f"{home}.time.future"
     block = f"{home}.blocks.clock" if embedded else "plutoc_blocks.clock.step"
     assert wait_for_time.__module__ == block

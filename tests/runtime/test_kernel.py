@@ -7,15 +7,16 @@ from functools import partial
 
 import pytest
 
-from pluto_fleet.realtime import RealTime
-from plutoc_runtime.kernel import Cancelled, Kind
-from plutoc_runtime.signals import Signal
-from plutoc_runtime.virtual import Stuck, VirtualTime
+from pluto_fleet.process.realtime import RealTime
+from plutoc_runtime.domain.errors import Cancelled
+from plutoc_runtime.time.future import Future
+from plutoc_runtime.time.kernel import Kind
+from plutoc_runtime.time.virtual import Stuck, VirtualTime
 
 
-def test_events_of_one_instant_come_by_kind_then_key_whatever_the_order_of_entry() -> None:
+def test_events_of_one_instant_come_by_kind_then_key_in_any_order_of_entry() -> None:
     kernel, seen = VirtualTime(), list[str]()
-    done: Signal[None] = Signal()
+    done: Future[None] = Future()
     entries = [(Kind.ALLOCATE, 0), (Kind.TIMER, 0), (Kind.FLIGHT, 1), (Kind.FLIGHT, 0)]
     for kind, key in entries:
         kernel.at(5.0, kind, key, partial(seen.append, f"{kind.name} {key}"))
@@ -27,7 +28,7 @@ def test_events_of_one_instant_come_by_kind_then_key_whatever_the_order_of_entry
 
 def test_a_signal_that_comes_at_the_very_limit_has_come() -> None:
     kernel, won = VirtualTime(), list[bool]()
-    signal: Signal[None] = Signal()
+    signal: Future[None] = Future()
 
     async def wait() -> None:
         won.append(await kernel.within(signal, 5.0, Kind.TIMER, 0))
@@ -40,7 +41,7 @@ def test_a_signal_that_comes_at_the_very_limit_has_come() -> None:
 
 def test_time_that_runs_out_says_so() -> None:
     kernel = VirtualTime()
-    never: Signal[None] = Signal()
+    never: Future[None] = Future()
     task = kernel.spawn(kernel.within(never, 5.0, Kind.TIMER, 0), 0, "waiter")
     kernel.run(task)
     assert (task.result(), kernel.now) == (False, 5.0)
@@ -48,7 +49,7 @@ def test_time_that_runs_out_says_so() -> None:
 
 def test_a_run_that_can_never_end_names_who_waits() -> None:
     kernel = VirtualTime()
-    never: Signal[None] = Signal()
+    never: Future[None] = Future()
 
     async def wait() -> None:
         await never
@@ -78,7 +79,7 @@ def test_a_cancelled_coroutine_stops_where_it_waits_and_cleans_up() -> None:
 
 def test_a_coroutine_that_is_cancelled_in_its_turn_may_still_wait_to_clean_up() -> None:
     kernel, seen = VirtualTime(), list[float]()
-    signal: Signal[None] = Signal()
+    signal: Future[None] = Future()
 
     async def wait() -> None:
         try:
@@ -99,7 +100,7 @@ def test_a_coroutine_that_is_cancelled_in_its_turn_may_still_wait_to_clean_up() 
     assert seen == [5.0]
 
 
-def test_an_error_that_nobody_awaits_stops_the_run() -> None:
+def test_an_error_that_is_not_awaited_stops_the_run() -> None:
     kernel = VirtualTime()
 
     async def broken() -> None:
@@ -107,10 +108,10 @@ def test_an_error_that_nobody_awaits_stops_the_run() -> None:
 
     kernel.spawn(broken(), 0, "broken")
     with pytest.raises(ZeroDivisionError):
-        kernel.run(Signal[None]())
+        kernel.run(Future[None]())
 
 
-def test_an_error_reaches_whoever_awaits() -> None:
+def test_an_error_reaches_the_awaiting_task() -> None:
     kernel = VirtualTime()
 
     async def broken() -> None:

@@ -12,25 +12,26 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet.asking import Nobody, ask, note_of
-from pluto_fleet.fly import live
-from pluto_fleet.gateway.gateway import Gateway
+from pluto_fleet.flight.config import End, Lived, Setting, Stops
+from pluto_fleet.flight.fly import live
+from pluto_fleet.gateway.gateway import Gateway, Link
 from pluto_fleet.gateway.ledger import MemoryLedger
-from pluto_fleet.gateway.link import Link
+from pluto_fleet.jobs.reports import Down
 from pluto_fleet.journal import header
 from pluto_fleet.journal.errors import JournalError
+from pluto_fleet.journal.place import commands_note
 from pluto_fleet.journal.store import Store
-from pluto_fleet.realtime import RealTime
-from pluto_fleet.setting import End, Lived, Setting, Stops
-from pluto_fleet.simulation.drones import SimulatedDrone, SimulatedNavigation
-from pluto_fleet.standing import Down
-from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.errors import BadInput
-from plutoc_runtime.faults import Faults
-from plutoc_runtime.model import Category
-from plutoc_runtime.status import Status
-from plutoc_runtime.trace import Event
-from plutoc_runtime.world import World
+from pluto_fleet.process.ipc import NotRunning, ask
+from pluto_fleet.process.realtime import RealTime
+from pluto_fleet.simulation.body import SimulatedDrone
+from pluto_fleet.simulation.drones import SimulatedNavigation
+from plutoc_runtime.alone.faults import Faults
+from plutoc_runtime.alone.world import World
+from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.model import Category
+from plutoc_runtime.domain.status import Status
+from plutoc_runtime.domain.trace import Event
 from tests.runtime import apps
 
 SCOUT = Category(name="scout", speed=1.0)
@@ -41,10 +42,10 @@ class Near(Link):
     """A link to a gateway in this process, which ends with it."""
 
     def when_seen(self, watcher: Callable[[], object]) -> None:
-        """Nobody watches."""
+        """It is not watched."""
 
     async def goodbye(self) -> None:
-        """Nobody need be told."""
+        """There is no one to tell."""
 
     async def close(self) -> None:
         """Nothing is open."""
@@ -96,7 +97,7 @@ class Tried:
             missions=self.missions,
             fleet=self.fleet,
             connect=self.connect,
-            note=note_of(self.path),
+            note=commands_note(self.path),
             tell=self.tell,
             speed=1000.0,
         )
@@ -157,7 +158,7 @@ def durable(monkeypatch: pytest.MonkeyPatch) -> list[str]:
 
 
 def test_nothing_is_told_before_it_is_on_record(tried: Tried, durable: list[str]) -> None:
-    """So what somebody has read on a screen is there after a crash."""
+    """So what was read on a screen is there after a crash."""
 
     def watch(event: Event) -> None:
         assert len(tried.told) <= len(durable)
@@ -182,7 +183,7 @@ def test_a_stopped_app_goes_on_where_it_was(how: Down, tried: Tried) -> None:
 
 
 def test_a_stop_before_the_app_lives_stops_it(tried: Tried) -> None:
-    """Whoever presses Ctrl-C at once means it."""
+    """Ctrl-C pressed at once is meant."""
     stops = Stops()
     stops.stop(Down.LAND)
     assert asyncio.run(tried.live(stops)).end is End.STOPPED
@@ -208,7 +209,7 @@ def test_commands_reach_a_living_app(tried: Tried) -> None:
     said: list[object] = []
 
     async def client() -> None:
-        note = note_of(tried.path)
+        note = commands_note(tried.path)
         for request in (
             {"command": "pause", "mission": "m"},
             {"command": "decide", "mission": "m", "answer": "done"},
@@ -233,16 +234,16 @@ def test_commands_reach_a_living_app(tried: Tried) -> None:
         'mission "m": going on',
     ]
     assert tried.kinds.count("mission.paused") == tried.kinds.count("mission.resumed") == 1
-    with pytest.raises(Nobody):
-        ask(note_of(tried.path), {"command": "pause", "mission": None}, 5.0)
+    with pytest.raises(NotRunning):
+        ask(commands_note(tried.path), {"command": "pause", "mission": None}, 5.0)
 
 
 def test_what_an_app_has_answered_is_on_record(tried: Tried, durable: list[str]) -> None:
-    """Nothing that somebody was told is lost by whatever happens a moment later."""
+    """Nothing that was told is lost by what happens a moment later."""
 
     async def client() -> None:
         request = {"command": "cancel", "mission": "m"}
-        await asyncio.to_thread(ask, note_of(tried.path), request, 5.0)
+        await asyncio.to_thread(ask, commands_note(tried.path), request, 5.0)
         assert "mission.ended" in durable
 
     async def whole() -> Lived:
@@ -279,8 +280,8 @@ def test_on_a_full_disk_all_drones_land_and_nothing_more_is_told(
 
 def test_a_snapshot_is_taken_now_and_then(tried: Tried, monkeypatch: pytest.MonkeyPatch) -> None:
     """And the next life goes on from there."""
-    monkeypatch.setattr("pluto_fleet.one_life.SNAPSHOT_EVERY", 5)  # within a life
-    monkeypatch.setattr("pluto_fleet.one_life.SNAPSHOT_AT_END", 0)
+    monkeypatch.setattr("pluto_fleet.flight.live_flight.SNAPSHOT_EVERY", 5)  # within a life
+    monkeypatch.setattr("pluto_fleet.flight.live_flight.SNAPSHOT_AT_END", 0)
     stops = Stops()
     tried.on("trip.completed", lambda: stops.stop(Down.LAND))
     asyncio.run(tried.live(stops))

@@ -7,14 +7,14 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet.testing.invariants import violations
+from pluto_fleet.trials.invariants import violations
 from plutoc_blocks.mission_modifier.step import modify_mission
-from plutoc_runtime import state
-from plutoc_runtime.context import Context
-from plutoc_runtime.faults import Faults
-from plutoc_runtime.model import Mission
-from plutoc_runtime.run import Run
-from plutoc_runtime.status import Status, TripStatus
+from plutoc_runtime.alone.faults import Faults
+from plutoc_runtime.domain.model import Mission
+from plutoc_runtime.domain.status import Status, TripStatus
+from plutoc_runtime.flow import mission as state
+from plutoc_runtime.flow.run import Run
+from plutoc_runtime.hooks.context import Context
 from tests.runtime import apps
 
 ANY_END = (Status.STANDBY, Status.COMPLETED, Status.FAILED)
@@ -188,7 +188,7 @@ def more_alike(mission: Mission[apps.Trip], context: Context) -> Status:
 
 
 def forget(mission: Mission[apps.Trip], context: Context) -> Status:
-    """Let nobody repeat what was done first."""
+    """Let no life repeat what was done first."""
     if mission.round == 0 and mission.status is Status.COMPLETED:
         del mission.completed_trips[0]
     return mission.status

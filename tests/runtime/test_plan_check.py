@@ -6,11 +6,12 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet.files.fleet import DroneEntry, FleetFile
-from pluto_fleet.plan_check import endless, problems
-from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.capability import Miss, chain_of, miss_of, why_not
-from plutoc_runtime.model import Category, Item, Point
+from pluto_fleet.files.drones import DroneEntry
+from pluto_fleet.files.fleet import FleetFile
+from pluto_fleet.files.plan_check import endless, problems
+from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.domain.model import Category, Item, Point
+from plutoc_runtime.fleet.reach import Miss, chain_of, miss_of, why_not
 from tests.runtime.files.an_app import APP, FieldMission, FieldTrip
 
 SCOUT, CARRIER = APP.categories
@@ -147,7 +148,7 @@ def test_few_drones_are_asked_however_many_there_are(monkeypatch: pytest.MonkeyP
         asked += 1
         return real(*given)
 
-    monkeypatch.setattr("pluto_fleet.plan_check.miss_of", counted)
+    monkeypatch.setattr("pluto_fleet.files.plan_check.miss_of", counted)
     wide = Airspace(size=(9000.0, 9000.0))
     far = [(SCOUT, (1.0 + place, 1.0, 0.0)) for place in range(500)]
     near = [(SCOUT, (8000.0, 8000.0, 0.0))]

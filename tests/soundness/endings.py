@@ -1,4 +1,4 @@
-"""Flies accepted apps with hooks that never change their mind: whatever is accepted must end.
+"""Flies accepted apps with hooks that never change their mind: all that is accepted must end.
 
 A modifier always says the same, an evaluator says the same until something is flown. So a loop that
 should not have been accepted is gone round for ever; that nothing does but what a hook chose.
@@ -15,24 +15,25 @@ from random import Random
 from types import SimpleNamespace
 from typing import Any
 
-from pluto_fleet.files.fleet import DroneEntry, FleetFile
-from pluto_fleet.realtime import RealTime
-from pluto_fleet.simulate import Simulation, simulate
+from pluto_fleet.files.drones import DroneEntry
+from pluto_fleet.files.fleet import FleetFile
+from pluto_fleet.flight.simulate import Simulation, simulate
+from pluto_fleet.process.realtime import RealTime
 from plutoc.block import HookKind
 from plutoc.check.model import Checked
 from plutoc.compile import planned
 from plutoc.graph.model import Graph, Hook
-from plutoc_runtime import state
-from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.app import App
-from plutoc_runtime.context import Context
-from plutoc_runtime.errors import BadInput
-from plutoc_runtime.faults import Faults
-from plutoc_runtime.model import AfterTrip, Category, Mission, Point
-from plutoc_runtime.results import Results
-from plutoc_runtime.status import Status
-from plutoc_runtime.trace import Event
-from plutoc_runtime.verdict import Verdict
+from plutoc_runtime.alone.faults import Faults
+from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.domain.app import App
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.model import AfterTrip, Category, Mission, Point
+from plutoc_runtime.domain.results import Results
+from plutoc_runtime.domain.status import Status
+from plutoc_runtime.domain.trace import Event
+from plutoc_runtime.flow import mission as state
+from plutoc_runtime.flow.verdict import Verdict
+from plutoc_runtime.hooks.context import Context
 from tests.equivalence.flows import packaged
 from tests.equivalence.patience import Spins
 

@@ -25,9 +25,9 @@ from typing import Any
 
 from pluto_fleet.cli.report import table
 from pluto_fleet.files.fleet import FleetFile
-from pluto_fleet.testing.alike import first_the_same, shows_the_same
-from pluto_fleet.testing.case import Case
-from pluto_fleet.testing.explore import (
+from pluto_fleet.trials.alike import first_the_same, shows_the_same
+from pluto_fleet.trials.case import Case
+from pluto_fleet.trials.explore import (
     FAULTS,
     Finding,
     Tally,
@@ -36,12 +36,12 @@ from pluto_fleet.testing.explore import (
     explored,
     small_case,
 )
-from pluto_fleet.testing.options import Options
-from pluto_fleet.testing.report import smallest_case
-from pluto_fleet.testing.rig import tried
-from pluto_fleet.testing.shrink import shrunk
-from plutoc_runtime.app import App
-from plutoc_runtime.model import AfterTrip, Mission
+from pluto_fleet.trials.options import Options
+from pluto_fleet.trials.report import smallest_case
+from pluto_fleet.trials.rig import tried
+from pluto_fleet.trials.shrink import shrunk
+from plutoc_runtime.domain.app import App
+from plutoc_runtime.domain.model import AfterTrip, Mission
 from tests.flying import NAMES
 from tests.testing.examples import example, fleet_of, missions_of
 
@@ -49,7 +49,7 @@ HEADER = ("example", "runs", "rows", "lives", "completed", "failed", "cancelled"
 CHANCES = 20
 """Cases by chance for each seed."""
 ENOUGH = 5
-"""After so many findings in an example nobody looks for more."""
+"""After so many findings in an example no more are looked for."""
 
 _VIOLATIONS = attrgetter("violations")
 """What is looked for: an evaluator may well ask too much of half a fleet."""

@@ -1,6 +1,6 @@
 """Random apps for `plutoc test`: two categories, actions of their own, and fleets to match.
 
-Each is an app that a person could have written, with hooks that do what they are asked to: whatever
+Each is an app that a person could have written, with hooks that do what they are asked to: all that
 is found in one of them is a mistake of ours.
 """
 
@@ -14,13 +14,13 @@ from pluto_fleet.files.drones import DroneEntry
 from pluto_fleet.files.fleet import FleetFile
 from plutoc.compile import analyse, planned
 from plutoc.source import Source
-from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.model import AfterTrip
-from plutoc_runtime.verdict import Verdict
+from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.domain.model import AfterTrip
+from plutoc_runtime.flow.verdict import Verdict
 from tests.equivalence.flows import packaged
 
 if TYPE_CHECKING:
-    from plutoc_runtime.app import App
+    from plutoc_runtime.domain.app import App
 
 POLICIES = ("nearest", "first", "least_used", "batch_optimal")
 REPEATS = ("", " safe", " once", " ask")

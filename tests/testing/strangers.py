@@ -1,4 +1,4 @@
-"""Tries random apps that nobody has seen, as `plutoc test` does, in all weathers.
+"""Tries random apps that are new each time, as `plutoc test` does, in all weathers.
 
     python -m tests.testing.strangers --apps 200
 
@@ -22,18 +22,18 @@ from random import Random
 from time import perf_counter
 from typing import TYPE_CHECKING
 
-from pluto_fleet.testing.alike import first_the_same, shows_the_same
-from pluto_fleet.testing.case import Case, Weather
-from pluto_fleet.testing.explore import Finding, Tally, drawn_case, everywhere, explored, small_case
-from pluto_fleet.testing.options import Options
-from pluto_fleet.testing.report import smallest_case
-from pluto_fleet.testing.rig import tried
-from pluto_fleet.testing.shrink import shrunk
+from pluto_fleet.trials.alike import first_the_same, shows_the_same
+from pluto_fleet.trials.case import Case, Weather
+from pluto_fleet.trials.explore import Finding, Tally, drawn_case, everywhere, explored, small_case
+from pluto_fleet.trials.options import Options
+from pluto_fleet.trials.report import smallest_case
+from pluto_fleet.trials.rig import tried
+from pluto_fleet.trials.shrink import shrunk
 from tests.testing.random_apps import random_app, random_fleet, random_source
 
 if TYPE_CHECKING:
     from pluto_fleet.files.fleet import FleetFile
-    from plutoc_runtime.app import App
+    from plutoc_runtime.domain.app import App
 
 CASES = 10
 """Of either kind that is drawn, for each app."""

@@ -6,10 +6,10 @@ from dataclasses import replace
 
 import pytest
 
-from pluto_fleet.testing.blows import BY_HAND, DEATHS, STOPS, Blow, Kind
-from pluto_fleet.testing.book import Trial
-from pluto_fleet.testing.case import FAIR, Case, Weather
-from pluto_fleet.testing.rig import tried
+from pluto_fleet.trials.blows import BY_HAND, DEATHS, STOPS, Blow, Kind
+from pluto_fleet.trials.book import Trial
+from pluto_fleet.trials.case import FAIR, Case, Weather
+from pluto_fleet.trials.rig import tried
 from tests.testing.examples import example, fleet_of, missions_of
 
 APP = example("alfalfa")
@@ -42,7 +42,7 @@ def test_after_these_the_app_lives_again(kind: Kind) -> None:
 
 @pytest.mark.parametrize("kind", [*BY_HAND, Kind.REBOOT, Kind.FALL])
 def test_these_the_app_outlives(kind: Kind) -> None:
-    """Nobody need start it again."""
+    """It need not be started again."""
     assert struck(kind).lives == 1
 
 

@@ -9,13 +9,13 @@ import pytest
 
 from pluto_fleet.files.drones import DroneEntry
 from pluto_fleet.files.fleet import FleetFile, default_fleet
-from pluto_fleet.testing.blows import Blow, Kind
-from pluto_fleet.testing.case import Case, Weather
-from pluto_fleet.testing.rig import tried
-from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.app import App
-from plutoc_runtime.context import Context
-from plutoc_runtime.model import AfterTrip, Item, Mission, Point
+from pluto_fleet.trials.blows import Blow, Kind
+from pluto_fleet.trials.case import Case, Weather
+from pluto_fleet.trials.rig import tried
+from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.domain.app import App
+from plutoc_runtime.domain.model import AfterTrip, Item, Mission, Point
+from plutoc_runtime.hooks.context import Context
 from tests.testing.examples import app_of
 
 CARRIER = app_of("""

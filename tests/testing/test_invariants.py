@@ -7,13 +7,13 @@ from functools import partial
 
 import pytest
 
-from pluto_fleet.testing.delay_rule import DelaysAreWaited
-from pluto_fleet.testing.drone_rules import ItemsStayAboard, ServesOneMission, StaysDown
-from pluto_fleet.testing.invariants import RULES, Invariants, violations
-from pluto_fleet.testing.mission_rules import CompletedDidEverything, EndsOnce, NothingAfterTheEnd
-from pluto_fleet.testing.rule import Rule, Say
-from pluto_fleet.testing.trip_rules import AttemptsCountUp, LimitsAreKept, TripsDoNotOverlap
-from plutoc_runtime.trace import Event
+from pluto_fleet.trials.delay_rule import DelaysAreWaited
+from pluto_fleet.trials.drone_rules import ItemsStayAboard, ServesOneMission, StaysDown
+from pluto_fleet.trials.invariants import RULES, Invariants, violations
+from pluto_fleet.trials.mission_rules import CompletedDidEverything, EndsOnce, NothingAfterTheEnd
+from pluto_fleet.trials.rule import Rule, Say
+from pluto_fleet.trials.trip_rules import AttemptsCountUp, LimitsAreKept, TripsDoNotOverlap
+from plutoc_runtime.domain.trace import Event
 
 Trace = Sequence[Event]
 Change = Callable[[list[dict[str, object]]], None]

@@ -9,11 +9,11 @@ from itertools import chain
 import pytest
 
 from pluto_fleet.files.fleet import FleetFile
-from pluto_fleet.testing.case import FAIR, Case
-from pluto_fleet.testing.drawing import drawn_missions
-from pluto_fleet.testing.explore import drawn_case, everywhere
-from pluto_fleet.testing.rig import tried
-from plutoc_runtime.app import App
+from pluto_fleet.trials.case import FAIR, Case
+from pluto_fleet.trials.drawing import drawn_missions
+from pluto_fleet.trials.explore import drawn_case, everywhere
+from pluto_fleet.trials.rig import tried
+from plutoc_runtime.domain.app import App
 from tests.testing.examples import example, fleet_of
 from tests.testing.mutants import MUTANTS
 
@@ -46,7 +46,7 @@ def test_every_mutant_is_found(name: str, monkeypatch: pytest.MonkeyPatch) -> No
         said.update(dict.fromkeys(sentences[:1]))
         if any(re.search(mutant.says, sentence) for sentence in sentences):
             return
-    pytest.fail(f"nobody found that {name}; what was said: {list(said)}")
+    pytest.fail(f"it was not found that {name}; what was said: {list(said)}")
 
 
 def test_there_are_twelve_at_least() -> None:

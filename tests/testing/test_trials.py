@@ -13,14 +13,14 @@ from hypothesis import strategies as st
 from pluto_fleet.files.fleet import default_fleet, load_fleet
 from pluto_fleet.files.fleet_text import fleet_text
 from pluto_fleet.files.missions import load_missions
-from pluto_fleet.testing import explore
-from pluto_fleet.testing.blows import Blow, Kind, blows_of, blows_text
-from pluto_fleet.testing.case import FAIR, Case, Weather, weather_of, weather_text
-from pluto_fleet.testing.drawing import drawn_missions
-from pluto_fleet.testing.explore import Tally, drawn_case, explored, small_case
-from pluto_fleet.testing.plan_text import missions_text
-from pluto_fleet.testing.rig import Rig, tried
-from pluto_fleet.testing.shrink import shrunk
+from pluto_fleet.trials import explore
+from pluto_fleet.trials.blows import Blow, Kind, blows_of, blows_text
+from pluto_fleet.trials.case import FAIR, Case, Weather, weather_of, weather_text
+from pluto_fleet.trials.drawing import drawn_missions
+from pluto_fleet.trials.explore import Tally, drawn_case, explored, small_case
+from pluto_fleet.trials.plan_text import missions_text
+from pluto_fleet.trials.rig import Rig, tried
+from pluto_fleet.trials.shrink import shrunk
 from tests.testing.examples import WAITING, app_of, example, fleet_of
 
 APP = example("drugs_distribution_retry")
@@ -95,7 +95,7 @@ def test_drawn_missions_are_what_a_person_could_write(seed: int, tmp_path: Path)
 
 @pytest.mark.parametrize("seed", range(20))
 def test_the_same_case_is_the_same_trial(seed: int) -> None:
-    """Event by event, whatever strikes it."""
+    """Event by event, under all that strikes it."""
     one, two = (tried(APP, drawn_case(APP, FLEET, seed)) for _ in range(2))
     assert one == two
 

@@ -49,7 +49,7 @@ from plutoc.plan.model import (
 )
 from plutoc.plan.rewrite import rewritten
 
-COPIES = 3
+MOST_CALLS = 3
 """How many more calls there may be."""
 
 _JUMPS: tuple[type[Step], ...] = (End, Goto, Break, Continue)
@@ -73,7 +73,11 @@ def _straightened(step: Step, checked: Checked) -> Body:
     onward = _changed(tuple(behind), Continue, round_again)
     if falls(onward):
         onward += round_again
-    if not ways or (behind and ways > 1) or ways * _count(onward, Continue) * len(first) > COPIES:
+    if (
+        not ways
+        or (behind and ways > 1)
+        or ways * _count(onward, Continue) * len(first) > MOST_CALLS
+    ):
         return (step,)
     body = _changed(loop.body, Break, onward)
     settled = _settled((*body, Continue()) if falls(body) else body, checked)

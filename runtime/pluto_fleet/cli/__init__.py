@@ -8,14 +8,14 @@ from errno import ENAMETOOLONG
 from functools import partial
 
 from plutoc_runtime import output
-from plutoc_runtime.errors import BadInput
+from plutoc_runtime.domain.errors import BadInput
 
 TYPE_CHECKING = False  # `typing` itself is slow to import, and plutoc's `--version` does without
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
     from typing import NoReturn
 
-    from plutoc_runtime.app import App
+    from plutoc_runtime.domain.app import App
 
 BAD_INPUT, INTERNAL, INTERRUPTED, CLOSED_PIPE = 2, 70, 130, 141
 
@@ -36,11 +36,11 @@ def start(name: str, load: Callable[[], App]) -> int:
     app: App | None = None
     ending = Ending(name)
     with ending:
-        from plutoc_runtime.hooks import loaded
+        from plutoc_runtime.hooks.calls import loaded
 
-        from ..forked import end_if_forked
-        from ..hard_exit import refused
-        from ..raised import guard_hooks, interrupted_by_a_person
+        from ..process.forked import end_if_forked
+        from ..process.hard_exit import refused
+        from ..process.signal_guard import guard_hooks, interrupted_by_a_person
 
         guard_hooks()
         parent = os.getpid()
@@ -64,8 +64,8 @@ def start(name: str, load: Callable[[], App]) -> int:
 
 def _bare(name: str) -> App:
     """Return an app of which nothing but the name is known, for commands that need no more."""
-    from plutoc_runtime.app import App
-    from plutoc_runtime.model import Mission, Trip
+    from plutoc_runtime.domain.app import App
+    from plutoc_runtime.domain.model import Mission, Trip
 
     def flow(_: object) -> NoReturn:
         raise RuntimeError("nothing flies here")
@@ -84,8 +84,8 @@ def _bare(name: str) -> App:
 
 def _heard(app: App) -> int:
     """Run the program's command; hooks neither interrupt it for a person nor end it as if it were over."""
-    from ..hard_exit import instead_of, refused
-    from ..raised import interrupted_by_a_person
+    from ..process.hard_exit import instead_of, refused
+    from ..process.signal_guard import interrupted_by_a_person
 
     command = sys.argv[1:2]
     if command == ["simulate"]:
@@ -101,7 +101,7 @@ def _heard(app: App) -> int:
 
 def _ended_by_hooks(name: str, status: int) -> NoReturn:
     """End as after a crash: drones may fly, and `--supervise` starts the app again."""
-    from ..hard_exit import leave
+    from ..process.hard_exit import leave
 
     output.tell(f"{name}: something in the app's own code ends it by os._exit({status})")
     leave(INTERNAL)
@@ -130,7 +130,7 @@ class Ending:
     def __exit__(self, kind: object, error: BaseException | None, trace: object) -> bool:
         name = self._name
         if error is not None:
-            from plutoc_runtime.words import printable
+            from plutoc_runtime.domain.text import printable
         match error:
             case None:
                 return True

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from plutoc_runtime import output
-from plutoc_runtime.words import printable
+from plutoc_runtime.domain.text import printable
 
 if TYPE_CHECKING:
     from .options import Options

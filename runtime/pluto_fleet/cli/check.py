@@ -5,14 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from plutoc_runtime import output
-from plutoc_runtime.words import counted
+from plutoc_runtime.domain.text import counted
 
-from ..files.real import too_fast
-from ..plan_check import idle_actions
+from ..files.fleet import too_fast
+from ..files.plan_check import idle_actions
 from .plans import load
 
 if TYPE_CHECKING:
-    from plutoc_runtime.app import App
+    from plutoc_runtime.domain.app import App
 
     from .options import Options
 

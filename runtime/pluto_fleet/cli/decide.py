@@ -8,16 +8,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from plutoc_runtime import output
-from plutoc_runtime.errors import BadInput
-from plutoc_runtime.words import in_shell, printable, quoted
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.text import in_shell, printable, quoted
 
-from ..asking import Nobody
 from ..journal.store import Store
+from ..process.ipc import NotRunning
 from .flown import ANSWERS, records_in, waiting, waiting_lines
 from .tell import asked as asked_of_app
 
 if TYPE_CHECKING:
-    from plutoc_runtime.app import App
+    from plutoc_runtime.domain.app import App
 
     from ..journal.fold import Records
     from .options import Options
@@ -45,7 +45,7 @@ def decide(app: App, options: Options) -> int:
     try:
         request = {"command": "decide", "mission": mission, "answer": answer}
         output.line(asked_of_app(app, options, request))
-    except Nobody:
+    except NotRunning:
         _put_down(journal, mission, answer, records.time)
         output.line(
             f"mission {quoted(mission)}: {answer}; it is on record, and "

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.words import percent, place
+from plutoc_runtime.domain.text import percent, place
 
 from .drone_answers import heard
 from .report import table
 
 if TYPE_CHECKING:
-    from ..drones.telemetry import DroneTelemetry
+    from ..drones.protocol import DroneTelemetry
     from .drone_answers import Answer
 
 ONLY_IN_JSON = ("protocol",)

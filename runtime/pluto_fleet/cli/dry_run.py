@@ -13,15 +13,15 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 from plutoc_runtime import output
-from plutoc_runtime.energy import CLIMB_SPEED
-from plutoc_runtime.errors import BadInput
-from plutoc_runtime.faults import Faults
-from plutoc_runtime.words import counted, number
+from plutoc_runtime.alone.faults import Faults
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.text import counted, number
+from plutoc_runtime.fleet.energy import CLIMB_SPEED
 
-from ..drones.member import CLIMB_LIMIT
 from ..drones.protocol import Acts
 from ..drones.real_fleet import SLACK, real_fleet
-from ..simulate import simulate
+from ..drones.vehicle import CLIMB_LIMIT
+from ..flight.simulate import simulate
 from .events import line_of
 from .given import Given
 from .plans import load
@@ -32,14 +32,14 @@ from .verdict import exit_code
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from plutoc_runtime.app import App
-    from plutoc_runtime.kernel import Kernel
-    from plutoc_runtime.model import Point
-    from plutoc_runtime.session import Outcome
+    from plutoc_runtime.domain.app import App
+    from plutoc_runtime.domain.model import Point
+    from plutoc_runtime.flow.session import Outcome
+    from plutoc_runtime.time.kernel import Kernel
 
-    from ..controls import Controls
-    from ..drones.real_fleet import Wanted
+    from ..drones.real_fleet import RequiredAction
     from ..files.drones import DroneEntry
+    from ..jobs.controls import Controls
     from .given import Command
     from .options import Options
     from .plans import Plan
@@ -100,7 +100,7 @@ def _refused(app: App, options: Options, plan: Plan) -> Iterator[str]:
             yield f"{drone.id} would not be flown: {reason}"
 
 
-def _unfit(plan: Plan, drone: DroneEntry, wanted: Sequence[Wanted]) -> Iterator[str]:
+def _unfit(plan: Plan, drone: DroneEntry, wanted: Sequence[RequiredAction]) -> Iterator[str]:
     """Yield what a drone's navigation says it cannot do, before there is any drone."""
     with TemporaryDirectory() as folder:
         navigation = made(plan.app, plan.fleet, drone, Path(folder))

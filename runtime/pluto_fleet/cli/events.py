@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.words import printable
+from plutoc_runtime.domain.text import printable
 
 if TYPE_CHECKING:
-    from plutoc_runtime.trace import Event
+    from plutoc_runtime.domain.trace import Event
 
 
 def line_of(event: Event) -> str | None:

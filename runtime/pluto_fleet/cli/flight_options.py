@@ -8,7 +8,7 @@ from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.words import quoted
+from plutoc_runtime.domain.text import quoted
 
 ACTIONS = (
     "stop",

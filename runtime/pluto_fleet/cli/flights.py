@@ -12,18 +12,17 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime import output
-from plutoc_runtime.errors import BadInput
-from plutoc_runtime.words import in_shell, place
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.text import in_shell, place
 
-from .. import again
-from ..asking import note_of
 from ..drones.real_fleet import real_fleet
-from ..fly import Recovered, live
+from ..flight.config import End, Lived, Setting, Stops
+from ..flight.fly import Recovered, live
 from ..gateway.settings import settings_for
 from ..gateway.starting import connect
-from ..journal.place import gateway_folder
+from ..journal.place import commands_note, gateway_folder
 from ..journal.store import Store
-from ..setting import End, Lived, Setting, Stops
+from ..process import respawn as again
 from . import leaving, stop_mark
 from .events import line_of
 from .flown import finished, has_ended, records_in, report_of, waiting_lines
@@ -31,15 +30,15 @@ from .interrupts import Interrupts
 from .supervise import STOPS, Supervised, supervise
 
 if TYPE_CHECKING:
-    from plutoc_runtime.app import App
-    from plutoc_runtime.faults import Faults
-    from plutoc_runtime.model import Drone, Mission
-    from plutoc_runtime.trace import Event
+    from plutoc_runtime.alone.faults import Faults
+    from plutoc_runtime.domain.app import App
+    from plutoc_runtime.domain.model import Drone, Mission
+    from plutoc_runtime.domain.trace import Event
 
     from ..drones.real_fleet import RealFleet
     from ..files.fleet import FleetFile
+    from ..flight.live_flight import OneLife
     from ..journal.fold import Records
-    from ..one_life import OneLife
     from .options import Options
 
 STOPPED = 130
@@ -159,7 +158,7 @@ async def lives(
         missions=flight.missions,
         fleet=flight.fleet,
         connect=lambda kernel, epoch, lost: connect(folder, settings, kernel, epoch, lost),
-        note=note_of(flight.journal),
+        note=commands_note(flight.journal),
         tell=watcher.tell,
         speed=flight.speed,
         sim=flight.sim,
@@ -194,8 +193,8 @@ async def _real(flight: Flight, folder: Path, known: Recovered | None) -> RealFl
     real = real_fleet(flight.fleet, flight.missions, records=records)
     if not flight.crtp:
         return real
+    from ..crtp.equipment import fitted
     from ..crtp.process import start, told  # few want them
-    from ..crtp.stand_in import fitted
 
     homes = {drone.id: drone.home for drone in flight.fleet.drones}
     uris = await asyncio.to_thread(start, folder, homes)

@@ -9,8 +9,8 @@ from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.status import Status
-from plutoc_runtime.words import in_shell, printable
+from plutoc_runtime.domain.status import Status
+from plutoc_runtime.domain.text import in_shell, printable
 
 from ..journal.errors import Damaged
 from ..journal.fold import Record, Records
@@ -20,8 +20,8 @@ from .report import MissionRow, drone_table, in_one_line, mission_table
 from .verdict import code_of
 
 if TYPE_CHECKING:
-    from plutoc_runtime.app import App
-    from plutoc_runtime.model import Drone
+    from plutoc_runtime.domain.app import App
+    from plutoc_runtime.domain.model import Drone
 
 ANSWERS = {"question": ("done", "not-done", "cancel"), "held": ("go-on", "cancel")}
 """What can be said to a mission that waits for this."""

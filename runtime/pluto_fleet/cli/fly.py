@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from plutoc_runtime import output
-from plutoc_runtime.errors import BadInput
-from plutoc_runtime.faults import Faults
-from plutoc_runtime.words import printable
+from plutoc_runtime.alone.faults import Faults
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.text import printable
 
 from ..journal import place
 from ..journal.errors import exists
@@ -22,7 +22,7 @@ from .plans import load
 from .real import check_real
 
 if TYPE_CHECKING:
-    from plutoc_runtime.app import App
+    from plutoc_runtime.domain.app import App
 
     from .options import Options
 

@@ -17,13 +17,13 @@ from types import FrameType
 from typing import Protocol
 
 from plutoc_runtime import output
-from plutoc_runtime.errors import BadInput
+from plutoc_runtime.domain.errors import BadInput
 
-from ..forked import in_children
 from ..gateway.starting import stop_directly
-from ..hard_exit import leave
+from ..jobs.reports import Down
 from ..journal.place import gateway_folder
-from ..standing import Down
+from ..process.forked import in_children
+from ..process.hard_exit import leave
 from . import stop_mark
 
 AT_ONCE = 1.0

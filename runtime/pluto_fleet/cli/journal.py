@@ -11,7 +11,7 @@ from contextlib import closing, suppress
 from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime import output
-from plutoc_runtime.words import counted
+from plutoc_runtime.domain.text import counted
 
 from ..journal import place
 from ..journal.mending import mend
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
-    from plutoc_runtime.app import App
+    from plutoc_runtime.domain.app import App
 
     from ..journal.reading import Row
     from .options import Options

@@ -7,17 +7,17 @@ from collections.abc import Mapping, Sequence
 from contextlib import closing
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.words import printable
+from plutoc_runtime.domain.text import printable
 
-from ..fly import recovered
+from ..flight.fly import recovered
 from ..journal.header import check
 from ..journal.store import Store
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from plutoc_runtime.app import App
-    from plutoc_runtime.model import Point
+    from plutoc_runtime.domain.app import App
+    from plutoc_runtime.domain.model import Point
 
     from ..journal.fold import Records
 

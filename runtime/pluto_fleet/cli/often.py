@@ -6,19 +6,26 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from plutoc_runtime import output
-from plutoc_runtime.session import outcome_data
-from plutoc_runtime.trace import dumped
-from plutoc_runtime.words import counted, duration, in_shell, number, percent, printable
+from plutoc_runtime.domain.text import (
+    counted,
+    duration,
+    in_shell,
+    number,
+    percent,
+    printable,
+)
+from plutoc_runtime.domain.trace import dumped
+from plutoc_runtime.flow.session import outcome_data
 
-from ..testing.invariants import items_of
+from ..trials.invariants import items_of
 from .plot import drawing, kind_of, plot
 from .report import last_line, table
 from .summary import ENOUGH, Run, run_of, spread, summary
 from .verdict import exit_code
 
 if TYPE_CHECKING:
-    from plutoc_runtime.app import App
-    from plutoc_runtime.session import Outcome
+    from plutoc_runtime.domain.app import App
+    from plutoc_runtime.flow.session import Outcome
 
     from .options import Options
     from .plans import Plan

@@ -9,17 +9,17 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from plutoc_runtime import output
-from plutoc_runtime.errors import BadInput
-from plutoc_runtime.faults import FAULTS, shares
-from plutoc_runtime.quantities import time_from, typed
-from plutoc_runtime.words import quoted
+from plutoc_runtime.alone.faults import FAULTS, shares
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.quantities import time_from, typed
+from plutoc_runtime.domain.text import quoted
 
 from .drone_options import add_drones, add_dry_run
 from .flight_options import add_flights, how_it_flies
 from .station_options import add_station
 
 if TYPE_CHECKING:
-    from plutoc_runtime.app import App
+    from plutoc_runtime.domain.app import App
 
 
 @dataclass

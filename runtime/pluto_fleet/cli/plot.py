@@ -8,8 +8,8 @@ from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.errors import BadInput
-from plutoc_runtime.words import percent
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.text import percent
 
 if TYPE_CHECKING:
     from .summary import Run

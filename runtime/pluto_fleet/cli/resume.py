@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from plutoc_runtime import output
-from plutoc_runtime.errors import BadInput
-from plutoc_runtime.words import printable
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.text import printable
 
 from ..journal import place
 from ..journal.header import fingerprint
@@ -16,7 +16,7 @@ from .real import check_real
 from .taken_up import TakenUp, take_up
 
 if TYPE_CHECKING:
-    from plutoc_runtime.app import App
+    from plutoc_runtime.domain.app import App
 
     from .options import Options
 

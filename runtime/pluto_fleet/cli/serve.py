@@ -12,14 +12,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from plutoc_runtime import output
-from plutoc_runtime.errors import BadInput
+from plutoc_runtime.domain.errors import BadInput
 
-from .. import again
+from ..files.fleet import as_flown
 from ..files.reading import text_of
-from ..files.real import as_flown
-from ..forked import not_for_children
+from ..jobs.reports import Down
 from ..journal import place
-from ..standing import Down
+from ..process import respawn as again
+from ..process.forked import not_for_children
 from ..station.phase import Phase
 from ..station.plan.plan import Plan
 from ..station.settings import Settings
@@ -40,7 +40,7 @@ from .real import check_real
 from .supervise import Supervised, supervise
 
 if TYPE_CHECKING:
-    from plutoc_runtime.app import App
+    from plutoc_runtime.domain.app import App
 
     from .options import Options
 

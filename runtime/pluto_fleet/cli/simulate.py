@@ -7,14 +7,14 @@ from copy import deepcopy
 from typing import TYPE_CHECKING
 
 from plutoc_runtime import output
-from plutoc_runtime.errors import BadInput
-from plutoc_runtime.faults import Faults
-from plutoc_runtime.session import Outcome, outcome_data
-from plutoc_runtime.trace import Event, dumped
-from plutoc_runtime.words import duration
+from plutoc_runtime.alone.faults import Faults
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.text import duration
+from plutoc_runtime.domain.trace import Event, dumped
+from plutoc_runtime.flow.session import Outcome, outcome_data
 
-from ..raised import Interrupted
-from ..simulate import simulate as simulated
+from ..flight.simulate import simulate as simulated
+from ..process.signal_guard import Interrupted
 from .events import line_of
 from .plans import Plan, load
 from .progress import Progress, on_terminal
@@ -23,7 +23,7 @@ from .trace_file import trace_file
 from .verdict import exit_code
 
 if TYPE_CHECKING:
-    from plutoc_runtime.app import App
+    from plutoc_runtime.domain.app import App
 
     from .options import Options
 

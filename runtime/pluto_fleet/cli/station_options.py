@@ -5,7 +5,7 @@ from __future__ import annotations
 from argparse import SUPPRESS, ArgumentParser, ArgumentTypeError
 from pathlib import Path
 
-from plutoc_runtime.words import quoted
+from plutoc_runtime.domain.text import quoted
 
 HOST, PORT = "127.0.0.1", 8765
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from contextlib import suppress
 from pathlib import Path
 
+from ..jobs.reports import Down
 from ..journal.place import gateway_folder
-from ..standing import Down
 
 
 def leave(journal: Path, how: Down) -> None:

@@ -8,16 +8,16 @@ from math import ceil, floor
 from statistics import mean, median
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.session import trips_data
-from plutoc_runtime.status import COMPLETED
+from plutoc_runtime.domain.status import COMPLETED
+from plutoc_runtime.flow.session import trips_data
 
-from ..testing.invariants import ENDS, Invariants
+from ..trials.invariants import ENDS, Invariants
 from .verdict import exit_code
 
 if TYPE_CHECKING:
-    from plutoc_runtime.session import Outcome
+    from plutoc_runtime.flow.session import Outcome
 
-    from ..testing.invariants import Items
+    from ..trials.invariants import Items
 
 MOST_SEEDS = 20
 ENOUGH = 20

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.faults import Faults
+from plutoc_runtime.alone.faults import Faults
 
-from ..files.real import as_flown
-from ..fly import Recovered, recovered
+from ..files.fleet import as_flown
+from ..flight.fly import Recovered, recovered
 from ..gateway.process import NOTE
 from ..gateway.starting import speed_in
 from ..journal.header import Header, check
@@ -21,8 +21,8 @@ from .flown import all_over
 from .plans import fleet_in, missions_in
 
 if TYPE_CHECKING:
-    from plutoc_runtime.app import App
-    from plutoc_runtime.model import Mission
+    from plutoc_runtime.domain.app import App
+    from plutoc_runtime.domain.model import Mission
 
     from ..files.fleet import FleetFile
 

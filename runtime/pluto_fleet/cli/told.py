@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from plutoc_runtime.words import duration, printable
+from plutoc_runtime.domain.text import duration, printable
 
 from .events import line_of
 

@@ -8,12 +8,12 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.errors import BadInput
+from plutoc_runtime.domain.errors import BadInput
 
-from ..journal_line import line
+from ..journal.event_line import line
 
 if TYPE_CHECKING:
-    from plutoc_runtime.trace import Event
+    from plutoc_runtime.domain.trace import Event
 
 
 @contextmanager

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.status import Status
 
 if TYPE_CHECKING:
-    from plutoc_runtime.session import Outcome
+    from plutoc_runtime.flow.session import Outcome
 
 _NEEDS_A_PERSON = (Status.UNCERTAIN, Status.HELD)
 _BAD = (Status.FAILED, Status.CANCELLED)

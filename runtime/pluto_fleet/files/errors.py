@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from datetime import date, datetime, time
 
-from plutoc_runtime.words import number, quoted
+from plutoc_runtime.domain.text import number, quoted
 
 
 def shown(value: object) -> str:

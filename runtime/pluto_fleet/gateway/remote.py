@@ -9,20 +9,20 @@ from contextlib import suppress
 from math import inf
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.errors import BadInput
-from plutoc_runtime.signals import Signal
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.time.future import Future
 
-from .wire import Message, job_data, line, message_in, result_of, roll_of, standing_of
+from ..process.ipc import Message, line, message_in
+from .wire import job_data, result_of, roll_of, standing_of
 
 if TYPE_CHECKING:
     from asyncio import StreamReader, StreamWriter
 
-    from plutoc_runtime.kernel import Kernel
-    from plutoc_runtime.model import Point, Telemetry
+    from plutoc_runtime.domain.model import Point, Telemetry
+    from plutoc_runtime.time.kernel import Kernel
 
-    from ..navigation import Job
-    from ..standing import Down, RollCall, Standing
-    from .given import Report
+    from ..jobs.job import Job, Report
+    from ..jobs.reports import Down, DroneReport, FleetReport
 
 SILENCE = 5.0
 """Seconds on the wall without a word from the gateway after which it is lost."""
@@ -72,7 +72,7 @@ class RemoteLink:
         """Who hears how a job ends, by the number of whatever asked for that."""
         self._asks: dict[str, int] = {}
         """The number under which each job was asked for last: no other is heard."""
-        self._asked: dict[int, Signal[Any]] = {}
+        self._asked: dict[int, Future[Any]] = {}
         self._count = 0
         self._is_lost = False
         self._heard = 0.0
@@ -178,7 +178,7 @@ class RemoteLink:
     async def _ask(self, **message: Any) -> Any:
         """Ask for what takes its time; whoever cancels this calls it off over there, too."""
         number = self._number()
-        answer: Signal[Any] = Signal()
+        answer: Future[Any] = Future()
         self._asked[number] = answer
         self._say({"n": number, **message})
         try:
@@ -236,13 +236,13 @@ class RemoteLink:
         """Bring a drone home after a failed flight."""
         return bool(await self._ask(do="recover", drone=drone))
 
-    async def roll_call(self, drone: str) -> Standing:
+    async def roll_call(self, drone: str) -> DroneReport:
         """Ask a drone where it is and what it has done."""
         return standing_of(await self._ask(do="roll_call", drone=drone))
 
     # What only a gateway does
 
-    async def call(self) -> RollCall:
+    async def call(self) -> FleetReport:
         """Ask all drones and the ledger how everything stands."""
         return roll_of(await self._ask(do="call"))
 

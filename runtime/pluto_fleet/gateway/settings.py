@@ -6,16 +6,16 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.faults import Faults
-from plutoc_runtime.model import Category
-from plutoc_runtime.world import Feature, Source, WorldData
+from plutoc_runtime.alone.faults import Faults
+from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.domain.fleet_data import Feature, Source, WorldData
+from plutoc_runtime.domain.model import Category
 
 from ..drones.real_fleet import RealFleet, real_data, real_of
 from ..simulation.body import SimulatedDrone
 
 if TYPE_CHECKING:
-    from plutoc_runtime.app import App
+    from plutoc_runtime.domain.app import App
 
     from ..files.fleet import FleetFile
 

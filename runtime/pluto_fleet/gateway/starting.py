@@ -13,20 +13,19 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.errors import BadInput
+from plutoc_runtime.domain.errors import BadInput
 
-from .. import again
-from ..asking import ask
-from ..forked import not_for_children
-from ..private import address_in
-from ..standing import Down
+from ..jobs.reports import Down
+from ..process import respawn as again
+from ..process.ipc import ask
+from ..process.ipc import connect as open_connection
 from .process import ANOTHER_RUNS, LOCK, LOG, NO_ROOM, NOTE, SETTINGS
 from .remote import SILENCE, RemoteLink
 from .settings import Settings, data_of
-from .wire import LONGEST_HEARD
+from .wire import MAX_REPORT
 
 if TYPE_CHECKING:
-    from plutoc_runtime.kernel import Kernel
+    from plutoc_runtime.time.kernel import Kernel
 
 _WITHIN, _EACH = 10.0, 0.01
 """Seconds that a gateway may take to begin, and between two looks."""
@@ -87,11 +86,7 @@ async def _linked(
     lost: Callable[[], object] | None,
 ) -> RemoteLink:
     """Link to the gateway that runs; OSError: none does; TimeoutError: it does not answer."""
-    address = address_in(folder / NOTE)
-    if address is None:
-        raise FileNotFoundError(folder / NOTE)
-    reader, writer = await asyncio.open_unix_connection(address, limit=LONGEST_HEARD)
-    not_for_children(writer.get_extra_info("socket").fileno())
+    reader, writer = await open_connection(folder / NOTE, MAX_REPORT)
     link = RemoteLink(kernel, reader, writer, lost)
     try:
         async with asyncio.timeout(SILENCE):

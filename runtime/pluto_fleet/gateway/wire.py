@@ -2,48 +2,32 @@
 
 from __future__ import annotations
 
-import json
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import isinf
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from plutoc_runtime.errors import Failure, FlightFailed
+from plutoc_runtime.domain.errors import Failure, FlightFailed
 
+from ..jobs.reports import DroneReport, Entry, FleetReport, JobState
 from ..journal.values import item_data, item_of, point_of, value_data, value_of
-from ..standing import Entry, JobState, RollCall, Standing
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from plutoc_runtime.actions import Plain
-    from plutoc_runtime.model import Item, Point, Telemetry
+    from plutoc_runtime.domain.actions import Plain
+    from plutoc_runtime.domain.model import Item, Point, Telemetry
 
-    from ..navigation import Job
+    from ..jobs.job import Job
+    from ..process.ipc import Message
 
 SILENT = 2.0
 """Seconds without a word after which a drone's place is no longer news."""
-LONGEST_TOLD = 256 * 1024
+MAX_COMMAND = 256 * 1024
 """Bytes of a line that the gateway reads."""
-LONGEST_HEARD = 256 * 1024 * 1024
-"""Bytes of a line that the brain reads: a roll call has all jobs of a large plan."""
-
-Message = Mapping[str, Any]
-
-
-def line(message: Message) -> bytes:
-    """Write a message."""
-    return json.dumps(message).encode() + b"\n"
-
-
-def message_in(told: bytes) -> Message | None:
-    """Read a message; None: it is none."""
-    try:
-        message = json.loads(told)
-    except (ValueError, RecursionError):
-        return None
-    return message if isinstance(message, dict) else None
+MAX_REPORT = 256 * 1024 * 1024
+"""Bytes of a line that the brain reads: a fleet's report has all jobs of a large plan."""
 
 
 @dataclass(slots=True, kw_only=True)
@@ -105,7 +89,7 @@ def result_of(data: Message) -> object:
     return value_of(data["value"])
 
 
-def seen(telemetry: Telemetry) -> tuple[object, ...]:
+def seen(drone: str, telemetry: Telemetry) -> tuple[object, ...]:
     """Return what is known of a drone, in short.
 
     Last comes since when it is silent, in seconds since 1970: None where it is not, 0 where it was
@@ -117,7 +101,7 @@ def seen(telemetry: Telemetry) -> tuple[object, ...]:
     return *telemetry.location, telemetry.battery_level, telemetry.landed, since
 
 
-def standing_data(standing: Standing) -> dict[str, object]:
+def standing_data(standing: DroneReport) -> dict[str, object]:
     """Return a drone's answer as plain data."""
     done = standing.done
     return {
@@ -133,15 +117,15 @@ def standing_data(standing: Standing) -> dict[str, object]:
     }
 
 
-def standing_of(data: Message) -> Standing:
+def standing_of(data: Message) -> DroneReport:
     """Return a drone's answer."""
     done = data["done"]
     values = None if done is None else {id: value_of(value) for id, value in done.items()}
     known = {"location": point_of(data["location"]), "problems": tuple(data["problems"])}
-    return Standing(**{**data, **known, "done": values})
+    return DroneReport(**{**data, **known, "done": values})
 
 
-def roll_data(roll: RollCall) -> dict[str, object]:
+def roll_data(roll: FleetReport) -> dict[str, object]:
     """Return a roll call as plain data."""
     return {
         "drones": [standing_data(standing) for standing in roll.drones.values()],
@@ -161,14 +145,14 @@ def roll_data(roll: RollCall) -> dict[str, object]:
     }
 
 
-def roll_of(data: Message) -> RollCall:
+def roll_of(data: Message) -> FleetReport:
     """Return a roll call."""
     standings = map(standing_of, data["drones"])
     entries = [
         Entry(**{**job, "state": JobState(job["state"]), "value": value_of(job["value"])})
         for job in data["jobs"]
     ]
-    return RollCall(
+    return FleetReport(
         drones={standing.drone: standing for standing in standings},
         jobs={entry.id: entry for entry in entries},
     )

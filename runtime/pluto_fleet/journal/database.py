@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
 
-from plutoc_runtime.trace import Event
+from plutoc_runtime.domain.trace import Event
 
 from . import errors, wal
 from .errors import TROUBLE

@@ -6,8 +6,8 @@ import sqlite3
 from errno import EDQUOT, EFBIG, ENOSPC
 from pathlib import Path
 
-from plutoc_runtime.errors import BadInput
-from plutoc_runtime.words import counted
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.text import counted
 
 TROUBLE = (sqlite3.Error, UnicodeDecodeError)
 """What the database raises; the second where it quotes what is damaged."""

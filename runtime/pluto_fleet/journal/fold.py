@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from plutoc_runtime.actions import PICK, RELEASE
+from plutoc_runtime.domain.actions import PICK, RELEASE
 
 Record = dict[str, Any]
 """One mission. Its trips are as in `values.trip_data`."""

@@ -14,7 +14,7 @@ from . import errors
 from .errors import JournalError
 
 if TYPE_CHECKING:
-    from plutoc_runtime.app import App
+    from plutoc_runtime.domain.app import App
 
 Header = Mapping[str, Any]
 

@@ -8,7 +8,7 @@ import time
 from contextlib import suppress
 from pathlib import Path
 
-from ..forked import not_for_children
+from ..process.forked import not_for_children
 from . import errors
 from .place import beside
 

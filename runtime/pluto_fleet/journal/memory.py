@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Generator, Sequence
 from itertools import islice
 
-from plutoc_runtime.trace import Event
+from plutoc_runtime.domain.trace import Event
 
 from . import errors
 from .errors import JournalError

@@ -12,20 +12,20 @@ from collections import deque
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Protocol
 
-from plutoc_runtime.changes import change_data, fields_of, trip_data
-from plutoc_runtime.fields import Entity
-from plutoc_runtime.signals import Signal
+from plutoc_runtime.domain.fields import Entity
+from plutoc_runtime.domain.mission_data import change_data, fields_of, trip_data
+from plutoc_runtime.time.future import Future
 
-from ..journal_line import exact
+from .event_line import exact
 from .fold import Record, Records
 from .values import mission_data, value_data
 
 if TYPE_CHECKING:
-    from plutoc_runtime.app import App
-    from plutoc_runtime.kernel import Kernel
-    from plutoc_runtime.model import Mission
-    from plutoc_runtime.results import ResultStore
-    from plutoc_runtime.trace import Event, Trace
+    from plutoc_runtime.domain.app import App
+    from plutoc_runtime.domain.model import Mission
+    from plutoc_runtime.domain.results import ResultStore
+    from plutoc_runtime.domain.trace import Event, Trace
+    from plutoc_runtime.time.kernel import Kernel
 
 Facts = dict[str, Any]
 
@@ -75,7 +75,7 @@ class Recorder:
 
     async def on_record(self) -> None:
         """Wait until all that has happened up to now is durable."""
-        durable: Signal[None] = Signal()
+        durable: Future[None] = Future()
         self.when_durable(lambda: durable.set(None))
         await durable
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from .fold import Records
 
 if TYPE_CHECKING:
-    from plutoc_runtime.trace import Event
+    from plutoc_runtime.domain.trace import Event
 
     from .reading import Read
 

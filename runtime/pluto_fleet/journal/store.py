@@ -11,7 +11,7 @@ from contextlib import closing, suppress
 from functools import cache
 from pathlib import Path
 
-from plutoc_runtime.trace import Event
+from plutoc_runtime.domain.trace import Event
 
 from . import errors
 from .database import connect, found, look_at, sync_folder

@@ -6,16 +6,16 @@ from collections.abc import Mapping, Sequence
 from math import isfinite
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.changes import MOST_BITS, Data, fields_of, trip_data
-from plutoc_runtime.fields import Entity
-from plutoc_runtime.model import NOTHING, Item, Photo
-from plutoc_runtime.plain import are_named, keepable
-from plutoc_runtime.status import TripStatus
-from plutoc_runtime.words import shown
+from plutoc_runtime.domain.fields import Entity
+from plutoc_runtime.domain.mission_data import MOST_BITS, Data, fields_of, trip_data
+from plutoc_runtime.domain.model import NOTHING, Item, Photo
+from plutoc_runtime.domain.status import TripStatus
+from plutoc_runtime.domain.text import shown
+from plutoc_runtime.hooks.keepable import are_named, keepable
 
 if TYPE_CHECKING:
-    from plutoc_runtime.app import App
-    from plutoc_runtime.model import Mission, Point, Trip
+    from plutoc_runtime.domain.app import App
+    from plutoc_runtime.domain.model import Mission, Point, Trip
 
 
 def mission_data(app: App, mission: Mission[Any]) -> Data:

@@ -12,17 +12,17 @@ from math import inf
 from operator import is_
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.energy import CLIMB_SPEED, docked
-from plutoc_runtime.errors import Failure, FlightFailed
-from plutoc_runtime.faults import Drawn, befell
-from plutoc_runtime.kernel import FLEET, Key
-from plutoc_runtime.motion import Charge, Leg, standing
-from plutoc_runtime.signals import Signal
+from plutoc_runtime.alone.faults import Drawn, befell
+from plutoc_runtime.alone.motion import Charge, Leg, standing
+from plutoc_runtime.domain.errors import Failure, FlightFailed
+from plutoc_runtime.fleet.energy import CLIMB_SPEED, docked
+from plutoc_runtime.time.future import Future
+from plutoc_runtime.time.kernel import FLEET, Key
 
-from ..standing import Standing
+from ..jobs.reports import DroneReport
 
 if TYPE_CHECKING:
-    from plutoc_runtime.model import Category, Item, Point
+    from plutoc_runtime.domain.model import Category, Item, Point
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -76,7 +76,7 @@ class Body:
         self.carries: Item | None = None
         self.command = ""
         """What it is doing; one thing at a time."""
-        self.over: Signal[None] | None = None
+        self.over: Future[None] | None = None
         """Happens when that is done, if it takes time; fails if it is broken off."""
         self.cut_short = FlightFailed(Failure.REFUSED, "it was broken off")
         """Why, the last time that this was so."""
@@ -149,11 +149,11 @@ class Body:
         return self._drawn.action
 
     @property
-    def standing(self) -> Standing:
+    def standing(self) -> DroneReport:
         """What it answers when the roll is called; one that takes no commands does not answer."""
         now = self._clock()
         self.settle(now)
-        return Standing(
+        return DroneReport(
             drone=self.drone.id,
             reached=self.down is None,
             location=self._leg.at(now),

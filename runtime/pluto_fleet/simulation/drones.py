@@ -8,24 +8,32 @@ from functools import partial
 from math import dist, inf
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.actions import BUILT_IN, PICK, RELEASE, Plain, grip_problem
-from plutoc_runtime.energy import CLIMB_SPEED
-from plutoc_runtime.errors import Failure, FlightFailed
-from plutoc_runtime.faults import CARRYING_HOME, OUTAGE, Faults, Order, draw, failed
-from plutoc_runtime.kernel import Kernel, Kind
-from plutoc_runtime.signals import Signal
-from plutoc_runtime.words import place
+from plutoc_runtime.alone.faults import (
+    CARRYING_HOME,
+    OUTAGE,
+    Faults,
+    Order,
+    draw,
+    failed,
+)
+from plutoc_runtime.domain.actions import BUILT_IN, PICK, RELEASE, Plain
+from plutoc_runtime.domain.errors import Failure, FlightFailed
+from plutoc_runtime.domain.text import place
+from plutoc_runtime.fleet.energy import CLIMB_SPEED
+from plutoc_runtime.fleet.reach import grip_problem
+from plutoc_runtime.time.future import Future
+from plutoc_runtime.time.kernel import Kernel, Kind
 
-from ..navigation import motors_cut
+from ..jobs.job import motors_cut
 from .body import Body, SimulatedDrone
 
 if TYPE_CHECKING:
-    from plutoc_runtime.airspace import Airspace
-    from plutoc_runtime.model import Item, Point, Telemetry
-    from plutoc_runtime.world import World
+    from plutoc_runtime.alone.world import World
+    from plutoc_runtime.domain.airspace import Airspace
+    from plutoc_runtime.domain.model import Item, Point, Telemetry
 
-    from ..navigation import Job
-    from ..standing import Standing
+    from ..jobs.job import Job
+    from ..jobs.reports import DroneReport
 
 __all__ = ["SimulatedDrone", "SimulatedNavigation"]
 
@@ -65,10 +73,8 @@ class SimulatedNavigation:
         self.record = record
         """Told of everything that drones do to the world, right before it is so."""
         self.bodies = {drone.id: Body(drone, kernel.time) for drone in drones}
-
-    def telemetry(self, drone: str) -> Telemetry:
-        """Return what is known of a drone; the value stays current."""
-        return self.bodies[drone]
+        self.telemetry: Mapping[str, Telemetry] = self.bodies
+        """What is known of each drone; the values stay current."""
 
     def down(self, drone: str) -> FlightFailed | None:
         """Return why a drone takes no commands; None: it takes them."""
@@ -246,7 +252,7 @@ class SimulatedNavigation:
         """Whoever meets it takes off what it carries."""
         self.bodies[drone].unload()
 
-    async def roll_call(self, drone: str) -> Standing:
+    async def roll_call(self, drone: str) -> DroneReport:
         """Ask a drone where it is and what it has done."""
         return self.bodies[drone].standing
 
@@ -274,7 +280,7 @@ class SimulatedNavigation:
             raise RuntimeError(f"{body.drone.id} was told {command} while told {body.command}")
         if until <= self._kernel.now:
             return
-        over: Signal[None] = Signal()
+        over: Future[None] = Future()
         body.command, body.over = command, over
         timer = self._kernel.at(until, Kind.FLIGHT, body.key, partial(over.set, None))
         try:

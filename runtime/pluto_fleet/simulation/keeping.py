@@ -14,9 +14,9 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from plutoc_runtime.errors import Failure, FlightFailed
-from plutoc_runtime.faults import Drawn
-from plutoc_runtime.motion import Charge, Leg
+from plutoc_runtime.alone.faults import Drawn
+from plutoc_runtime.alone.motion import Charge, Leg
+from plutoc_runtime.domain.errors import Failure, FlightFailed
 
 from ..journal.values import item_data, item_of, point_of, value_data, value_of
 from .body import Body, Snapshot

@@ -6,18 +6,18 @@ from collections.abc import Callable, Coroutine, Mapping
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from plutoc_runtime.errors import Failure, FlightFailed
-from plutoc_runtime.kernel import FLEET, Kernel, Kind
-from plutoc_runtime.signals import Signal
+from plutoc_runtime.domain.errors import Failure, FlightFailed
+from plutoc_runtime.time.future import Future
+from plutoc_runtime.time.kernel import FLEET, Kernel, Kind
 
-from ..controls import Before
+from ..jobs.controls import Before
 
 if TYPE_CHECKING:
-    from plutoc_runtime.actions import Plain
-    from plutoc_runtime.model import Item, Point
+    from plutoc_runtime.domain.actions import Plain
+    from plutoc_runtime.domain.model import Item, Point
 
-    from ..controls import Controls
-    from ..standing import Standing
+    from ..jobs.controls import Controls
+    from ..jobs.reports import DroneReport
 
 T = TypeVar("T")
 
@@ -34,7 +34,7 @@ class Radio(Before):
     def __init__(self, kernel: Kernel, controls: Controls, delay: Callable[[str], float]) -> None:
         super().__init__(controls)
         self._kernel, self._delay = kernel, delay
-        self._orders: dict[str, Signal[None]] = {}
+        self._orders: dict[str, Future[None]] = {}
         """What drones were told to do for themselves: a signal each, that fails if it is broken off."""
         self.late = 0
         """How many messages were late."""
@@ -96,7 +96,7 @@ class Radio(Before):
         """Wait, after a failed flight, until a drone takes commands again."""
         return await self._sent(drone, partial(self._controls.reach, drone))
 
-    async def roll_call(self, drone: str) -> Standing:
+    async def roll_call(self, drone: str) -> DroneReport:
         """Ask a drone where it is and what it has done, be it busy or not."""
         return await self._asked(self._controls.roll_call(drone))
 
@@ -111,7 +111,7 @@ class Radio(Before):
         return answer
 
     async def _sent(self, drone: str, command: Callable[[], Coroutine[Any, Any, T]]) -> T:
-        self._orders[drone] = broken_off = Signal[None]()
+        self._orders[drone] = broken_off = Future[None]()
         try:
             await self._on_its_way(COMMAND, broken_off)
             result = await command()
@@ -121,7 +121,7 @@ class Radio(Before):
                 del self._orders[drone]
         return result
 
-    async def _on_its_way(self, what: str, broken_off: Signal[None]) -> None:
+    async def _on_its_way(self, what: str, broken_off: Future[None]) -> None:
         seconds = self._late(what)
         if seconds > 0:
             until = self._kernel.now + seconds

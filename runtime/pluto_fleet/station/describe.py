@@ -4,18 +4,18 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.actions import PICK, RELEASE
-from plutoc_runtime.fields import Entity, FieldType
-from plutoc_runtime.quantities import QUANTITIES, units_of
+from plutoc_runtime.domain.actions import PICK, RELEASE
+from plutoc_runtime.domain.fields import Entity, FieldType
+from plutoc_runtime.domain.quantities import QUANTITIES, units_of
 
 from .graph.picture import laid_out
 from .graph.read import app_graph
 
 if TYPE_CHECKING:
-    from plutoc_runtime.actions import Action, Parameter
-    from plutoc_runtime.app import App
-    from plutoc_runtime.fields import Field
-    from plutoc_runtime.model import Category
+    from plutoc_runtime.domain.actions import Action, Parameter
+    from plutoc_runtime.domain.app import App
+    from plutoc_runtime.domain.fields import Field
+    from plutoc_runtime.domain.model import Category
 
     from .graph.read import Graph
     from .settings import Settings

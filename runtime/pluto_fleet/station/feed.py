@@ -7,14 +7,14 @@ from collections import deque
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.actions import MEASURE, PICK, RELEASE
-from plutoc_runtime.words import bounded
+from plutoc_runtime.domain.actions import MEASURE, PICK, RELEASE
+from plutoc_runtime.domain.text import bounded
 
 from ..cli.events import line_of, sentence_of
 
 if TYPE_CHECKING:
-    from plutoc_runtime.app import App
-    from plutoc_runtime.trace import Event
+    from plutoc_runtime.domain.app import App
+    from plutoc_runtime.domain.trace import Event
 
 KEPT = 20_000
 """Lines, and results; older ones are in the journal alone."""

@@ -13,12 +13,12 @@ from contextlib import closing, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.errors import BadInput
-from plutoc_runtime.words import quoted
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.text import quoted
 
 from ..cli.looked_after import brought_back, looked_after
 from ..cli.plans import fleet_in
-from ..fly import recovered
+from ..flight.fly import recovered
 from ..gateway.sightings import SEEN, at_home
 from ..journal import lock, place
 from ..journal.fold import Records
@@ -30,7 +30,7 @@ from .leftover import drawn
 from .rest import Rest
 
 if TYPE_CHECKING:
-    from plutoc_runtime.app import App
+    from plutoc_runtime.domain.app import App
 
     from . import rows
     from .settings import Settings

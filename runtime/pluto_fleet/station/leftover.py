@@ -6,7 +6,7 @@ from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from plutoc_runtime import output
-from plutoc_runtime.errors import BadInput
+from plutoc_runtime.domain.errors import BadInput
 
 from ..cli.flights import how_to_go_on
 from ..cli.taken_up import TakenUp, take_up
@@ -15,7 +15,7 @@ from ..journal import place
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from plutoc_runtime.app import App
+    from plutoc_runtime.domain.app import App
 
     from ..files.fleet import FleetFile
     from .settings import Settings

@@ -5,10 +5,10 @@ from __future__ import annotations
 from enum import Enum
 from typing import TYPE_CHECKING
 
-from ..setting import End
+from ..flight.config import End
 
 if TYPE_CHECKING:
-    from .outing import Outing
+    from .session import Outing
 
 
 class Phase(Enum):

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.errors import BadInput
+from plutoc_runtime.domain.errors import BadInput
 
 from ..cli.looked_after import lost_meanwhile
 from ..gateway.sightings import SEEN, Sighting, sightings_in
@@ -17,9 +17,9 @@ from . import rows
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from plutoc_runtime.app import App
+    from plutoc_runtime.domain.app import App
 
-    from ..files.fleet import DroneEntry
+    from ..files.drones import DroneEntry
     from ..journal.fold import Records
 
 FRESH = 4.0

@@ -10,38 +10,38 @@ from collections.abc import Mapping
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.errors import BadInput
-from plutoc_runtime.faults import Faults
-from plutoc_runtime.words import counted
+from plutoc_runtime.alone.faults import Faults
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.text import counted
 
-from ..asking import Nobody, Silent
 from ..cli import stop_mark
 from ..cli.flights import Flight
 from ..cli.looked_after import lost_meanwhile
 from ..cli.taken_up import take_up
+from ..flight.commands import perform
+from ..flight.config import End
 from ..gateway.starting import cut_directly, let_end, still_runs, stop_directly
+from ..jobs.reports import Down
 from ..journal import lock, place
 from ..journal.fold import Records
 from ..journal.header import header
 from ..journal.store import Store
-from ..remote_control import perform
-from ..setting import End
-from ..standing import Down
+from ..process.ipc import NoAnswer, NotRunning
 from . import leftover
 from .commands import checked
 from .describe import described
 from .inheritance import Inheritance
-from .outing import Outing
 from .phase import Phase, phase_of
-from .scene import Scene
+from .session import Outing
+from .updates import Scene
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from plutoc_runtime.app import App
-    from plutoc_runtime.model import Mission
+    from plutoc_runtime.domain.app import App
+    from plutoc_runtime.domain.model import Mission
 
-    from ..life import Life
+    from ..flight.recorded_flight import Life
     from .plan.plan import Plan
     from .settings import Settings
 
@@ -323,9 +323,9 @@ class Station:
         folder = place.gateway_folder(self.outing.journal)
         try:
             said = await asyncio.to_thread(cut_directly, folder, drone, STOP_WITHIN)
-        except Nobody:
+        except NotRunning:
             raise BadInput("nobody commands the drones now") from None
-        except Silent:
+        except NoAnswer:
             raise BadInput("what commands the drones does not answer") from None
         if not self.outing.lives:
             with suppress(BadInput):  # what is on record then, whoever flies it writes

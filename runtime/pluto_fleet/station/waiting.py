@@ -11,14 +11,14 @@ from collections.abc import Callable
 from math import ceil, floor
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.status import DroneStatus
-from plutoc_runtime.words import percent
+from plutoc_runtime.domain.status import DroneStatus
+from plutoc_runtime.domain.text import percent
 
 if TYPE_CHECKING:
-    from plutoc_runtime.model import Drone, Trip
-    from plutoc_runtime.request import Request
+    from plutoc_runtime.domain.model import Drone, Trip
+    from plutoc_runtime.fleet.queue import Request
 
-    from ..live_fleet import LiveFleet
+    from ..flight.live_fleet import LiveFleet
 
 EACH = 3.0
 """Seconds after which it is looked at anew."""

@@ -1,8 +1,8 @@
 """Clock: holds a mission until it is time for its next trip."""
 
 from plutoc.block import Block, same
-from plutoc_runtime.fields import Entity, Field, FieldType
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.fields import Entity, Field, FieldType
+from plutoc_runtime.domain.status import Status
 
 from .step import wait_for_time
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 from math import ceil, isfinite
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.kernel import Kind
+from plutoc_runtime.time.kernel import Kind
 
 if TYPE_CHECKING:
-    from plutoc_runtime.run import Run
-    from plutoc_runtime.status import Status
+    from plutoc_runtime.domain.status import Status
+    from plutoc_runtime.flow.run import Run
 
 DAY = 86_400.0
 

@@ -1,13 +1,13 @@
 """DroneAllocator: gives a mission the drone for its next trip."""
 
 from plutoc.block import Block, Choice, HookKind, Param, emits, same
-from plutoc_runtime.policies.batch_optimal import batch_optimal
-from plutoc_runtime.policies.first import first
-from plutoc_runtime.policies.least_used import least_used
-from plutoc_runtime.policies.nearest import nearest
-from plutoc_runtime.policies.own import own_policy
-from plutoc_runtime.quantities import Type
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.quantities import Type
+from plutoc_runtime.domain.status import Status
+from plutoc_runtime.fleet.policies.batch_optimal import batch_optimal
+from plutoc_runtime.fleet.policies.first import first
+from plutoc_runtime.fleet.policies.least_used import least_used
+from plutoc_runtime.fleet.policies.nearest import nearest
+from plutoc_runtime.fleet.policies.own import own_policy
 
 from .step import allocate_drone
 

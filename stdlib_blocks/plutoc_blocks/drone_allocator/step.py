@@ -6,15 +6,15 @@ from collections.abc import Generator
 from types import coroutine
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.errors import MissionFailed, nothing_to_fly
-from plutoc_runtime.kernel import Kind
-from plutoc_runtime.status import FAILED, STANDBY, Status
-from plutoc_runtime.words import duration
+from plutoc_runtime.domain.errors import MissionFailed, nothing_to_fly
+from plutoc_runtime.domain.status import FAILED, STANDBY, Status
+from plutoc_runtime.domain.text import duration
+from plutoc_runtime.time.kernel import Kind
 
 if TYPE_CHECKING:
-    from plutoc_runtime.policy import Policy
-    from plutoc_runtime.request import Request
-    from plutoc_runtime.run import Run
+    from plutoc_runtime.fleet.policy import Policy
+    from plutoc_runtime.fleet.queue import Request
+    from plutoc_runtime.flow.run import Run
 
 
 @coroutine

@@ -1,9 +1,9 @@
 """GapMonitor: no more than so much time between two actions."""
 
 from plutoc.block import Block, Param, emits
-from plutoc_runtime.fields import Entity, Field, FieldType
-from plutoc_runtime.quantities import Type
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.fields import Entity, Field, FieldType
+from plutoc_runtime.domain.quantities import Type
+from plutoc_runtime.domain.status import Status
 
 from .step import gap_limit, watch_gap
 

@@ -6,12 +6,12 @@ from collections.abc import Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.signals import Signal
-from plutoc_runtime.status import WORST_FIRST, Status
+from plutoc_runtime.domain.status import WORST_FIRST, Status
+from plutoc_runtime.time.future import Future
 
 if TYPE_CHECKING:
-    from plutoc_runtime.kernel import Task
-    from plutoc_runtime.run import Branch, Run
+    from plutoc_runtime.flow.run import Branch, Run
+    from plutoc_runtime.time.kernel import Task
 
 
 async def wait_for_all(run: Run[Any], status: Status, *branches: Branch[Any]) -> Status:
@@ -20,7 +20,7 @@ async def wait_for_all(run: Run[Any], status: Status, *branches: Branch[Any]) ->
     What goes wrong in one branch is not kept waiting for the others.
     """
     clones = run.fork(status, branches)
-    over: Signal[None] = Signal()
+    over: Future[None] = Future()
     for clone in clones:
         clone.watch(partial(_arrived, clones, over))
     try:
@@ -32,7 +32,7 @@ async def wait_for_all(run: Run[Any], status: Status, *branches: Branch[Any]) ->
     return min(arrived, key=WORST_FIRST.index)
 
 
-def _arrived(clones: Sequence[Task[Status]], over: Signal[None], clone: Task[Status]) -> None:
+def _arrived(clones: Sequence[Task[Status]], over: Future[None], clone: Task[Status]) -> None:
     if clone.error is not None:
         over.fail(clone.error)
     elif all(other.is_set for other in clones):

@@ -1,7 +1,7 @@
 """MissionCreator: where every mission begins."""
 
 from plutoc.block import Block, same
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.status import Status
 
 from .step import create_mission
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from plutoc_runtime.run import Run
-    from plutoc_runtime.status import Status
+    from plutoc_runtime.domain.status import Status
+    from plutoc_runtime.flow.run import Run
 
 
 def create_mission(run: Run[Any], status: Status) -> Status:

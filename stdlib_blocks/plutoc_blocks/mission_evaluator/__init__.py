@@ -1,8 +1,8 @@
 """MissionEvaluator: judges what a finished mission has brought."""
 
 from plutoc.block import Block, HookKind, HookParam, emits
-from plutoc_runtime.fields import Entity, Field, FieldType
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.fields import Entity, Field, FieldType
+from plutoc_runtime.domain.status import Status
 
 from .step import evaluate_mission
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.judgement import apply
+from plutoc_runtime.flow.judgement import apply
 
 if TYPE_CHECKING:
-    from plutoc_runtime.run import Run
-    from plutoc_runtime.status import Status
+    from plutoc_runtime.domain.status import Status
+    from plutoc_runtime.flow.run import Run
 
 
 async def evaluate_mission(

@@ -1,8 +1,8 @@
 """MissionRepeater: a finished mission begins again."""
 
 from plutoc.block import Block, emits
-from plutoc_runtime.fields import Entity, Field, FieldType
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.fields import Entity, Field, FieldType
+from plutoc_runtime.domain.status import Status
 
 from .step import repeat_mission
 

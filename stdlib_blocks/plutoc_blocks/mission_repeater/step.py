@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.status import STANDBY, Status
+from plutoc_runtime.domain.status import STANDBY, Status
 
 if TYPE_CHECKING:
-    from plutoc_runtime.run import Run
+    from plutoc_runtime.flow.run import Run
 
 
 def repeat_mission(run: Run[Any], status: Status, *, repeat: int | bool) -> Status:

@@ -1,9 +1,9 @@
 """PriorityManager: a failed trip is tried again, before others."""
 
 from plutoc.block import Block, Narrowed, Param, emits
-from plutoc_runtime.fields import Entity, Field, FieldType
-from plutoc_runtime.quantities import Type
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.fields import Entity, Field, FieldType
+from plutoc_runtime.domain.quantities import Type
+from plutoc_runtime.domain.status import Status
 
 from .step import raise_priority
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.errors import nothing_to_fly
-from plutoc_runtime.status import STANDBY, Status, TripStatus
+from plutoc_runtime.domain.errors import nothing_to_fly
+from plutoc_runtime.domain.status import STANDBY, Status, TripStatus
 
 if TYPE_CHECKING:
-    from plutoc_runtime.run import Run
+    from plutoc_runtime.flow.run import Run
 
 
 def raise_priority(run: Run[Any], status: Status, *, max_attempts: int, priority: int) -> Status:

@@ -1,9 +1,9 @@
 """TimerMonitor: no trip may take longer than its safe time."""
 
 from plutoc.block import Block, Param, emits
-from plutoc_runtime.fields import Entity, Field, FieldType
-from plutoc_runtime.quantities import Type
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.fields import Entity, Field, FieldType
+from plutoc_runtime.domain.quantities import Type
+from plutoc_runtime.domain.status import Status
 
 from .step import timer_limit, watch_timer
 

@@ -1,7 +1,7 @@
 """TripLauncher: sends the drone on its way."""
 
 from plutoc.block import Block, emits
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.status import Status
 
 from .step import launch_trip
 

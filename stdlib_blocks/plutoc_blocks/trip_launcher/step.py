@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.flight import launch
-from plutoc_runtime.status import RUNNING
+from plutoc_runtime.domain.status import RUNNING
 
 if TYPE_CHECKING:
-    from plutoc_runtime.run import Run
-    from plutoc_runtime.status import Status
+    from plutoc_runtime.domain.status import Status
+    from plutoc_runtime.flow.run import Run
 
 
 def launch_trip(run: Run[Any], status: Status) -> Status:
@@ -17,7 +16,7 @@ def launch_trip(run: Run[Any], status: Status) -> Status:
     state = run.state
     drone = state.allocated
     if drone is not None:
-        launch(state, drone)
+        state.launch(drone)
     elif state.goes_on:
         state.goes_on = False  # the trip was launched before the mission was interrupted
     else:

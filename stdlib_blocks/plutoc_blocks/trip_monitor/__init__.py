@@ -1,7 +1,7 @@
 """TripMonitor: waits for the end of the trip."""
 
 from plutoc.block import Block, emits
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.status import Status
 
 from .step import watch_trip
 

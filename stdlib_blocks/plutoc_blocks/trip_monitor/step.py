@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.watching import watch
+from plutoc_runtime.flow.run import watch
 
 if TYPE_CHECKING:
-    from plutoc_runtime.run import Run
-    from plutoc_runtime.status import Status
+    from plutoc_runtime.domain.status import Status
+    from plutoc_runtime.flow.run import Run
 
 
 async def watch_trip(run: Run[Any], status: Status) -> Status:

@@ -6,16 +6,16 @@ from dataclasses import replace
 from itertools import combinations
 from math import dist, inf, sqrt
 
-from pluto_fleet.files.real import PACE
-from pluto_fleet.simulation.body import Body
-from pluto_fleet.simulation.drones import SimulatedDrone, SimulatedNavigation
-from pluto_fleet.standing import Down
-from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.faults import Faults
-from plutoc_runtime.kernel import Kernel
-from plutoc_runtime.model import Point
-from plutoc_runtime.motion import Leg
-from plutoc_runtime.world import World
+from pluto_fleet.files.fleet import PACE
+from pluto_fleet.jobs.reports import Down
+from pluto_fleet.simulation.body import Body, SimulatedDrone
+from pluto_fleet.simulation.drones import SimulatedNavigation
+from plutoc_runtime.alone.faults import Faults
+from plutoc_runtime.alone.motion import Leg
+from plutoc_runtime.alone.world import World
+from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.domain.model import Point
+from plutoc_runtime.time.kernel import Kernel
 from tests.gateway.traffic.skies import ENDURING, Sky
 
 SLACK = 0.15

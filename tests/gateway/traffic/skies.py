@@ -7,20 +7,20 @@ from math import dist, inf
 from random import Random
 from typing import Any
 
-from pluto_fleet.gateway.gateway import Gateway
-from pluto_fleet.gateway.link import Link
-from pluto_fleet.simulation.drones import SimulatedDrone, SimulatedNavigation
-from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.energy import docked
-from plutoc_runtime.errors import Failure, FlightFailed
-from plutoc_runtime.faults import Faults
-from plutoc_runtime.kernel import FLEET, Kind
-from plutoc_runtime.kernel import Task as Coroutine
-from plutoc_runtime.model import Category, Point
-from plutoc_runtime.navigation import permitted_way
-from plutoc_runtime.signals import Signal
-from plutoc_runtime.virtual import VirtualTime
-from plutoc_runtime.world import World
+from pluto_fleet.gateway.gateway import Gateway, Link
+from pluto_fleet.simulation.body import SimulatedDrone
+from pluto_fleet.simulation.drones import SimulatedNavigation
+from plutoc_runtime.alone.faults import Faults
+from plutoc_runtime.alone.world import World
+from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.domain.errors import Failure, FlightFailed
+from plutoc_runtime.domain.model import Category, Point
+from plutoc_runtime.fleet.energy import docked
+from plutoc_runtime.fleet.navigation import permitted_way
+from plutoc_runtime.time.future import Future
+from plutoc_runtime.time.kernel import FLEET, Kind
+from plutoc_runtime.time.kernel import Task as Coroutine
+from plutoc_runtime.time.virtual import VirtualTime
 from tests.gateway.flights import Task
 
 ENDURING = Category(name="enduring", speed=0.5, flight_time=1e6, charge_time=1.0)
@@ -84,7 +84,7 @@ class Sky:
         for a, b in combinations(at, 2):
             self.nearest = min(self.nearest, dist(a, b))
 
-    def until(self, done: Signal[Any], most: float) -> bool:
+    def until(self, done: Future[Any], most: float) -> bool:
         """Let time pass, with open eyes; say whether it was done by then."""
         kernel, end = self.kernel, self.kernel.now + most
         while not done.is_set:
@@ -103,7 +103,7 @@ class Sky:
     async def fly(self, drone: str, *stops: Point) -> object:
         """Give a drone a job, and wait for what is reported."""
         self.trips += 1
-        over: Signal[object] = Signal()
+        over: Future[object] = Future()
         job = Task(id=f"{self.trips}", drone=drone, stops=stops, action=None, item=None)
         self.link.fly(job, over.set)
         return await over
@@ -182,7 +182,7 @@ class Restless:
         await self.sky.goes_home(drone)
 
     def _mishap(self, drone: str) -> None:
-        if not self.sky.navigation.telemetry(drone).landed:
+        if not self.sky.navigation.telemetry[drone].landed:
             what = self.chance.choice([Failure.LINK, Failure.CRASH, Failure.BATTERY, None])
             if what is not None:
                 self.sky.navigation.strike(drone, what)
@@ -190,5 +190,5 @@ class Restless:
 
 def is_home(sky: Sky, drone: SimulatedDrone) -> bool:
     """Say whether a drone stands in its dock."""
-    telemetry = sky.navigation.telemetry(drone.id)
+    telemetry = sky.navigation.telemetry[drone.id]
     return telemetry.landed and docked(telemetry.location, drone.home)

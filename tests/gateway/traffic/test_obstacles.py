@@ -1,4 +1,4 @@
-"""Whoever is said to be on a way still, without a look at it, is on it still."""
+"""A drone that is said to be on a way still, without a look at it, is on it still."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from pluto_fleet.gateway.traffic.claims import Claim, meets
-from pluto_fleet.gateway.traffic.obstacles import Obstacle
-from plutoc_runtime.energy import CLIMB_SPEED
-from plutoc_runtime.model import Category, Point
+from pluto_fleet.gateway.traffic.reservations import Claim, meets
+from pluto_fleet.gateway.traffic.wait_queue import Obstacle
+from plutoc_runtime.domain.model import Category, Point
+from plutoc_runtime.fleet.energy import CLIMB_SPEED
 
 LIMIT = 0.5
 QUICK = Category(name="quick", speed=2.0)

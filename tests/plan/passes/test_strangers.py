@@ -9,7 +9,7 @@ import pytest
 from plutoc.block import Block, Param
 from plutoc.plan.optimise import optimised
 from plutoc.plan.show import show
-from plutoc_runtime.quantities import Type
+from plutoc_runtime.domain.quantities import Type
 from tests.check.graphs import KINDS
 from tests.plan.plans import after
 

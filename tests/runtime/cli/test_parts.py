@@ -13,9 +13,9 @@ from pluto_fleet.cli.events import line_of
 from pluto_fleet.cli.progress import Progress
 from pluto_fleet.cli.report import table
 from pluto_fleet.cli.summary import Run, spread, summary
-from plutoc_runtime.faults import shares
-from plutoc_runtime.trace import dumped
-from plutoc_runtime.words import duration, mass, number, quoted
+from plutoc_runtime.alone.faults import shares
+from plutoc_runtime.domain.text import duration, mass, number, quoted
+from plutoc_runtime.domain.trace import dumped
 
 
 def test_the_summary_counts_successes_and_times_only_those() -> None:
@@ -112,7 +112,7 @@ def test_the_bar_comes_only_after_a_while() -> None:
     assert stream.getvalue() == f"\r{half}\r{full} \r{' ' * len(full)}\r"
 
 
-def test_no_bar_where_nobody_sees_it() -> None:
+def test_no_bar_where_it_is_not_seen() -> None:
     """Not in a file, and not for ever so long."""
     stream = io.StringIO()
     Progress(stream, iter([0.0, 9.0]).__next__, shown=False).update(0.5, "x")

@@ -10,14 +10,13 @@ from threading import Event, Thread
 
 import pytest
 
-from pluto_fleet.asking import note_of
 from pluto_fleet.cli import stop_mark
+from pluto_fleet.flight.commands import hear_commands
 from pluto_fleet.gateway.process import NOTE
+from pluto_fleet.jobs.reports import Down
 from pluto_fleet.journal.lock import Lock
-from pluto_fleet.journal.place import gateway_folder
-from pluto_fleet.remote_control import listening
-from pluto_fleet.standing import Down
-from plutoc_runtime.errors import BadInput
+from pluto_fleet.journal.place import commands_note, gateway_folder
+from plutoc_runtime.domain.errors import BadInput
 from tests.runtime.cli.conftest import Command
 
 
@@ -30,7 +29,7 @@ def running(note: Path, answer: Callable[[Mapping[str, object]], str]) -> Iterat
         return answer(request)
 
     async def listen() -> None:
-        async with listening(note, answered):
+        async with hear_commands(note, answered):
             ready.set()
             await asyncio.to_thread(over.wait)
 
@@ -71,7 +70,7 @@ def test_each_command_arrives_and_the_answer_is_printed(
         heard.append(request)
         return "so be it"
 
-    with running(note_of(journal), answer):
+    with running(commands_note(journal), answer):
         assert command("tell", journal, *words.split()) == (0, "so be it\n", "")
     assert heard == [request_]
 
@@ -99,7 +98,7 @@ def test_motors_are_cut_by_the_gateway_without_a_word_to_the_app(
     assert stop_mark.found(journal) is None
 
 
-def test_where_nobody_commands_drones_no_motor_is_cut(journal: Path, command: Command) -> None:
+def test_where_no_gateway_commands_drones_no_motor_is_cut(journal: Path, command: Command) -> None:
     """That is said, and how to reach them."""
     journal.touch()
     code, _, err = command("tell", journal, "cut-motors", "--all")
@@ -112,7 +111,7 @@ def test_a_refusal_is_exit_2(journal: Path, command: Command) -> None:
     def answer(request: Mapping[str, object]) -> str:
         raise BadInput("there is no mission East")
 
-    with running(note_of(journal), answer):
+    with running(commands_note(journal), answer):
         said = command("tell", journal, "pause", "East")
     assert said == (2, "", "there is no mission East\n")
 
@@ -155,7 +154,7 @@ def test_where_no_app_runs_one_is_told_how_to_go_on(journal: Path, command: Comm
 
 
 def test_what_is_said_to_be_typed_is_safe_to_type(tmp_path: Path, command: Command) -> None:
-    """Whatever the journal is called."""
+    """Under any name of the journal."""
     journal = tmp_path / "a b$(id)"
     journal.touch()
     _, _, err = command("tell", journal, "pause")
@@ -163,16 +162,16 @@ def test_what_is_said_to_be_typed_is_safe_to_type(tmp_path: Path, command: Comma
 
 
 @pytest.mark.parametrize("words", ["stop", "stop --rtl", "pause"])
-def test_nobody_is_told_that_no_drone_flies_for_a_wrong_name(
+def test_a_wrong_name_is_not_answered_by_no_drone_flies(
     words: str, journal: Path, command: Command
 ) -> None:
     said = f"{journal}: there is no such journal\n"
     assert command("tell", journal, *words.split()) == (2, "", said)
 
 
-def test_a_stop_is_kept_for_whoever_starts_the_app_again(journal: Path, command: Command) -> None:
+def test_a_stop_is_kept_for_the_apps_next_start(journal: Path, command: Command) -> None:
     """It may crash while its drones come down."""
-    with running(note_of(journal), lambda request: "stopping"):
+    with running(commands_note(journal), lambda request: "stopping"):
         assert command("tell", journal, "stop", "--rtl") == (0, "stopping\n", "")
         assert stop_mark.found(journal) is Down.HOME
 
@@ -199,7 +198,7 @@ def test_an_app_that_has_only_just_begun_is_stopped_before_it_flies(
 
     def begin() -> None:
         left.wait()
-        with running(note_of(journal), answer):
+        with running(commands_note(journal), answer):
             over.wait()
 
     monkeypatch.setattr(stop_mark, "leave", leave_and_tell)

@@ -11,16 +11,17 @@ from plutoc_blocks.mission_repeater.step import repeat_mission
 from plutoc_blocks.priority_manager.step import raise_priority
 from plutoc_blocks.trip_launcher.step import launch_trip
 from plutoc_blocks.trip_monitor.step import watch_trip
-from plutoc_runtime.actions import BUILT_IN, Action, Parameter
-from plutoc_runtime.app import App
-from plutoc_runtime.context import Context
-from plutoc_runtime.errors import ActionFailed
-from plutoc_runtime.fields import Entity, Field, FieldType
-from plutoc_runtime.model import Category, Drone, Mission, Trip
-from plutoc_runtime.policies.nearest import nearest
-from plutoc_runtime.quantities import Type
-from plutoc_runtime.run import Run
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.actions import BUILT_IN, Parameter
+from plutoc_runtime.domain.app import App
+from plutoc_runtime.domain.errors import ActionFailed
+from plutoc_runtime.domain.fields import Entity, Field, FieldType
+from plutoc_runtime.domain.model import Category, Drone, Mission, Trip
+from plutoc_runtime.domain.quantities import Type
+from plutoc_runtime.domain.status import Status
+from plutoc_runtime.fleet.policies.nearest import nearest
+from plutoc_runtime.flow.own_action import OwnAction
+from plutoc_runtime.flow.run import Run
+from plutoc_runtime.hooks.context import Context
 
 
 @dataclass(slots=True, kw_only=True, eq=False)
@@ -64,7 +65,7 @@ def field(name: str, on: Entity, kind: FieldType) -> Field:
     return Field(name=name, on=on, type=kind, label=name, doc=name)
 
 
-POLLINATE = Action(
+POLLINATE = OwnAction(
     name="pollinate",
     parameters=(
         Parameter(name="dose", type=Type.MASS),

@@ -7,8 +7,8 @@ from functools import lru_cache
 from math import exp, log
 from random import Random
 
-from pluto_fleet.files.limits import APART, HEIGHT, MASS, PLACE, RADIUS, SIDE, TIME, Limit
-from plutoc_runtime.app import App
+from pluto_fleet.files.values import APART, HEIGHT, MASS, PLACE, RADIUS, SIDE, TIME, Limit
+from plutoc_runtime.domain.app import App
 from tests.testing.examples import app_of
 
 LONGEST = 100_000.0

@@ -12,10 +12,10 @@ from hypothesis import strategies as st
 
 from pluto_fleet.files.missions import load_missions
 from pluto_fleet.files.reading import LARGEST, read
-from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.errors import BadInput
-from plutoc_runtime.model import Item, Mission
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.model import Item, Mission
+from plutoc_runtime.domain.status import Status
 from tests.runtime.files.an_app import APP, PLAIN, FieldMission, FieldTrip
 
 SIZE = (20.0, 12.0)
@@ -317,7 +317,7 @@ def test_a_file_that_cannot_be_read_is_refused(tmp_path: Path) -> None:
         assert str(caught.value) == f"{path}{said}"
 
 
-def test_nobody_has_to_read_a_thousand_problems(tmp_path: Path) -> None:
+def test_a_thousand_problems_are_cut_short(tmp_path: Path) -> None:
     """The first fifty are told, and how many there are besides."""
     said = problems(tmp_path, trip(PHOTO + "".join(f"k{i} = 1\n" for i in range(1000))))
     assert len(said) == 51

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from plutoc_runtime.model import Category, Drone, Point, Trip
+from plutoc_runtime.domain.model import Category, Drone, Point, Trip
 
 SCOUT = Category(name="scout")
 
@@ -37,5 +37,5 @@ def trip(target: Point, source: Point | None = None) -> Trip:
 
 
 def anyone(drone: Drone) -> bool:
-    """Refuse nobody."""
+    """Refuse none."""
     return True

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from plutoc_runtime.model import Drone
-from plutoc_runtime.policies.nearest import nearest
+from plutoc_runtime.domain.model import Drone
+from plutoc_runtime.fleet.policies.nearest import nearest
 from tests.runtime.policies.fleets import anyone, fleet, trip
 
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from pluto_fleet.live_fleet import live_fleet
+from pluto_fleet.flight.live_fleet import live_fleet
 from pluto_fleet.station.waiting import AT_ONCE, Waiting, why_nobody
-from plutoc_runtime.model import Category, Item
-from plutoc_runtime.motion import Charge
-from plutoc_runtime.status import DroneStatus
+from plutoc_runtime.alone.motion import Charge
+from plutoc_runtime.domain.model import Category, Item
+from plutoc_runtime.domain.status import DroneStatus
 from tests.runtime import apps
 from tests.runtime.living import Living, enterable
 

@@ -8,13 +8,13 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet.live_engine import live_engine
-from pluto_fleet.simulate import Simulation
+from pluto_fleet.flight.live_engine import live_engine
+from pluto_fleet.flight.simulate import Simulation
 from pluto_fleet.station.whereabouts import _named, blocks_of
 from plutoc.compile import analyse
 from plutoc.source import Source
-from plutoc_runtime.faults import Faults
-from plutoc_runtime.virtual import VirtualTime
+from plutoc_runtime.alone.faults import Faults
+from plutoc_runtime.time.virtual import VirtualTime
 from tests.flying import EXAMPLES, built
 
 DECLARATIONS = {

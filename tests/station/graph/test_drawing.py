@@ -130,6 +130,6 @@ def chain(many: int) -> Graph:
 
 
 def test_a_hundred_blocks_are_drawn_and_a_thousand_are_not() -> None:
-    """Of so many nobody would see anything, and everybody would wait for them."""
+    """So many could not be seen, and every page would wait for them."""
     assert not list(mistakes((picture := picture_of(chain(100))).laid, picture.ways))
     assert laid_out(chain(1000)) is None

@@ -11,16 +11,16 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from pluto_fleet.files.fleet import FleetFile
-from pluto_fleet.simulate import simulate
+from pluto_fleet.flight.simulate import simulate
 from pluto_fleet.station.plan.plan import Plan
-from plutoc_runtime.actions import Action, Parameter
-from plutoc_runtime.airspace import Airspace
-from plutoc_runtime.app import App
-from plutoc_runtime.errors import BadInput
-from plutoc_runtime.faults import Faults
-from plutoc_runtime.model import Category, Mission
-from plutoc_runtime.quantities import Type
-from plutoc_runtime.status import Status
+from plutoc_runtime.alone.faults import Faults
+from plutoc_runtime.domain.actions import Action, Parameter
+from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.domain.app import App
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.model import Category, Mission
+from plutoc_runtime.domain.quantities import Type
+from plutoc_runtime.domain.status import Status
 from tests.flying import EXAMPLES
 from tests.runtime.files.an_app import APP, PLAIN
 from tests.station.plan.drawing import FLEET, a_plan, drawn, mission

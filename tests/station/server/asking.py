@@ -14,7 +14,7 @@ from pluto_fleet.station.web.api import Api
 from pluto_fleet.station.web.audit import Audit
 from pluto_fleet.station.web.guard import Guard
 from pluto_fleet.station.web.http import Reply, Request
-from plutoc_runtime.errors import BadInput
+from plutoc_runtime.domain.errors import BadInput
 
 HOST = "127.0.0.1:8765"
 OURS = {
@@ -131,7 +131,7 @@ def request(
     headers: Mapping[str, str] | None = None,
     **query: str,
 ) -> Request:
-    """Return what a page of the station's own asks, or whoever sends these headers."""
+    """Return what a page of the station's own asks, or a program that sends these headers."""
     if not isinstance(body, bytes):
         body = (body if isinstance(body, str) else json.dumps(body)).encode()
 

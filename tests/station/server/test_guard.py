@@ -14,7 +14,7 @@ from pluto_fleet.station.web.guard import (
     refusal,
 )
 from pluto_fleet.station.web.http import Request
-from plutoc_runtime.errors import BadInput
+from plutoc_runtime.domain.errors import BadInput
 
 from .asking import OURS, without
 

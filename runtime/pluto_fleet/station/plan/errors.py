@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from plutoc_runtime.errors import BadInput, PlutoError
-from plutoc_runtime.words import counted, printable, quoted
+from plutoc_runtime.domain.errors import BadInput, PlutoError
+from plutoc_runtime.domain.text import counted, printable, quoted
 
 from ...files.errors import listed, shown
 

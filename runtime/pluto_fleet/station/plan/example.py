@@ -7,17 +7,17 @@ from itertools import combinations, cycle, islice, product
 from math import dist
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.actions import PICK, RELEASE, Action
-from plutoc_runtime.quantities import Type
-from plutoc_runtime.words import mass
+from plutoc_runtime.domain.actions import PICK, RELEASE, Action
+from plutoc_runtime.domain.quantities import Type
+from plutoc_runtime.domain.text import mass
 
 from . import errors
 from .problems import nobody_can_fly, read
 from .shape import Shape
 
 if TYPE_CHECKING:
-    from plutoc_runtime.app import App
-    from plutoc_runtime.geometry import Corner
+    from plutoc_runtime.domain.app import App
+    from plutoc_runtime.domain.geometry import Corner
 
     from ...files.fleet import FleetFile
 

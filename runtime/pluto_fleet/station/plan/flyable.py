@@ -11,8 +11,8 @@ from .problems import PlanProblem, nobody_can_fly
 from .shape import Shape
 
 if TYPE_CHECKING:
-    from plutoc_runtime.airspace import Airspace
-    from plutoc_runtime.app import App
+    from plutoc_runtime.domain.airspace import Airspace
+    from plutoc_runtime.domain.app import App
 
     from ...files.fleet import FleetFile
 

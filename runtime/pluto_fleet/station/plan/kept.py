@@ -9,14 +9,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.errors import BadInput
-from plutoc_runtime.fields import Entity
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.fields import Entity
 
 from . import errors
 from .shape import MISSION_KEYS, TRIP_KEYS, Shape, fields_of, missions_from
 
 if TYPE_CHECKING:
-    from plutoc_runtime.app import App
+    from plutoc_runtime.domain.app import App
 
 LARGEST = 1 << 25
 """Bytes; a plan with every text as long as it may be is smaller."""

@@ -19,8 +19,8 @@ from .shape import COMPLETED, Shape, check_together, missions_from, trips_of
 from .text import NAME, shapes_of, text_of
 
 if TYPE_CHECKING:
-    from plutoc_runtime.app import App
-    from plutoc_runtime.model import Mission
+    from plutoc_runtime.domain.app import App
+    from plutoc_runtime.domain.model import Mission
 
     from ...files.fleet import FleetFile
 

@@ -7,15 +7,15 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from ...files.missions import read_missions
+from ...files.plan_check import unflyable
 from ...files.reading import Document
-from ...plan_check import unflyable
 from .shape import Shape, trips_of
 from .words import in_one_go, on_a_screen, own_names, sentence
 
 if TYPE_CHECKING:
-    from plutoc_runtime.airspace import Airspace
-    from plutoc_runtime.app import App
-    from plutoc_runtime.model import Mission
+    from plutoc_runtime.domain.airspace import Airspace
+    from plutoc_runtime.domain.app import App
+    from plutoc_runtime.domain.model import Mission
 
     from ...files.fleet import FleetFile
     from ...files.toml_places import Place

@@ -11,13 +11,13 @@ from collections.abc import Mapping, Sequence
 from math import isfinite
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.fields import Entity
-from plutoc_runtime.words import quoted
+from plutoc_runtime.domain.fields import Entity
+from plutoc_runtime.domain.text import quoted
 
 from . import errors
 
 if TYPE_CHECKING:
-    from plutoc_runtime.app import App
+    from plutoc_runtime.domain.app import App
 
 Shape = dict[str, object]
 """A mission or a trip, as JSON has it."""

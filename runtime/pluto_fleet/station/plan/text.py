@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from datetime import time
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.fields import Entity
+from plutoc_runtime.domain.fields import Entity
 
 from ...files.missions import missions_of
 from ...files.reading import parsed
@@ -16,8 +16,8 @@ from .problems import as_in_a_file
 from .shape import Shape, fields_of, trips_of
 
 if TYPE_CHECKING:
-    from plutoc_runtime.airspace import Airspace
-    from plutoc_runtime.app import App
+    from plutoc_runtime.domain.airspace import Airspace
+    from plutoc_runtime.domain.app import App
 
 NAME = "missions.toml"
 """What a file is called in messages, if whoever sends it does not say."""

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ...files.wording import Wording
+from ...files.reading import Wording
 
 if TYPE_CHECKING:
     from collections.abc import Container, Sequence
 
-    from plutoc_runtime.app import App
-    from plutoc_runtime.model import Trip
+    from plutoc_runtime.domain.app import App
+    from plutoc_runtime.domain.model import Trip
 
 _CALLED = {
     "name": "the name",

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Coroutine, Mapping
 
-from plutoc_runtime.errors import BadInput
-from plutoc_runtime.words import cut_off, printable
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.text import cut_off, printable
 
 from ..commands import NEEDS, Malformed
 from ..plan.errors import Stale

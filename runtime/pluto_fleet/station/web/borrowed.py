@@ -15,10 +15,10 @@ from dataclasses import dataclass
 from importlib import import_module
 from typing import TYPE_CHECKING, Protocol
 
-from plutoc_runtime.errors import BadInput
-from plutoc_runtime.words import in_shell
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.text import in_shell
 
-from .crowd import Crowd
+from .connections import Crowd
 from .http import Reply
 
 if TYPE_CHECKING:

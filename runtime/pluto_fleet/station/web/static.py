@@ -14,8 +14,8 @@ from gzip import compress
 from hashlib import sha256
 from pathlib import Path
 
-from plutoc_runtime.errors import BadInput
-from plutoc_runtime.words import shown
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.text import shown
 
 from .http import Reply, Request
 

@@ -1,8 +1,8 @@
 """GridScan: one trip becomes a grid of trips."""
 
 from plutoc.block import Block, Param, same
-from plutoc_runtime.quantities import Type
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.quantities import Type
+from plutoc_runtime.domain.status import Status
 
 from .step import spread_trips
 

@@ -6,8 +6,8 @@ from dataclasses import replace
 from itertools import product
 from typing import Any
 
-from plutoc_runtime.run import Run
-from plutoc_runtime.status import Status
+from plutoc_runtime.domain.status import Status
+from plutoc_runtime.flow.run import Run
 
 
 def spread_trips(run: Run[Any], status: Status, *, spacing: float, side: int) -> Status:

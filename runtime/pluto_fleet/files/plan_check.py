@@ -1,0 +1,190 @@
+"""Could the fleet ever do what the missions ask, and can their names be told apart? Asked before anything flies."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import partial
+from math import dist
+from typing import TYPE_CHECKING, Any
+from unicodedata import normalize
+
+from plutoc_runtime.domain.actions import BUILT_IN
+from plutoc_runtime.domain.fields import Entity, FieldType
+from plutoc_runtime.domain.text import quoted
+from plutoc_runtime.fleet.reach import Lacks, Miss, chain_of, miss_of
+
+if TYPE_CHECKING:
+    from plutoc_runtime.domain.airspace import Airspace
+    from plutoc_runtime.domain.app import App
+    from plutoc_runtime.domain.model import Category, Mission, Point, Trip
+
+    from .drones import DroneEntry
+    from .fleet import FleetFile
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Unflyable:
+    """Trips that one drone must fly, and none of the fleet ever could."""
+
+    mission: Mission[Any]
+    trips: Sequence[Trip]
+    reason: str
+
+    @property
+    def called(self) -> str:
+        """How a message calls them."""
+        names = [trip.name if trip.name.isdigit() else quoted(trip.name) for trip in self.trips]
+        trips = f"trip {names[0]}" if len(names) == 1 else f"trips {names[0]} to {names[-1]}"
+        return f"mission {quoted(self.mission.name)}, {trips}"
+
+
+def problems(
+    missions: Sequence[Mission[Any]], app: App, fleet: FleetFile, airspace: Airspace
+) -> list[str]:
+    """Return a sentence for each trip that no drone of the fleet could ever do."""
+    return [f"{one.called}: {one.reason}" for one in unflyable(missions, app, fleet, airspace)]
+
+
+def unflyable(
+    missions: Sequence[Mission[Any]], app: App, fleet: FleetFile, airspace: Airspace
+) -> list[Unflyable]:
+    """Return the trips that no drone of the fleet could ever do, each with the reason."""
+    categories = {category.name: category for category in app.categories}
+    drones = [(categories[drone.category], drone.home) for drone in fleet.drones]
+    homes: dict[str, list[Point]] = {}
+    for category, home in drones:
+        homes.setdefault(category.name, []).append(home)
+    found = []
+    for mission in missions:
+        rest: Sequence[Trip] = mission.trips
+        while rest:
+            chain = chain_of(rest)
+            rest = rest[len(chain) :]
+            asked = [
+                (categories[name], min(points, key=partial(dist, chain[0].target)))
+                for name, points in homes.items()
+            ]
+            misses = _misses(app, airspace, asked, chain)
+            if misses is not None and any(miss.lacks > Lacks.PAYLOAD for miss in misses):
+                asked = drones  # another home may be better placed after all
+                misses = _misses(app, airspace, asked, chain)
+            if misses is not None:
+                reason = _nobody(_nearest(misses, asked))
+                found.append(Unflyable(mission=mission, trips=chain, reason=reason))
+    return found
+
+
+def idle_actions(app: App, fleet: FleetFile) -> list[str]:
+    """Return a sentence for each action of the app that no drone of the fleet can do.
+
+    No mission need ask for it, so that is no error; but who draws the next mission might.
+    """
+    there = {drone.category for drone in fleet.drones}
+    found = []
+    for action in app.actions:
+        able = [category.name for category in app.categories if category.can(action)]
+        if there.isdisjoint(able) and (able or action not in BUILT_IN):
+            who = f"it has no {' and no '.join(able)}" if able else "no category of the app can"
+            found.append(f"no drone of the fleet can {action}: {who}")
+    return found
+
+
+def endless(missions: Sequence[Mission[Any]], app: App) -> list[str]:
+    """Return a sentence for each mission that repeats until it is stopped."""
+    rounds = [
+        field.name
+        for field in app.fields
+        if field.on is Entity.MISSION and field.type is FieldType.ROUNDS
+    ]
+    return [
+        f"mission {quoted(mission.name)} repeats until it is stopped ({name} = true): "
+        "say when with --until, such as --until 2h"
+        for mission in missions
+        for name in rounds
+        if getattr(mission, name) is True
+    ]
+
+
+def _misses(
+    app: App,
+    airspace: Airspace,
+    drones: Sequence[tuple[Category, Point]],
+    chain: Sequence[Trip],
+) -> list[Miss] | None:
+    """Return what each drone lacks; None as soon as one lacks nothing."""
+    misses = []
+    for category, home in drones:
+        miss = miss_of(app, airspace, category, home, chain)
+        if miss is None:
+            return None
+        misses.append(miss)
+    return misses
+
+
+def _nearest(misses: Sequence[Miss], drones: Sequence[tuple[Category, Point]]) -> list[Miss]:
+    """Keep each category's nearest miss, in the fleet's order."""
+    best: dict[str, Miss] = {}
+    for miss, (category, _) in zip(misses, drones, strict=True):
+        known = best.get(category.name)
+        if known is None or (-miss.lacks, miss.by) < (-known.lacks, known.by):
+            best[category.name] = miss
+    return list(best.values())
+
+
+def _nobody(misses: Sequence[Miss]) -> str:
+    reasons = dict.fromkeys(miss.reason for miss in misses)
+    return "no drone of the fleet can do it: " + "; ".join(reasons)
+
+
+def look_alikes(
+    missions: Sequence[Mission[Any]], drones: Sequence[DroneEntry] = ()
+) -> Iterator[str]:
+    """Yield a sentence for each two missions, trips of one mission, or drones that look the same."""
+    for one, other in _alike(mission.name for mission in missions):
+        yield _sentence("missions", one, other)
+    for one, other in _alike(drone.id for drone in drones):
+        yield _sentence("drones", one, other)
+    for mission in missions:
+        for one, other in _alike(trip.name for trip in mission.trips):
+            yield _sentence(f"trips of mission {quoted(mission.name)}", one, other)
+
+
+def _alike(names: Iterable[str]) -> Iterator[tuple[str, str]]:
+    first: dict[str, str] = {}
+    for name in names:
+        known = first.setdefault(_seen(name), name)
+        if known != name:
+            yield known, name
+
+
+def _seen(name: str) -> str:
+    """Return a name as an eye takes it: whatever letters it is made of, large or small."""
+    plain = normalize("NFKC", name).translate(_LETTERS).casefold()
+    return " ".join(normalize("NFKC", plain).split())
+
+
+def _sentence(what: str, one: str, other: str) -> str:
+    return (
+        f"two {what} are easily taken for one another, {quoted(one)} and {quoted(other)}"
+        f" ({one!a} and {other!a}): rename one"
+    )
+
+
+_LETTERS = str.maketrans(
+    "\u0430\u0435\u043a\u043e\u0440\u0441\u0443\u0445\u0456\u0458\u0455\u0475\u04bb\u04cf\u0501\u051b\u051d"
+    "\u0410\u0412\u0415\u041a\u041c\u041d\u041e\u0420\u0421\u0422\u0423\u0425\u0406\u0408\u0405\u04c0"
+    "\u0391\u0392\u0395\u0396\u0397\u0399\u039a\u039c\u039d\u039f\u03a1\u03a4\u03a5\u03a7"
+    "\u03b1\u03b9\u03ba\u03bd\u03bf\u03c1\u03c5\u03c7\u03f3\u0131\u0251\u0261\u0570\u057d\u0581\u0585"
+    "\u2010\u2012\u2013\u2014\u2015\u2212\u2018\u2019\u02bc\u201c\u201d\u2044\u2215"
+    "\u1160\u115f\u2800",
+    "aekopcyxijsvhldqw"
+    "ABEKMHOPCTYXIJSI"
+    "ABEZHIKMNOPTYX"
+    "aikvopuxjiaghugo"
+    "------'''\"\"//"
+    "   ",
+    "\u034f\u17b4\u17b5"
+    + "".join(map(chr, (*range(0x180B, 0x1810), *range(0xFE00, 0xFE10), *range(0xE0100, 0xE01F0)))),
+)
+"""Letters of other alphabets that are drawn as Latin ones, and signs that are drawn alike, or not at all."""

@@ -1,0 +1,1 @@
+"""Flying an app for real: begun, recorded, commanded, recovered."""

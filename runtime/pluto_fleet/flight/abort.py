@@ -1,0 +1,49 @@
+"""Failing a trip whose drone is elsewhere: its action may be done by the time that the drone hears of it.
+
+So an action that must not be repeated is looked up first: at one instant the trip's own end wins.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from plutoc_runtime.time.kernel import mission_key
+from plutoc_runtime.trips.flight import Flight
+
+from .live_engine import LiveEngine
+from .reconcile import Fate, doubt, fate, hear_end
+
+if TYPE_CHECKING:
+    from plutoc_runtime.flow.mission import MissionState
+
+    from ..jobs.job import Commanding
+
+
+class CallingOff:
+    """Fails trips once the gateway has said that their actions were not done."""
+
+    def __init__(self, link: Commanding) -> None:
+        self._link = link
+
+    def __call__(self, state: MissionState, flight: Flight, reason: str) -> None:
+        """Fail the trip of a flight that was broken off, unless its action was done, or may have been."""
+        state.core.kernel.spawn(
+            self._fail_unless_done(state, flight, reason),
+            mission_key(state.mission.index),
+            f"{flight.id} is called off",
+        )
+
+    async def _fail_unless_done(self, state: MissionState, flight: Flight, reason: str) -> None:
+        roll = await self._link.call()
+        if state.in_flight is not flight or state.task is None:
+            return  # it has ended, or its mission was taken out of its graph
+        entry = roll.jobs.get(flight.id)
+        what = fate(entry, state.core.app.actions[flight.trip.action], begun=False)
+        if what is Fate.UNKNOWN:
+            assert isinstance(state.supervisor, LiveEngine)
+            state.supervisor.waits(state)
+            doubt(state, flight)
+        elif what is Fate.FLIES_ON and entry is not None:
+            hear_end(flight, self._link, entry)
+        else:
+            state.fail(flight, reason)

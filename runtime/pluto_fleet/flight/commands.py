@@ -1,0 +1,111 @@
+"""The socket through which commands reach a running app.
+
+Nothing stands between a command and what it does: a request is read and carried out within the
+kernel in one go, whatever else the app waits for. Only the answer may have to wait.
+"""
+
+from __future__ import annotations
+
+from collections.abc import AsyncIterator, Mapping
+from contextlib import AsyncExitStack, asynccontextmanager
+from pathlib import Path
+from typing import Protocol
+
+from plutoc_runtime.domain.errors import BadInput
+
+from ..jobs.reports import Down
+from ..journal.errors import why
+from ..process.ipc import Answer, answering, listening
+
+
+class Control(Protocol):
+    """What can be asked of a running app; each says what it did, or raises `BadInput`."""
+
+    def stop(self, how: Down) -> str:
+        """Bring all drones down; every mission can go on later."""
+        ...
+
+    def pause(self, mission: str | None) -> str:
+        """Take a mission, or all, out of its graph until it is told to go on."""
+        ...
+
+    def go_on(self, mission: str | None) -> str:
+        """Let a paused mission, or all that are, go on where it was."""
+        ...
+
+    def skip(self, mission: str, trip: str | None) -> str:
+        """Leave out a trip of a mission; None: its next one."""
+        ...
+
+    def cancel(self, mission: str | None) -> str:
+        """End a mission, or all, for good."""
+        ...
+
+    def prioritise(self, mission: str, trip: str, priority: int) -> str:
+        """Fly a trip sooner, or later, than others that wait for a drone."""
+        ...
+
+    def retire(self, drone: str) -> str:
+        """Let nobody have a drone any more, until it is brought back."""
+        ...
+
+    def bring_back(self, drone: str) -> str:
+        """Let a drone be handed out again that is retired, or lost and looked after since."""
+        ...
+
+    def decide(self, mission: str, answer: str) -> str:
+        """Settle what only a person can know: `done`, `not-done`, `go-on` or `cancel`."""
+        ...
+
+
+def perform(control: Control, request: Mapping[str, object]) -> str:
+    """Do what was asked; raise `BadInput` if it makes no sense."""
+    how = stop_in(request)
+    if how is not None:
+        return control.stop(how)
+    match request:
+        case {"command": "pause", "mission": str() | None as mission}:
+            return control.pause(mission)
+        case {"command": "go-on", "mission": str() | None as mission}:
+            return control.go_on(mission)
+        case {"command": "skip", "mission": str(mission), "trip": str() | None as trip}:
+            return control.skip(mission, trip)
+        case {"command": "cancel", "mission": str() | None as mission}:
+            return control.cancel(mission)
+        case {"command": "decide", "mission": str(mission), "answer": str(answer)}:
+            return control.decide(mission, answer)
+        case {
+            "command": "prioritise",
+            "mission": str(mission),
+            "trip": str(trip),
+            "priority": int(priority),
+        }:
+            return control.prioritise(mission, trip, priority)
+        case {"command": "retire", "drone": str(drone)}:
+            return control.retire(drone)
+        case {"command": "bring-back", "drone": str(drone)}:
+            return control.bring_back(drone)
+        case _:
+            raise BadInput("this app does not know that command")
+
+
+def stop_in(request: Mapping[str, object]) -> Down | None:
+    """Return how a request wants all drones to come down; None: it wants something else."""
+    match request:
+        case {"command": "stop", "how": ("rtl" | "land") as how}:
+            return Down(how)
+    return None
+
+
+@asynccontextmanager
+async def hear_commands(note: Path, answer: Answer) -> AsyncIterator[None]:
+    """Answer every process that finds the note; nothing flies that could not be stopped."""
+    async with AsyncExitStack() as stack:
+        try:
+            await stack.enter_async_context(listening(note, answering(answer)))
+        except OSError as error:
+            raise BadInput(
+                f"{note}: it cannot be written that commands are heard, and so nothing flies:"
+                f" {why(error)}; mend that, then resume"
+            ) from None
+        yield

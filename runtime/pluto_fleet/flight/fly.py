@@ -1,0 +1,63 @@
+"""Real time: one life of an app after another, each from what its journal says."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from ..journal import errors
+from ..journal.replay import replayed
+from .live_flight import OneLife
+
+if TYPE_CHECKING:
+    from ..journal.fold import Records
+    from ..journal.store import Store
+    from .config import Lived, Setting, Stops
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Recovered:
+    """What a journal says."""
+
+    records: Records
+    written: float | None
+    """When its last row was written, in seconds since 1970."""
+
+    def time(self, speed: float) -> float:
+        """Return what time it is now in the life that goes on from there."""
+        if not self.records.missions or self.written is None:
+            return self.records.time
+        return self.records.time + max(0.0, time.time() - self.written) * speed
+
+
+def recovered(store: Store) -> Recovered:
+    """Return what a journal says; raise `BadInput` where it is damaged."""
+    read = store.read()
+    records = replayed(read, store.header)
+    if read.damaged is not None:
+        raise errors.damaged(store.path, read.damaged)
+    return Recovered(records=records, written=read.written)
+
+
+async def live(
+    setting: Setting,
+    store: Store,
+    stops: Stops,
+    known: Recovered | None = None,
+    born: Callable[[OneLife], object] | None = None,
+) -> Lived:
+    """Let the app live until all is over, until it is stopped, or until its gateway dies.
+
+    `known` is what the journal says, if it has been read already; `born` is told of the life.
+    """
+    known = known or recovered(store)
+    one = OneLife(setting, store, known.records, known.time(setting.speed))
+    if born is not None:
+        born(one)
+    try:
+        return await one.live(stops)
+    finally:
+        stops.stop_now = None
+        await one.close()

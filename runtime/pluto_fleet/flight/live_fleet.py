@@ -1,0 +1,179 @@
+"""The drones of an app that really flies: they are asked how they are, and people look after them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from plutoc_runtime.domain.status import DroneStatus
+from plutoc_runtime.domain.text import cut_off, place, printable
+from plutoc_runtime.fleet.fleet import LONGEST, Fleet
+
+if TYPE_CHECKING:
+    from plutoc_runtime.domain.model import Drone
+    from plutoc_runtime.flow.mission import Core
+
+    from ..jobs.job import Commanding
+    from ..jobs.reports import DroneReport
+
+_HELPLESS = 12.0
+"""Seconds after which a drone that stands there will not fly home by itself: it would have begun."""
+
+
+class LiveFleet(Fleet):
+    """A fleet whose drones may have been lost, retired or flying before this app began."""
+
+    _navigation: Commanding
+
+    def __init__(self, *parts: Any) -> None:
+        super().__init__(*parts)
+        self.retired: set[Drone] = set()
+        """Those that no mission may have until they are brought back."""
+        self.lost: dict[Drone, str] = {}
+        """Those that were lost in an earlier life, and that no person has brought back since."""
+        self.somebody_comes = True
+        """Whether who needs a person is waited for when all missions have ended."""
+
+    def dismiss(self, drone: Drone) -> None:
+        """A drone has done what it was allocated for; a retired one goes home."""
+        if drone not in self.retired:
+            super().dismiss(drone)
+        elif not self._rests(drone):
+            self.send_home(drone)
+
+    def _rests(self, drone: Drone) -> bool:
+        """Let it be handed out, or charge first; a retired drone must be home, and is OFFLINE."""
+        if drone not in self.retired:
+            return super()._rests(drone)
+        if not self._is_docked(drone):
+            return False
+        self._become(drone, DroneStatus.OFFLINE)
+        return True
+
+    async def _why_lost(self, drone: Drone, reason: str) -> str:
+        """Ask the drone: it may have become worse since its flight failed."""
+        standing = await self._navigation.roll_call(drone.id)
+        return _in_words(standing) or await super()._why_lost(drone, reason)
+
+    def take_up(self, drone: Drone, standing: DroneReport) -> None:
+        """Find out what becomes of a drone that no mission needs now, when an app begins or goes on.
+
+        It is handed out only once it stands on the ground, well, with nothing aboard; one that was
+        lost, only once a person has looked after it, even if it says that it is well.
+        """
+        if drone in self.lost:
+            self._leave_lost(drone, standing)
+            return
+        why = self._say_why_not(drone, standing)
+        well = standing.reached and standing.landed and not standing.problems
+        if not (well and standing.carrying is None and self._rests(drone)):
+            self.recover(drone, why or f"{drone.id} does not answer")
+            if why and standing.landed:
+                self.unready[drone] = why
+
+    def _leave_lost(self, drone: Drone, standing: DroneReport) -> None:
+        """Let it be where it is, unless it is in the air: then it comes home, and stays lost."""
+        if standing.reached and not standing.landed:
+            down = partial(self._bring_down, reason=self.lost[drone])
+            self._send(drone, DroneStatus.RECOVERING, down, "comes down")
+        else:
+            self._lose(drone, self.lost[drone])
+
+    async def _bring_down(self, drone: Drone, reason: str) -> None:
+        await self._navigation.recover(drone.id)
+        self._lose(drone, reason)
+
+    def _lose(self, drone: Drone, reason: str) -> None:
+        self.unready[drone] = reason
+        self._become(drone, DroneStatus.LOST)
+
+    def _say_why_not(self, drone: Drone, standing: DroneReport) -> str:
+        """Let people know why a drone may not fly, and return it."""
+        if not standing.problems:
+            return ""
+        why = _in_words(standing)
+        self._trace.note("drone.not_ready", drone=drone.id, reason=why)
+        return why
+
+    def retire(self, drone: Drone) -> None:
+        """No mission gets this drone any more; what it flies for now it flies to the end."""
+        self.retired.add(drone)
+        if drone.status in (DroneStatus.FREE, DroneStatus.CHARGING) and not self._rests(drone):
+            self.send_home(drone)
+
+    def bring_back(self, drone: Drone) -> None:
+        """A retired drone may be handed out again; one that was lost, once it has come home."""
+        self.retired.discard(drone)
+        self.lost.pop(drone, None)
+        if drone.status is DroneStatus.LOST:
+            self._navigation.mended(drone.id)
+            self._send(drone, DroneStatus.RECOVERING, self._come_back, "comes back")
+            return
+        if drone in self.unready:  # it may wait for just this
+            self._navigation.mended(drone.id)
+        if drone.status is DroneStatus.OFFLINE and not self._rests(drone):
+            self.send_home(drone)
+
+    def flies_on(self, drone: Drone) -> None:
+        """A drone has been flying for a mission since before the app was interrupted."""
+        self._become(drone, DroneStatus.BUSY)
+
+    def halt(self) -> None:
+        """Let go of every drone: the gateway brings them down."""
+        for errand in list(self.errands.values()):
+            errand.cancel()
+        self.errands.clear()
+
+    async def all_down(self) -> None:
+        """Wait until every drone has done what it does for itself: return, land, recover.
+
+        One that stands on the ground and needs a person is not waited for, unless one comes.
+        """
+        stands_since: dict[Drone, float] = {}
+        while under_way := {one: task for one, task in self.errands.items() if not task.is_set}:
+            if self.somebody_comes:
+                await next(iter(under_way.values())).ended()
+                continue
+            now = self._kernel.now
+            for drone in self.drones:
+                if drone not in under_way or not self._stands(drone):
+                    stands_since.pop(drone, None)
+                else:
+                    stands_since.setdefault(drone, now)
+            if all(now - stands_since.get(drone, now) >= _HELPLESS for drone in under_way):
+                self._leave_to_a_person(tuple(under_way))
+                return
+            await self._kernel.sleep(1.0)
+
+    def _stands(self, drone: Drone) -> bool:
+        return drone.status is DroneStatus.RECOVERING and drone.telemetry.landed
+
+    def _leave_to_a_person(self, drones: Sequence[Drone]) -> None:
+        for drone in drones:
+            text = f"{drone.id} stands at {place(drone.location)} and needs somebody: go and look"
+            self._trace.note("log", mission=None, text=text)
+
+    async def _come_back(self, drone: Drone) -> None:
+        """Bring home whom a person has looked after; if that was in vain, say why."""
+        self._become(drone, DroneStatus.RECOVERING)
+        if await self._navigation.recover(drone.id):
+            await self._settle(drone)
+        else:
+            standing = await self._navigation.roll_call(drone.id)
+            self._lose(drone, self._say_why_not(drone, standing) or _STILL)
+
+
+def live_fleet(core: Core) -> LiveFleet:
+    """Return the fleet of an app that really flies."""
+    assert isinstance(core.fleet, LiveFleet)
+    return core.fleet
+
+
+def _in_words(standing: DroneReport) -> str:
+    """Return why a drone may not fly, as it says itself."""
+    return cut_off("; ".join(map(printable, standing.problems)), LONGEST)
+
+
+_STILL = "it was brought back, and could not be reached"
+"""Why a drone is lost, where it does not say more."""

@@ -1,0 +1,255 @@
+"""One life of an app in real time, with all that stands between it and the outside.
+
+On one side is the journal, which a thread writes, on the other the gateway to the drones; and
+somebody may ask for something at any moment.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from plutoc_runtime.domain.errors import BadInput, Cancelled
+from plutoc_runtime.time.future import Future
+from plutoc_runtime.time.kernel import FLEET
+
+from ..jobs.reports import Down
+from ..journal.errors import JournalError
+from ..journal.writer import Writer
+from ..process.realtime import RealTime
+from .commands import hear_commands, perform, stop_in
+from .config import End, Lived
+from .live_engine import live_engine
+from .live_fleet import live_fleet
+from .recorded_flight import Life
+
+if TYPE_CHECKING:
+    from plutoc_runtime.domain.trace import Event
+    from plutoc_runtime.time.kernel import Task
+
+    from ..jobs.job import Reached
+    from ..journal.fold import Records
+    from ..journal.store import Store
+    from .config import Setting, Stops
+
+SNAPSHOT_EVERY = 50_000
+"""Events between two snapshots: so many are read again in a tenth of a second."""
+
+SNAPSHOT_AT_END = 1_000
+"""Events that are worth one at the end of a life."""
+
+LOOK_EVERY = 1.0
+"""Seconds on the wall between two looks at whether the journal is still there."""
+
+_ENDED = "the app ended before it could say whether that was done: look, once it goes on"
+
+
+class OneLife:
+    """From its roll call to its last word."""
+
+    def __init__(self, setting: Setting, store: Store, records: Records, begin: float) -> None:
+        self._setting, self._store = setting, store
+        self._loop = asyncio.get_running_loop()
+        self._kernel = RealTime(setting.speed, begin)
+        self._records = records
+        self._writer = Writer(store, partial(self._post, self._durable), self._unwritable)
+        self._stops: Stops | None = None
+        self._link: Reached | None = None
+        self._watcher: Callable[[], object] | None = None
+        self.life: Life | None = None
+        """What is lived, once the gateway is reached."""
+        self._end: Future[End] = Future()
+        self._failure: JournalError | None = None
+        self._since_snapshot = 0
+        self._kept: asyncio.Future[bool] = self._loop.create_future()
+        """Whether all that was asked for has been done and is on record, once the life has ended."""
+
+    async def live(self, stops: Stops) -> Lived:
+        """Let everything go on until all is over, it is stopped, or the gateway dies."""
+        setting, kernel, self._stops = self._setting, self._kernel, stops
+        lost = partial(self._end.set, End.LOST)
+        self._link = link = await setting.connect(kernel, self._store.epoch, lost)
+        if self._watcher is not None:
+            link.when_seen(self._watcher)
+        self.life = life = Life(
+            setting.app,
+            setting.fleet,
+            kernel,
+            link,
+            self._writer,
+            self._records,
+            epoch=self._store.epoch,
+            listeners=(self._count,),
+            watcher=setting.tell,
+        )
+        live_engine(life.session).patient = setting.patient
+        live_fleet(life.session.core).somebody_comes = setting.sim
+        life.control.stopped.watch(lambda _: self._end.set(End.STOPPED))
+        stops.stop_now = self._stop
+        async with hear_commands(setting.note, self.answer):
+            looks = asyncio.create_task(self._looks())
+            try:
+                end = await self._lived(life, stops)
+            except BadInput:  # no drone is ready: the gateway is not needed either
+                await link.goodbye()
+                raise
+            finally:  # whoever still waits for an answer need not any longer
+                looks.cancel()
+                self._kept.set_result(self._end.is_set and self._end.result() is End.OVER)
+        if end is not End.LOST:
+            await link.goodbye()
+        if self._failure is not None:
+            raise self._failure
+        return Lived(
+            end=end,
+            missions=life.missions,
+            drones=life.session.drones,
+            records=self._records,
+        )
+
+    async def _lived(self, life: Life, stops: Stops) -> End:
+        """Let everything go on to some end, and see to it that all is on record."""
+        over = life.go_on(self._setting.missions)
+        over.watch(self._over)
+        if stops.asked is not None:
+            stops.stop(stops.asked)
+        end = await self._kernel.run(self._end)
+        if end is End.OVER:
+            over.result()  # raises what it could not see through
+        if self._failure is None:
+            if self._since_snapshot > SNAPSHOT_AT_END:
+                self._keep()
+            try:
+                self._writer.flush()
+            except JournalError as failure:
+                self._failure = failure
+            self._kernel.post(self._durable, self._store.seq)
+        return end
+
+    def when_seen(self, watcher: Callable[[], object]) -> None:
+        """Call this whenever something was heard of the drones."""
+        self._watcher = watcher
+
+    async def close(self) -> None:
+        """Let nothing of this life go on; the drones hover, or what was asked of them goes on."""
+        self._kernel.close()
+        self._writer.close()
+        if self._link is not None:
+            await self._link.close()
+
+    def _stop(self, how: Down) -> None:
+        """Stop, unless it is all over anyway."""
+        if self.life is not None and not self._end.is_set:
+            self._kernel.post(self.life.control.stop, how)
+
+    def _over(self, over: Task[float]) -> None:
+        if not isinstance(over.error, Cancelled):  # as it is by a stop
+            self._end.set(End.OVER)
+
+    # What happens, on its way to the journal and back
+
+    def _count(self, _: Event) -> None:
+        """Keep what all events come to, now and then."""
+        self._since_snapshot += 1
+        if self._since_snapshot == SNAPSHOT_EVERY:
+            self._loop.call_soon(self._keep)  # between two instants
+
+    def _keep(self) -> None:
+        self._since_snapshot = 0
+        if self._failure is None:
+            self._writer.snapshot(json.dumps(self._records.data))
+
+    def _durable(self, number: int) -> None:
+        if self.life is not None:
+            self.life.recorder.durable(number)
+
+    def _post(self, call: Callable[..., object], *args: object) -> None:
+        """Call this within the kernel, from another thread."""
+        with suppress(RuntimeError):  # the loop is closed: it is all over
+            self._loop.call_soon_threadsafe(self._kernel.post, call, *args)
+
+    async def _looks(self) -> None:
+        """See now and then whether the journal is still there, though nothing may be written."""
+        while self._failure is None:
+            await asyncio.sleep(LOOK_EVERY)
+            try:
+                self._store.look()
+            except JournalError as failure:
+                self._unwritable(failure)
+
+    def _unwritable(self, failure: JournalError) -> None:
+        """Nothing can be put on record any more: bring everything down, and say why."""
+        if self._failure is None:
+            self._failure = failure
+            self._post(self._stop_unrecorded)
+
+    def _stop_unrecorded(self) -> None:
+        if self.life is None:
+            self._end.set(End.STOPPED)
+        elif not self._end.is_set:
+            self.life.control.stop(Down.LAND)
+            why = f"{self._failure}; all drones land"
+            last = {"t": round(self._kernel.now, 6), "event": "log", "mission": None, "text": why}
+            self._store.last_words(json.dumps([last]))
+
+    # What others ask for
+
+    async def answer(self, request: Mapping[str, object]) -> str:
+        """Do what somebody asks for, at once; say so when it cannot be lost any more.
+
+        `BadInput`: it cannot be done, and why.
+        """
+        return await self.carry_out(lambda life: perform(life.control, request), stop_in(request))
+
+    async def carry_out(self, what: Callable[[Life], str], how: Down | None = None) -> str:
+        """Do this within the kernel, at once; return what it says when that cannot be lost any more.
+
+        `how`: it is a Stop, for which nobody waits.
+        """
+        if how is not None and self._stops is not None:
+            self._stops.asked = how  # if the gateway dies meanwhile, the next life stops, too
+        if self._end.is_set:
+            return self._too_late(how)
+        said: list[str] = []
+        refused: list[BadInput] = []
+        done: list[Task[None]] = []
+
+        def carry_out() -> None:
+            assert self.life is not None
+            try:
+                said.append(what(self.life))
+            except BadInput as error:
+                refused.append(error)
+            else:
+                finished = self.life.control.carried_out()
+                done.append(self._kernel.spawn(finished, FLEET, "an answer"))
+
+        self._kernel.post(carry_out)
+        if refused:
+            raise refused[0]
+        if how is None:
+            await self._on_record(done)
+        return said[0]
+
+    def _too_late(self, how: Down | None) -> str:
+        """Nothing of this life goes on any more: only a Stop still counts."""
+        if how is None:
+            raise BadInput(_ENDED)
+        if self._end.result() is End.LOST:
+            return "stopping, as soon as another gateway is there"
+        return "the app ends, and all drones are down"
+
+    async def _on_record(self, done: Sequence[Task[None]]) -> None:
+        """Wait until what was asked for was done and is durable; raise `BadInput` if it is not."""
+        answers = [asyncio.ensure_future(self._kernel.offer(task)) for task in done]
+        waits: list[asyncio.Future[Any]] = [*answers, self._kept]
+        await asyncio.wait(waits, return_when=asyncio.FIRST_COMPLETED)
+        for one in answers:
+            one.cancel()
+        is_known = self._kept.result() if self._kept.done() else all(task.is_set for task in done)
+        if self._failure is not None or not is_known:
+            raise BadInput(_ENDED)

@@ -1,0 +1,145 @@
+"""What becomes of a flight that was interrupted, and of its mission.
+
+A flight is interrupted when the app stops or dies, or when a person has its mission taken out of its
+graph. Then the ledger is asked, and the drone; what they cannot say, only a person can.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from enum import Enum
+from typing import TYPE_CHECKING, Any
+
+from plutoc_runtime.domain.actions import PICK, RELEASE
+from plutoc_runtime.domain.errors import ANY_ERROR, Cancelled
+from plutoc_runtime.domain.status import STANDBY, UNEXECUTED, Status
+from plutoc_runtime.hooks.calls import trace_of
+from plutoc_runtime.trips.flight import Flight
+
+from ..jobs.reports import Entry, JobState, outcome
+from . import interventions
+from .live_fleet import live_fleet
+
+if TYPE_CHECKING:
+    from plutoc_runtime.domain.actions import Action
+    from plutoc_runtime.domain.app import App
+    from plutoc_runtime.flow.mission import Core, MissionState
+
+    from ..jobs.job import Commanding
+    from .live_engine import LiveEngine
+
+
+class Fate(Enum):
+    """What becomes of an interrupted flight."""
+
+    FLIES_ON = "flies on"  # or has ended, and its end can still be heard
+    AGAIN = "again"  # its action was not done: it counts as no attempt
+    DONE = "done"  # its action was done, as the app's own probe could see
+    UNKNOWN = "unknown"
+
+
+def fate(entry: Entry | None, action: Action, begun: bool) -> Fate:
+    """Return what becomes of a flight; `begun`: the app's own action had begun when it ended."""
+    repeatable = action.repeat == "safe"
+    if entry is not None and entry.flies:
+        return Fate.FLIES_ON
+    if begun:
+        return Fate.AGAIN if repeatable else Fate.UNKNOWN
+    if entry is None or entry.state is JobState.BROKEN_OFF:
+        return Fate.AGAIN
+    if entry.state is JobState.BEGUN:
+        return Fate.AGAIN if repeatable else Fate.UNKNOWN
+    return Fate.FLIES_ON
+
+
+async def what_became(core: Core, flight: Flight, entry: Entry | None, begun: bool) -> Fate:
+    """Return what becomes of a flight; what the ledger cannot tell, the app's own probe may."""
+    action = core.app.actions[flight.trip.action]
+    what = fate(entry, action, begun)
+    probe = probe_of(core.app, action) if what is Fate.UNKNOWN else None
+    if probe is None:
+        return what
+    try:
+        answer = await core.kernel.call_hook(probe, flight.flier, flight.trip)
+    except (Cancelled, GeneratorExit, KeyboardInterrupt):
+        raise
+    except ANY_ERROR as error:  # then it cannot tell: a person must
+        core.log(trace_of(error), flight.mission.name)
+        return what
+    return _PROBED[answer] if type(answer) is bool else what
+
+
+_PROBED = {True: Fate.DONE, False: Fate.AGAIN}
+
+
+def probe_of(app: App, action: Action) -> Callable[..., Any] | None:
+    """Return the hook that can tell whether an action was done: `pollinate` has `pollinate_done`."""
+    name, hook = f"{action.name}_done", action.hook
+    if hook is None or name in app.actions or name in app.evaluators:
+        return None  # what has this name is something else
+    return getattr(sys.modules.get(hook.__module__), name, None)
+
+
+def fly_on(state: MissionState, flight: Flight, link: Commanding, entry: Entry) -> None:
+    """Hear of a flight that was not interrupted after all; of one that has ended, hear now."""
+    state.goes_on = True
+    state.mission.status = Status.RUNNING
+    live_fleet(state.core).flies_on(flight.flier)
+    hear_end(flight, link, entry)
+
+
+def hear_end(flight: Flight, link: Commanding, entry: Entry) -> None:
+    """Hear how a flight ends; if it has ended, at once: before any limit can be over."""
+    if entry.flies:
+        link.attach(flight.id, flight.report)
+    else:
+        flight.report(outcome(entry))
+
+
+def fly_again(state: MissionState, flight: Flight, link: Commanding) -> None:
+    """Put an interrupted trip back: it has not been flown."""
+    link.forget(flight.id)  # it shall be flown, whatever was known of it
+    state.flight, state.goes_on, state.interrupted = None, False, True
+    interventions.interrupt(state.core, state.mission, flight.trip)
+
+
+def was_done(state: MissionState, flight: Flight) -> None:
+    """An interrupted trip's action was done after all; what it gave is unknown."""
+    state.record_done(flight, None)
+    flight.set(state.mission.status)
+    state.goes_on = True
+
+
+def doubt(state: MissionState, flight: Flight) -> None:
+    """Whether the action was done is unknown: a drone that may have the item waits, too."""
+    trip, drone = flight.trip, flight.flier
+    interventions.doubt(
+        state.core,
+        state.mission,
+        trip,
+        drone.id,
+        f"was {trip.action} of trip {trip.name} done by {drone.id}? Nobody could see it",
+    )
+    if trip.action in (PICK, RELEASE):
+        state.keep_carrier(drone)
+
+
+def settle_doubt(state: MissionState, engine: LiveEngine, link: Commanding, done: bool) -> None:
+    """A person has said whether the action was done: the mission goes on accordingly."""
+    flight = state.flight
+    if flight is None:
+        raise RuntimeError(f"nothing is in doubt about mission {state.mission.name}")
+    kept = flight.trip.action in (PICK, RELEASE)
+    if done:
+        was_done(state, flight)
+    else:
+        fly_again(state, flight, link)
+    if kept and state.carrier is None:
+        state.core.fleet.recover(flight.flier)
+    engine.resume(state, standing(state))
+
+
+def standing(state: MissionState) -> Status:
+    """Return the status with which a mission goes on where it was interrupted."""
+    return STANDBY if state.mission.attempts or state.interrupted else UNEXECUTED

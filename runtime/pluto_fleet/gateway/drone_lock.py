@@ -1,0 +1,113 @@
+"""One process commands a drone: a lock for each, in a folder that all processes of a user share.
+
+The lock of a gateway's folder goes with that folder; these stay, whatever becomes of it. They belong
+to the process that takes them and end with it, so nothing has to be cleared away after a crash.
+"""
+
+from __future__ import annotations
+
+import fcntl
+import os
+import tempfile
+import time
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager, suppress
+from hashlib import sha256
+from pathlib import Path
+
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.text import quoted
+
+from ..process.forked import not_for_children
+from ..process.ipc import is_private
+
+LEAVING = 8.0
+"""Seconds that a gateway whose drones are down may take to let go of them."""
+
+_EACH = 0.05
+"""Seconds between two looks."""
+
+
+class Held(BadInput):
+    """Another process commands one of these drones."""
+
+
+@contextmanager
+def holding(
+    drones: Mapping[str, str], folder: Path | None = None, patience: float = 0.0
+) -> Iterator[None]:
+    """Let no other process command these drones, by their ids and URIs; `Held` if one does.
+
+    `folder` is where the locks are; default: where they are for all processes of this user.
+    Whoever held them last may just be leaving: `patience` is for how many seconds that is waited for.
+    """
+    until = time.monotonic() + patience
+    place = folder or _folder()
+    locks: dict[str, int] = {}
+    owners: dict[str, str] = {}
+    try:
+        for id, uri in drones.items():
+            name = _name(uri)
+            if name in locks:
+                raise BadInput(f"{owners[name]} and {id} have the same URI {quoted(uri)}")
+            owners[name], locks[name] = id, _taken(place / name, id, uri, until)
+        yield
+    finally:
+        for lock in locks.values():
+            with suppress(OSError):
+                os.close(lock)
+
+
+def _taken(file: Path, id: str, uri: str, until: float) -> int:
+    lock = os.open(file, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC | os.O_NOFOLLOW, 0o600)
+    while not _is_free(lock):
+        if time.monotonic() < until:
+            time.sleep(_EACH)
+            continue
+        who = os.pread(lock, 20, 0).decode("ascii", "replace").strip()
+        os.close(lock)
+        whose = f"process {who}" if who.isdecimal() else "another process"
+        raise Held(
+            f"{id} ({quoted(uri)}) is commanded by {whose} already, and two must not fly one drone:"
+            " stop that flight first, or wait: a minute after its drones are down it lets go of them"
+        )
+    not_for_children(lock)
+    os.ftruncate(lock, 0)
+    os.pwrite(lock, f"{os.getpid()}\n".encode(), 0)
+    return lock
+
+
+def _is_free(lock: int) -> bool:
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
+    return True
+
+
+def _name(uri: str) -> str:
+    """Return the same file for all ways to write where a drone is: by whichever dongle, too."""
+    plain = uri.strip().casefold().partition("?")[0].rstrip("/")
+    scheme, has_host, rest = plain.partition("://")
+    if scheme == _RADIO and has_host:
+        plain = rest.partition("/")[2]
+    return sha256(plain.encode("utf-8", "surrogatepass")).hexdigest()[:24]
+
+
+_RADIO = "radio"
+"""Of these URIs the first part is a number of the dongle: another one reaches the same drone."""
+
+
+def _folder() -> Path:
+    """Return the folder of this user's locks; it is made where there is none."""
+    runtime = os.environ.get("XDG_RUNTIME_DIR", "")
+    usable = os.path.isabs(runtime) and os.access(runtime, os.W_OK | os.X_OK)
+    folder = Path(runtime if usable else tempfile.gettempdir()) / f"pluto-drones-{os.geteuid()}"
+    with suppress(FileExistsError):
+        folder.mkdir(mode=0o700)
+    if not is_private(folder):
+        raise BadInput(
+            f"{folder}: it must be yours, and nobody else may enter it: it says which drones are"
+            " commanded; move it away"
+        )
+    return folder

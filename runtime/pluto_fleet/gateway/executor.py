@@ -1,0 +1,382 @@
+"""Flies jobs and errands, by what each drone can be made to do: the `Navigation` of every gateway."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Coroutine, Mapping, Sequence
+from contextlib import AbstractContextManager
+from dataclasses import replace
+from functools import partial
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from plutoc_runtime.domain.errors import ANY_ERROR, Cancelled, Failure, FlightFailed
+from plutoc_runtime.fleet.energy import docked, flight_seconds
+from plutoc_runtime.time.kernel import FLEET, Kernel, Task
+
+from ..jobs.job import motors_cut
+from .envelope import Envelope
+from .ledger import CutMotors
+from .traffic.ways import Section
+
+if TYPE_CHECKING:
+    from plutoc_runtime.domain.airspace import Airspace
+    from plutoc_runtime.domain.model import Point, Telemetry
+
+    from ..jobs.controls import Controls, Craft
+    from ..jobs.job import Job
+    from ..jobs.reports import DroneReport
+    from .ledger import Ledger
+    from .traffic.traffic import Traffic, Ways
+
+
+T = TypeVar("T")
+
+Leaving = Callable[[str], AbstractContextManager[object]]
+"""Says that a drone takes off: asked before it is told to, left once it has."""
+
+_HOVERS_ON = (Failure.REFUSED, Failure.ACTION)
+"""What goes wrong with a drone that hovers as before."""
+
+
+def _nothing() -> None:
+    """A flight goes on that has begun."""
+
+
+class Pilots:
+    """One for each drone, as it were: they know the way, and what is permitted."""
+
+    def __init__(
+        self,
+        kernel: Kernel,
+        controls: Controls,
+        drones: Sequence[Craft],
+        airspace: Airspace,
+        traffic: Traffic | None = None,
+        ledger: Ledger | None = None,
+        leaving: Leaving | None = None,
+    ) -> None:
+        self._kernel, self._controls, self._airspace = kernel, controls, airspace
+        self._leaving = leaving
+        """Writes down who takes off; None, as in a simulation: nobody looks after a crash."""
+        self._traffic = traffic
+        """Keeps them apart from each other; None: nobody does."""
+        self._envelope = Envelope(airspace)
+        self._drones = {drone.id: drone for drone in drones}
+        self._jobs: dict[str, Task[None]] = {}
+        """The jobs under way, by the drones' ids."""
+        self._rescues: dict[str, Task[bool]] = {}
+        """The latest rescue of each drone."""
+        self.telemetry: Mapping[str, Telemetry] = controls.telemetry
+        """What is known of each drone; the values stay current."""
+        self._cut = CutMotors(ledger, lambda drone: not controls.telemetry[drone].landed)
+
+    # Jobs
+
+    def fly(self, job: Job, report: Callable[[object], object]) -> None:
+        """Take off, fly to the job's stops and do its action; then report."""
+        name = f"{job.drone} flies {job.id}"
+        self._jobs[job.drone] = self._kernel.spawn(
+            self._done(job, report), self._key(job.drone), name
+        )
+
+    async def _done(self, job: Job, report: Callable[[object], object]) -> None:
+        try:
+            result = await self._flown(job)
+        except FlightFailed as error:
+            result = motors_cut(job.drone) if job.drone in self._cut else error
+        del self._jobs[job.drone]
+        report(result)
+
+    async def _flown(self, job: Job) -> object:
+        controls, airspace, drone = self._controls, self._airspace, job.drone
+        self._refuse_if_cut(drone)
+        self._check(job)
+
+        def begins() -> None:
+            here, category = controls.telemetry[drone].location, self._drones[drone].category
+            seconds = flight_seconds(category, airspace, here, job.stops, job.seconds)
+            controls.begins(drone, job, seconds)
+
+        await self._travel(drone, partial(self._to, drone, job.stops), begins)
+        if job.action is None:
+            return None
+        job.begins()
+        action = controls.act(drone, job.action, job.parameters, job.item, job.id)
+        return await self._noticed(drone, action)
+
+    def _check(self, job: Job) -> None:
+        """Refuse what the hardware cannot do, before it takes off."""
+        if job.action is not None:
+            why = self._controls.why_not(job.drone, job.action, job.parameters)
+            if why is not None:
+                raise FlightFailed(Failure.REFUSED, why)
+
+    # Commands
+
+    def break_off(self, drone: str) -> None:
+        """Stop whatever a drone does, and hover."""
+        for task in (self._jobs.pop(drone, None), self._rescues.pop(drone, None)):
+            if task is not None:
+                task.cancel()
+        if self._traffic is not None:
+            self._traffic.break_off(drone)
+        if drone not in self._cut:
+            self._controls.break_off(drone)
+
+    async def hold(self, drone: str) -> None:
+        """Hover, for as long as an action of the app's own takes; never returns by itself."""
+        self._refuse_if_cut(drone)
+        await self._noticed(drone, self._controls.hold(drone))
+
+    def begins(self, drone: str) -> None:
+        """A flight begins, for nobody but the drone."""
+        self._refuse_if_cut(drone)
+        self._controls.begins(drone, None, 0.0)
+
+    async def takeoff(self, drone: str, height: float) -> None:
+        """Rise to a height; does nothing for a drone that flies."""
+        begins = partial(self.begins, drone)
+        if self._controls.telemetry[drone].landed:
+            await self._travel(drone, partial(self._up, drone, height), begins)
+        else:
+            begins()
+
+    async def go_to(self, drone: str, target: Point) -> None:
+        """Fly straight to a point."""
+        self._refuse_if_cut(drone)
+        if self._controls.telemetry[drone].landed:
+            await self._controls.go_to(drone, target)  # says why not
+        else:
+            await self._travel(drone, partial(self._straight, drone, target))
+
+    async def land(self, drone: str) -> None:
+        """Land here, or beside it where another stands."""
+        self._refuse_if_cut(drone)
+        if self._controls.telemetry[drone].landed:
+            await self._controls.land(drone)
+        else:
+            await self.travels(drone, partial(self.way_down, drone), anywhere=True)
+
+    async def read(self, drone: str, name: str) -> float:
+        """Return what a drone measures under this name."""
+        return await self._controls.read(drone, name)
+
+    async def write(self, drone: str, name: str, value: float) -> None:
+        """Set what a drone has under this name."""
+        await self._controls.write(drone, name, value)
+
+    async def cut_motors(self, drone: str) -> None:
+        """Switch a drone's motors off now, wherever it is; it is lost then."""
+        with self._cut.cutting(drone):
+            await self._controls.cut(drone)
+
+    def _refuse_if_cut(self, drone: str) -> None:
+        """Let no motor turn again before a person has looked after the drone."""
+        if drone in self._cut:
+            raise motors_cut(drone)
+
+    async def roll_call(self, drone: str) -> DroneReport:
+        """Ask a drone where it is and what it has done; say so if it does not answer."""
+        standing = await self._controls.roll_call(drone)
+        if self._traffic is not None:
+            self._traffic.look_around()
+        why = str(motors_cut(drone))
+        if drone in self._cut and why not in standing.problems:
+            return replace(standing, problems=(*standing.problems, why))
+        return standing
+
+    # After a failure
+
+    def mended(self, drone: str) -> None:
+        """A person has looked after a lost drone: it may be asked again."""
+        self._cut.mended(drone)
+        self._controls.mended(drone)
+
+    async def recover(self, drone: str) -> bool:
+        """Bring a drone home after a failed flight, landed; False: it is lost.
+
+        Whoever meets it there takes off what it still carries.
+        """
+        rescue = self._kernel.spawn(
+            self._rescue(drone), self._key(drone), f"{drone} is brought home"
+        )
+        self._rescues[drone] = rescue
+        try:
+            await rescue.ended()
+        finally:
+            rescue.cancel()
+        if isinstance(rescue.error, Cancelled):
+            raise FlightFailed(Failure.REFUSED, f"{drone} was told to break it off")
+        return rescue.result()
+
+    async def _rescue(self, drone: str) -> bool:
+        controls = self._controls
+        if drone in self._cut or not await controls.reach(drone):
+            if self._traffic is not None:
+                self._traffic.lost(drone)
+            return False
+        if self._traffic is not None:
+            self._traffic.found(drone)
+        home = await self._flies_home(drone)
+        if drone in self._cut:  # meanwhile: it fell, and is nobody's to fetch before it is mended
+            return False
+        if not home and not await controls.fetched(drone):
+            return False
+        controls.unload(drone)
+        return True
+
+    async def _flies_home(self, drone: str) -> bool:
+        telemetry, home = self._controls.telemetry[drone], self._drones[drone].home
+        begins = partial(self.begins, drone)
+        try:
+            if telemetry.landed and docked(telemetry.location, home):
+                begins()
+                return True
+            await self._travel(drone, partial(self._home, drone), begins)
+            if not telemetry.landed:  # somebody stood there
+                await self.land(drone)
+        except FlightFailed:
+            return False
+        return True
+
+    async def _noticed(self, drone: str, hovering: Coroutine[Any, Any, T]) -> T:
+        """Let a drone do something where it hovers; if it fails there, others keep away."""
+        try:
+            return await hovering
+        except FlightFailed as error:
+            if self._traffic is not None and error.failure not in _HOVERS_ON:
+                self._traffic.stopped(drone, fails=True)
+            raise
+
+    # Ways
+
+    async def _travel(
+        self, drone: str, plan: Callable[[], Section], begins: Callable[[], None] = _nothing
+    ) -> None:
+        if self._traffic is None:  # as quickly as can be
+            section = plan()
+            begins()
+            await self._follow(section)
+        else:
+            await self.travels(drone, plan, begins)
+
+    async def travels(
+        self,
+        drone: str,
+        plan: Callable[[], Section],
+        begins: Callable[[], None] = _nothing,
+        *,
+        ways: Ways | None = None,
+        anywhere: bool = False,
+    ) -> None:
+        """Fly a section, or another of these ways to its end, as soon as one is free.
+
+        Who must wait for long, waits on the ground. `anywhere`: it is enough to be there.
+        """
+        traffic, since = self._traffic, self._kernel.now
+        if traffic is None:
+            await self._travel(drone, plan, begins)
+            return
+        begun = False
+        try:
+            while True:
+                section = plan()
+                way = traffic.clear(section, ways)
+                if way is None:
+                    way = await traffic.cleared(section, since, ways)
+                if way.stands or not begun:
+                    begins()
+                    begun = True
+                if await self._arrives(way, traffic) and (anywhere or not way.aside):
+                    return
+        except FlightFailed as error:
+            traffic.stopped(drone, fails=error.failure is not Failure.REFUSED)
+            raise
+        except ANY_ERROR:
+            traffic.stopped(drone, fails=False)
+            raise
+
+    async def _arrives(self, way: Section, traffic: Traffic) -> bool:
+        """Follow a way; False: traffic has stopped the drone, and it must take another."""
+        traffic.halted.pop(way.drone, None)
+        try:
+            await self._follow(way)
+        except FlightFailed as error:
+            if error.failure is not Failure.REFUSED or way.drone not in traffic.halted:
+                raise
+            traffic.stopped(way.drone, fails=False)
+            return False
+        traffic.rests(way.drone)
+        return True
+
+    async def _follow(self, section: Section) -> None:
+        controls, traffic, drone = self._controls, self._traffic, section.drone
+        points = section.points[1:-1] if section.lands else section.points[1:]
+        if section.stands:
+            if self._leaving is None:
+                await controls.takeoff(drone, points[0][2])
+            else:
+                with self._leaving(drone):
+                    await controls.takeoff(drone, points[0][2])
+            points = points[1:]
+            if traffic is not None:
+                traffic.passed(drone)
+        for point in points:
+            await controls.go_to(drone, point)
+            if traffic is not None:
+                traffic.passed(drone)
+        if section.lands:
+            await controls.land(drone)
+
+    def _to(self, drone: str, stops: Sequence[Point]) -> Section:
+        """To all stops, and hover at the last."""
+        points, stands = self._start(drone, self._airspace.cruise_height)
+        for stop in stops:
+            points += self._envelope.way(drone, points[-1], stop)
+        return Section(drone, tuple(points), stands, False)
+
+    def _up(self, drone: str, height: float) -> Section:
+        """Straight up."""
+        points, stands = self._start(drone, height)
+        return Section(drone, tuple(points), stands, False)
+
+    def _straight(self, drone: str, target: Point) -> Section:
+        """Straight to a point; above its dock, a drone is about to land."""
+        points, stands = self._start(drone, self._airspace.cruise_height)
+        points += self._envelope.straight(points[-1], target)
+        tail: tuple[Point, ...] = ()
+        if self._traffic is not None and docked(target, self._drones[drone].home):
+            below = self._traffic.ground.below(drone, target)
+            tail = () if below is None else (below,)
+        return Section(drone, tuple(points), stands, False, tail)
+
+    def way_down(self, drone: str) -> Section:
+        """Return the way straight down, or beside it."""
+        here = self._controls.telemetry[drone].location
+        if self._traffic is not None:
+            return self._traffic.ground.way_down(drone)
+        points = [here]
+        if self._airspace.problem(here) is not None:
+            points.append(self._airspace.way_back(here))
+        return Section(drone, (*points, (*points[-1][:2], 0.0)), False, True)
+
+    def _home(self, drone: str) -> Section:
+        """To its dock, and land there, unless another stands on it."""
+        x, y, z = self._drones[drone].home
+        points, stands = self._start(drone, self._airspace.cruise_height)
+        points += self._envelope.way(drone, points[-1], (x, y, points[-1][2]))
+        traffic = self._traffic
+        lands = traffic is None or traffic.ground.below(drone, (x, y, z)) is not None
+        if lands:
+            points.append((x, y, 0.0))
+        return Section(drone, tuple(points), stands, lands)
+
+    def _start(self, drone: str, height: float) -> tuple[list[Point], bool]:
+        """Return where a drone is, and where it is when it has taken off; whether it must."""
+        telemetry = self._controls.telemetry[drone]
+        here = telemetry.location
+        if not telemetry.landed:
+            return [here], False
+        return [here, (here[0], here[1], height)], True
+
+    def _key(self, drone: str) -> int:
+        return FLEET + 1 + self._drones[drone].index

@@ -1,0 +1,1 @@
+"""What passes between an app and what flies its drones, as plain data."""

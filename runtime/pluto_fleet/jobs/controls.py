@@ -1,0 +1,165 @@
+"""What the gateway can make each drone do, whatever moves it: simulated bodies, or real drones.
+
+Metres, seconds. Each command returns when it is done: on arrival, when landed; it raises
+`FlightFailed` when the drone cannot finish. A command that is cancelled leaves the drone hovering
+where it is. Where a drone may fly, and which other drones fly there now, is not known here: see `gateway/executor.py`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Protocol
+
+if TYPE_CHECKING:
+    from plutoc_runtime.domain.actions import Plain
+    from plutoc_runtime.domain.model import Category, Item, Point, Telemetry
+
+    from .job import Job
+    from .reports import DroneReport
+
+
+class Craft(Protocol):
+    """What the gateway must know of a drone."""
+
+    @property
+    def id(self) -> str:
+        """Its name in the fleet."""
+        ...
+
+    @property
+    def category(self) -> Category:
+        """How fast it flies, and for how long."""
+        ...
+
+    @property
+    def home(self) -> Point:
+        """Where its dock is."""
+        ...
+
+    @property
+    def index(self) -> int:
+        """Its place in the fleet file."""
+        ...
+
+
+class Controls(Protocol):
+    """A team of drones, by their ids, one command at a time for each."""
+
+    @property
+    def telemetry(self) -> Mapping[str, Telemetry]:
+        """What is known of each drone; the values stay current."""
+        ...
+
+    def why_not(self, drone: str, action: str, parameters: Mapping[str, Plain]) -> str | None:
+        """Return why a drone's hardware cannot do a built-in action, or None."""
+        ...
+
+    def begins(self, drone: str, job: Job | None, seconds: float) -> None:
+        """A flight begins, which is expected to take so long; None: for nobody but the drone.
+
+        Raises `FlightFailed` where the drone takes no commands.
+        """
+        ...
+
+    async def takeoff(self, drone: str, height: float) -> None:
+        """Rise straight up to a height; does nothing for a drone that flies."""
+        ...
+
+    async def go_to(self, drone: str, target: Point) -> None:
+        """Fly straight to a point."""
+        ...
+
+    async def land(self, drone: str) -> None:
+        """Land here; does nothing for a drone that stands on the ground."""
+        ...
+
+    async def hold(self, drone: str) -> None:
+        """Hover, for as long as an action of the app's own takes; never returns by itself."""
+        ...
+
+    async def act(
+        self,
+        drone: str,
+        action: str,
+        parameters: Mapping[str, Plain],
+        item: Item | None,
+        job: str | None,
+    ) -> object:
+        """Do one of the built-in actions here, and return what came of it."""
+        ...
+
+    async def read(self, drone: str, name: str) -> float:
+        """Return what a drone measures under this name, for an action of the app's own."""
+        ...
+
+    async def write(self, drone: str, name: str, value: float) -> None:
+        """Set what a drone has under this name, for an action of the app's own."""
+        ...
+
+    def break_off(self, drone: str) -> None:
+        """Stop whatever a drone does, and hover; a command under way raises `FlightFailed`."""
+        ...
+
+    async def cut(self, drone: str) -> None:
+        """Switch its motors off now, wherever it is: only ever because a person said just that.
+
+        A command under way raises `FlightFailed`, and nothing is commanded any more until `mended`.
+        """
+        ...
+
+    def mended(self, drone: str) -> None:
+        """A person has looked after a lost drone: whatever had become of it, it may be asked anew."""
+        ...
+
+    async def reach(self, drone: str) -> bool:
+        """Wait, after a failed flight, until a drone takes commands again; False: it is lost."""
+        ...
+
+    async def fetched(self, drone: str) -> bool:
+        """Wait until somebody has put a drone back into its dock, well; False: nobody does."""
+        ...
+
+    def unload(self, drone: str) -> None:
+        """Whoever meets it takes off what it carries."""
+        ...
+
+    async def roll_call(self, drone: str) -> DroneReport:
+        """Ask a drone where it is and what it has done; say so if it does not answer."""
+        ...
+
+
+class Before:
+    """What stands before other controls, and hands on to them what is no command to fly."""
+
+    def __init__(self, controls: Controls) -> None:
+        self._controls = controls
+        self.telemetry = controls.telemetry
+        """What is known of each drone."""
+
+    def why_not(self, drone: str, action: str, parameters: Mapping[str, Plain]) -> str | None:
+        """Return why a drone's hardware cannot do a built-in action, or None."""
+        return self._controls.why_not(drone, action, parameters)
+
+    def begins(self, drone: str, job: Job | None, seconds: float) -> None:
+        """A flight begins, which is expected to take so long."""
+        self._controls.begins(drone, job, seconds)
+
+    def mended(self, drone: str) -> None:
+        """A person has looked after a lost drone: it may be asked anew."""
+        self._controls.mended(drone)
+
+    async def fetched(self, drone: str) -> bool:
+        """Wait until somebody has put a drone back into its dock, well; False: nobody does."""
+        return await self._controls.fetched(drone)
+
+    def unload(self, drone: str) -> None:
+        """Whoever meets it takes off what it carries."""
+        self._controls.unload(drone)
+
+    async def reach(self, drone: str) -> bool:
+        """Wait, after a failed flight, until a drone takes commands again; False: it is lost."""
+        return await self._controls.reach(drone)
+
+    async def roll_call(self, drone: str) -> DroneReport:
+        """Ask a drone where it is and what it has done; say so if it does not answer."""
+        return await self._controls.roll_call(drone)

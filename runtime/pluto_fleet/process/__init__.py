@@ -1,0 +1,1 @@
+"""Processes of the library: real time, signals, forks, and lines of JSON between them."""

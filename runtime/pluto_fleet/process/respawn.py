@@ -1,0 +1,23 @@
+"""How this very program is started once more, as another process."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+from ..scaffolding import app_package
+
+_START = (
+    "import sys; from importlib import import_module as load; "
+    "home, name = sys.argv[1:3]; del sys.argv[1:3]; "
+    "sys.path.insert(0, home); load(name); sys.path.append(sys.path.pop(0)); "
+    "sys.exit(load(name + '.__main__').main())"
+)
+"""Import the package from where it was found this time, whatever else has its name."""
+
+
+def command(*arguments: str) -> list[str]:
+    """Return the words that start this package's program with these arguments."""
+    package = app_package()
+    home = Path(sys.modules[package].__path__[0]).absolute().parent
+    return [sys.executable, "-P", "-c", _START, str(home), package, *arguments]

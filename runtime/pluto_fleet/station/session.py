@@ -1,0 +1,230 @@
+"""One flight of the station, from its Start to its end: lived, stopped, gone on with."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import time
+import traceback
+from collections.abc import Callable, Iterator
+from contextlib import closing, suppress
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from plutoc_runtime import output
+from plutoc_runtime.alone.world import UNITS
+from plutoc_runtime.domain.errors import ANY_ERROR, BadInput
+
+from ..cli.flights import Flight, Watcher, lives
+from ..cli.flown import records_in
+from ..flight.config import End, Stops
+from ..flight.live_engine import live_engine
+from ..flight.live_fleet import live_fleet
+from ..journal.fold import Records
+from ..journal.lock import holder
+from ..journal.place import written
+from ..journal.reader import Reader
+from . import rows
+from .feed import Feed
+from .plan.shape import BROKEN_OFF
+from .rest import Rest
+from .versions import Versions
+from .waiting import Waiting
+
+if TYPE_CHECKING:
+    from plutoc_runtime.domain.trace import Event
+
+    from ..flight.fly import Recovered
+    from ..flight.live_flight import OneLife
+    from ..flight.recorded_flight import Life
+    from ..journal.store import Store
+
+
+class Outing:
+    """A journal, whoever lives it, and what everybody sees of it."""
+
+    def __init__(
+        self,
+        flight: Flight,
+        ended: Callable[[], object],
+        seen: Callable[[], object],
+        known: Records | None = None,
+    ) -> None:
+        """Begin; `seen` is called when drones were heard of, `ended` when it lives no more.
+
+        `known` is what is known of the drones before anything of it is on record.
+        """
+        self.flight = flight
+        self.id = flight.journal.name
+        self.feed = Feed(flight.app, UNITS if flight.sim else {})
+        self.missions, self.drones = Versions(), Versions()
+        self.stops = Stops()
+        self.one: OneLife | None = None
+        """What is lived now."""
+        self.records: Records | None = known
+        """What the journal said when it was read last."""
+        self.end: End | None = None
+        """How it ended the last time; None: it has not, or its process died."""
+        self.trouble = ""
+        """Why it could not go on."""
+        self.task: asyncio.Task[None] | None = None
+        self._ended, self._seen = ended, seen
+        self._rest = Rest(flight.fleet.drones, flight.journal)
+        self._waiting = Waiting(time.monotonic)
+        self._left_at = 0.0
+        self._read_at: int | None = None
+        """When its journal had been written last, as it was read."""
+
+    @property
+    def journal(self) -> Path:
+        """Where it is written down."""
+        return self.flight.journal
+
+    @property
+    def lives(self) -> bool:
+        """Whether it goes on now."""
+        return self.task is not None and not self.task.done()
+
+    @property
+    def life(self) -> Life | None:
+        """What is lived now, if the drones can be reached."""
+        return self.one.life if self.one is not None else None
+
+    @property
+    def known(self) -> Records | None:
+        """What is on record, as of now."""
+        return self.life.recorder.records if self.life is not None else self.records
+
+    @property
+    def names(self) -> set[str]:
+        """The missions that it has."""
+        if self.life is not None and self.life.missions:
+            return {mission.name for mission in self.life.missions}
+        known = self.records.missions if self.records is not None else {}
+        return {*known} or {mission.name for mission in self.flight.missions}
+
+    @property
+    def ends(self) -> dict[str, str]:
+        """How each of its missions has ended."""
+        known = self.known.missions if self.known is not None else {}
+        return {
+            name: str(record["status"]) if record["ended"] else BROKEN_OFF
+            for name, record in known.items()
+        }
+
+    def read(self, known: Recovered) -> None:
+        """Show what a journal says that nobody lives."""
+        self.records = known.records
+        told = Records()
+        with closing(Reader(self.flight.journal)) as reader:
+            for row in reader.rows():
+                for event in json.loads(row.text):
+                    told.take(event)
+                    if event["event"] == "trip.completed":
+                        event["did"] = told.flown_last(event["mission"])
+                    self.feed.take(event)
+
+    def begin(self, store: Store, known: Recovered | None) -> None:
+        """Let it live, from its beginning or from what is known."""
+        self.end, self.trouble, self.stops = None, "", Stops()
+        self.task = asyncio.create_task(self._live(store, known))
+        self.task.add_done_callback(lambda _: self._ended())
+
+    async def _live(self, store: Store, known: Recovered | None) -> None:
+        watcher = Watcher(tell=self._hear, say=self._say, born=self._born, patient=True)
+        try:
+            lived = await lives(self.flight, store, self.stops, known, watcher)
+        except BadInput as error:
+            self.trouble = str(error)
+        except (asyncio.CancelledError, KeyboardInterrupt, SystemExit):
+            raise
+        except ANY_ERROR as error:  # a mistake of ours: the drones land, and the page must say so
+            output.tell("".join(traceback.format_exception(error)).rstrip())
+            notes = " ".join(getattr(error, "__notes__", ()))
+            self.trouble = f"internal error: {type(error).__name__}: {error} {notes}".strip()
+        else:
+            self.end, self.records = lived.end, lived.records
+        finally:
+            store.close()
+            self._left_at = self.now
+            self.one = None
+            if self.trouble:
+                self._say(self.trouble, "bad")
+                self._show_what_counts()
+
+    def _show_what_counts(self) -> None:
+        """What could not be written down has not happened: show what the journal says."""
+        with suppress(BadInput, OSError):
+            self.records = records_in(self.flight.app, self.flight.journal)
+
+    def _born(self, one: OneLife) -> None:
+        self.records = self.known  # until the drones have been reached anew
+        self.one = one
+        one.when_seen(self._seen)
+
+    def _hear(self, event: Event) -> None:
+        """Tell everybody, but not within the instant that flies: it must not fall by a console."""
+        asyncio.get_running_loop().call_soon(self.feed.take, event)
+
+    def _say(self, text: str, kind: str = "bad") -> None:
+        self.feed.say(self.now, text, kind)
+
+    @property
+    def now(self) -> float:
+        """Seconds since it first began, in its own time."""
+        if self.life is not None:
+            return self.life.session.core.kernel.time()
+        known = self.records.time if self.records is not None else 0.0
+        return max(known, self._left_at)  # that of those who saw the drones down does not go back
+
+    # What everybody sees
+
+    def look(self, number: int) -> bool:
+        """Note what has changed, under this number; say whether anything has."""
+        self._look_into_the_journal()
+        return any([self._see_missions(number), self._see_drones(number)])
+
+    def _look_into_the_journal(self) -> None:
+        """While nothing flies, a command may have brought a drone back."""
+        if self.lives:
+            self._read_at = None
+            return
+        with suppress(OSError):
+            if self._read_at not in (None, written(self.journal)):
+                if holder(self.journal) is not None:  # it is read when that has ended
+                    return
+                self._show_what_counts()
+            if self._rest.write_down(self.flight.app, self.records):
+                self._show_what_counts()
+            self._read_at = written(self.journal)
+
+    def _see_missions(self, number: int) -> bool:
+        life, put, changed = self.life, self.missions.put, False
+        if life is not None and life.missions:
+            states = {state.mission.name: state for state in live_engine(life.session).states}
+            now, app, fleet = self.now, self.flight.app, live_fleet(life.session.core)
+            self._waiting.look(fleet)
+            why = partial(self._waiting.why, fleet)
+            for mission in life.missions:
+                row = rows.mission_row(app, mission, states.get(mission.name), now, why)
+                changed |= put(mission.name, row, number)
+        elif self.records is not None:
+            for name, record in self.records.missions.items():
+                changed |= put(name, rows.recorded_row(name, record), number)
+        return changed
+
+    def _see_drones(self, number: int) -> bool:
+        put, changed = self.drones.put, False
+        life = self.life
+        for row in self._rest.rows(self.records) if life is None else self._drones_now(life):
+            changed |= put(str(row["id"]), row, number)
+        return changed
+
+    def _drones_now(self, life: Life) -> Iterator[rows.Row]:
+        work = rows.mission_of_each(live_engine(life.session).states)
+        fleet = live_fleet(life.session.core)
+        for drone in life.session.drones:
+            low = self._waiting.why_low(fleet, drone)
+            why, status = low or fleet.unready.get(drone, ""), "LOW" if low else ""
+            yield rows.drone_row(drone, work.get(drone.id), drone in fleet.retired, why, status)

@@ -1,0 +1,47 @@
+"""`python -m pluto_fleet.trials APP …`: what `plutoc test` runs of the package that it has compiled."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from importlib import import_module
+
+from pluto_fleet.seam import meet
+
+
+def run(name: str, words: list[str]) -> int:
+    """Try the app of this package, and return the exit code."""
+    from plutoc_runtime import output
+    from plutoc_runtime.hooks.calls import loaded
+
+    from ..cli import Ending
+    from ..process.hard_exit import refused
+    from ..process.signal_guard import guard_hooks, interrupted_by_a_person
+    from .command import test
+
+    def by_itself(words: list[str]) -> int:
+        """Run the same with other words, in a new process; return the exit code."""
+        command = [sys.executable, "-P", "-m", "pluto_fleet.trials", name, *words]
+        return subprocess.run(command, capture_output=True, check=False).returncode
+
+    output.prepare()
+    guard_hooks()
+    ending = Ending(name)
+    with ending:
+        # a hook may raise a KeyboardInterrupt, or end the process, and is found then
+        with interrupted_by_a_person(), refused():
+            app = loaded(lambda: import_module(f"{name}.flow").APP)
+            ending.code = test(app, words, by_itself)
+        output.flush()
+    return ending.code
+
+
+def main(name: str, words: list[str]) -> int:
+    """Meet the app's brain first: what is imported after that is the app's own."""
+    brain = f"{name}._runtime"
+    seam = import_module(f"{brain}.command").SEAM
+    return run(name, words) if meet(name, brain, seam) else 2
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1], sys.argv[2:]))

@@ -1,0 +1,208 @@
+"""`plutoc test`, within the app that was compiled for it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from copy import deepcopy
+from dataclasses import dataclass, replace
+from math import inf
+from operator import attrgetter
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any
+
+from plutoc_runtime import output
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.fields import Entity, FieldType
+from plutoc_runtime.domain.text import counted
+from plutoc_runtime.domain.trace import dumped
+
+from ..files.drones import DroneEntry
+from ..files.fleet import FleetFile, default_fleet, load_fleet
+from ..files.fleet_text import fleet_text
+from ..files.missions import load_missions
+from ..files.plan_check import idle_actions, problems
+from .alike import first_the_same, shows_the_same
+from .case import FAIR, Case
+from .explore import Finding, Tally, drawn_case, everywhere, explored, small_case
+from .options import Options, parse
+from .patience import patience
+from .plan_text import missions_text
+from .report import findings_data, repeated, report, shown_again
+from .rig import tried
+from .shrink import shrunk
+
+if TYPE_CHECKING:
+    from plutoc_runtime.domain.app import App
+    from plutoc_runtime.domain.model import Mission
+
+FOUND, BAD_INPUT = 1, 2
+
+STRUCK_EVERYWHERE = 3
+"""Of so many seeds, what can strike does so at every row of the journal."""
+ENOUGH = 5
+"""After so many findings nobody looks for more."""
+
+_WRONG = attrgetter("wrong")
+
+
+ByItself = Callable[[list[str]], int]
+"""Tries in a new process what its words ask for, and returns the exit code."""
+
+
+def test(app: App, argv: Sequence[str], by_itself: ByItself | None = None) -> int:
+    """Try the app, say what was found, and return the exit code."""
+    try:
+        options = parse(argv)
+    except SystemExit as end:
+        return end.code if isinstance(end.code, int) else BAD_INPUT
+    return _tried(app, options, by_itself)
+
+
+def _tried(app: App, options: Options, by_itself: ByItself | None) -> int:
+    fleet = _simulated(load_fleet(options.fleet, app)) if options.fleet else default_fleet(app)
+    missions = _missions(app, fleet, options)
+    if options.single:
+        return _once_more(app, fleet, options, missions)
+    if not missions:
+        for sentence in idle_actions(app, fleet):
+            output.tell(f"{options.fleet or app.name}: warning: {sentence}, so it is not tried")
+    tally = Tally()
+    waiting = patience(lines=not options.json)
+    way = _Way()
+
+    def enough(tally: Tally) -> bool:
+        waiting.tell(tally.runs / way.runs, _so_far(tally, way, options))
+        return len(tally.findings) >= ENOUGH
+
+    def fails(case: Case) -> bool:
+        waiting.tell(1.0, f"{_so_far(tally, way, options)}: making the first one smaller")
+        return the_same(case)
+
+    smallest: Finding | None = None
+    interrupted = False
+    try:
+        explored(app, _cases(app, fleet, options, missions, way), tally, enough)
+        if tally.findings:
+            the_same = shows_the_same(app, tally.findings[0], _WRONG)
+            smallest = _smallest(app, tally.findings[0], fails)
+            if smallest and by_itself and not _shows(app, smallest, by_itself):
+                smallest = None
+    except KeyboardInterrupt:
+        if not tally.runs:
+            raise
+        interrupted = True  # what was tried and found is told all the same
+    finally:
+        waiting.over()
+    if not tally.runs:
+        raise BadInput("the fleet can fly none of the missions that were drawn: use --missions")
+    if options.json:
+        output.line(dumped(findings_data(app, tally, smallest)))
+    else:
+        for line in report(app, options, tally, smallest, interrupted=interrupted):
+            output.line(line)
+    if interrupted:
+        raise KeyboardInterrupt
+    return FOUND if tally.findings else 0
+
+
+def _simulated(fleet: FleetFile) -> FleetFile:
+    """Return the fleet without what is for real drones: with fewer drones it might not fit them."""
+    plain = FleetFile(airspace=fleet.airspace, drones=())
+    return replace(
+        fleet,
+        navigation=plain.navigation,
+        options=plain.options,
+        localization=plain.localization,
+        localization_options=plain.localization_options,
+        drones=tuple(
+            DroneEntry(id=drone.id, category=drone.category, home=drone.home)
+            for drone in fleet.drones
+        ),
+    )
+
+
+@dataclass(slots=True)
+class _Way:
+    """How far the work is, and how much there is of it."""
+
+    seeds: int = 0
+    """Of which anything was tried."""
+    runs: float = inf
+    """How many there will have been, as far as that is known."""
+
+
+def _cases(
+    app: App, fleet: FleetFile, options: Options, missions: Sequence[Mission[Any]], way: _Way
+) -> Iterator[Case]:
+    known = options.seeds
+    for seed in range(options.seed, options.seed + options.seeds):
+        way.seeds += 1
+        ahead = min(options.seeds, STRUCK_EVERYWHERE) - way.seeds
+        yield drawn_case(app, fleet, seed, missions)
+        if ahead >= 0:
+            struck = list(everywhere(app, small_case(app, fleet, seed, missions)))
+            known += len(struck)
+            way.runs = known + ahead * len(struck)
+            yield from struck
+
+
+def _so_far(tally: Tally, way: _Way, options: Options) -> str:
+    found = counted(len(tally.findings), "mistake")
+    return f"{counted(tally.runs, 'run')}, seed {way.seeds} of {options.seeds}, {found} found"
+
+
+def _smallest(app: App, first: Finding, fails: Callable[[Case], bool]) -> Finding | None:
+    """Make a finding small; it still shows the same mistake. None: not even its own case does so."""
+    if not fails(first.case):
+        return None
+    small = shrunk(first.case, fails)
+    return Finding(case=small, sentences=first_the_same(first, tried(app, small).wrong))
+
+
+def _shows(app: App, small: Finding, by_itself: ByItself) -> bool:
+    """Say whether a case shows it where no earlier run has left anything behind, as in hooks.py."""
+    with TemporaryDirectory() as folder:
+        missions, fleet = Path(folder) / "missions.toml", Path(folder) / "fleet.toml"
+        missions.write_text(missions_text(app, small.case.missions), encoding="utf-8")
+        fleet.write_text(fleet_text(small.case.fleet), encoding="utf-8")
+        return by_itself(repeated(small.case, missions, fleet)) == FOUND
+
+
+def _once_more(
+    app: App, fleet: FleetFile, options: Options, missions: Sequence[Mission[Any]]
+) -> int:
+    drawn = small_case(app, fleet, options.seed, missions)
+    case = Case(
+        seed=options.seed,
+        missions=drawn.missions,
+        fleet=fleet,
+        weather=options.weather or FAIR,
+        blows=options.strike or (),
+    )
+    trial = tried(app, case)
+    if options.json:
+        tally = Tally(runs=1, rows=trial.rows, lives=trial.lives, fired=trial.fired)
+        finding = Finding(case=case, sentences=trial.wrong) if trial.wrong else None
+        output.line(dumped(findings_data(app, tally, finding)))
+    else:
+        for line in shown_again(trial):
+            output.line(line)
+    return FOUND if trial.wrong else 0
+
+
+def _missions(app: App, fleet: FleetFile, options: Options) -> list[Mission[Any]]:
+    """Return the missions of the file, if there is one; what repeats for ever repeats once."""
+    if options.missions is None:
+        return []
+    missions = load_missions(options.missions, app, fleet.airspace)
+    found = problems(missions, app, fleet, fleet.airspace)
+    if found:
+        raise BadInput("\n".join(f"{options.missions}: {sentence}" for sentence in found))
+    missions = deepcopy(missions)
+    for field in app.fields:
+        if field.on is Entity.MISSION and field.type is FieldType.ROUNDS:
+            for mission in missions:
+                if getattr(mission, field.name) is True:
+                    setattr(mission, field.name, 1)
+    return missions

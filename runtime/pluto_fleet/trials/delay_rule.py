@@ -1,0 +1,166 @@
+"""What must be true of delays: each is waited for once, whole, and what is left of it is kept."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from .rule import Say, at
+
+if TYPE_CHECKING:
+    from plutoc_runtime.domain.trace import Event
+
+Place = tuple[object, object, object, object, int]
+"""Mission, block, trip, round, attempt."""
+
+_ROUNDED = 0.002
+"""Seconds. Events say their times with so few decimals."""
+
+
+class DelaysAreWaited:
+    """No trip gets a drone before its delay is over, nor waits for it twice.
+
+    While everything is stopped, or the mission is paused, nobody waits; after a crash time has gone
+    on.
+    """
+
+    def __init__(self, say: Say) -> None:
+        self._say = say
+        self._delay: dict[object, _Delay] = {}
+        """By mission, what it waits for."""
+        self._waited: set[Place] = set()
+        self._tries: dict[tuple[object, object], int] = {}
+        """By mission and trip, which attempt it is; 1 if it is not here."""
+        self._round: dict[object, object] = {}
+        self._stopped = False
+        self.hears = {
+            "trip.delayed": self._wait,
+            "trip.allocated": self._go_on,
+            "trip.reset": self._reset,
+            "trip.skipped": self._skip,
+            "mission.extended": self._extend,
+            "mission.changed": self._change,
+            "mission.repeated": self._repeat,
+            "mission.paused": self._pause,
+            "mission.resumed": self._resume,
+            "mission.ended": self._end,
+            "stopped": self._stop,
+            "brain.began": self._begin,
+        }
+
+    def _wait(self, event: Event) -> None:
+        mission, trip = event["mission"], event["trip"]
+        attempt = self._tries.get((mission, trip), 1)
+        place = mission, event.get("block"), trip, self._round.get(mission, 0), attempt
+        until, now = float(str(event["until"])), float(str(event["t"]))
+        over = float(str(event.get("over", until)))
+        last = self._delay.get(mission)
+        if last is not None and last.place == place:
+            expected = last.over if last.rest is None else now + last.rest
+            if abs(over - expected) > _ROUNDED:
+                self._say(
+                    f"{at(event)}: {trip} of {mission} waits until {over:g} s, "
+                    f"not until {expected:g} s as before"
+                )
+            if abs(until - over) > _ROUNDED and abs(until - last.until) > _ROUNDED:
+                self._say(
+                    f"{at(event)}: {trip} of {mission} begins at {until:g} s, "
+                    f"not at {last.until:g} s as before"
+                )
+        elif place in self._waited:
+            self._say(f"{at(event)}: {trip} of {mission} waits for its delay once more")
+        elif last is not None:
+            self._waited.add(last.place)
+        self._delay[mission] = _Delay(place, over, until)
+
+    def _go_on(self, event: Event) -> None:
+        delay = self._delay.pop(event["mission"], None)
+        if delay is None:
+            return
+        self._waited.add(delay.place)
+        now = float(str(event["t"]))
+        over = delay.over if delay.rest is None else now + delay.rest
+        if now < max(over, delay.begins) - _ROUNDED:
+            self._say(
+                f"{at(event)}: {event['trip']} of {event['mission']} was given {event['drone']}, "
+                f"and its delay is not over before {max(over, delay.begins):g} s"
+            )
+
+    def _reset(self, event: Event) -> None:
+        self._tries[event["mission"], event["trip"]] = int(str(event["attempt"]))
+
+    def _extend(self, event: Event) -> None:
+        redo = event["redo"]
+        assert isinstance(redo, list)
+        for trip in redo:
+            key = event["mission"], trip
+            self._tries[key] = self._tries.get(key, 1) + 1
+
+    def _change(self, event: Event) -> None:
+        trips = event["todo"]
+        assert isinstance(trips, list)
+        for trip in trips:
+            self._tries[event["mission"], trip["name"]] = trip.get("attempt", 1)
+
+    def _repeat(self, event: Event) -> None:
+        mission = event["mission"]
+        self._round[mission] = event["round"]
+        for key in [key for key in self._tries if key[0] == mission]:
+            del self._tries[key]
+
+    def _skip(self, event: Event) -> None:
+        delay = self._delay.get(event["mission"])
+        if delay is not None and delay.place[2] == event["trip"]:
+            del self._delay[event["mission"]]
+
+    def _end(self, event: Event) -> None:
+        self._delay.pop(event["mission"], None)
+
+    def _pause(self, event: Event) -> None:
+        delay = self._delay.get(event["mission"])
+        if delay is not None:
+            delay.paused = True
+            delay.stand(event)
+
+    def _resume(self, event: Event) -> None:
+        delay = self._delay.get(event["mission"])
+        if delay is not None:
+            delay.paused = False
+            delay.run(event)
+
+    def _stop(self, event: Event) -> None:
+        self._stopped = True
+        for delay in self._delay.values():
+            delay.stand(event)
+
+    def _begin(self, event: Event) -> None:
+        stopped, self._stopped = self._stopped, False
+        for delay in self._running() if stopped else ():
+            delay.run(event)
+
+    def _running(self) -> Iterator[_Delay]:
+        return (delay for delay in self._delay.values() if not delay.paused)
+
+
+class _Delay:
+    """One that is not over."""
+
+    __slots__ = ("begins", "over", "paused", "place", "rest", "until")
+
+    def __init__(self, place: Place, over: float, until: float) -> None:
+        self.place, self.over, self.until = place, over, until
+        self.begins = until if until > over else 0.0
+        """A time of day, for which a Stop changes nothing."""
+        self.rest: float | None = None
+        """What is left of it, while nobody waits."""
+        self.paused = False
+
+    def stand(self, event: Event) -> None:
+        """From now on nobody waits."""
+        if self.rest is None:
+            self.rest = self.over - float(str(event["t"]))
+
+    def run(self, event: Event) -> None:
+        """From now on it is waited for."""
+        if self.rest is not None:
+            self.over, self.rest = float(str(event["t"])) + self.rest, None

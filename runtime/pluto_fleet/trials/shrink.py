@@ -1,0 +1,133 @@
+"""Makes a case smaller for as long as it still shows a mistake."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from copy import deepcopy
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from plutoc_runtime.domain.actions import PICK, RELEASE
+
+from .case import FAIR
+
+if TYPE_CHECKING:
+    from plutoc_runtime.domain.model import Mission
+
+    from .blows import Blow
+    from .case import Case, Weather
+
+TRIES = 1500
+
+T = TypeVar("T")
+
+
+def shrunk(case: Case, fails: Callable[[Case], bool], tries: int = TRIES) -> Case:
+    """Return a smaller case that fails all the same, after so many tries at most."""
+    again = True
+    while again:
+        again = False
+        for smaller in _smaller(case):
+            tries -= 1
+            if tries < 0:
+                return case
+            if fails(smaller):
+                case, again = smaller, True
+                break
+    return case
+
+
+def _smaller(case: Case) -> Iterator[Case]:
+    """Yield simpler cases, those first that leave out most."""
+    for place in range(len(case.blows)):
+        yield replace(case, blows=_without(case.blows, place))
+    yield from (
+        replace(case, weather=weather)
+        for weather in _fairer(case.weather)
+        if weather != case.weather
+    )
+    for missions in _fewer(case.missions):
+        smaller = replace(case, missions=missions)
+        yield smaller
+        yield from _moved(smaller)
+    if case.fleet.world is not None:
+        yield replace(case, fleet=replace(case.fleet, world=None))
+    if len(case.fleet.drones) > 1:
+        for place in range(len(case.fleet.drones)):
+            drones = _without(case.fleet.drones, place)
+            yield replace(case, fleet=replace(case.fleet, drones=drones))
+    for place, blow in enumerate(case.blows):
+        for earlier in _earlier(blow):
+            yield replace(case, blows=(*case.blows[:place], earlier, *case.blows[place + 1 :]))
+
+
+def _fairer(weather: Weather) -> Iterator[Weather]:
+    """Yield the weather without one of what goes wrong."""
+    yield FAIR
+    yield replace(weather, crash=0.0, link=0.0, action=0.0, battery=0.0)
+    for name in (
+        "crash",
+        "link",
+        "action",
+        "battery",
+        "hook",
+        "block",
+        "late",
+        "slow",
+        "radio",
+        "disk",
+    ):
+        yield replace(weather, **{name: 0.0})
+    yield replace(weather, jump=0.0)
+    yield replace(weather, snapshot=0.0)
+    yield replace(weather, down=FAIR.down)
+
+
+def _fewer(missions: tuple[Mission[Any], ...]) -> Iterator[tuple[Mission[Any], ...]]:
+    if len(missions) > 1:
+        for place in range(len(missions)):
+            yield _without(missions, place)
+    for place, mission in enumerate(missions):
+        for keep in _chains(mission):
+            if 0 < len(keep) < len(mission.trips):
+                smaller = deepcopy(mission)
+                smaller.trips = [deepcopy(mission.trips[number]) for number in keep]
+                for number, trip in enumerate(smaller.trips):
+                    trip.index = number
+                yield (*missions[:place], smaller, *missions[place + 1 :])
+
+
+def _chains(mission: Mission[Any]) -> Iterator[list[int]]:
+    """Yield which trips to keep: all but one, or but those from a pick to its release."""
+    numbers = list(range(len(mission.trips)))
+    for number, trip in enumerate(mission.trips):
+        if trip.action == PICK:
+            ends = [n for n in numbers[number:] if mission.trips[n].action == RELEASE]
+            last = ends[0] if ends else number
+            yield [n for n in numbers if not number <= n <= last]
+        elif trip.action != RELEASE:
+            yield [n for n in numbers if n != number]
+
+
+def _moved(case: Case) -> Iterator[Case]:
+    """With fewer missions the journal has fewer rows: what strikes must strike earlier."""
+    if len(case.blows) == 1:
+        for row in range(1, case.blows[0].row):
+            yield replace(case, blows=(replace(case.blows[0], row=row),))
+    elif case.blows:
+        for less in range(1, min(blow.row for blow in case.blows)):
+            yield replace(
+                case, blows=tuple(replace(blow, row=blow.row - less) for blow in case.blows)
+            )
+
+
+def _earlier(blow: Blow) -> Iterator[Blow]:
+    if blow.after:
+        yield replace(blow, after=0.0)
+    if blow.row > 1:
+        yield replace(blow, row=blow.row // 2)
+        yield replace(blow, row=blow.row - 1)
+
+
+def _without(values: tuple[T, ...], place: int) -> tuple[T, ...]:
+    return (*values[:place], *values[place + 1 :])

@@ -1,0 +1,157 @@
+"""Between a brain and its gateway in a trial: messages take their time, and a dead brain is mute."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Coroutine
+from functools import partial
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from plutoc_runtime.domain.errors import Cancelled, FlightFailed
+from plutoc_runtime.time.future import Future
+from plutoc_runtime.time.kernel import FLEET, Kind, Task
+
+from ..gateway.gateway import Link
+
+if TYPE_CHECKING:
+    from plutoc_runtime.domain.model import Point
+    from plutoc_runtime.time.kernel import Kernel
+
+    from ..gateway.gateway import Gateway
+    from ..jobs.job import Job, Report
+    from ..jobs.reports import Down, DroneReport, FleetReport
+
+T = TypeVar("T")
+
+
+class Wire(Link):
+    """A link whose messages travel for a while, each way, and in order."""
+
+    def __init__(
+        self,
+        link: Link,
+        gateway: Gateway,
+        brain: Kernel,
+        slow: float,
+        fired: Counter[str],
+        sent: Callable[[str], object],
+    ) -> None:
+        super().__init__(gateway, None)
+        self._real, self._world, self._brain = link, gateway.kernel, brain
+        self._slow, self._fired, self._sent = slow, fired, sent
+        self.alive = True
+
+    def fly(self, job: Job, report: Report) -> None:
+        """Give a drone its job."""
+        self._sent(job.id)
+        self._send(partial(self._real.fly, job, partial(self._told, report)))
+
+    def break_off(self, drone: str) -> None:
+        """Stop whatever a drone does."""
+        self._send(partial(self._real.break_off, drone))
+
+    def attach(self, id: str, report: Report) -> None:
+        """Hear of a job that was given before."""
+        self._send(partial(self._real.attach, id, partial(self._told, report)))
+
+    def forget(self, id: str) -> None:
+        """Nobody will ask for a job any more."""
+        self._send(partial(self._real.forget, id))
+
+    def hold(self, drone: str) -> Coroutine[Any, Any, None]:
+        """Hover."""
+        return self._far(partial(self._real.hold, drone))
+
+    def read(self, drone: str, name: str) -> Coroutine[Any, Any, float]:
+        """Return what a drone measures."""
+        return self._far(partial(self._real.read, drone, name))
+
+    def write(self, drone: str, name: str, value: float) -> Coroutine[Any, Any, None]:
+        """Set what a drone has."""
+        return self._far(partial(self._real.write, drone, name, value))
+
+    def mended(self, drone: str) -> None:
+        """A person has looked after a lost drone."""
+        self._send(partial(self._real.mended, drone))
+
+    def takeoff(self, drone: str, height: float) -> Coroutine[Any, Any, None]:
+        """Rise to a height."""
+        return self._far(partial(self._real.takeoff, drone, height))
+
+    def go_to(self, drone: str, target: Point) -> Coroutine[Any, Any, None]:
+        """Fly straight to a point."""
+        return self._far(partial(self._real.go_to, drone, target))
+
+    def land(self, drone: str) -> Coroutine[Any, Any, None]:
+        """Land here."""
+        return self._far(partial(self._real.land, drone))
+
+    def recover(self, drone: str) -> Coroutine[Any, Any, bool]:
+        """Bring a drone home after a failed flight."""
+        return self._far(partial(self._real.recover, drone))
+
+    def roll_call(self, drone: str) -> Coroutine[Any, Any, DroneReport]:
+        """Ask a drone where it is and what it has done."""
+        return self._far(partial(self._real.roll_call, drone))
+
+    def call(self) -> Coroutine[Any, Any, FleetReport]:
+        """Ask all drones and the ledger how everything stands."""
+        return self._far(partial(self._real.call))
+
+    def bring_down(self, how: Down) -> Coroutine[Any, Any, None]:
+        """Bring all drones down."""
+        return self._far(partial(self._real.bring_down, how))
+
+    async def _far(self, command: Callable[[], Coroutine[Any, Any, T]]) -> T:
+        """Let the gateway do something, in the world and not in a brain that may die, and hear of it.
+
+        Messages travel; whoever does not want it any more, says so.
+        """
+        over: Future[T] = Future()
+        under_way: list[Task[T]] = []
+
+        def begin() -> None:
+            task = self._world.spawn(command(), FLEET, "a command from afar")
+            under_way.append(task)
+            task.over = end
+
+        def end(task: Task[T]) -> None:
+            self._send(partial(self._brain.post, _settle, over, task))
+
+        def call_off() -> None:
+            for task in under_way:
+                task.cancel()
+
+        self._send(begin)
+        try:
+            return await over
+        except Cancelled:
+            self._send(call_off)
+            raise
+
+    def _send(self, message: Callable[[], object]) -> None:
+        if self._slow:
+            self._fired["slow line"] += 1
+            now = self._world.now
+            self._world.schedule(now + self._slow, Kind.FLIGHT, FLEET, partial(self._go, message))
+        else:
+            self._go(message)
+
+    def _go(self, message: Callable[[], object]) -> None:
+        if self.alive:
+            message()
+
+    def _told(self, report: Report, result: Any) -> None:
+        if isinstance(result, FlightFailed):
+            self._fired[f"flight: {result.failure.value}"] += 1
+        if not self.alive:
+            self._fired["report to nobody"] += 1
+        self._send(partial(self._brain.post, report, result))
+
+
+def _settle(over: Future[T], task: Task[T]) -> None:
+    """Tell what came of a command; one that was called off is waited for by nobody."""
+    if task.error is None:
+        over.set(task.result())
+    elif not isinstance(task.error, Cancelled):
+        over.fail(task.error)

@@ -1,0 +1,1 @@
+"""Simulation without the library: each drone alone in the air, in virtual time."""

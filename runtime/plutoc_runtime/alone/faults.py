@@ -1,0 +1,119 @@
+"""What goes wrong in a simulation: drawn for each flight when it begins, from its name alone."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from random import Random
+from typing import TYPE_CHECKING
+
+from ..domain.errors import Failure, FlightFailed
+from ..domain.quantities import Type, parse_quantity
+from ..domain.text import place, quoted
+
+if TYPE_CHECKING:
+    from ..domain.model import Point
+
+OUTAGE = 20.0
+"""Seconds until a drone that lost its link can be reached again."""
+CARRYING_HOME = 300.0
+"""Seconds until a person has carried a drone home."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Order:
+    """The flight that a take-off begins. The same flight has the same id in every run."""
+
+    id: str
+    """`mission/trip/round/attempt`."""
+    seconds: float
+    """How long the flight is expected to take until its action is done."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Faults:
+    """How likely each thing is to go wrong on a flight, from 0 to 1."""
+
+    crash: float = 0.0
+    link: float = 0.0
+    action: float = 0.0
+    battery: float = 0.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Drawn:
+    """What goes wrong on one flight, and when: seconds from take-off."""
+
+    crash: float | None = None
+    link: float | None = None
+    battery: float | None = None
+    action: bool = False
+
+    def moments(self, began: float) -> list[tuple[float, Failure | None]]:
+        """Return when, on a flight that began then, what comes to pass."""
+        drawn = (
+            (self.crash, Failure.CRASH),
+            (self.link, Failure.LINK),
+            (self.battery, Failure.BATTERY),
+        )
+        return [(began + after, what) for after, what in drawn if after is not None]
+
+
+def draw(faults: Faults, seed: int, order: Order | None) -> Drawn:
+    """Draw what goes wrong on a flight. The way home, which has no order, goes well."""
+    if order is None:
+        return Drawn()
+    chance = Random(f"{seed}/{order.id}")
+
+    def moment(probability: float) -> float | None:
+        # Both numbers are drawn in any case: no probability changes what another one brings.
+        happens, when = chance.random() < probability, chance.random() * order.seconds
+        return when if happens else None
+
+    return Drawn(
+        crash=moment(faults.crash),
+        link=moment(faults.link),
+        battery=moment(faults.battery),
+        action=chance.random() < faults.action,
+    )
+
+
+def befell(drone: str, what: Failure, at: Point) -> FlightFailed:
+    """Return how everything fails that a drone does after this has happened to it."""
+    return FlightFailed(what, f"{drone} {_SAID[what]} at {place(at)}")
+
+
+def failed(what: str, why: str, at: Point) -> FlightFailed:
+    """Return the failure of an action, with its place."""
+    return FlightFailed(Failure.ACTION, f"{what}: {why} at {place(at)}")
+
+
+_SAID = {
+    Failure.CRASH: "crashed",
+    Failure.LINK: "lost its link",
+    Failure.BATTERY: "ran out of battery",
+}
+
+
+FAULTS = ("crash", "link", "action", "battery")
+"""What `--fail` can make go wrong."""
+
+
+def shares(text: str) -> dict[str, float]:
+    """Read crash=10%,link=5%."""
+    found: dict[str, float] = {}
+    for part in text.split(","):
+        what, equals, amount = (piece.strip() for piece in part.partition("="))
+        if not equals:
+            raise ValueError(f"{quoted(part)} is not written like crash=10%")
+        if what not in FAULTS:
+            raise ValueError(f"{quoted(what)} cannot go wrong; what can: {', '.join(FAULTS)}")
+        if what in found:
+            raise ValueError(f"{what} is given twice")
+        try:
+            found[what] = parse_quantity(amount, Type.PERCENT)
+        except ValueError:
+            wrong = f"{what}={amount} is not a percentage: write it like {what}=10%"
+            raise ValueError(wrong) from None
+        if not 0 <= found[what] <= 1:
+            raise ValueError(f"{what}={amount} is not between 0% and 100%")
+    return found

@@ -1,0 +1,63 @@
+"""What can go wrong while an app runs, each with a sentence for a person."""
+
+from __future__ import annotations
+
+from enum import Enum
+
+
+class PlutoError(Exception):
+    """Something that the user of an app can mend; the message says where and how."""
+
+
+class BadInput(PlutoError):
+    """A file, a flag or a plan that cannot be flown. Nothing has started."""
+
+
+class Failure(Enum):
+    """Why a flight did not succeed."""
+
+    CRASH = "crash"
+    LINK = "link"
+    BATTERY = "battery"
+    ACTION = "action"
+    REFUSED = "refused"
+    UNKNOWN = "unknown"  # it was under way, and how it ended is not known
+
+
+class FlightFailed(PlutoError):
+    """A drone could not finish what it was told: raised by navigation."""
+
+    def __init__(self, failure: Failure, reason: str) -> None:
+        super().__init__(reason)
+        self.failure = failure
+
+
+class ActionFailed(PlutoError):
+    """Raise it in an action of your own: the trip fails with this reason, the drone is well."""
+
+
+class MissionFailed(PlutoError):
+    """A failure that no retry can mend: the mission ends at once, even if its graph would go on."""
+
+
+def nothing_to_fly(reason: str) -> MissionFailed:
+    """Return the error of a mission that shall fly on, and has no trip left; it may have failed before."""
+    return MissionFailed(
+        f"{reason}; no trip is left to fly" if reason else "no trip is left to fly"
+    )
+
+
+class HookFault(MissionFailed):
+    """A hook raised what it may not, or returned what it did not declare."""
+
+    def __init__(self, reason: str, detail: str = "") -> None:
+        super().__init__(reason)
+        self.detail = detail
+
+
+class Cancelled(BaseException):
+    """Thrown into a coroutine that is no longer wanted."""
+
+
+ANY_ERROR: tuple[type[BaseException], ...] = (BaseException,)
+"""To catch all that a coroutine or a hook may end with, and hand it on to those who wait for it."""

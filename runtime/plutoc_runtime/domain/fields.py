@@ -1,0 +1,101 @@
+"""Fields of missions and trips that exist only because a block of the graph needs them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Container, Iterable
+from dataclasses import dataclass
+from datetime import time
+from enum import Enum
+from math import isfinite, nan
+from operator import index
+from typing import SupportsFloat, SupportsIndex, cast
+
+from .errors import ANY_ERROR
+from .guard import unless_by_a_person
+from .text import bounded, shown
+
+
+class Entity(Enum):
+    """What a field belongs to."""
+
+    MISSION = "mission"
+    TRIP = "trip"
+
+
+class FieldType(Enum):
+    """What a field holds, and how a plan file writes it."""
+
+    TIME = "time"  # seconds, or "3 min"
+    INT = "int"
+    ROUNDS = "rounds"  # how many more; true = until stopped
+    TIME_OF_DAY = "time of day"  # "08:00"; inside, seconds since midnight
+    EVALUATOR = "evaluator"  # the name of one of the app's evaluators
+
+
+PYTHON: dict[FieldType, str] = {
+    FieldType.TIME: "float | None",
+    FieldType.INT: "int",
+    FieldType.ROUNDS: "int | bool",
+    FieldType.TIME_OF_DAY: "float | None",
+    FieldType.EVALUATOR: "str | None",
+}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Field:
+    """A field that the user of an app fills in."""
+
+    name: str
+    on: Entity
+    type: FieldType
+    label: str
+    """As a screen asks for it."""
+    doc: str = ""
+    """A sentence for pages. In a generated package it stands beside the attribute instead."""
+    default: int | float | None = None
+
+
+def wrong_field(
+    fields: Iterable[Field], entity: Entity, of: object, evaluators: Container[str]
+) -> str | None:
+    """Return what a hook has put into a field that no block can go by; None: all is well."""
+    for field in fields:
+        value = getattr(of, field.name, None) if field.on is entity else None
+        if value is None or (type(value) is bool and field.type is FieldType.ROUNDS):
+            continue
+        if field.type is FieldType.EVALUATOR:
+            wanted, is_right = "an evaluator's name", type(value) is str and value in evaluators
+        else:
+            wanted, is_right = "a number", number_of(value) is not None
+        if not is_right:
+            there = bounded(shown(value), _LONGEST)
+            return f"{field.name} must be {wanted}, and a hook has put {there} there"
+    return None
+
+
+def number_of(value: object) -> float | None:
+    """Return a number that is finite and not too large, as one of Python's own; None: it is none."""
+    kind, number = type(value), nan
+    try:
+        if kind is not bool and hasattr(kind, "__index__"):
+            number = int.__pos__(index(cast("SupportsIndex", value)))
+        elif kind is not bool and hasattr(kind, "__float__"):
+            number = float.__pos__(float(cast("SupportsFloat", value)))
+        return number if isfinite(number) and abs(number) < _LARGEST else None
+    except ANY_ERROR as error:  # an error of its own class
+        unless_by_a_person(error)
+        return None
+
+
+def time_of_day(value: object) -> float:
+    """Read "08:00", or TOML's own 08:00:00, as seconds since midnight."""
+    written = f"{value:%H:%M:%S}" if isinstance(value, time) else value
+    match = _TIME_OF_DAY.fullmatch(written) if isinstance(written, str) else None
+    if match is None:
+        raise ValueError('is not a time of day: write it like "08:00"')
+    return int(match[1]) * 3600.0 + int(match[2]) * 60.0 + int(match[3] or 0)
+
+
+_LARGEST, _LONGEST = 1e12, 100
+_TIME_OF_DAY = re.compile(r"([01]?\d|2[0-3]):([0-5]\d)(?::([0-5]\d))?")

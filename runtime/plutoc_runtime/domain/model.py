@@ -1,0 +1,241 @@
+"""Missions, trips and drones (thesis 4.1).
+
+A generated package adds to `Mission` and `Trip` the fields that its graph needs, and no others.
+Positions are (x, y, z) in metres in the map's frame, times are seconds since the app started.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from enum import Enum
+from math import dist
+from typing import TYPE_CHECKING, Generic, Protocol, TypeVar
+
+from .errors import MissionFailed
+from .status import UNEXECUTED, DroneStatus, Status, TripStatus
+
+if TYPE_CHECKING:
+    from .actions import Plain
+
+Point = tuple[float, float, float]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Category:
+    """A shape category: what drones of one kind carry and do (thesis 4.1). SI units."""
+
+    name: str
+    payload: float = 0.010
+    speed: float = 0.5
+    flight_time: float = 420.0
+    charge_time: float = 1200.0
+    reserve: float = 0.2
+    """The share of the battery that a flight must leave."""
+    actions: frozenset[str] | None = None
+    """None: every action."""
+    top_speed: float | None = None
+    """The most that it may fly at; None: `speed`, which is the mean over a way."""
+
+    def can(self, action: str) -> bool:
+        """Say whether drones of this category do the action."""
+        return self.actions is None or action in self.actions
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Item:
+    """What `pick_item` takes along and `release_item` puts down; kilograms."""
+
+    name: str
+    mass: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Photo:
+    """A photo straight down: what `take_photo` gives."""
+
+    position: Point
+    """Where the camera really was."""
+    width: float
+    """Metres of ground that it covers, along x and along y."""
+    height: float
+    sees: tuple[str, ...] = ()
+    """What can be made out on it, such as `bloom` or `pest`."""
+    sharpness: float = 1.0
+    """From 0, useless, to 1."""
+    file: str | None = None
+    """Where the picture itself is kept; a simulated camera takes none."""
+
+
+class AfterTrip(Enum):
+    """Where a drone goes when its trip is over."""
+
+    HOME = "home"
+    STAY = "stay"
+    NEXT = "next"
+
+
+class Telemetry(Protocol):
+    """What navigation knows of a drone now."""
+
+    @property
+    def location(self) -> Point:
+        """Where it is."""
+        ...
+
+    @property
+    def battery_level(self) -> float:
+        """What is left in the battery, from 0 to 1."""
+        ...
+
+    @property
+    def landed(self) -> bool:
+        """Whether it stands still on the ground or in its dock."""
+        ...
+
+    @property
+    def silence(self) -> float:
+        """Seconds since it last told anything of itself; infinite: it never has."""
+        ...
+
+
+@dataclass(slots=True, kw_only=True, eq=False)
+class Drone:
+    """A drone of the fleet. The system chooses one: no user addresses it."""
+
+    id: str
+    category: Category
+    home: Point
+    telemetry: Telemetry
+    status: DroneStatus = DroneStatus.FREE
+    trips: int = 0
+    """How many trips it has flown."""
+    index: int = 0
+    """Its place in the fleet file."""
+
+    @property
+    def location(self) -> Point:
+        """Where it is now."""
+        return self.telemetry.location
+
+    @property
+    def battery_level(self) -> float:
+        """What is left in its battery now, from 0 to 1."""
+        return self.telemetry.battery_level
+
+    def distance(self, point: Point) -> float:
+        """Return how far away a point is, in metres."""
+        return dist(self.location, point)
+
+
+class Nothing(dict[str, "Plain"]):
+    """No parameters: one mapping for the many trips that have none, so it must not be filled."""
+
+    __slots__ = ()
+
+    def __setitem__(self, key: str, value: Plain) -> None:
+        raise TypeError(f"a trip's parameters are given as a whole: parameters={{{key!r}: ...}}")
+
+    def __deepcopy__(self, _: object) -> Nothing:
+        return self
+
+
+NOTHING = Nothing()
+
+
+def nothing() -> Mapping[str, Plain]:
+    """Return the parameters of a trip that has none."""
+    return NOTHING
+
+
+@dataclass(slots=True, kw_only=True, eq=False)
+class Trip:
+    """A drone's flight to a target that ends with an action."""
+
+    name: str
+    action: str
+    target: Point
+    source: Point | None = None
+    """Where the flight begins; None: where the drone is."""
+    parameters: Mapping[str, Plain] = field(default_factory=nothing)
+    """The action's parameters, in SI units."""
+    item: Item | None = None
+    status: TripStatus = field(default=TripStatus.WAITING, init=False)
+    drone: Drone | None = field(default=None, init=False)
+    """Who flies it, from allocation on."""
+    start_time: float | None = field(default=None, init=False)
+    """When its drone left for it, the last time."""
+    end_time: float | None = field(default=None, init=False)
+    attempt: int = field(default=1, init=False)
+    """How often it has been tried in this round, this time included."""
+    index: int = 0
+    """Its place in the missions file."""
+    added: bool = field(default=False, init=False)
+    """An evaluator added it: it is not repeated."""
+    reason: str = field(default="", init=False)
+    """Why it failed, the last time."""
+    now: Callable[[], float] | None = field(default=None, init=False, repr=False)
+    """The clock, once the trip belongs to a mission that runs."""
+
+    @property
+    def elapsed(self) -> float:
+        """Seconds that it has been flying, or flew; 0 before it starts."""
+        if self.start_time is None:
+            return 0.0
+        if self.end_time is not None:
+            return self.end_time - self.start_time
+        return self.now() - self.start_time if self.now else 0.0
+
+    def expired(self, limit: float) -> bool:
+        """Say whether it has been flying, or flew, for this many seconds or more."""
+        return self.start_time is not None and self.elapsed >= limit
+
+    @property
+    def ended(self) -> bool:
+        """Whether it is over, well or not."""
+        return self.status in (TripStatus.COMPLETED, TripStatus.FAILED)
+
+    def reset(self) -> None:
+        """Put it back: it is WAITING again and counts as one more attempt."""
+        if self.status is TripStatus.EXECUTING:
+            raise ValueError(f"trip {self.name} is in flight: it can be reset when it has ended")
+        if self.status is not TripStatus.WAITING:
+            self.status = TripStatus.WAITING
+            self.attempt += 1
+            self.drone = self.start_time = self.end_time = None
+
+
+AnyTrip = TypeVar("AnyTrip", bound=Trip)
+
+NO_RESULT = -1
+"""The number of a result that there is not."""
+
+
+@dataclass(slots=True, kw_only=True, eq=False)
+class Mission(Generic[AnyTrip]):
+    """A list of trips, flown one after the other. Missions run side by side."""
+
+    name: str
+    trips: list[AnyTrip]
+    """Still to do, in order; the first is the one that flies now, or flies next."""
+    completed_trips: list[AnyTrip] = field(default_factory=list, init=False)
+    status: Status = field(default=UNEXECUTED, init=False)
+    reason: str = field(default="", init=False)
+    """Why it failed."""
+    round: int = field(default=0, init=False)
+    """How often it has begun again."""
+    attempts: int = field(default=0, init=False)
+    """How many flights it has had, good and bad; one that was interrupted does not count."""
+    index: int = 0
+    """Its place in the missions file."""
+    last_result: int = field(default=NO_RESULT, init=False, repr=False)
+    """The number of its newest result that its evaluator has not seen."""
+
+    @property
+    def current(self) -> AnyTrip:
+        """The trip that flies now, or flies next; when none is left, the one flown last."""
+        if self.trips:
+            return self.trips[0]
+        if not self.completed_trips:
+            raise MissionFailed("no trip is left to fly")
+        return self.completed_trips[-1]

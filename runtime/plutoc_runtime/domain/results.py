@@ -1,0 +1,96 @@
+"""The central store of what actions gave (thesis 6.1.3): append-only, across missions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any, Generic, NamedTuple, TypeVar, overload
+
+from .model import NO_RESULT, Mission, Trip
+
+M = TypeVar("M", bound=Mission[Any])
+T = TypeVar("T", bound=Trip)
+
+
+class Result(NamedTuple, Generic[M, T]):
+    """What one action gave; (mission, trip, round, attempt) tells it from all others."""
+
+    mission: M
+    trip: T
+    round: int
+    attempt: int
+    value: object
+
+
+class View(Sequence[Result[Any, Any]]):
+    """Some of the results, by their numbers: a list of its own would be copied for each evaluation."""
+
+    __slots__ = ("_numbers", "_results")
+
+    def __init__(self, results: Sequence[Result[Any, Any]], numbers: Sequence[int]) -> None:
+        self._results, self._numbers = results, numbers
+
+    def __len__(self) -> int:
+        return len(self._numbers)
+
+    @overload
+    def __getitem__(self, index: int) -> Result[Any, Any]: ...
+    @overload
+    def __getitem__(self, index: slice) -> Sequence[Result[Any, Any]]: ...
+    def __getitem__(self, index: int | slice) -> Result[Any, Any] | Sequence[Result[Any, Any]]:
+        if isinstance(index, slice):
+            return tuple(map(self._results.__getitem__, self._numbers[index]))
+        return self._results[self._numbers[index]]  # an IndexError is its own
+
+    def __iter__(self) -> Iterator[Result[Any, Any]]:
+        return map(self._results.__getitem__, self._numbers)
+
+    def __repr__(self) -> str:
+        return repr(tuple(self))
+
+
+class Results(NamedTuple, Generic[M, T]):
+    """What an evaluator gets to judge."""
+
+    new: Sequence[Result[M, T]]
+    """The mission's results since its evaluator was last asked."""
+    all: Sequence[Result[M, T]]
+    """Every result of the app, of all missions."""
+
+
+class ResultStore:
+    """Where results are kept; those of one mission are a chain that `mission.last_result` begins."""
+
+    def __init__(self) -> None:
+        self._results: list[Result[Any, Any]] = []
+        self._before: list[int] = []
+        """The number of the result before each in its mission's chain."""
+
+    def __len__(self) -> int:
+        return len(self._results)
+
+    def add(
+        self, mission: Mission[Any], trip: Trip | None, round_: int, attempt: int, value: object
+    ) -> int:
+        """Keep what an action gave, and return its number."""
+        self._results.append(Result(mission, trip, round_, attempt, value))
+        self._before.append(mission.last_result)
+        return len(self._results) - 1
+
+    @property
+    def newest(self) -> object:
+        """What the action gave that was done last."""
+        return self._results[-1].value
+
+    def so_far(self) -> View:
+        """Return every result there is by now."""
+        return View(self._results, range(len(self._results)))
+
+    def for_evaluator(self, mission: Mission[Any]) -> Results[Any, Any]:
+        """Return what a mission's evaluator gets now."""
+        new: list[int] = []
+        last, mission.last_result = mission.last_result, NO_RESULT
+        while last != NO_RESULT:
+            new.append(last)
+            last = self._before[last]
+        new.reverse()
+        return Results(View(self._results, new), self.so_far())

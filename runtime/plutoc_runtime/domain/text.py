@@ -1,0 +1,170 @@
+"""How numbers, places and names are written for people."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from math import log10
+from reprlib import Repr
+from typing import Any, cast
+
+from .errors import ANY_ERROR
+from .guard import unless_by_a_person
+
+LONGEST = 60
+
+
+def quoted(text: str) -> str:
+    """Put a user's word in quotes; nothing in it can command a terminal."""
+    return f'"{printable(cut_off(text, LONGEST))}"'
+
+
+def in_shell(text: object) -> str:
+    """Write a word of a command line so that a shell takes it as it is, and runs nothing of it."""
+    from shlex import quote  # only who is told what to type needs it
+
+    word = str(text)
+    if word.isprintable():
+        return quote(word)
+    return "$'" + printable(word.replace("\\", "\\\\").replace("'", "\\'")) + "'"
+
+
+def number(value: float) -> str:
+    """Write a number with three decimals at most: 2, 0.5, 1.333."""
+    text = f"{value:.3f}".rstrip("0").rstrip(".")
+    return "0" if text == "-0" else text
+
+
+def place(point: Sequence[float]) -> str:
+    """Write where something is on the map."""
+    return f"({number(point[0])}, {number(point[1])})"
+
+
+def duration(seconds: float) -> str:
+    """Write a time: 42.5 s, 3 min 20 s, 2 h 5 min."""
+    if seconds < 60:
+        return f"{number(round(seconds, 1))} s"
+    whole = round(seconds)
+    hours, minutes, rest = whole // 3600, whole % 3600 // 60, whole % 60
+    if hours:
+        return f"{hours} h {minutes} min" if minutes else f"{hours} h"
+    return f"{minutes} min {rest} s" if rest else f"{minutes} min"
+
+
+def mass(kilograms: float) -> str:
+    """Write a mass: 8 g, 1.5 kg."""
+    if kilograms < 1:
+        return f"{number(kilograms * 1000)} g"
+    return f"{number(kilograms)} kg"
+
+
+def percent(share: float) -> str:
+    """Write a share: 20 %."""
+    return f"{share * 100:.0f} %"
+
+
+def counted(count: int, one: str, many: str | None = None) -> str:
+    """Write how many there are: 1 trip, 2 trips."""
+    return f"{count} {one if count == 1 else many or one + 's'}"
+
+
+def of(drone: str, reason: str) -> str:
+    """Say of which drone a reason speaks, if it does not say so itself."""
+    return reason if reason.startswith(f"{drone} ") else f"{drone}: {reason}"
+
+
+def printable(text: str) -> str:
+    """Escape what a terminal would take as a command."""
+    return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in text)
+
+
+def cut_off(text: str, longest: int) -> str:
+    """Write no more of a text than so many characters."""
+    return text if len(text) <= longest else text[: longest - 1] + "…"
+
+
+def bounded(text: str, longest: int) -> str:
+    """Write no more of a text than so many characters, and how long it is."""
+    if len(text) <= longest:
+        return text
+    return f"{text[:longest]}… ({len(text):,} characters in all)"
+
+
+def text_of(value: object, otherwise: str = "") -> str:
+    """Return what an object says of itself, or something else where it cannot be asked."""
+    kind = type(value)
+    if kind is str:
+        return cast("str", value)
+    try:
+        if issubclass(kind, BaseException) and kind.__str__ in (_AN_ERRORS, KeyError.__str__):
+            given = cast("BaseException", value).args  # which may be anything, and are asked alike
+            if len(given) != 1:
+                return shown(given) if given else ""
+            return text_of(given[0], otherwise) if kind.__str__ is _AN_ERRORS else shown(given[0])
+        if kind.__str__ is object.__str__:  # a list, and all that has no text of its own
+            return shown(value)
+        return str.__str__(str(value))  # which may be of a class of its own
+    except ANY_ERROR as error:  # an error of its own class
+        unless_by_a_person(error)
+        return otherwise
+
+
+_AN_ERRORS = BaseException.__str__
+
+
+def shown(value: object) -> str:
+    """Write any value so that it is the same text in every run, and no longer than a page or two."""
+    try:
+        if value is None or type(value) in (bool, float):
+            return repr(value)
+        return bounded(_ADDRESS.sub("", _Everything().repr(value)), LONGEST_VALUE)
+    except ANY_ERROR as error:  # an error of its own class
+        unless_by_a_person(error)
+        return f"<{class_of(value)} that cannot be shown>"
+
+
+def class_of(value: object) -> str:
+    """Return the name of a value's class, which may be of a class of its own and refuse to say it."""
+    name: str = type.__dict__["__name__"].__get__(type(value))
+    return bounded(str.__str__(name), LONGEST)
+
+
+LONGEST_VALUE = 10_000
+"""Characters of a value that is kept as text."""
+
+_PARTS = 10_000
+"""Elements of it that are looked at: each may hold many others, and these the same ones."""
+
+_HOLDING: tuple[Any, ...] = (list, tuple, dict)
+"""What holds others: a class that is made of one of these is written as that."""
+
+
+class _Everything(Repr):
+    """Like `repr`, but sets are sorted, it comes to an end, and an object's error is no error here."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.maxlevel = 20
+        self.maxtuple = self.maxlist = self.maxdict = self.maxset = self.maxfrozenset = _PARTS
+        self.maxarray = self.maxdeque = _PARTS
+        self.maxstring = self.maxlong = self.maxother = 2 * LONGEST_VALUE
+        self._left = _PARTS
+
+    def repr1(self, x: Any, level: int) -> str:
+        """Write a part of it."""
+        self._left -= 1
+        for kind in _HOLDING:
+            if type(x) is not kind and type(x).__repr__ is kind.__repr__:
+                x = kind(kind.__iter__(x)) if kind is not dict else dict(dict.items(x))
+        return super().repr1(x, level) if self._left >= 0 else "…"
+
+    def repr_int(self, x: int, level: int) -> str:
+        """Write a number, which may have more digits than Python writes."""
+        digits = int(x.bit_length() * log10(2)) + 1
+        return super().repr_int(x, level) if digits < MOST_DIGITS else f"<int of {digits:,} digits>"
+
+
+MOST_DIGITS = 600
+"""A number with more is kept as text: not every reader of JSON takes it."""
+
+_ADDRESS = re.compile(r" at 0x[0-9A-Fa-f]+")

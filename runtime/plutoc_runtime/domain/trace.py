@@ -1,0 +1,58 @@
+"""What happened, in order: every transition is one event, and nothing else tells what happened."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping, Sequence
+from math import isfinite
+from typing import Protocol
+
+Event = Mapping[str, object]
+"""`t`, seconds; `event`, such as `trip.launched`; and its facts."""
+
+
+class Clock(Protocol):
+    """What tells the time of an event: the kernel."""
+
+    now: float
+    """Seconds since the start."""
+
+
+class Trace:
+    """The events of one run, told to its listeners; without any, they cost nothing."""
+
+    def __init__(self, clock: Clock, listeners: Sequence[Callable[[Event], object]]) -> None:
+        self.live = bool(listeners)
+        """Whether there is a listener: ask before you put an event together."""
+        self._clock, self._listeners = clock, tuple(listeners)
+        self._now = self._t = 0.0
+        """The instant of the last event, and how it is written: several happen at one."""
+
+    def note(self, event: str, **facts: object) -> None:
+        """Something happened now."""
+        now = self._clock.now
+        if now is not self._now:
+            self._now, self._t = now, round(now, 6)
+        noted = {"t": self._t, "event": event, **facts}
+        for listener in self._listeners:
+            listener(noted)
+
+
+def dumped(value: object) -> str:
+    """Write plain data as JSON on one line."""
+    return json.dumps(rounded(value), allow_nan=False)
+
+
+def rounded(value: object) -> object:
+    """Return plain data with every number rounded to three decimals; what is no number is null."""
+    match value:
+        case float():
+            return round(value, 3) + 0.0 if isfinite(value) else None  # + 0.0: never -0.0
+        case Mapping():
+            return {str(key): rounded(element) for key, element in value.items()}
+        case list() | tuple():
+            return [rounded(element) for element in value]
+        case None | bool() | int() | str():
+            return value
+        case _:
+            return str(value)

@@ -1,0 +1,266 @@
+"""The drones: who is free, who flies home, who charges, who is lost.
+
+The one place where a drone changes its status, but for the moment of its allocation.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Coroutine, Sequence
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from ..domain.errors import FlightFailed
+from ..domain.model import AfterTrip
+from ..domain.status import DroneStatus
+from ..domain.text import cut_off, printable
+from ..time.future import Future
+from ..time.kernel import FLEET, Kernel, Key, Kind, Task
+from .energy import docked
+from .navigation import permitted_way
+
+if TYPE_CHECKING:
+    from ..domain.airspace import Airspace
+    from ..domain.model import Drone
+    from ..domain.trace import Trace
+    from .navigation import Navigation
+    from .queue import Queue
+
+
+class Fleet:
+    """The drones of one app."""
+
+    def __init__(
+        self,
+        kernel: Kernel,
+        trace: Trace,
+        airspace: Airspace,
+        navigation: Navigation[Any],
+        drones: Sequence[Drone],
+        queue: Queue,
+        after_trip: AfterTrip,
+    ) -> None:
+        self.drones, self.queue = tuple(drones), queue
+        self._kernel, self._trace, self._airspace = kernel, trace, airspace
+        self._navigation, self._after_trip = navigation, after_trip
+        self._stays = after_trip is AfterTrip.STAY
+        self.errands: dict[Drone, Task[None]] = {}
+        """What drones do for themselves."""
+        self._change: Future[None] | None = None
+        """The next change of any drone, if it is waited for."""
+        self.unready: dict[Drone, str] = {}
+        """Those that are lost, or could not fly when they were asked, and why."""
+        queue.served = self._fetch_what_is_low
+
+    def engage(self, drone: Drone) -> None:
+        """A drone is about to fly for a mission: what it was doing for itself is over."""
+        self.unready.pop(drone, None)
+        errand = self.errands.pop(drone, None)
+        if errand is not None:
+            errand.cancel()
+
+    def keep(self, drone: Drone, lose: Callable[[str], None]) -> None:
+        """A drone with an item aboard lands where it is and waits for its mission.
+
+        If it cannot, its mission loses it: `lose` is told why.
+        """
+
+        async def land(drone: Drone) -> None:
+            try:
+                await self._navigation.land(drone.id)
+            except FlightFailed as error:
+                lose(str(error))
+                await self._bring_back(drone, str(error))
+
+        self._send(drone, DroneStatus.BUSY, land, "waits with its item")
+
+    def dismiss(self, drone: Drone) -> None:
+        """A drone has done what it was allocated for."""
+        telemetry = drone.telemetry
+        if (
+            telemetry.landed
+            and telemetry.battery_level > drone.category.reserve
+            and (self._stays or docked(telemetry.location, drone.home))
+        ):
+            # navigation has it down already where it shall be, with enough in its battery
+            self._become(drone, _FREE)
+        elif self._after_trip is AfterTrip.HOME or self.is_low(drone):
+            self.send_home(drone)
+        else:
+            self._send(drone, DroneStatus.RETURNING, self._stay, "lands")
+
+    def send_home(self, drone: Drone) -> None:
+        """A drone goes home."""
+        self._send(drone, DroneStatus.RETURNING, self._return, "returns")
+
+    def recover(self, drone: Drone, reason: str = "") -> None:
+        """A drone's flight has failed, for this reason: it is not handed out before it is home."""
+        back = partial(self._bring_back, reason=reason)
+        self._send(drone, DroneStatus.RECOVERING, back, "recovers")
+
+    def never_flew(self, drone: Drone) -> None:
+        """A drone was allocated and is not needed after all."""
+        self._send(drone, DroneStatus.BUSY, self._stay, "is not needed")
+
+    async def all_down(self) -> None:
+        """Wait until every drone has done what it does for itself: return, land, recover."""
+        while under_way := [task for task in self.errands.values() if not task.is_set]:
+            await under_way[0].ended()
+
+    def _send(
+        self,
+        drone: Drone,
+        status: DroneStatus,
+        errand: Callable[[Drone], Coroutine[Any, Any, None]],
+        what: str,
+    ) -> None:
+        self.engage(drone)
+        self._become(drone, status)
+        self.errands[drone] = self._kernel.spawn(
+            self._run(errand, drone), self._key(drone), f"{drone.id} {what}"
+        )
+
+    async def _run(
+        self, errand: Callable[[Drone], Coroutine[Any, Any, None]], drone: Drone
+    ) -> None:
+        await errand(drone)
+        del self.errands[drone]
+
+    def _become(self, drone: Drone, status: DroneStatus) -> None:
+        before = drone.status
+        if before is not status:
+            drone.status = status
+            if self._trace.live:
+                self._note(drone)
+        self.queue.moved(drone, before)
+        if self._change is not None:
+            self._changed()
+
+    def _note(self, drone: Drone) -> None:
+        x, y, z = drone.location
+        lost = drone.status is DroneStatus.LOST
+        self._trace.note(
+            _EVENT[drone.status],
+            drone=drone.id,
+            battery=round(drone.battery_level, 4),
+            at=[round(x, 3), round(y, 3), round(z, 3)],
+            **({"reason": self.unready.get(drone, "")} if lost else {}),
+        )
+
+    def _changed(self) -> None:
+        change, self._change = self._change, None
+        if change is not None:
+            change.set(None)
+
+    async def _land(self, drone: Drone) -> bool:
+        """Land a drone where it is, and say whether it could; it is brought home otherwise."""
+        try:
+            await self._navigation.land(drone.id)
+        except FlightFailed as error:
+            await self._bring_back(drone, str(error))
+            return False
+        return True
+
+    async def _stay(self, drone: Drone) -> None:
+        if not await self._land(drone):
+            return
+        await self._settle(drone)
+        if self._after_trip is AfterTrip.NEXT:
+            await self._kernel.sleep(0, Kind.ALLOCATE, self._key(drone))
+            while self._is_stray(drone) and not self.queue.room:
+                await self._next_change()
+                await self._kernel.sleep(0, Kind.ALLOCATE, self._key(drone))
+            if self._is_stray(drone):
+                self._become(drone, DroneStatus.RETURNING)
+                await self._return(drone)
+
+    def _next_change(self) -> Future[None]:
+        if self._change is None:
+            self._change = Future()
+        return self._change
+
+    async def _return(self, drone: Drone) -> None:
+        try:
+            await self._navigation.takeoff(drone.id, self._airspace.cruise_height)
+            x, y, _ = drone.home
+            home = (x, y, drone.location[2])
+            for point in permitted_way(self._airspace, drone.id, drone.location, home):
+                await self._navigation.go_to(drone.id, point)
+            await self._navigation.land(drone.id)
+        except FlightFailed as error:
+            await self._bring_back(drone, str(error))
+        else:
+            await self._settle(drone)
+
+    async def _bring_back(self, drone: Drone, reason: str) -> None:
+        """Bring a drone home whose flight has failed for this reason, or give it up as lost."""
+        self._become(drone, DroneStatus.RECOVERING)
+        if await self._navigation.recover(drone.id):
+            self.unready.pop(drone, None)
+            await self._settle(drone)
+        else:
+            self.unready[drone] = await self._why_lost(drone, reason)
+            self._become(drone, DroneStatus.LOST)
+
+    async def _why_lost(self, drone: Drone, reason: str) -> str:
+        """Return why a drone is lost whose flight failed for this reason."""
+        return cut_off(printable(reason), LONGEST) or "it could not be brought home"
+
+    async def _settle(self, drone: Drone) -> None:
+        """It stands on the ground, well: is there enough in its battery to be handed out?"""
+        if not self._rests(drone):
+            self._become(drone, DroneStatus.RETURNING)
+            await self._return(drone)
+
+    def _rests(self, drone: Drone) -> bool:
+        """Let it be handed out, or charge first; False: it must go home for that."""
+        missing = drone.category.reserve - drone.battery_level
+        if missing < 0:
+            self._become(drone, _FREE)
+        elif self._is_docked(drone):
+            self._become(drone, DroneStatus.CHARGING)
+            charged = self._kernel.now + missing * drone.category.charge_time + 0.001
+            self._kernel.at(charged, Kind.CLOCK, self._key(drone), partial(self._charged, drone))
+        else:
+            return False
+        return True
+
+    def _charged(self, drone: Drone) -> None:
+        """Its time is over; a real battery need not keep to that: then look again later."""
+        if drone.status is not DroneStatus.CHARGING:
+            return
+        if drone.battery_level > drone.category.reserve:
+            self._become(drone, _FREE)
+        else:
+            later = self._kernel.now + _LOOK_AGAIN
+            self._kernel.at(later, Kind.CLOCK, self._key(drone), partial(self._charged, drone))
+
+    def _fetch_what_is_low(self) -> None:
+        """Missions wait for drones that stand away from home with too little in their batteries."""
+        for drone in self.queue.too_low():
+            if not self._is_docked(drone) and self.queue.room:
+                self.send_home(drone)
+
+    def is_low(self, drone: Drone) -> bool:
+        """Whether there is little more in it than the way home takes."""
+        return drone.battery_level < drone.category.reserve + 0.2
+
+    def _is_stray(self, drone: Drone) -> bool:
+        return drone.status is _FREE and not self._is_docked(drone)
+
+    def _is_docked(self, drone: Drone) -> bool:
+        return drone.telemetry.landed and docked(drone.location, drone.home)
+
+    def _key(self, drone: Drone) -> Key:
+        return FLEET + 1 + drone.index
+
+
+_FREE = DroneStatus.FREE
+
+_LOOK_AGAIN = 10.0
+"""Seconds between two looks at a battery that should be full enough by now."""
+
+LONGEST = 500
+"""Characters of why a drone is lost."""
+
+_EVENT = {status: f"drone.{status.value.lower()}" for status in DroneStatus}
+"""What the event is called in which a drone's status becomes this."""

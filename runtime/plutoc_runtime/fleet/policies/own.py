@@ -1,0 +1,43 @@
+"""A policy of the app's own: a hook that is asked trip by trip."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from ...domain.errors import HookFault
+from ...domain.guard import by_a_person, guarded
+from ...domain.model import Drone
+from ...domain.text import class_of
+from ...hooks.calls import hook_name, said, trace_of
+
+if TYPE_CHECKING:
+    from ...domain.model import Trip
+    from ..policy import Able, Choice, OneByOne
+
+
+def own_policy(hook: Callable[[Any, Sequence[Drone]], Drone | None]) -> OneByOne:
+    """Make a policy of the app's own hook; it raises `HookFault` for what that may not answer."""
+
+    def choose(trip: Trip, free: Sequence[Drone], able: Able) -> Choice | None:
+        candidates = tuple(filter(able, free))
+        if not candidates:
+            return None
+        name = hook_name(hook)
+        try:
+            drone = guarded(partial(hook, trip, candidates))
+        except BaseException as error:
+            if by_a_person(error):
+                raise
+            raise HookFault(f"policy {name} raised {said(error)}", trace_of(error)) from error
+        if drone is None:
+            return None
+        if not any(drone is candidate for candidate in candidates):
+            answer = f"drone {drone.id}" if type(drone) is Drone else class_of(drone)
+            raise HookFault(
+                f"policy {name} must return one of the candidates or None, not {answer}"
+            )
+        return drone, f"chosen by {name}"
+
+    return choose

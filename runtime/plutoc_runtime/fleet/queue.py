@@ -1,0 +1,289 @@
+"""The fleet's one queue: missions wait in it for a drone.
+
+It is served at the end of every instant in which something changed, so that all requests and all
+free drones of the instant are known: by priority, higher first, then by arrival. A free drone that
+is too low for all who wait is put aside until it is charged, or until it is high enough for a new one.
+"""
+
+from __future__ import annotations
+
+from bisect import insort
+from collections import Counter
+from collections.abc import Callable, Collection, Iterator, Sequence
+from math import inf
+from operator import attrgetter
+from typing import TYPE_CHECKING
+
+from ..domain.errors import HookFault, MissionFailed
+from ..domain.status import DroneStatus
+from ..time.future import Future
+from ..time.kernel import FLEET, Kernel, Kind, Timer
+from .energy import docked
+from .policy import Batch, Choice, Policy
+from .reach import Demand, Reach
+
+if TYPE_CHECKING:
+    from ..domain.model import Drone, Trip
+
+_FREE, _BUSY, _LOST = DroneStatus.FREE, DroneStatus.BUSY, DroneStatus.LOST
+_IN_THE_AIR = (_BUSY, DroneStatus.RETURNING, DroneStatus.RECOVERING)
+
+_in_the_file = attrgetter("index")
+
+
+class Request(Future["Drone"]):
+    """A mission that waits for a drone; it is set to the one that it gets."""
+
+    __slots__ = ("_demand", "_levels", "_reach", "_trips", "policy", "trip", "why")
+
+    def __init__(self, reach: Reach, trips: Sequence[Trip], policy: Policy) -> None:
+        self.is_set = False
+        self.error = self.waiter = self._value = self._watchers = None
+        self.trip, self.policy = trips[0], policy
+        self.why = ""
+        """Why it got its drone."""
+        self._levels = reach.levels(self.trip)
+        self._reach, self._trips = reach, trips
+        self._demand: Demand | None = None
+
+    @property
+    def demand(self) -> Demand:
+        """What it asks of a drone, exactly."""
+        if self._demand is None:
+            self._demand = Demand(self._reach, self._trips)
+        return self._demand
+
+    def able(self, drone: Drone) -> bool:
+        """Say whether a drone can fly the trip now."""
+        level = drone.telemetry.battery_level
+        return level >= self._levels[drone.category] or level >= self.level(drone)
+
+    def never(self, drone: Drone) -> str | None:
+        """Return why a drone cannot fly the trip even with a full battery; None: it can."""
+        return None if self._levels[drone.category] <= 1.0 else self.demand.never(drone)
+
+    def level(self, drone: Drone) -> float:
+        """Return what it takes in a drone's battery, where it stands; never: infinite."""
+        return inf if self.never(drone) is not None else self.demand.battery(drone)
+
+
+class Queue:
+    """The missions that wait, and the drones that they wait for."""
+
+    def __init__(
+        self, kernel: Kernel, reach: Reach, drones: Sequence[Drone], max_airborne: int | None
+    ) -> None:
+        self._kernel, self._reach = kernel, reach
+        self._drones, self._max_airborne = drones, max_airborne
+        self._entries: list[tuple[int, int, Request]] = []
+        """All that wait, in order, the last is served first: priority; arrival, below 0; request."""
+        self._fresh: list[Request] = []
+        """Those that have not been served yet."""
+        self._arrivals = 0
+        self._ready = [drone for drone in drones if drone.status is _FREE]
+        """The free drones that may be chosen, in the fleet's order."""
+        self._low: dict[Drone, float] = {}
+        """The other free drones: too low for all that has waited so far, and until when they are."""
+        self._lost = self._lost_before = sum(drone.status is _LOST for drone in drones)
+        """How many are lost, and how many were when it was last asked who can be served at all."""
+        self._recheck: Timer | None = None
+        self._recheck_at = inf
+        self.served: Callable[[], None] = lambda: None
+        """Called after each serving, while some still wait."""
+
+    def enter(self, trips: Sequence[Trip], policy: Policy, priority: int) -> Request:
+        """Wait for a drone for the first trip; the answer comes at the end of this instant or later."""
+        rank = +priority  # raises here, in its mission, if a hook has left something odd there
+        request = Request(self._reach, trips, policy)
+        self._arrivals += 1
+        insort(self._entries, (rank, -self._arrivals, request))
+        self._fresh.append(request)
+        self.changed()
+        return request
+
+    def leave(self, request: Request) -> None:
+        """Do not wait any longer."""
+        self._drop(request)
+        request.is_set = True
+
+    def moved(self, drone: Drone, before: DroneStatus) -> None:
+        """A drone had another status, or the same: serve the queue at the end of this instant."""
+        after = drone.status
+        if before is _FREE and self._low.pop(drone, None) is None:
+            self._ready.remove(drone)
+        if after is _FREE:
+            insort(self._ready, drone, key=_in_the_file)
+        self._lost += (after is _LOST) - (before is _LOST)
+        self.changed()
+
+    def changed(self) -> None:
+        """Something changed: serve the queue at the end of this instant."""
+        if self._entries:
+            self._kernel.last = self._serve
+
+    def prioritise(self, trip: Trip, priority: int) -> None:
+        """The request for this trip has another priority from now on."""
+        for place, (_, arrival, request) in enumerate(self._entries):
+            if request.trip is trip:
+                self._entries[place] = (priority, arrival, request)
+                self._entries.sort()
+                self.changed()
+                return
+
+    @property
+    def waiting(self) -> bool:
+        """Whether any request waits."""
+        return bool(self._entries)
+
+    def standing(self) -> str:
+        """Say what the drones are doing: why a mission waits."""
+        count = Counter(drone.status for drone in self._drones)
+        return ", ".join(f"{count[s]} {s.value.lower()}" for s in DroneStatus if count[s])
+
+    @property
+    def room(self) -> bool:
+        """Whether one more drone may fly."""
+        most = self._max_airborne
+        return most is None or sum(drone.status in _IN_THE_AIR for drone in self._drones) < most
+
+    @property
+    def low(self) -> Collection[Drone]:
+        """The free drones that no request can use, as they are now."""
+        return self._low.keys()
+
+    def too_low(self) -> Iterator[Drone]:
+        """Give the free drones that waiting missions could use if they were charged."""
+        for drone in sorted(self._low, key=_in_the_file):
+            if any(request.never(drone) is None for request in self.waiters()):
+                yield drone
+
+    def waiters(self) -> Iterator[Request]:
+        """Give the requests that wait."""
+        return (request for _, _, request in reversed(self._entries))
+
+    # Serving
+
+    def _serve(self) -> None:
+        if self._low:
+            self._put_back_the_charged()
+        self._share_out()
+        if self._entries:
+            self._refuse_what_cannot_be()
+            if self._ready and self.room:
+                self._put_aside_the_low()
+            if self._low:
+                self._look_again_when_charged()
+                self.served()
+        self._fresh.clear()
+
+    def _share_out(self) -> None:
+        place = len(self._entries)
+        while place and self._ready and self.room:
+            place -= 1
+            request = self._entries[place][2]
+            if isinstance(request.policy, Batch):
+                place = self._share_among(place, request.policy)
+            else:
+                try:
+                    choice = request.policy(request.trip, self._ready, request.able)
+                except HookFault as fault:
+                    self._refuse(request, fault)
+                else:
+                    self._give(request, choice)
+
+    def _share_among(self, last: int, policy: Batch) -> int:
+        """Share out among the request at this place and all before it of its policy and priority.
+
+        Return the place of the first of them.
+        """
+        first, priority = last, self._entries[last][0]
+        while first and self._entries[first - 1][0] == priority:
+            if self._entries[first - 1][2].policy is not policy:
+                break
+            first -= 1
+        requests = [request for _, _, request in reversed(self._entries[first : last + 1])]
+        offers = [(request.trip, request.able) for request in requests]
+        for request, choice in zip(requests, policy(offers, self._ready), strict=True):
+            if self.room:
+                self._give(request, choice)
+        return first
+
+    def _give(self, request: Request, choice: Choice | None) -> None:
+        if choice is not None:
+            drone, request.why = choice
+            self._drop(request)
+            self._ready.remove(drone)
+            drone.status = _BUSY  # at once: no other request may have it
+            request.set(drone)
+
+    def _refuse(self, request: Request, error: MissionFailed) -> None:
+        self._drop(request)
+        request.fail(error)
+
+    def _drop(self, request: Request) -> None:
+        place = len(self._entries) - 1
+        while self._entries[place][2] is not request:  # most that leave are the next to be served
+            place -= 1
+        del self._entries[place]
+
+    def _refuse_what_cannot_be(self) -> None:
+        """Refuse new requests, and after a loss all that wait, if no drone is able."""
+        asked = self._fresh if self._lost == self._lost_before else list(self.waiters())
+        self._lost_before = self._lost
+        for request in asked:
+            if not request.is_set and not self._any_able(request):
+                self._refuse(request, self._unable(request))
+
+    def _any_able(self, request: Request) -> bool:
+        for drone in self._drones:
+            if drone.status is not _LOST and request.never(drone) is None:
+                return True
+        return False
+
+    def _unable(self, request: Request) -> MissionFailed:
+        lost = [f"{self._lost} of {len(self._drones)} drones are lost"] if self._lost else []
+        left = (drone for drone in self._drones if drone.status is not _LOST)
+        reasons = dict.fromkeys(request.never(drone) or "" for drone in left)
+        because = "; ".join([*lost, *reasons])
+        return MissionFailed(f"no drone of the fleet can fly trip {request.trip.name}: {because}")
+
+    # Drones that are too low
+
+    def _put_back_the_charged(self) -> None:
+        """Those that have charged, and those that are high enough for a new request."""
+        now = self._kernel.now
+        fresh = [request for request in self._fresh if not request.is_set]
+        for drone, until in list(self._low.items()):
+            if until <= now or any(request.able(drone) for request in fresh):
+                del self._low[drone]
+                insort(self._ready, drone, key=_in_the_file)
+            else:
+                least = min((request.level(drone) for request in fresh), default=inf)
+                self._low[drone] = min(until, now + _charging(drone, least))
+
+    def _put_aside_the_low(self) -> None:
+        """A docked drone that is too low for what waits will be high enough at a known time.
+
+        One that is high enough and was not given (no more may fly, a policy wants it not) stays.
+        """
+        for drone in tuple(self._ready):
+            if not any(request.able(drone) for request in self.waiters()):
+                least = min((request.level(drone) for request in self.waiters()), default=inf)
+                self._ready.remove(drone)
+                self._low[drone] = self._kernel.now + _charging(drone, least)
+
+    def _look_again_when_charged(self) -> None:
+        soonest = min(self._low.values())
+        if soonest != self._recheck_at:
+            if self._recheck is not None:
+                self._recheck.cancel()
+            self._recheck_at, self._recheck = soonest, None
+            if soonest < inf:
+                self._recheck = self._kernel.at(soonest, Kind.CLOCK, FLEET, self.changed)
+
+
+def _charging(drone: Drone, level: float) -> float:
+    """Return the seconds until a drone has charged so far where it stands; never: infinite."""
+    charges = level < inf and docked(drone.location, drone.home)
+    missing = level - drone.battery_level
+    return missing * drone.category.charge_time + 0.001 if charges else inf

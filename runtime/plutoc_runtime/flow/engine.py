@@ -1,0 +1,119 @@
+"""The engine: starts missions, takes each through its graph, and sees it to its end."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+from ..domain.errors import Cancelled, HookFault, MissionFailed
+from ..domain.fields import Entity, wrong_field
+from ..domain.status import FAILED, UNEXECUTED, Status
+from ..time.future import Future
+from ..time.kernel import Task, mission_key
+from .location import as_crash, blame, blamed
+from .mission import MissionState
+from .run import Run
+
+if TYPE_CHECKING:
+    from ..domain.model import Mission
+    from .mission import Core
+
+
+class Engine:
+    """All missions of one running app."""
+
+    def __init__(self, core: Core) -> None:
+        self._core = core
+        self._living = 0
+        """How many missions are in their graphs."""
+        self.done: Future[None] = Future()
+        """Set when the last mission has ended."""
+
+    def start(self, missions: Sequence[Mission[Any]]) -> None:
+        """Set the missions on their way, all at once."""
+        for mission in missions:
+            self._enter(self.new_state(mission), UNEXECUTED)
+
+    def new_state(self, mission: Mission[Any]) -> MissionState:
+        """Return the state of a mission, of which nothing is remembered as yet."""
+        if self._core.recorder is not None:
+            self._core.recorder.missions[mission.name] = mission
+        return MissionState(self._core, mission, self)
+
+    def _enter(self, state: MissionState, status: Status) -> None:
+        """Send a mission into its graph, at its beginning or where it can go on."""
+        core, mission, key = self._core, state.mission, mission_key(state.mission.index)
+        run = Run(mission, state, key)
+        run.at, run.status = state.at, status
+        run.task = state.task = task = core.kernel.spawn(core.app.flow(run), key, mission.name)
+        task.over = state
+        self._living += 1
+
+    def doomed(self, state: MissionState) -> None:
+        """End a doomed mission, once the coroutine that found out has finished its turn."""
+        mission = state.mission
+        self._core.kernel.spawn(
+            self._call_off(state), mission_key(mission.index), f"{mission.name} is doomed"
+        )
+
+    async def _call_off(self, state: MissionState) -> None:
+        """Take its turn among the coroutines of this instant: before those that are woken later."""
+        if state.task is not None:
+            state.task.cancel()
+
+    def ended(self, state: MissionState, task: Task[Status]) -> None:
+        """A mission's coroutine is over: see how it ended."""
+        self._living -= 1
+        error, reason = task.error, ""
+        if error is None:
+            status = task.result()
+            if status is FAILED:
+                reason = state.mission.reason or "the graph ended it as FAILED"
+        elif isinstance(error, MissionFailed):
+            status, reason = FAILED, str(error)
+            if isinstance(error, HookFault) and error.detail:
+                self._tell(error, state.mission)
+        elif isinstance(error, Cancelled):
+            status, reason = FAILED, state.doom or "it was called off"
+        elif (wrong := self._wrong(state.mission)) is not None:
+            status, reason = FAILED, wrong
+        else:
+            crash = as_crash(error)
+            blame(crash, self._core.app.flow)
+            self._core.kernel.crash(crash)
+            return
+        self._end(state, status, reason)
+
+    def _wrong(self, mission: Mission[Any]) -> str | None:
+        """Return what a hook has left that a block could not go by; None: it is the block's mistake."""
+        fields, names = self._core.app.fields, self._core.app.evaluators
+        for trip in mission.trips:
+            wrong = wrong_field(fields, Entity.TRIP, trip, names)
+            if wrong is not None:
+                return f"trip {trip.name}: its {wrong}"
+        wrong = wrong_field(fields, Entity.MISSION, mission, names)
+        return None if wrong is None else f"its {wrong}"
+
+    def _tell(self, fault: HookFault, mission: Mission[Any]) -> None:
+        """Log where a hook failed, and by which block it was called."""
+        block = blamed(fault, self._core.app.flow)
+        self._core.log(fault.detail + (f"\nin block {block}" if block else ""), mission.name)
+
+    def look_for_the_end(self) -> None:
+        """See whether there is nothing left to do."""
+        if not self._living:
+            self.done.set(None)
+
+    def _end(self, state: MissionState, status: Status, reason: str) -> None:
+        mission, fleet = state.mission, self._core.fleet
+        flight = state.in_flight
+        if flight is not None:
+            state.break_off(flight)
+            state.fail(flight, f"its mission ended: {reason or status.value}")
+        if state.allocated is not None:
+            fleet.never_flew(state.allocated)
+        if state.carrier is not None:
+            fleet.recover(state.carrier)  # what it carries must be taken off
+        state.allocated = state.carrier = state.carries = None
+        self._core.transitions.end(mission, status, reason)
+        self.look_for_the_end()

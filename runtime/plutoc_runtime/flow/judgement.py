@@ -1,0 +1,122 @@
+"""What becomes of an evaluator's verdict."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, cast
+
+from ..domain.actions import PICK, RELEASE
+from ..domain.errors import ANY_ERROR, HookFault
+from ..domain.guard import by_a_person
+from ..domain.status import COMPLETED, FAILED, STANDBY, Status, TripStatus
+from ..domain.text import class_of, shown, text_of
+from ..fleet.reach import why_not
+from ..hooks.calls import hook_name, said
+from ..hooks.soundness import unsound, unsound_mission
+from .verdict import Verdict
+
+if TYPE_CHECKING:
+    from ..domain.model import Mission, Trip
+    from .mission import Core
+    from .run import Run
+
+
+def apply(run: Run[Any], hook: Callable[..., object], verdict: object) -> Status:
+    """Do as the verdict says; one that cannot be followed is a fault of the evaluator."""
+    mission, core = run.mission, run.core
+    name = hook_name(hook)
+    wrong = unsound_mission(core.app, mission)
+    if wrong is not None:
+        raise HookFault(f"evaluator {name} left a mission that cannot go on: {wrong}")
+    if not issubclass(type(verdict), Verdict):
+        what = class_of(verdict)
+        raise HookFault(f"evaluator {name} must return a Verdict, not {what}")
+    verdict = Verdict._make(tuple.__iter__(cast("Verdict", verdict)))  # its class may change facts
+    if type(mission.trips) is not list or mission.trips:
+        raise HookFault(f"evaluator {name} changed the mission's trips: that is what `add` is for")
+    if verdict.ok is True and verdict.fail is None and verdict.asks_nothing:
+        return COMPLETED
+    redo, add = _listed(name, "redo", verdict.redo), _listed(name, "add", verdict.add)
+    for line in _listed(name, "log", verdict.log):
+        core.log(text_of(line, f"<{class_of(line)}>"), mission.name)
+    if verdict.fail is not None or not (_is_ok(name, verdict.ok) or redo or add):
+        reason = "" if verdict.fail is None else text_of(verdict.fail, shown(verdict.fail)).strip()
+        core.transitions.judge_failed(mission, reason or f"{name} did not accept it")
+        return FAILED
+    for trip in redo:
+        if not any(trip is done for done in mission.completed_trips):
+            called = trip.name if type(trip) is core.app.trip else shown(trip)
+            raise HookFault(
+                f"evaluator {name} asks to redo a trip that mission {mission.name} "
+                f"has not completed: {called!r}"
+            )
+    added = tuple(_accepted(core, mission, name, trip) for trip in _once_each(add))
+    _name(mission, added)
+    if not (redo or added):
+        return COMPLETED
+    core.transitions.redo(mission, tuple(_once_each(redo)), added)
+    return STANDBY
+
+
+def _is_ok(evaluator: str, value: object) -> bool:
+    try:
+        return bool(value)
+    except ANY_ERROR as error:
+        if by_a_person(error):
+            raise
+        raise HookFault(
+            f"evaluator {evaluator} must give `ok` as True or False: {said(error)}"
+        ) from None
+
+
+def _listed(evaluator: str, field: str, value: object) -> Sequence[Any]:
+    for kind in (tuple, list):
+        if issubclass(type(value), kind):
+            return tuple(kind.__iter__(cast("Any", value)))
+    raise HookFault(
+        f"evaluator {evaluator} must give `{field}` as a tuple, not as {class_of(value)}"
+    )
+
+
+def _once_each(trips: Sequence[Any]) -> list[Any]:
+    """Leave out what is asked for twice; what is no trip at all need not be hashable."""
+    return list({id(trip): trip for trip in trips}.values())
+
+
+def _accepted(core: Core, mission: Mission[Any], evaluator: str, trip: Trip) -> Trip:
+    """Make a new trip complete, or say why it cannot be flown."""
+    problem = _problem(core, mission, trip)
+    if problem is not None:
+        raise HookFault(f"evaluator {evaluator} adds a trip that cannot be flown: {problem}")
+    parameters = core.app.actions[trip.action].parameters
+    defaults = {p.name: p.default for p in parameters if p.default is not None}
+    trip.parameters = {**defaults, **trip.parameters}
+    return trip
+
+
+def _name(mission: Mission[Any], added: Sequence[Trip]) -> None:
+    """Give each new trip a name of its own: it tells its flights and results from all others."""
+    taken = {known.name for known in (*mission.trips, *mission.completed_trips)}
+    for trip in added:
+        name, number = trip.name, 1
+        while trip.name in taken:
+            number += 1
+            trip.name = f"{name} {number}"
+        taken.add(trip.name)
+
+
+def _problem(core: Core, mission: Mission[Any], trip: Trip) -> str | None:
+    problem = unsound(core.app, core.airspace, trip)
+    if problem is not None:
+        return problem
+    if any(trip is done for done in mission.completed_trips):
+        return f"trip {trip.name} is the mission's already: ask to redo it"
+    if trip.now is not None or trip.status is not TripStatus.WAITING:
+        return f"trip {trip.name} has been used already: make a new Trip each time"
+    if trip.action in (PICK, RELEASE):
+        return "items are planned by the user: pick and release cannot be added"
+    reasons = [
+        why_not(core.app, core.airspace, drone.category, drone.home, (trip,))
+        for drone in core.fleet.drones
+    ]
+    return None if None in reasons else "; ".join(dict.fromkeys(r for r in reasons if r))

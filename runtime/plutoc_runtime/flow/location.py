@@ -1,0 +1,53 @@
+"""In which block an error arose: `flow.py` quotes a block's declaration above each call of it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from types import FrameType
+from typing import Any
+
+from ..hooks.calls import said
+
+
+def blame(error: BaseException, flow: Callable[..., Any]) -> None:
+    """Add to an error that escapes from a flow in which block it arose: `in block watch = TripMonitor`."""
+    block = blamed(error, flow)
+    if block:
+        error.add_note(f"in block {block}")
+
+
+def as_crash(error: BaseException) -> Exception:
+    """Return an error that ends the app as a mistake: a block's `SystemExit` would pass for an end."""
+    if isinstance(error, Exception):
+        return error
+    return RuntimeError(f"it raised {said(error)}").with_traceback(error.__traceback__)
+
+
+def blamed(error: BaseException, flow: Callable[..., Any]) -> str:
+    """Return the declaration of the block in which an error arose; empty if it was in none.
+
+    Of a fork and its gate it is what stands in their place: `launch -> [a, b] -> first = GateFIFO`.
+    """
+    from traceback import walk_tb  # only where something has gone wrong
+
+    code, found = getattr(flow, "__code__", None), ""
+    for frame, line in walk_tb(error.__traceback__):
+        if code is not None and frame.f_code.co_filename == code.co_filename:
+            found = declaration_above(frame, line) or found
+    return found
+
+
+def declaration_above(frame: FrameType, line: int) -> str:
+    """Return the nearest comment above a line of a function that is not within an arm before it."""
+    import linecache
+
+    margin = None
+    for number in range(line, frame.f_code.co_firstlineno, -1):
+        text = linecache.getline(frame.f_code.co_filename, number, frame.f_globals)
+        indent = len(text) - len(text.lstrip())
+        if not text.strip() or (margin is not None and indent > margin):
+            continue
+        margin = indent
+        if text.lstrip().startswith("# "):
+            return text.strip().removeprefix("# ")
+    return ""

@@ -1,0 +1,134 @@
+"""What becomes of the status that a modifier returns."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from ..domain.errors import HookFault
+from ..domain.mission_data import change_data
+from ..domain.status import Status, TripStatus
+from ..domain.text import bounded, class_of, shown
+from ..hooks.calls import hook_name, look
+from ..hooks.context import Context
+from ..hooks.soundness import unsound, unsound_mission
+
+if TYPE_CHECKING:
+    from ..domain.model import Mission, Trip
+    from .mission import Core, MissionState
+    from .run import Run
+
+
+def context_of(run: Run[Any]) -> Context:
+    """Return what a modifier gets of the running app."""
+    core, state = run.core, run.state
+    return Context(core.kernel, core.results, core.log, run.mission, lambda: state.flight)
+
+
+Standing = tuple[Sequence[tuple["Trip", str, int]], int]
+
+
+def standing(mission: Mission[Any]) -> Standing:
+    """Return the trips still to do, with what they are known by, and how many the mission has in all."""
+    to_do = [(trip, trip.name, trip.attempt) for trip in mission.trips]
+    return to_do, len(to_do) + len(mission.completed_trips)
+
+
+async def settle(
+    run: Run[Any],
+    hook: Callable[..., object],
+    status: Status,
+    emits: tuple[Status, ...],
+    returned: object,
+    before: Standing,
+) -> Status:
+    """Return the status with which the mission goes on; one that cannot be is a fault."""
+    name = hook_name(hook)
+    wrong = unsound_mission(run.core.app, run.mission)
+    if wrong is not None:
+        raise HookFault(f"modifier {name} left a mission that cannot go on: {wrong}")
+    _check_trips(run, name)
+    if run.core.recorder is None:  # else it has looked already
+        look(hook, partial(_note_change, run.core, before), run.mission)
+    if not emits:
+        if returned is not None:
+            raise HookFault(
+                f"modifier {name} declares no `emits` and so must return nothing, not {_shown(returned)}"
+            )
+        return status
+    if type(returned) is not Status or returned not in emits:
+        declared = ", ".join(status.value for status in emits)
+        raise HookFault(f"modifier {name} must return one of {declared}, not {_shown(returned)}")
+    lie = _contradiction(run.state, returned)
+    if lie is not None:
+        raise HookFault(f"modifier {name} returned {returned.value}, but {lie}")
+    flight = run.state.in_flight
+    if returned is Status.FAILED and flight is not None:
+        run.state.abort(f"modifier {name} failed the trip")
+        ended = await flight  # which may have been done just before
+        if ended in emits:
+            return ended
+    if returned is not run.mission.status:
+        reason = f"modifier {name} failed the mission" if returned is Status.FAILED else ""
+        run.core.transitions.modify(run.mission, returned, reason)
+    return returned
+
+
+def _check_trips(run: Run[Any], name: str) -> None:
+    """A modifier may change what is still to do; what comes of it must be trips."""
+    mission, flying = run.mission, run.state.in_flight
+    if type(mission.trips) is not list:
+        raise HookFault(f"modifier {name} made mission.trips {class_of(mission.trips)}, not a list")
+    if flying is not None and (not mission.trips or mission.trips[0] is not flying.trip):
+        raise HookFault(
+            f"modifier {name} took trip {flying.trip.name}, which is flying, from its place"
+        )
+    seen: set[int] = set()
+    for number, trip in enumerate(mission.trips, start=1):
+        problem = unsound(run.core.app, run.core.airspace, trip)
+        if problem is None and id(trip) in seen:
+            problem = "it is in the list twice"
+        seen.add(id(trip))
+        if problem is not None:
+            called = trip.name if type(getattr(trip, "name", None)) is str else number
+            raise HookFault(
+                f"modifier {name} left a trip that cannot be flown, {called}: {problem}"
+            )
+
+
+def _note_change(core: Core, before: Standing, mission: Mission[Any]) -> None:
+    """Note it if the hook has changed the trips; that some have flown meanwhile is no such change."""
+    to_do, trips = before
+    left = [known for known in to_do if known[0].status is not TripStatus.COMPLETED]
+    if core.trace.live and standing(mission) != (left, trips):
+        core.trace.note("mission.changed", **change_data(core.app, mission))
+
+
+def _contradiction(state: MissionState, status: Status) -> str | None:
+    """Return why the mission cannot stand so, or None."""
+    mission = state.mission
+    flying = state.in_flight
+    if status is Status.RUNNING:
+        return None if flying else "no trip is in flight"
+    if status is Status.FAILED:
+        return None
+    if flying is not None:
+        return f"trip {flying.trip.name} is still flying"
+    if status is Status.COMPLETED:
+        return f"{len(mission.trips)} trips are still to do" if mission.trips else None
+    if not mission.trips:
+        return "no trip is left to do"
+    if mission.current.status is not TripStatus.WAITING:
+        return f"trip {mission.current.name} has failed; trip.reset() puts it back"
+    if status is Status.UNEXECUTED and mission.attempts:
+        return "the mission has flown already"
+    return None
+
+
+def _shown(value: object) -> str:
+    return value.value if type(value) is Status else bounded(shown(value), _LONGEST)
+
+
+_LONGEST = 200
+"""Characters of a value that is no status."""

@@ -1,0 +1,144 @@
+"""Calls to the code that the app's developer wrote, and what its faults become."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import PurePath
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
+
+from ..domain.errors import ANY_ERROR, ActionFailed, BadInput, HookFault
+from ..domain.guard import NOT_ITS_OWN, by_a_person
+from ..domain.text import bounded, class_of, text_of
+from ..time.kernel import Kernel
+
+if TYPE_CHECKING:
+    from ..domain.app import App
+    from ..domain.model import Mission
+
+Hook = Callable[..., object]
+
+
+async def call_action(kernel: Kernel, hook: Hook, /, *args: object, **named: object) -> object:
+    """Call an action; all that it raises, `ActionFailed` aside, is a fault of the hook."""
+    try:
+        return await kernel.call_hook(hook, *args, **named)
+    except (ActionFailed, *NOT_ITS_OWN):
+        raise
+    except ANY_ERROR as error:
+        raise fault_of(hook, error) from error
+
+
+class Held:
+    """What the runtime knows things by, while a hook has them in its hands: it may not change that."""
+
+    def __init__(self, of: object, *facts: str) -> None:
+        self._of, self._facts = of, {fact: getattr(of, fact) for fact in facts}
+
+    def put_back(self) -> str:
+        """Make it as it was; return what had been changed, or nothing."""
+        changed = ""
+        for fact, value in self._facts.items():
+            if getattr(self._of, fact, None) is not value:
+                setattr(self._of, fact, value)
+                changed = changed or fact
+        return changed
+
+
+def changed(hook: Hook, what: str, fact: str) -> HookFault:
+    """A hook has changed what is not its own."""
+    return HookFault(f"hook {hook_name(hook)} changed the {what}'s {fact}, by which it is known")
+
+
+def look(hook: Hook, note: Callable[[Mission[Any]], object], mission: Mission[Any]) -> None:
+    """Let it be noted what a hook has changed; what cannot be kept is a fault of the hook."""
+    try:
+        note(mission)
+    except ANY_ERROR as error:
+        if by_a_person(error):
+            raise
+        reason = f"hook {hook_name(hook)} left its mission so that it cannot be kept: {said(error)}"
+        raise HookFault(reason, trace_of(error)) from None
+
+
+def fault_of(hook: Hook, error: BaseException) -> HookFault:
+    """Return what becomes of an error that a hook raised.
+
+    Even `SystemExit` is a fault: it would end the flights of all others. An interrupt is the user's.
+    """
+    if issubclass(type(error), ActionFailed):
+        text = bounded(text_of(error), LONGEST_REASON)
+        reason = f"hook {hook_name(hook)} raised ActionFailed, which only an action may: {text}"
+    else:
+        reason = f"hook {hook_name(hook)} raised {said(error)}"
+    return HookFault(reason, trace_of(error))
+
+
+def said(error: BaseException) -> str:
+    """Return an error's type and its text, if it has any to give."""
+    text = f"{class_of(error)}: {text_of(error)}".removesuffix(": ")
+    return bounded(text, LONGEST_REASON)
+
+
+def hook_name(hook: Hook) -> str:
+    """Return a hook's name, as its declaration has it."""
+    inner = getattr(hook, "func", hook)  # functools.partial carries its function so
+    return str(getattr(inner, "__name__", inner))
+
+
+def trace_of(error: BaseException) -> str:
+    """Return the traceback of a hook's error, for the log."""
+    import traceback  # not needed by those who only declare blocks
+
+    try:
+        if all(type(given) in (str, int, float) for given in error.args):
+            return bounded("".join(traceback.format_exception(error)).rstrip(), LONGEST_LOG)
+    except ANY_ERROR as its_own:
+        if by_a_person(its_own):
+            raise
+    # Python would ask what it was given how it is written, which may take for ever
+    through = BaseException.__dict__["__traceback__"].__get__(error)
+    lines = ["Traceback (most recent call last):\n", *traceback.format_tb(through)]
+    return bounded("".join(lines), LONGEST_LOG) + said(error)
+
+
+LONGEST_REASON, LONGEST_LOG = 2_000, 20_000
+"""Characters of what a hook says of a failure, and of a line that it has logged."""
+
+
+def loaded(load: Callable[[], App]) -> App:
+    """Return the app; raise `BadInput` with the place where its hooks cannot be loaded."""
+    try:
+        return load()
+    except BaseException as error:  # even a SystemExit: it would pass for a proper end
+        said = None if by_a_person(error) else _explained(error)
+        if said is None:
+            raise
+        raise BadInput(said) from error
+
+
+def _explained(error: BaseException) -> str | None:
+    """Return what is wrong with the hooks; None: something else is wrong."""
+    from traceback import extract_tb  # not needed by those who only declare blocks
+
+    if isinstance(error, AttributeError) and isinstance(error.obj, ModuleType):
+        file = error.obj.__file__ or ""
+        if PurePath(file).name == _HOOKS:
+            return f"{file} has no {error.name}: write it; plutoc compile --add-stubs adds a stub"
+    if isinstance(error, SyntaxError) and PurePath(error.filename or "").name == _HOOKS:
+        return f"{error.filename}:{error.lineno}: {error.msg}"
+    frames = [f for f in extract_tb(error.__traceback__) if _is_hooks(f.filename)]
+    if not frames:
+        return None
+    place = f"{frames[-1].filename}:{frames[-1].lineno}"
+    why = f"{place}: the hooks cannot be loaded: {said(error)}"
+    if isinstance(error, ModuleNotFoundError):
+        why += "; install it, and name it in the app's source, by the name that pip knows: requires"
+    return why
+
+
+def _is_hooks(filename: str) -> bool:
+    return PurePath(filename).name == _HOOKS and filename != __file__  # this file is called so, too
+
+
+_HOOKS = "hooks.py"

@@ -1,0 +1,166 @@
+"""Is what a hook made or changed a trip that a drone could be sent on, and a mission still?"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, cast
+
+from ..domain.errors import ANY_ERROR
+from ..domain.fields import number_of
+from ..domain.guard import by_a_person
+from ..domain.model import Item
+from ..domain.status import Status, TripStatus
+from ..domain.text import class_of, shown
+from .calls import said
+from .keepable import keepable
+
+if TYPE_CHECKING:
+    from ..domain.airspace import Airspace
+    from ..domain.app import App
+    from ..domain.model import Mission, Point, Trip
+
+
+def unsound(app: App, airspace: Airspace, trip: object) -> str | None:
+    """Return what is wrong with a trip, or None; a place without a height gets the map's."""
+    try:
+        return _unsound(app, airspace, trip)
+    except ANY_ERROR as error:  # what a hook has put there may be of any class
+        if by_a_person(error):
+            raise
+        return f"it cannot be read: {said(error)}"
+
+
+def _unsound(app: App, airspace: Airspace, trip: object) -> str | None:
+    if not issubclass(type(trip), app.trip):
+        return f"it must be a Trip of this app, not {class_of(trip)}"
+    found = cast("Trip", trip)
+    return (
+        (None if _is_usual(found) else _wrong_facts(found, _TRIP))
+        or _wrong_action(app, found)
+        or _wrong_place(airspace, found)
+    )
+
+
+def unsound_mission(app: App, mission: Mission[Any]) -> str | None:
+    """Return what is wrong with what the runtime knows of a mission, and a hook has put there."""
+    try:
+        wrong = None if _is_usual_mission(mission) else _wrong_facts(mission, _MISSION)
+        if wrong is not None:
+            return wrong
+        kind = app.trip
+        for trip in mission.completed_trips:
+            if type(trip) is not kind:
+                return f"completed_trips holds {class_of(trip)}"
+        return None
+    except ANY_ERROR as error:
+        if by_a_person(error):
+            raise
+        return f"it cannot be read: {said(error)}"
+
+
+def _is_usual(trip: Trip) -> bool:
+    """Say whether nothing of it need be looked at one by one: it is asked very often."""
+    return (
+        type(trip.name) is type(trip.action) is type(trip.reason) is str
+        and type(trip.status) is TripStatus
+        and type(trip.attempt) is type(trip.index) is int
+        and 0 <= trip.attempt < _MOST > trip.index >= 0
+        and trip.item is None
+        and trip.start_time is trip.end_time is None
+        and type(trip.added) is bool
+    )
+
+
+def _is_usual_mission(mission: Mission[Any]) -> bool:
+    return (
+        type(mission.name) is type(mission.reason) is str
+        and type(mission.completed_trips) is list
+        and type(mission.status) is Status
+        and type(mission.round) is type(mission.attempts) is int
+        and type(mission.index) is type(mission.last_result) is int
+        and 0 <= mission.round < _MOST > mission.attempts >= 0
+    )
+
+
+_TRIP: Mapping[str, tuple[type, ...]] = {
+    "name": (str,),
+    "action": (str,),
+    "status": (TripStatus,),
+    "attempt": (int,),
+    "index": (int,),
+    "reason": (str,),
+    "added": (bool,),
+    "item": (type(None), Item),
+    "start_time": (type(None), float, int),
+    "end_time": (type(None), float, int),
+}
+
+_MISSION: Mapping[str, tuple[type, ...]] = {
+    "name": (str,),
+    "completed_trips": (list,),
+    "status": (Status,),
+    "reason": (str,),
+    "round": (int,),
+    "attempts": (int,),
+    "index": (int,),
+    "last_result": (int,),
+}
+"""What the runtime itself goes by, and what it must be."""
+
+
+def _wrong_facts(of: object, facts: Mapping[str, tuple[type, ...]]) -> str | None:
+    for name, types in facts.items():
+        value = getattr(of, name)
+        if type(value) not in types:
+            return f"its {name} must be {types[-1].__name__}, not {class_of(value)}"
+        if isinstance(value, int) and abs(value) >= _MOST:
+            return f"its {name} must be a number, not {shown(value)}"
+    return None
+
+
+_MOST = 1 << 31
+"""What is counted is kept in so many bits."""
+
+
+def _wrong_action(app: App, trip: Trip) -> str | None:
+    action = app.actions.get(trip.action)
+    if action is None:
+        return f"there is no action {trip.action!r}"
+    if not isinstance(trip.parameters, Mapping):
+        return f"its parameters must be a dict, not {class_of(trip.parameters)}"
+    known = {parameter.name: parameter.default for parameter in action.parameters}
+    for given, value in dict(trip.parameters).items() if trip.parameters else ():
+        if type(given) is not str or given not in known:
+            return f"{trip.action} has no parameter {shown(given)}"
+        if type(value) not in (bool, int, float, str) or value != keepable(value):
+            return f"its parameter {given} must be a number or a text, not {shown(value)}"
+    for name, default in known.items():
+        if default is None and name not in trip.parameters:
+            return f"{trip.action} needs the parameter {name!r}"
+    return None
+
+
+def _wrong_place(airspace: Airspace, trip: Trip) -> str | None:
+    for name in ("source", "target"):
+        given = getattr(trip, name)
+        if given is None and name == "source":
+            continue
+        point = _point(given, airspace.cruise_height)
+        if point is None:
+            return f"its {name} must be (x, y) or (x, y, z) in metres, not {shown(given)}"
+        problem = airspace.problem(point)
+        if problem is not None:
+            return problem
+        if given != point:
+            setattr(trip, name, point)
+    return None
+
+
+def _point(given: object, height: float) -> Point | None:
+    if not isinstance(given, (tuple, list)) or len(given) not in (2, 3):
+        return None
+    numbers = [number_of(value) for value in given]
+    if None in numbers:
+        return None
+    x, y, z = numbers if len(given) == 3 else (*numbers, height)
+    return cast("Point", (x, y, z))

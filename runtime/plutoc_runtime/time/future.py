@@ -1,0 +1,90 @@
+"""A value or an error that comes once, and what waits for it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Generator
+from typing import Any, Generic, Protocol, TypeVar
+
+T = TypeVar("T")
+
+Watcher = Callable[[Any], object]
+"""What is called, with the future, when it has happened."""
+
+
+class Waiter(Protocol):
+    """What awaits a future: a task."""
+
+    def wake(self, _: object = None) -> None:
+        """It has happened: go on."""
+        ...
+
+
+class Future(Generic[T]):
+    """A value that comes once. Await it; any number of coroutines may."""
+
+    __slots__ = ("_value", "_watchers", "error", "is_set", "waiter")
+
+    def __init__(self) -> None:
+        self.is_set = False
+        self.error: BaseException | None = None
+        self.waiter: Waiter | None = None
+        """Who awaits it; most futures are awaited by one task, and the others watch."""
+        self._value: Any = None
+        self._watchers: list[Watcher] | None = None
+
+    def set(self, value: T) -> None:
+        """It happened. Only the first time counts."""
+        if not self.is_set:
+            self.is_set, self._value = True, value
+            if self.waiter is not None:
+                self.waiter.wake()
+            if self._watchers is not None:
+                self._tell()
+
+    def fail(self, error: BaseException) -> None:
+        """It will never happen: its waiters get the error."""
+        if not self.is_set:
+            self.is_set, self.error = True, error
+            if self.waiter is not None:
+                self.waiter.wake()
+            if self._watchers is not None:
+                self._tell()
+
+    def _tell(self) -> None:
+        watchers, self._watchers = self._watchers, None
+        for watcher in watchers or ():
+            watcher(self)
+
+    def watch(self, watcher: Watcher) -> None:
+        """Call this with the future when it happens; at once if it has."""
+        if self.is_set:
+            watcher(self)
+        elif self._watchers is None:
+            self._watchers = [watcher]
+        else:
+            self._watchers.append(watcher)
+
+    def unwatch(self, watcher: Watcher) -> None:
+        """Do not call this after all."""
+        if self._watchers is not None and watcher in self._watchers:
+            self._watchers.remove(watcher)
+
+    @property
+    def watched(self) -> bool:
+        """Whether anything waits for it."""
+        return self.waiter is not None or bool(self._watchers)
+
+    def result(self) -> T:
+        """Return the value, or raise the error; only once it is set."""
+        if self.error is not None:
+            raise self.error
+        value: T = self._value
+        return value
+
+    def __await__(self) -> Generator[Future[Any], None, T]:
+        if not self.is_set:
+            yield self
+        if self.error is not None:
+            raise self.error
+        value: T = self._value
+        return value

@@ -1,0 +1,98 @@
+"""Virtual time: the clock jumps to the next event. Nothing sleeps, and a day takes a moment."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Coroutine, Generator
+from functools import partial
+from types import CoroutineType, coroutine
+from typing import Any, TypeVar, cast
+
+from ..domain.errors import ANY_ERROR
+from ..domain.guard import by_a_person, guarded
+from .future import Future
+from .kernel import ForeignAwait, Kernel
+
+T = TypeVar("T")
+
+
+class Stuck(RuntimeError):
+    """Nothing will ever happen again, and coroutines still wait."""
+
+
+class VirtualTime(Kernel):
+    """The kernel of simulations. Its day begins at midnight."""
+
+    @property
+    def time_of_day(self) -> float:
+        """Seconds since midnight: the simulation starts then."""
+        return self.now % 86_400
+
+    def run(self, done: Future[T], until: float | None = None) -> bool:
+        """Go on until it is done, or until a time; say whether it is done."""
+        done.watch(self._stop)
+        while not done.is_set and self.crashed is None:
+            self.over = False
+            when = self.next_time()
+            if when is None:
+                waiting = ", ".join(sorted(task.name for task in self.tasks))
+                raise Stuck(f"nothing will ever happen again; waiting: {waiting}")
+            if until is not None and when > until:
+                self.now = until
+                return False
+            self.now = when
+            self.drain()
+            if self.settled is not None:
+                self.settled()
+        if self.crashed is not None:
+            raise self.crashed
+        return True
+
+    def _stop(self, _: object) -> None:
+        self.over = True
+
+    async def call_hook(
+        self, hook: Callable[..., object], /, *args: object, **named: object
+    ) -> object:
+        """Run a hook here and now; an `async def` may await only what its context offers."""
+        result = guarded(partial(hook, *args, **named))
+        if not issubclass(type(result), CoroutineType):  # it is asked nothing: it may be anything
+            return result
+        waiting = cast("Coroutine[Any, Any, object]", result)
+        try:
+            return await _called_off_for_good(waiting)
+        except RuntimeError as error:
+            if isinstance(error, ForeignAwait) or "no running event loop" in str(error):
+                raise RuntimeError(
+                    "in a simulation a hook may await only what its context offers "
+                    "(context.sleep, context.trip_ended), not asyncio"
+                ) from error
+            raise
+
+    async def offer(self, future: Future[T]) -> T:
+        """Return what a hook may await for this future."""
+        return await future
+
+
+@coroutine
+def _called_off_for_good(hook: Coroutine[Any, Any, T]) -> Generator[Any, Any, T]:
+    """Let a hook run inside this coroutine; one that is called off cannot hold on, or go on."""
+    step: Callable[[], object] = partial(hook.send, None)
+    while True:
+        try:
+            waits_for = guarded(step)
+        except StopIteration as end:
+            returned: T = end.value
+            return returned
+        try:
+            yield waits_for
+            step = partial(hook.send, None)
+        except ForeignAwait as error:
+            step = partial(hook.throw, error)
+        except BaseException as error:
+            for call in (partial(hook.throw, error), hook.close):
+                try:
+                    call()
+                except ANY_ERROR as its_own:  # it is not wanted any longer
+                    if by_a_person(its_own):
+                        raise
+            raise

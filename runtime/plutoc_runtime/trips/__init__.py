@@ -1,0 +1,1 @@
+"""One trip: its flight, its time-outs, its changes of status."""

@@ -1,0 +1,182 @@
+"""The one place where a mission or a trip changes its status; each change is an event."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from ..domain.status import (
+    COMPLETED,
+    FAILED,
+    RUNNING,
+    STANDBY,
+    UNEXECUTED,
+    Status,
+    TripStatus,
+)
+from ..domain.text import bounded, shown
+
+if TYPE_CHECKING:
+    from ..domain.model import Drone, Mission, Trip
+    from ..domain.results import ResultStore
+    from ..domain.trace import Trace
+    from ..time.kernel import Kernel
+
+
+LONGEST = 3_000
+"""Characters of a reason: more than one of a hook's, and than any of ours."""
+
+
+class Transitions:
+    """Every change of status there is."""
+
+    def __init__(self, kernel: Kernel, trace: Trace, results: ResultStore) -> None:
+        self._kernel, self._trace, self._results = kernel, trace, results
+        self._time = kernel.time
+
+    def create(self, mission: Mission[Any]) -> None:
+        """A mission of the user's trips exists."""
+        mission.status = UNEXECUTED
+        time = self._time
+        for trip in mission.trips:
+            trip.now = time
+        if self._trace.live:
+            names = [trip.name for trip in mission.trips]
+            self._trace.note("mission.created", mission=mission.name, trips=names)
+
+    def allocate(
+        self, mission: Mission[Any], trip: Trip, drone: Drone, at: str | None, why: str
+    ) -> None:
+        """A trip has its drone; `at` is the block where it goes on if it is interrupted."""
+        trip.drone = drone
+        if self._trace.live:
+            self._trace.note(
+                "trip.allocated",
+                mission=mission.name,
+                trip=trip.name,
+                drone=drone.id,
+                why=why,
+                resumes_at=at,
+            )
+
+    def launch(self, mission: Mission[Any], trip: Trip, drone: Drone) -> None:
+        """A trip's drone leaves for it."""
+        trip.status, trip.now = _EXECUTING, self._time
+        trip.start_time, trip.end_time, trip.reason = self._kernel.now, None, ""
+        mission.status, mission.reason = RUNNING, ""
+        mission.attempts += 1
+        drone.trips += 1
+        if self._trace.live:
+            self._trace.note(
+                "trip.launched",
+                mission=mission.name,
+                trip=trip.name,
+                drone=drone.id,
+                round=mission.round,
+                attempt=trip.attempt,
+            )
+
+    def complete(self, mission: Mission[Any], trip: Trip, value: object) -> None:
+        """A trip has ended well."""
+        trip.status, trip.end_time = _COMPLETED, self._kernel.now
+        trips = mission.trips
+        trips.remove(trip)
+        mission.completed_trips.append(trip)
+        mission.status = STANDBY if trips else COMPLETED
+        mission.last_result = self._results.add(mission, trip, mission.round, trip.attempt, value)
+        if self._trace.live:
+            self._ended(mission, trip, "trip.completed", {"value": shown(value)})
+
+    def fail(self, mission: Mission[Any], trip: Trip, reason: str) -> None:
+        """A trip has failed: it stays first in the list."""
+        reason = bounded(reason, LONGEST)
+        trip.status, trip.end_time, trip.reason = _FAILED, self._kernel.now, reason
+        mission.status, mission.reason = FAILED, reason
+        if self._trace.live:
+            self._ended(mission, trip, "trip.failed", {"reason": reason})
+
+    def _ended(
+        self, mission: Mission[Any], trip: Trip, event: str, facts: dict[str, object]
+    ) -> None:
+        self._trace.note(
+            event,
+            mission=mission.name,
+            trip=trip.name,
+            drone=trip.drone.id if trip.drone else None,
+            round=mission.round,
+            attempt=trip.attempt,
+            **facts,
+        )
+
+    def put_back(self, mission: Mission[Any]) -> None:
+        """The trip that failed will be tried again; one that has not flown since keeps its attempt."""
+        trip = mission.current
+        trip.reset()
+        self._standby(mission)
+        if self._trace.live:
+            self._trace.note(
+                "trip.reset", mission=mission.name, trip=trip.name, attempt=trip.attempt
+            )
+
+    def redo(self, mission: Mission[Any], trips: tuple[Trip, ...], added: tuple[Trip, ...]) -> None:
+        """A finished mission has trips again: some once more, some new ones."""
+        for trip in trips:
+            mission.completed_trips.remove(trip)
+            trip.reset()
+        for trip in added:
+            trip.added, trip.now = True, self._time
+        mission.trips += [*trips, *added]
+        self._standby(mission)
+        if self._trace.live:
+            self._trace.note(
+                "mission.extended",
+                mission=mission.name,
+                redo=[trip.name for trip in trips],
+                add=[trip.name for trip in added],
+            )
+
+    def begin_again(self, mission: Mission[Any]) -> None:
+        """A finished mission starts a further round with the user's own trips."""
+        mission.round += 1
+        for trip in mission.completed_trips:
+            if not trip.added:
+                trip.reset()
+                trip.attempt = 1
+                mission.trips.append(trip)
+        mission.trips.sort(key=lambda trip: trip.index)
+        mission.completed_trips = []
+        self._standby(mission)
+        if self._trace.live:
+            self._trace.note("mission.repeated", mission=mission.name, round=mission.round)
+
+    def begin_action(self, mission: Mission[Any], trip: Trip, drone: Drone) -> None:
+        """An action of the app's own is about to begin: from now on it may have been done."""
+        if self._trace.live:
+            self._trace.note("action.begun", mission=mission.name, trip=trip.name, drone=drone.id)
+
+    def modify(self, mission: Mission[Any], status: Status, reason: str) -> None:
+        """A modifier says how a mission stands."""
+        self._stands(mission, status, reason, "mission.modified")
+
+    def end(self, mission: Mission[Any], status: Status, reason: str) -> None:
+        """A mission has come to its end."""
+        self._stands(mission, status, reason, "mission.ended")
+
+    def judge_failed(self, mission: Mission[Any], reason: str) -> None:
+        """A finished mission was judged and found wanting."""
+        reason = bounded(reason, LONGEST)
+        mission.status, mission.reason = FAILED, reason
+        if self._trace.live:
+            self._trace.note("mission.judged", mission=mission.name, reason=reason)
+
+    def _stands(self, mission: Mission[Any], status: Status, reason: str, event: str) -> None:
+        reason = bounded(reason, LONGEST)
+        mission.status, mission.reason = status, reason
+        if self._trace.live:
+            self._trace.note(event, mission=mission.name, status=status.value, reason=reason)
+
+    def _standby(self, mission: Mission[Any]) -> None:
+        mission.status, mission.reason = STANDBY, ""
+
+
+_EXECUTING = TripStatus.EXECUTING
+_COMPLETED, _FAILED = TripStatus.COMPLETED, TripStatus.FAILED
