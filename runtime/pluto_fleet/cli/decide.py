@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import json
-from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -11,9 +9,10 @@ from plutoc_runtime import output
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.text import in_shell, printable, quoted
 
-from ..journal.store import Store
+from ..flight.offline import record_decision
+from ..flight.standing import ANSWERS, records_in, waiting
 from ..process.asking import Nobody
-from .flown import ANSWERS, records_in, waiting, waiting_lines
+from ..report.report import waiting_lines
 from .tell import asked as asked_of_app
 
 if TYPE_CHECKING:
@@ -32,7 +31,7 @@ def decide(app: App, options: Options) -> int:
         for line in listed or ["no mission waits for a person"]:
             output.line(line)
         return 0
-    # Whoever was mistaken may say otherwise, as long as nothing has come of it.
+    # A mistaken answer may be changed for as long as nothing has come of it.
     asked = {name: (what, why) for name, what, why in waiting(records, answered=True)}
     if mission not in asked:
         raise BadInput(_not_asked(journal, mission, records))
@@ -46,7 +45,7 @@ def decide(app: App, options: Options) -> int:
         request = {"command": "decide", "mission": mission, "answer": answer}
         output.line(asked_of_app(app, options, request))
     except Nobody:
-        _put_down(journal, mission, answer, records.time)
+        record_decision(journal, mission, answer, records.time)
         output.line(
             f"mission {quoted(mission)}: {answer}; it is on record, and "
             f"{app.name} resume {in_shell(journal)} acts on it"
@@ -56,14 +55,7 @@ def decide(app: App, options: Options) -> int:
 
 def _not_asked(journal: Path, mission: str, records: Records) -> str:
     known = mission in records.missions
-    what = "waits for nobody's decision" if known else "is not in this journal"
+    what = "waits for no decision" if known else "is not in this journal"
     others = ", ".join(quoted(name) for name, _, _ in waiting(records))
     rest = f"; those that wait are: {others}" if others else ""
     return f"{journal}: mission {quoted(mission)} {what}{rest}"
-
-
-def _put_down(journal: Path, mission: str, answer: str, now: float) -> None:
-    """Write an answer into a journal that nobody is writing."""
-    event = {"t": now, "event": "mission.decided", "mission": mission, "answer": answer}
-    with closing(Store.open(journal)) as store:
-        store.append([json.dumps([event])])

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from argparse import SUPPRESS, ArgumentParser, ArgumentTypeError
+from argparse import SUPPRESS, ArgumentParser
 from collections.abc import Callable
-from math import isfinite
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-from plutoc_runtime.domain.text import quoted
+from ..arguments import positive_number, whole_number
 
 ACTIONS = (
     "stop",
@@ -28,10 +26,7 @@ ANSWERS = ("done", "not-done", "go-on", "cancel")
 
 FASTEST = 1000.0
 
-MOST_STAND_INS = 50
-
-if TYPE_CHECKING:
-    from .options import Options
+MOST_CRAZYFLIES = 50
 
 Command = Callable[[str, str], ArgumentParser]
 
@@ -93,45 +88,16 @@ def how_it_flies(parser: ArgumentParser) -> None:
     which.add_argument(
         "--crtp-sim",
         metavar="N",
-        type=stand_ins,
+        type=whole_number(1, MOST_CRAZYFLIES),
         help="with N simulated Crazyflies, flown as real ones are, through cflib",
     )
     parser.add_argument(
         "--speed",
         metavar="N",
-        type=speed,
+        type=positive_number(FASTEST),
         help="with --sim: let time pass N times as fast",
     )
     parser.add_argument(
         "--supervise", action="store_true", help="start the app again if it crashes"
     )
     parser.add_argument("--supervised", action="store_true", help=SUPPRESS)  # so it is then called
-
-
-def how_it_flies_in(options: Options) -> list[str]:
-    """Return the flags that say which drones are meant, for a command line."""
-    if options.crtp_sim is not None:
-        return ["--crtp-sim", str(options.crtp_sim)]
-    return ["--sim"] if options.sim else []
-
-
-def stand_ins(text: str) -> int:
-    """Read a number of simulated Crazyflies."""
-    try:
-        number = int(text)
-    except ValueError:
-        raise ArgumentTypeError(f"{quoted(text)} is not a whole number") from None
-    if not 1 <= number <= MOST_STAND_INS:
-        raise ArgumentTypeError(f"{quoted(text)} is not between 1 and {MOST_STAND_INS}")
-    return number
-
-
-def speed(text: str) -> float:
-    """Read how many times as fast."""
-    try:
-        number = float(text)
-    except ValueError:
-        raise ArgumentTypeError(f"{quoted(text)} is not a number") from None
-    if not isfinite(number) or not 0 < number <= FASTEST:
-        raise ArgumentTypeError(f"{quoted(text)} is not between 0 and {FASTEST:.0f}")
-    return number

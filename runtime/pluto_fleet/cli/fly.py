@@ -16,7 +16,6 @@ from ..journal import place
 from ..journal.errors import exists
 from ..journal.header import header
 from ..journal.store import Store
-from .flight_options import how_it_flies_in
 from .flights import Flight, see_through, supervised
 from .plans import load
 from .real import check_real
@@ -76,5 +75,5 @@ def _words(options: Options, journal: Path) -> list[str]:
     fleet = ["--fleet", str(options.fleet)] if options.fleet else []
     faults = ",".join(f"{what}={share}" for what, share in options.fail.items())
     chance = ["--seed", str(options.seed), *(["--fail", faults] if faults else [])]
-    how = how_it_flies_in(options)
+    how = options.drone_flags
     return ["fly", str(options.missions), *fleet, *how, *chance, "--journal", str(journal)]

@@ -24,7 +24,7 @@ from ..jobs.reports import Down
 from ..journal.place import gateway_folder
 from ..process.forked import in_children
 from ..process.hard_exit import leave
-from . import stop_mark
+from ..flight.offline import leave_stop
 
 AT_ONCE = 1.0
 """Seconds that the app may take to stop its drones, before they are told without it."""
@@ -90,7 +90,7 @@ class Interrupts:
         if self.code is not None:
             journal = self._journal()
             if journal is not None:
-                stop_mark.leave(journal, Down.LAND)  # for whoever starts crashed apps again
+                leave_stop(journal, Down.LAND)  # for a supervisor that starts crashed apps again
                 output.tell(f"leaving at once: the gateway lands the drones; {self._how}")
             self._last()
             leave(128 + number)

@@ -9,19 +9,19 @@ from typing import TYPE_CHECKING, Any
 from plutoc_runtime import output
 from plutoc_runtime.domain.errors import BadInput
 
-from ..files.fleet import DEFAULT_SIZE, FleetFile, default_fleet, fleet_of
+from ..files.fleet import FleetFile, fleet_of
 from ..files.look_alikes import look_alikes
 from ..files.missions import missions_of
 from ..files.plan_check import endless, problems
 from ..files.reading import parsed, shortened, text_of
 from ..files.real import as_flown
-from .stand_ins import who_is_missing, with_stand_ins
+from ..files.crtp_fleet import missing_categories
+from ..flight.lives import fleet_from
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
     from plutoc_runtime.domain.model import Mission
 
-    from ..journal.header import Header
     from .options import Options
 
 
@@ -68,24 +68,6 @@ def load_fleet(app: App, options: Options) -> tuple[FleetFile, str | None]:
     text = text_of(options.fleet) if options.fleet else None
     if text is not None and options.crtp_sim is not None and not options.supervised:
         whole = fleet_of(parsed(str(options.fleet), text), app)
-        if missing := who_is_missing(whole, options.crtp_sim):
+        if missing := missing_categories(whole, options.crtp_sim):
             output.tell(missing)
-    return _fleet(app, str(options.fleet), text, options.crtp_sim), text
-
-
-def fleet_in(app: App, journal: Path, header: Header) -> FleetFile:
-    """Return the fleet of a journal; raise `BadInput` if the app does not know it any more."""
-    return _fleet(app, f"{journal} (its fleet)", header["fleet"], header.get("crtp_sim"))
-
-
-def missions_in(app: App, journal: Path, header: Header, fleet: FleetFile) -> list[Mission[Any]]:
-    """Return the missions with which a journal begins, as they were planned."""
-    document = parsed(f"{journal} (its missions)", header["missions"])
-    return missions_of(document, app, fleet.airspace)
-
-
-def _fleet(app: App, name: str, text: str | None, stand_ins: int | None) -> FleetFile:
-    if text is None:
-        return default_fleet(app, stand_ins or DEFAULT_SIZE)
-    fleet = fleet_of(parsed(name, text), app)
-    return fleet if stand_ins is None else with_stand_ins(fleet, stand_ins)
+    return fleet_from(app, str(options.fleet), text, options.crtp_sim), text

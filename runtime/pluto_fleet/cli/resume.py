@@ -10,10 +10,10 @@ from plutoc_runtime.domain.text import printable
 
 from ..journal import place
 from ..journal.header import fingerprint
-from . import stop_mark
+from ..flight.lives import Resumable, reopen
+from ..flight.offline import clear_stop
 from .flights import reported, see_through, supervised
 from .real import check_real
-from .taken_up import TakenUp, take_up
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 def resume(app: App, options: Options) -> int:
     """Go on with the missions of a journal, which says what was planned."""
     journal = options.journal or place.newest(app.name)
-    taken = take_up(app, journal)
+    taken = reopen(app, journal)
     store = taken.store
     try:
         _check(options, taken)
@@ -38,7 +38,7 @@ def resume(app: App, options: Options) -> int:
         return reported(app, journal, taken.known.records)
     if not options.supervised:
         output.tell(f"journal: {printable(str(journal))}")
-        stop_mark.remove(store.path)
+        clear_stop(store.path)
         if taken.header["app_hash"] != fingerprint(app):
             output.tell("the app has changed since: missions go on by the names of its blocks")
     if store.torn is not None:
@@ -49,7 +49,7 @@ def resume(app: App, options: Options) -> int:
     return see_through(taken.flight(options.speed), store, taken.known)
 
 
-def _check(options: Options, taken: TakenUp) -> None:
+def _check(options: Options, taken: Resumable) -> None:
     """Refuse flags that are not for the drones of this journal, and drones that cannot be flown."""
     path, stand_ins = taken.store.path, taken.header.get("crtp_sim")
     if options.crtp_sim not in (None, stand_ins):

@@ -31,8 +31,7 @@ from ..station.web.guard import Guard, needs_token, proper_name
 from ..station.web.listening import address, listening, port_of
 from ..station.web.server import serve as serve_web
 from ..station.web.static import floor_plan
-from .flight_options import how_it_flies_in
-from .flown import finished, records_in
+from ..flight.standing import finished, records_in
 from .interrupts import Interrupts
 from .leaving import run
 from .plans import load_fleet
@@ -259,4 +258,4 @@ def _words(options: Options) -> list[str]:
     names = [word for name in options.names for word in ("--name", name)]
     where = ["--host", options.host, "--port", str(options.port), "--seed", str(options.seed)]
     opens = ["--open"] if options.open else []
-    return ["serve", *how_it_flies_in(options), "--supervised", *where, *names, *given, *opens]
+    return ["serve", *options.drone_flags, "--supervised", *where, *names, *given, *opens]

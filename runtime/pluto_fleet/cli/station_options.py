@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from argparse import SUPPRESS, ArgumentParser, ArgumentTypeError
+from argparse import SUPPRESS, ArgumentParser
 from pathlib import Path
 
-from plutoc_runtime.domain.text import quoted
+from ..arguments import whole_number
 
 HOST, PORT = "127.0.0.1", 8765
 
@@ -27,7 +27,7 @@ def add_station(parser: ArgumentParser) -> None:
         " token that is printed",
     )
     parser.add_argument(
-        "--port", metavar="N", type=port, default=PORT, help=f"default {PORT}; 0: any that is free"
+        "--port", metavar="N", type=whole_number(0, 65_535), default=PORT, help=f"default {PORT}; 0: any that is free"
     )
     parser.add_argument(
         "--name",
@@ -45,14 +45,3 @@ def add_station(parser: ArgumentParser) -> None:
     )
     parser.add_argument("--open", action="store_true", help="open it in a browser")
     parser.add_argument("--going-on", action="store_true", help=SUPPRESS)  # after a crash
-
-
-def port(text: str) -> int:
-    """Read the number of a port."""
-    try:
-        number = int(text)
-    except ValueError:
-        raise ArgumentTypeError(f"{quoted(text)} is not a whole number") from None
-    if not 0 <= number <= 65_535:
-        raise ArgumentTypeError(f"{quoted(text)} is not between 0 and 65535")
-    return number

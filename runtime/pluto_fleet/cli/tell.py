@@ -19,8 +19,7 @@ from ..journal.errors import missing
 from ..journal.lock import holder
 from ..journal.place import gateway_folder
 from ..process.asking import Ended, Nobody, Silent, ask, note_of
-from . import stop_mark
-from .looked_after import looked_after
+from ..flight import offline
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
@@ -53,7 +52,7 @@ def _bring_back(app: App, options: Options, request: Mapping[str, object]) -> st
     try:
         return asked(app, options, request)
     except Nobody:
-        return looked_after(app, options.the_journal, str(request["drone"]))
+        return offline.record_return(app, options.the_journal, str(request["drone"]))
 
 
 def asked(app: App, options: Options, request: Mapping[str, object]) -> str:
@@ -130,7 +129,7 @@ def _stop(app: App, options: Options, request: dict[str, object]) -> str:
     again = f"{app.name} resume {in_shell(journal)}"
     if gateway_folder(journal).is_dir():
         # If the app crashes meanwhile, whoever starts it again shall land as well.
-        stop_mark.leave(journal, how)
+        offline.leave_stop(journal, how)
     until = time.monotonic() + PATIENCE
     while True:
         try:
@@ -145,7 +144,7 @@ def _stop(app: App, options: Options, request: dict[str, object]) -> str:
             raise Nobody(f"{journal}: {app.name} is not running, and no drone flies")
         if time.monotonic() > until:
             raise Silent(f"{journal}: {app.name} runs, but has come to no drones: end it")
-        stop_mark.leave(journal, how)  # it has only just begun: it shall not fly
+        offline.leave_stop(journal, how)  # it has only just begun: it shall not fly
         time.sleep(0.1)
 
 

@@ -16,8 +16,8 @@ from typing import TYPE_CHECKING
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.text import quoted
 
-from ..cli.looked_after import brought_back, looked_after
-from ..cli.plans import fleet_in
+from ..flight.lives import fleet_in
+from ..flight.offline import record_return, returned
 from ..flight.fly import recovered
 from ..gateway.sightings import SEEN, at_home
 from ..journal import lock, place
@@ -122,10 +122,10 @@ class Inheritance:
             "command": "bring-back",
         }
         if self._journal is not None and self._journal.exists():
-            said = looked_after(self._app, self._journal, drone, [commanded])
+            said = record_return(self._app, self._journal, drone, [commanded])
             self.read()
         else:
-            event, said = brought_back(self.records, drone)
+            event, said = returned(self.records, drone)
             for one in [event, commanded] if event is not None else []:
                 self.records.take(one)
         self._keep()

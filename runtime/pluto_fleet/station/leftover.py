@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 from plutoc_runtime import output
 from plutoc_runtime.domain.errors import BadInput
 
-from ..cli.flights import how_to_go_on
-from ..cli.taken_up import TakenUp, take_up
+from ..flight.lives import Resumable, how_to_go_on, reopen
 from ..journal import place
 
 if TYPE_CHECKING:
@@ -24,7 +23,7 @@ AWAY = "put_away"
 """The file that names the last journal with which nobody wants to go on."""
 
 
-def found(app: App, settings: Settings, going_on: bool = False) -> TakenUp | None:
+def found(app: App, settings: Settings, going_on: bool = False) -> Resumable | None:
     """Return the newest journal of the station's folder, opened, to be shown and gone on with.
 
     A flight over another map would be drawn over this one, and misread: it is left alone, unless
@@ -34,7 +33,7 @@ def found(app: App, settings: Settings, going_on: bool = False) -> TakenUp | Non
     if journal is None or journal.name == _put_away(settings):
         return None
     try:
-        taken = take_up(app, journal)
+        taken = reopen(app, journal)
     except BadInput as why:  # somebody else flies it, it is damaged, or it is another app's
         output.tell(f"the last flight cannot be shown: {why}")
         return None

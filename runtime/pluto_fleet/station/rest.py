@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from plutoc_runtime.domain.errors import BadInput
 
-from ..cli.looked_after import lost_meanwhile
+from ..flight.offline import record_loss
 from ..gateway.sightings import SEEN, Sighting, sightings_in
 from ..journal.place import gateway_folder
 from . import rows
@@ -59,7 +59,7 @@ class Rest:
         for drone in new:
             with suppress(BadInput, OSError):  # an app that flies them now hears it from them
                 seen = sightings[drone]
-                lost_meanwhile(app, self._journal, drone, seen.why, seen.at)
+                record_loss(app, self._journal, drone, seen.why, seen.at)
         return bool(new)
 
     def _newest(self) -> dict[str, Sighting]:

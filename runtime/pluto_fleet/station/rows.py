@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from plutoc_runtime.domain.status import Status, TripStatus
 from plutoc_runtime.domain.text import cut_off
 
-from ..cli.flown import aside
+from ..flight.standing import aside
 from ..flight.control import ANSWERS
 from ..flight.interventions import PRIORITY
 from ..gateway.wire import SILENT

@@ -17,8 +17,8 @@ from plutoc_runtime.alone.world import UNITS
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.time.kernel import WHATEVER
 
-from ..cli.flights import Flight, Watcher, lives
-from ..cli.flown import records_in
+from ..flight.lives import Flight, Observer, run_flight
+from ..flight.standing import records_in
 from ..flight.config import End, Stops
 from ..flight.live_engine import live_engine
 from ..flight.live_fleet import live_fleet
@@ -133,9 +133,9 @@ class Outing:
         self.task.add_done_callback(lambda _: self._ended())
 
     async def _live(self, store: Store, known: Recovered | None) -> None:
-        watcher = Watcher(tell=self._hear, say=self._say, born=self._born, patient=True)
+        observer = Observer(tell=self._hear, say=self._say, born=self._born, patient=True)
         try:
-            lived = await lives(self.flight, store, self.stops, known, watcher)
+            lived = await run_flight(self.flight, store, self.stops, known, observer)
         except BadInput as error:
             self.trouble = str(error)
         except (asyncio.CancelledError, KeyboardInterrupt, SystemExit):

@@ -14,10 +14,8 @@ from plutoc_runtime.alone.faults import Faults
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.text import counted
 
-from ..cli import stop_mark
-from ..cli.flights import Flight
-from ..cli.looked_after import lost_meanwhile
-from ..cli.taken_up import take_up
+from ..flight.lives import Flight, reopen
+from ..flight.offline import clear_stop, record_loss
 from ..flight.commands import perform
 from ..flight.config import End
 from ..gateway.starting import cut_directly, let_end, still_runs, stop_directly
@@ -258,8 +256,8 @@ class Station:
         if self.phase not in (Phase.STOPPED, Phase.INTERRUPTED) or self.outing is None:
             raise BadInput("there is nothing to go on with")
         journal = self.outing.journal
-        taken = take_up(self._app, journal)
-        stop_mark.remove(taken.store.path)
+        taken = reopen(self._app, journal)
+        clear_stop(taken.store.path)
         self.outing.flight = taken.flight(self._settings.speed)
         self.outing.begin(taken.store, taken.known)
         return "going on where it was"
@@ -330,7 +328,7 @@ class Station:
         if not self.outing.lives:
             with suppress(BadInput):  # what is on record then, whoever flies it writes
                 reason = f"{drone}'s motors were cut"
-                lost_meanwhile(self._app, self.outing.journal, drone, reason, None)
+                record_loss(self._app, self.outing.journal, drone, reason, None)
         return said
 
     async def _of_the_flight(self, name: str, id: str, given: Mapping[str, object]) -> str:

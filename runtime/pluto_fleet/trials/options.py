@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TypeVar
 
-from ..cli.options import count, whole
+from ..arguments import whole_number
 from .blows import Blow, blows_of
 from .case import Weather, weather_of
 
@@ -48,8 +48,8 @@ def parse(argv: Sequence[str]) -> Options:
     """Read the command line; raise SystemExit, as argparse does, after an error."""
     parser = ArgumentParser(prog="plutoc test", usage=_USAGE, allow_abbrev=False)
     parser.add_argument("--file", type=Path)
-    parser.add_argument("--seeds", type=count)
-    parser.add_argument("--seed", type=whole)
+    parser.add_argument("--seeds", type=whole_number(1))
+    parser.add_argument("--seed", type=whole_number())
     parser.add_argument("--missions", type=Path)
     parser.add_argument("--fleet", type=Path)
     parser.add_argument("--strike", type=_read(blows_of))

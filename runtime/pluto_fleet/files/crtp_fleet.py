@@ -9,17 +9,17 @@ from typing import TYPE_CHECKING
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.fleet.landing_sites import free_spots
 
-from ..files.behaviour import CRAZYFLIE, OWN
-from ..files.real import navigation_of
+from .behaviour import CRAZYFLIE, OWN
+from .real import navigation_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from ..files.drones import DroneEntry
-    from ..files.fleet import FleetFile
+    from .drones import DroneEntry
+    from .fleet import FleetFile
 
 
-def with_stand_ins(fleet: FleetFile, number: int) -> FleetFile:
+def as_crtp_fleet(fleet: FleetFile, number: int) -> FleetFile:
     """Return a fleet of so many drones, each a Crazyflie that is simulated down to its radio.
 
     They are the first of the fleet file; those that it lacks are like them, and stand beside them.
@@ -27,7 +27,7 @@ def with_stand_ins(fleet: FleetFile, number: int) -> FleetFile:
     drones = [_as_crazyflie(fleet, one) for one in fleet.drones[:number]]
     for place in range(len(drones), number):
         taken = [one.home for one in drones]
-        beside = max(fleet.apart, _BESIDE)
+        beside = max(fleet.apart, _APART)
         home = next(free_spots(fleet.airspace, taken[-1], taken, beside), None)
         if home is None:
             raise BadInput(
@@ -39,7 +39,7 @@ def with_stand_ins(fleet: FleetFile, number: int) -> FleetFile:
     return replace(fleet, drones=tuple(drones), navigation=CRAZYFLIE, localization=OWN)
 
 
-def who_is_missing(fleet: FleetFile, number: int) -> str | None:
+def missing_categories(fleet: FleetFile, number: int) -> str | None:
     """Return a sentence that names the categories which the first drones of a fleet lack; None: none."""
     there = {one.category for one in fleet.drones[:number]}
     missing = dict.fromkeys(one.category for one in fleet.drones if one.category not in there)
@@ -57,8 +57,8 @@ def _as_crazyflie(fleet: FleetFile, one: DroneEntry) -> DroneEntry:
     return replace(one, navigation=None, uri=None, options=options)
 
 
-_BESIDE = 0.7
-"""Metres between drones that nobody has placed."""
+_APART = 0.7
+"""Metres between drones that the fleet file does not place."""
 
 
 def _free_id(drones: Sequence[DroneEntry]) -> str:
