@@ -23,9 +23,8 @@ sys.path[:0] = [str(Path(__file__).parents[1])]
 
 from pluto_fleet.files.fleet import DroneEntry, FleetFile
 from pluto_fleet.journal.event_line import line
-from pluto_fleet.trials.blows import blows_of
-from pluto_fleet.trials.book import Trial
-from pluto_fleet.trials.case import Case, Weather
+from pluto_fleet.trials.case import Case, Weather, blows_of
+from pluto_fleet.trials.record import Trial
 from pluto_fleet.trials.rig import tried
 from plutoc_runtime.alone.world import WorldData
 from plutoc_runtime.domain.airspace import Airspace

@@ -14,8 +14,8 @@ from hypothesis import strategies as st
 from pluto_fleet.files import fleet as full_fleet
 from pluto_fleet.files import missions as full_missions
 from pluto_fleet.files.fleet_text import fleet_text
-from pluto_fleet.trials.drawing import drawn_missions
-from pluto_fleet.trials.plan_text import missions_text
+from pluto_fleet.trials.explore import drawn_missions
+from pluto_fleet.trials.report import missions_text
 from plutoc_runtime.alone import files
 from plutoc_runtime.alone import simulate as alone
 from plutoc_runtime.alone.files import DroneData, FleetData

@@ -10,10 +10,10 @@ from pathlib import Path
 
 import pytest
 
-from pluto_fleet.flight.lives import Flight, aloft, may_hover
-from pluto_fleet.files.crtp_fleet import as_crtp_fleet, missing_categories
 from pluto_fleet.drones.real_fleet import RealDrone, Wanted, real_data, real_fleet, real_of
+from pluto_fleet.files.crtp_fleet import as_crtp_fleet, missing_categories
 from pluto_fleet.files.fleet import DroneEntry, FleetFile
+from pluto_fleet.flight.lives import Flight, aloft, may_hover
 from pluto_fleet.jobs.reports import DroneReport
 from pluto_fleet.simulation.drones import SimulatedNavigation
 from plutoc_runtime.alone.faults import Faults

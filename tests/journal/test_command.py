@@ -14,9 +14,11 @@ from pathlib import Path
 
 import pytest
 
-from pluto_fleet.cli import events, main, told
+from pluto_fleet.cli import main
 from pluto_fleet.journal import place
 from pluto_fleet.journal.store import Store
+from pluto_fleet.report import sentences as events
+from pluto_fleet.report import sentences as told
 from plutoc_runtime.domain.status import DroneStatus
 from tests.runtime.files.an_app import APP
 

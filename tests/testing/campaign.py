@@ -23,9 +23,8 @@ from random import Random
 from time import perf_counter, process_time
 from typing import Any
 
-from pluto_fleet.cli.report import table
 from pluto_fleet.files.fleet import FleetFile
-from pluto_fleet.trials.alike import first_the_same, shows_the_same
+from pluto_fleet.report.report import table
 from pluto_fleet.trials.case import Case
 from pluto_fleet.trials.explore import (
     FAULTS,
@@ -39,7 +38,7 @@ from pluto_fleet.trials.explore import (
 from pluto_fleet.trials.options import Options
 from pluto_fleet.trials.report import smallest_case
 from pluto_fleet.trials.rig import tried
-from pluto_fleet.trials.shrink import shrunk
+from pluto_fleet.trials.shrink import first_the_same, shows_the_same, shrunk
 from plutoc_runtime.domain.app import App
 from plutoc_runtime.domain.model import AfterTrip, Mission
 from tests.flying import NAMES

@@ -21,7 +21,7 @@ from pluto_fleet.jobs.reports import JobState
 from pluto_fleet.journal import values
 from pluto_fleet.journal.durable_link import Careful
 from pluto_fleet.journal.fold import Records
-from pluto_fleet.trials.book import Book
+from pluto_fleet.trials.record import Book
 from plutoc_runtime.domain.status import DroneStatus
 from plutoc_runtime.fleet.fleet import Fleet
 from tests.equivalence import mistakes

@@ -22,13 +22,12 @@ from random import Random
 from time import perf_counter
 from typing import TYPE_CHECKING
 
-from pluto_fleet.trials.alike import first_the_same, shows_the_same
 from pluto_fleet.trials.case import Case, Weather
 from pluto_fleet.trials.explore import Finding, Tally, drawn_case, everywhere, explored, small_case
 from pluto_fleet.trials.options import Options
 from pluto_fleet.trials.report import smallest_case
 from pluto_fleet.trials.rig import tried
-from pluto_fleet.trials.shrink import shrunk
+from pluto_fleet.trials.shrink import first_the_same, shows_the_same, shrunk
 from tests.testing.random_apps import random_app, random_fleet, random_source
 
 if TYPE_CHECKING:

@@ -6,9 +6,8 @@ from dataclasses import replace
 
 import pytest
 
-from pluto_fleet.trials.blows import BY_HAND, DEATHS, STOPS, Blow, Kind
-from pluto_fleet.trials.book import Trial
-from pluto_fleet.trials.case import FAIR, Case, Weather
+from pluto_fleet.trials.case import BY_HAND, DEATHS, FAIR, STOPS, Blow, Case, Kind, Weather
+from pluto_fleet.trials.record import Trial
 from pluto_fleet.trials.rig import tried
 from tests.testing.examples import example, fleet_of, missions_of
 

@@ -9,8 +9,7 @@ import pytest
 
 from pluto_fleet.files.drones import DroneEntry
 from pluto_fleet.files.fleet import FleetFile, default_fleet
-from pluto_fleet.trials.blows import Blow, Kind
-from pluto_fleet.trials.case import Case, Weather
+from pluto_fleet.trials.case import Blow, Case, Kind, Weather
 from pluto_fleet.trials.rig import tried
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.app import App

@@ -10,9 +10,16 @@ import pytest
 from pluto_fleet.trials.delay_rule import DelaysAreWaited
 from pluto_fleet.trials.drone_rules import ItemsStayAboard, ServesOneMission, StaysDown
 from pluto_fleet.trials.invariants import RULES, Invariants, violations
-from pluto_fleet.trials.mission_rules import CompletedDidEverything, EndsOnce, NothingAfterTheEnd
-from pluto_fleet.trials.rule import Rule, Say
-from pluto_fleet.trials.trip_rules import AttemptsCountUp, LimitsAreKept, TripsDoNotOverlap
+from pluto_fleet.trials.rules import (
+    AttemptsCountUp,
+    CompletedDidEverything,
+    EndsOnce,
+    LimitsAreKept,
+    NothingAfterTheEnd,
+    Rule,
+    Say,
+    TripsDoNotOverlap,
+)
 from plutoc_runtime.domain.trace import Event
 
 Trace = Sequence[Event]

@@ -10,8 +10,7 @@ import pytest
 
 from pluto_fleet.files.fleet import FleetFile
 from pluto_fleet.trials.case import FAIR, Case
-from pluto_fleet.trials.drawing import drawn_missions
-from pluto_fleet.trials.explore import drawn_case, everywhere
+from pluto_fleet.trials.explore import drawn_case, drawn_missions, everywhere
 from pluto_fleet.trials.rig import tried
 from plutoc_runtime.domain.app import App
 from tests.testing.examples import example, fleet_of

@@ -6,9 +6,8 @@ from io import StringIO
 
 import pytest
 
-from pluto_fleet.cli.progress import Progress
+from pluto_fleet.report.progress import EVERY, Patience, Progress
 from pluto_fleet.trials import command
-from pluto_fleet.trials.patience import EVERY, Patience
 from tests.testing.examples import example
 
 

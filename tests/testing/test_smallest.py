@@ -14,12 +14,12 @@ import pytest
 from pluto_fleet.files.fleet import default_fleet
 from pluto_fleet.trials import command as trials
 from pluto_fleet.trials import invariants
-from pluto_fleet.trials.alike import Alike
 from pluto_fleet.trials.command import test as trial
 from pluto_fleet.trials.explore import Tally, small_case
 from pluto_fleet.trials.options import Options
 from pluto_fleet.trials.report import report
-from pluto_fleet.trials.rule import Say, at
+from pluto_fleet.trials.rules import Say, at
+from pluto_fleet.trials.shrink import Alike
 from plutoc_runtime.alone import bound as enough
 from plutoc_runtime.domain.app import App
 from plutoc_runtime.domain.model import Drone

@@ -14,11 +14,19 @@ from pluto_fleet.files.fleet import default_fleet, load_fleet
 from pluto_fleet.files.fleet_text import fleet_text
 from pluto_fleet.files.missions import load_missions
 from pluto_fleet.trials import explore
-from pluto_fleet.trials.blows import Blow, Kind, blows_of, blows_text
-from pluto_fleet.trials.case import FAIR, Case, Weather, weather_of, weather_text
-from pluto_fleet.trials.drawing import drawn_missions
-from pluto_fleet.trials.explore import Tally, drawn_case, explored, small_case
-from pluto_fleet.trials.plan_text import missions_text
+from pluto_fleet.trials.case import (
+    FAIR,
+    Blow,
+    Case,
+    Kind,
+    Weather,
+    blows_of,
+    blows_text,
+    weather_of,
+    weather_text,
+)
+from pluto_fleet.trials.explore import Tally, drawn_case, drawn_missions, explored, small_case
+from pluto_fleet.trials.report import missions_text
 from pluto_fleet.trials.rig import Rig, tried
 from pluto_fleet.trials.shrink import shrunk
 from tests.testing.examples import WAITING, app_of, example, fleet_of

@@ -54,7 +54,7 @@ def start(name: str, load: Callable[[], App]) -> int:
 
         refuse()  # it must not be started again
     if app is not None:
-        from .leaving import leave_in_time
+        from .shutdown import leave_in_time
 
         leave_in_time(name, code)
     return code
@@ -122,7 +122,7 @@ def _command(app: App, argv: Sequence[str] | None) -> int:
         options = parse(app, argv)
     except SystemExit as end:  # argparse has printed the help, or what is wrong
         return end.code if isinstance(end.code, int) else BAD_INPUT
-    from .beside import take_fleet_beside
+    from .plans import take_fleet_beside
 
     take_fleet_beside(options)
     match options.command:
@@ -147,11 +147,11 @@ def _command(app: App, argv: Sequence[str] | None) -> int:
 
             return tell(app, options)
         case "decide":
-            from .decide import decide
+            from .tell import decide
 
             return decide(app, options)
         case "resume":
-            from .resume import resume
+            from .fly import resume
 
             return resume(app, options)
         case "drones":
@@ -163,6 +163,6 @@ def _command(app: App, argv: Sequence[str] | None) -> int:
 
             return journal(app, options)
         case _:
-            from .check import check
+            from .plans import check
 
             return check(app, options)

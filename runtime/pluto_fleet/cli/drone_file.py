@@ -17,13 +17,13 @@ from ..files.behaviour import APART, CRAZYFLIE
 from ..files.fleet import fleet_of
 from ..files.reading import parsed
 from ..files.toml_text import numbers, text
-from .drone_answers import heard
+from .drone_status import heard
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
     from plutoc_runtime.domain.geometry import Corner
 
-    from .drone_answers import Answer
+    from .drone_status import Answer
 
 
 _ORIGIN = 0.05

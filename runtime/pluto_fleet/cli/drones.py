@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from plutoc_runtime import output
 from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.text import counted, quoted
+from plutoc_runtime.domain.text import counted, percent, place, quoted
 from plutoc_runtime.domain.trace import dumped
 
 from ..crazyflie.borrowed import require
@@ -19,17 +19,18 @@ from ..files.errors import near
 from ..files.fleet import load_fleet
 from ..files.reading import shortened
 from ..files.real import navigation_of, not_real, options_of
-from ..journal import place
-from .drone_answers import Asked, answers, found, identified
+from ..journal.place import folder_of
+from ..report.report import table
 from .drone_file import write_fleet
-from .drone_table import drones_data, drones_table
+from .drone_status import Asked, answers, found, heard, identified
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
 
+    from ..drones.telemetry import DroneTelemetry
     from ..files.fleet import FleetFile
     from ..files.free_tables import Options
-    from .drone_answers import Answer
+    from .drone_status import Answer
     from .options import Options as Command
 
 NOT_READY = 1
@@ -170,9 +171,70 @@ def _say(told: Sequence[Answer]) -> None:
 
 def _folder(app: App) -> Path:
     """Return where navigations may keep what they have learnt of drones."""
-    folder = place.folder_of(app.name) / "drones"
+    folder = folder_of(app.name) / "drones"
     try:
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
     except OSError as error:
         raise BadInput(f"{folder}: cannot be made: {error.strerror}") from None
     return folder
+
+
+ONLY_IN_JSON = ("protocol",)
+"""What a navigation tells besides, and a person need not know of a drone that answers."""
+
+LONGEST = 120
+"""Characters of a cell: what a drone says of itself may be anything."""
+
+
+def drones_table(told: Sequence[Answer]) -> Iterator[str]:
+    """Yield a line for each drone."""
+    facts = list(dict.fromkeys(fact for one in told for fact in one.facts))
+    shown = [fact for fact in facts if fact not in ONLY_IN_JSON]
+    return table(
+        ("drone", "uri", *shown, "battery", "position", "ready"),
+        [
+            [
+                cell if len(cell) <= LONGEST else f"{cell[: LONGEST - 1]}…"
+                for cell in (
+                    one.asked.id if one.asked.known else "—",
+                    one.asked.uri or "—",
+                    *(one.facts.get(fact, "—") for fact in shown),
+                    *_state(heard(one)),
+                    "; ".join(one.problems) or "ready",
+                )
+            ]
+            for one in told
+        ],
+        right=(),
+    )
+
+
+def drones_data(app: str, told: Sequence[Answer]) -> dict[str, object]:
+    """Return the object that `drones --json` prints."""
+    return {"app": app, "drones": [_data(one) for one in told]}
+
+
+def _data(one: Answer) -> dict[str, object]:
+    telemetry = heard(one)
+    return {
+        "drone": one.asked.id if one.asked.known else None,
+        "uri": one.asked.uri,
+        "navigation": one.asked.navigation,
+        "ready": not one.problems,
+        "problems": list(one.problems),
+        "voltage": None if telemetry is None else telemetry.voltage or None,
+        "battery_level": None if telemetry is None else telemetry.battery_level,
+        "position": None if telemetry is None else list(telemetry.position),
+        "flying": None if telemetry is None else telemetry.flying,
+        "facts": dict(one.facts),
+    }
+
+
+def _state(telemetry: DroneTelemetry | None) -> tuple[str, str]:
+    """Return its battery and where it is."""
+    if telemetry is None:
+        return "—", "—"
+    level = percent(telemetry.battery_level)
+    battery = f"{telemetry.voltage:.2f} V, {level}" if telemetry.voltage else level
+    x, y, z = telemetry.position
+    return battery, place((round(x, 2), round(y, 2), z))

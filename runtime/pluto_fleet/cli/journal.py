@@ -16,7 +16,7 @@ from plutoc_runtime.domain.text import counted
 from ..journal import place
 from ..journal.mending import mend
 from ..journal.reader import Reader
-from .told import told
+from ..report.sentences import journal_sentence as told
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -14,9 +14,7 @@ from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.quantities import time_from, typed
 
 from ..arguments import whole_number
-from .drone_options import add_drones, add_dry_run
-from .flight_options import add_flights, how_it_flies
-from .station_options import add_station
+from .flags import add_drones, add_dry_run, add_flights, add_station, how_it_flies
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
@@ -206,7 +204,10 @@ def _chance(parser: ArgumentParser, only: str = "") -> None:
 def _simulation(parser: ArgumentParser) -> None:
     _chance(parser)
     parser.add_argument(
-        "--runs", metavar="N", type=whole_number(1), help="simulate N times, with N seeds from --seed on"
+        "--runs",
+        metavar="N",
+        type=whole_number(1),
+        help="simulate N times, with N seeds from --seed on",
     )
     parser.add_argument(
         "--plot",

@@ -1,22 +1,23 @@
-"""From the files that a command names to missions and a fleet that can fly them."""
+"""From the files that a command names to missions and a fleet that can fly them; `check` says so."""
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime import output
 from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.text import counted, printable
 
+from ..files.crtp_fleet import fleet_from, missing_categories
 from ..files.fleet import FleetFile, fleet_of
 from ..files.look_alikes import look_alikes
 from ..files.missions import missions_of
-from ..files.plan_check import endless, problems
+from ..files.plan_check import endless, idle_actions, problems
 from ..files.reading import parsed, shortened, text_of
-from ..files.real import as_flown
-from ..files.crtp_fleet import missing_categories
-from ..flight.lives import fleet_from
+from ..files.real import as_flown, too_fast
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
@@ -71,3 +72,47 @@ def load_fleet(app: App, options: Options) -> tuple[FleetFile, str | None]:
         if missing := missing_categories(whole, options.crtp_sim):
             output.tell(missing)
     return fleet_from(app, str(options.fleet), text, options.crtp_sim), text
+
+
+FLEET = "fleet.toml"
+
+
+def take_fleet_beside(options: Options) -> None:
+    """Take it where no other one is named. Real drones fly only by a file that somebody has named."""
+    missions = _missions(options)
+    if missions is None or options.fleet is not None:
+        return
+    fleet = missions.parent / FLEET
+    if os.path.lexists(fleet):
+        options.fleet = fleet
+        output.tell(
+            f"fleet: {printable(os.fspath(fleet))}, beside the missions; or name one: --fleet"
+        )
+
+
+def _missions(options: Options) -> Path | None:
+    """Return the missions file of a command that flies nothing real; None: there is none."""
+    simulated = options.sim or options.crtp_sim is not None
+    match options.command:
+        case "simulate" | "check":
+            return options.missions
+        case "fly" if simulated:
+            return options.missions
+        case "serve" if simulated:
+            return options.plan
+        case _:
+            return None
+
+
+def check(app: App, options: Options) -> int:
+    """Say that the fleet can fly the missions; where it cannot, loading has said why."""
+    plan = load(app, options)
+    for sentence in [*too_fast(app, plan.fleet), *idle_actions(app, plan.fleet)]:
+        output.tell(f"{options.fleet or app.name}: warning: {sentence}")
+    trips = sum(len(mission.trips) for mission in plan.missions)
+    missions, drones = len(plan.missions), len(plan.fleet.drones)
+    output.line(
+        f"{counted(missions, 'mission')} with {counted(trips, 'trip')}: "
+        f"a fleet of {counted(drones, 'drone')} can fly them"
+    )
+    return 0

@@ -16,13 +16,14 @@ from plutoc_runtime.domain.errors import BadInput
 
 from ..files.reading import text_of
 from ..files.real import as_flown
+from ..flight.standing import finished, records_in
 from ..jobs.reports import Down
 from ..journal import place
 from ..process import respawn as again
 from ..process.forked import not_for_children
-from ..station.phase import Phase
+from ..station.config import Settings
 from ..station.plan.plan import Plan
-from ..station.settings import Settings
+from ..station.session import Phase
 from ..station.station import Station
 from ..station.web.api import Api
 from ..station.web.audit import Audit
@@ -31,11 +32,10 @@ from ..station.web.guard import Guard, needs_token, proper_name
 from ..station.web.listening import address, listening, port_of
 from ..station.web.server import serve as serve_web
 from ..station.web.static import floor_plan
-from ..flight.standing import finished, records_in
 from .interrupts import Interrupts
-from .leaving import run
 from .plans import load_fleet
-from .real import check_real
+from .preflight import check_real
+from .shutdown import run
 from .supervise import Supervised, supervise
 
 if TYPE_CHECKING:

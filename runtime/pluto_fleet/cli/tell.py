@@ -1,4 +1,4 @@
-"""`tell`: a command for the app that runs."""
+"""`tell` and `decide`: commands for the app that runs, and what only a person can know."""
 
 from __future__ import annotations
 
@@ -11,19 +11,23 @@ from typing import TYPE_CHECKING
 
 from plutoc_runtime import output
 from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.text import in_shell
+from plutoc_runtime.domain.text import in_shell, printable, quoted
 
+from ..flight import offline
+from ..flight.offline import record_decision
+from ..flight.standing import ANSWERS, records_in, waiting
 from ..gateway.starting import cut_directly, stop_directly
 from ..jobs.reports import Down
 from ..journal.errors import missing
 from ..journal.lock import holder
 from ..journal.place import gateway_folder
 from ..process.asking import Ended, Nobody, Silent, ask, note_of
-from ..flight import offline
+from ..report.report import waiting_lines
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
 
+    from ..journal.fold import Records
     from .options import Options
 
 AT_ONCE = 1.0
@@ -170,3 +174,42 @@ def cut_motors(app: App, journal: Path, drone: str | None) -> str:
         f"{journal}: nobody commands its drones, so no motor can be cut from here;"
         f" {app.name} resume {in_shell(journal)} reaches them again"
     )
+
+
+def decide(app: App, options: Options) -> int:
+    """Settle what a mission waits for, in the running app or in its journal."""
+    journal, mission, answer = options.the_journal, options.mission, options.answer
+    records = records_in(app, journal)
+    if mission is None:
+        listed = [*waiting_lines(app, journal, records)]
+        for line in listed or ["no mission waits for a person"]:
+            output.line(line)
+        return 0
+    # A mistaken answer may be changed for as long as nothing has come of it.
+    questions = {name: (what, why) for name, what, why in waiting(records, answered=True)}
+    if mission not in questions:
+        raise BadInput(_not_asked(journal, mission, records))
+    what, question = questions[mission]
+    if answer not in ANSWERS[what]:
+        fitting = ", ".join(ANSWERS[what])
+        raise BadInput(
+            f"{journal}: mission {quoted(mission)}: {printable(question)}; say one of: {fitting}"
+        )
+    try:
+        request = {"command": "decide", "mission": mission, "answer": answer}
+        output.line(asked(app, options, request))
+    except Nobody:
+        record_decision(journal, mission, answer, records.time)
+        output.line(
+            f"mission {quoted(mission)}: {answer}; it is on record, and "
+            f"{app.name} resume {in_shell(journal)} acts on it"
+        )
+    return 0
+
+
+def _not_asked(journal: Path, mission: str, records: Records) -> str:
+    known = mission in records.missions
+    what = "waits for no decision" if known else "is not in this journal"
+    others = ", ".join(quoted(name) for name, _, _ in waiting(records))
+    rest = f"; those that wait are: {others}" if others else ""
+    return f"{journal}: mission {quoted(mission)} {what}{rest}"

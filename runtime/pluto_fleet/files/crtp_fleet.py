@@ -10,13 +10,24 @@ from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.fleet.landing_sites import free_spots
 
 from .behaviour import CRAZYFLIE, OWN
+from .fleet import DEFAULT_SIZE, FleetFile, default_fleet, fleet_of
+from .reading import parsed
 from .real import navigation_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from plutoc_runtime.domain.app import App
+
     from .drones import DroneEntry
-    from .fleet import FleetFile
+
+
+def fleet_from(app: App, name: str, text: str | None, crtp_sim: int | None) -> FleetFile:
+    """Return the fleet of a file's text, or the default one; perhaps of simulated Crazyflies."""
+    if text is None:
+        return default_fleet(app, crtp_sim or DEFAULT_SIZE)
+    fleet = fleet_of(parsed(name, text), app)
+    return fleet if crtp_sim is None else as_crtp_fleet(fleet, crtp_sim)
 
 
 def as_crtp_fleet(fleet: FleetFile, number: int) -> FleetFile:

@@ -14,8 +14,7 @@ from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.text import in_shell, place
 
 from ..drones.real_fleet import real_fleet
-from ..files.crtp_fleet import as_crtp_fleet
-from ..files.fleet import DEFAULT_SIZE, default_fleet, fleet_of
+from ..files.crtp_fleet import fleet_from
 from ..files.missions import missions_of
 from ..files.reading import parsed
 from ..files.real import as_flown
@@ -128,14 +127,6 @@ def reopen(app: App, journal: Path) -> Resumable:
 def fleet_in(app: App, journal: Path, header: Header) -> FleetFile:
     """Return the fleet of a journal; raise `BadInput` if the app does not know it any more."""
     return fleet_from(app, f"{journal} (its fleet)", header["fleet"], header.get("crtp_sim"))
-
-
-def fleet_from(app: App, name: str, text: str | None, crtp_sim: int | None) -> FleetFile:
-    """Return the fleet of a file's text, or the default one; perhaps of simulated Crazyflies."""
-    if text is None:
-        return default_fleet(app, crtp_sim or DEFAULT_SIZE)
-    fleet = fleet_of(parsed(name, text), app)
-    return fleet if crtp_sim is None else as_crtp_fleet(fleet, crtp_sim)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -19,15 +19,7 @@ from plutoc_runtime.time.kernel import FLEET, Cancelled, Task
 from ..jobs.reports import Down
 from .link import Busy
 from .requests import asked
-from .wire import (
-    LONGEST_TOLD,
-    Message,
-    job_of,
-    line,
-    message_in,
-    result_data,
-    seen,
-)
+from .wire import LONGEST_TOLD, Message, job_of, line, message_in, result_data, seen
 
 if TYPE_CHECKING:
     from asyncio import StreamReader, StreamWriter

@@ -1,4 +1,4 @@
-"""One flight of the station, from its Start to its end: lived, stopped, gone on with."""
+"""What goes on at a station."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import time
 import traceback
 from collections.abc import Callable, Iterator
 from contextlib import closing, suppress
+from enum import Enum
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -17,29 +18,61 @@ from plutoc_runtime.alone.world import UNITS
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.time.kernel import WHATEVER
 
-from ..flight.lives import Flight, Observer, run_flight
-from ..flight.standing import records_in
 from ..flight.config import End, Stops
 from ..flight.live_engine import live_engine
 from ..flight.live_fleet import live_fleet
+from ..flight.lives import Flight, Observer, run_flight
+from ..flight.standing import records_in
 from ..journal.fold import Records
 from ..journal.lock import holder
 from ..journal.place import written
 from ..journal.reader import Reader
 from . import rows
-from .feed import Feed
+from .between_flights import Rest
+from .feed import Feed, Versions
 from .plan.shape import BROKEN_OFF
-from .rest import Rest
-from .versions import Versions
-from .waiting import Waiting
+from .wait_reasons import Waiting
 
 if TYPE_CHECKING:
+    # was an import of itself
     from plutoc_runtime.domain.trace import Event
 
     from ..flight.fly import Recovered
     from ..flight.live_flight import OneLife
     from ..flight.recorded_flight import Life
     from ..journal.store import Store
+
+
+class Phase(Enum):
+    """Whether anything flies, and what can be done next."""
+
+    IDLE = "idle"
+    FLYING = "flying"
+    STOPPING = "stopping"
+    """All drones are coming down."""
+    STOPPED = "stopped"
+    """Somebody has stopped it: it can be resumed, or put away."""
+    INTERRUPTED = "interrupted"
+    """It has ended otherwise than it should: the same."""
+    OVER = "over"
+    """Every mission has ended."""
+
+
+def phase_of(outing: Outing | None) -> Phase:
+    """Return what goes on, by the flight there is."""
+    if outing is None:
+        return Phase.IDLE
+    if outing.lives:
+        return Phase.STOPPING if outing.stops.asked is not None else Phase.FLYING
+    if outing.trouble:
+        return Phase.INTERRUPTED
+    match outing.end:
+        case End.OVER:
+            return Phase.OVER
+        case End.STOPPED:
+            return Phase.STOPPED
+    was_stopped = outing.records is not None and outing.records.stopped
+    return Phase.STOPPED if was_stopped else Phase.INTERRUPTED
 
 
 class Outing:

@@ -14,10 +14,10 @@ from plutoc_runtime.alone.faults import Faults
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.text import counted
 
-from ..flight.lives import Flight, reopen
-from ..flight.offline import clear_stop, record_loss
 from ..flight.commands import perform
 from ..flight.config import End
+from ..flight.lives import Flight, reopen
+from ..flight.offline import clear_stop, record_loss
 from ..gateway.starting import cut_directly, let_end, still_runs, stop_directly
 from ..jobs.reports import Down
 from ..journal import lock, place
@@ -25,12 +25,11 @@ from ..journal.fold import Records
 from ..journal.header import header
 from ..journal.store import Store
 from ..process.asking import Nobody, Silent
-from . import leftover
+from . import between_flights as leftover
+from .between_flights import Inheritance
 from .commands import checked
-from .describe import described
-from .inheritance import Inheritance
-from .phase import Phase, phase_of
-from .session import Outing
+from .config import described
+from .session import Outing, Phase, phase_of
 from .updates import Scene
 
 if TYPE_CHECKING:
@@ -40,8 +39,8 @@ if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Mission
 
     from ..flight.recorded_flight import Life
+    from .config import Settings
     from .plan.plan import Plan
-    from .settings import Settings
 
 REMEMBERED = 1_000
 """Commands whose answers are known, if they are asked for once more."""

@@ -12,11 +12,11 @@ import time
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Protocol
 
-from .phase import phase_of
-from .versions import Versions
+from .feed import Versions
+from .session import phase_of
 
 if TYPE_CHECKING:
-    from .inheritance import Inheritance
+    from .between_flights import Inheritance
     from .plan.plan import Plan
     from .session import Outing
 

@@ -21,15 +21,13 @@ from ..files.fleet import DroneEntry, FleetFile, default_fleet, load_fleet
 from ..files.fleet_text import fleet_text
 from ..files.missions import load_missions
 from ..files.plan_check import idle_actions, problems
-from .alike import first_the_same, shows_the_same
+from ..report.progress import patience
 from .case import FAIR, Case
 from .explore import Finding, Tally, drawn_case, everywhere, explored, small_case
 from .options import Options, parse
-from .patience import patience
-from .plan_text import missions_text
-from .report import findings_data, repeated, report, shown_again
+from .report import findings_data, missions_text, repeated, report, shown_again
 from .rig import tried
-from .shrink import shrunk
+from .shrink import first_the_same, shows_the_same, shrunk
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App

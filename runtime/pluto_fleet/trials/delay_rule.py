@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from .rule import Say, at
+from .rules import Say, at
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.trace import Event

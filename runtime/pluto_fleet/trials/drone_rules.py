@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from .rule import Hears, Say, at
+from .rules import Hears, Say, at
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.trace import Event

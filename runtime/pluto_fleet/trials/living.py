@@ -12,12 +12,10 @@ from plutoc_runtime.time.kernel import Cancelled
 
 from ..flight.recorded_flight import Life
 from ..jobs.reports import Down
-from .blows import BY_HAND, DEATHS, STOPS, Blow, Kind
-from .brain import BrainTime
-from .case import fresh
+from .case import BY_HAND, DEATHS, STOPS, Blow, Kind, fresh
 from .invariants import ENDS
-from .survival import Known, forgotten, known_of
-from .wire import Wire
+from .record import Known, forgotten, known_of
+from .unreliable import BrainTime, Wire
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -9,8 +9,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from ..arguments import whole_number
-from .blows import Blow, blows_of
-from .case import Weather, weather_of
+from .case import Blow, Weather, blows_of, weather_of
 
 SEEDS = 100
 

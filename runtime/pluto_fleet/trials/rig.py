@@ -23,9 +23,9 @@ from ..jobs.reports import Down
 from ..process.signal_guard import by_a_person
 from ..simulation.drones import SimulatedDrone, SimulatedNavigation
 from ..simulation.radio import Radio
-from .blows import Blow, Kind
-from .book import Book, Trial
+from .case import Blow, Kind
 from .living import THINKS, Living
+from .record import Book, Trial
 
 if TYPE_CHECKING:
     from collections.abc import Callable

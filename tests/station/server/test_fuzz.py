@@ -12,12 +12,11 @@ from tempfile import TemporaryDirectory
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pluto_fleet.station.phase import Phase
+from pluto_fleet.station.config import Settings
 from pluto_fleet.station.plan.plan import Plan
-from pluto_fleet.station.settings import Settings
+from pluto_fleet.station.session import Phase
 from pluto_fleet.station.station import Station
-from pluto_fleet.station.web.answers import ADDRESSES
-from pluto_fleet.station.web.api import Api
+from pluto_fleet.station.web.api import ADDRESSES, Api
 from pluto_fleet.station.web.audit import Audit
 from pluto_fleet.station.web.guard import Guard
 from pluto_fleet.station.web.http import Reply, Request

@@ -13,8 +13,7 @@ from . import errors
 from . import kept as on_disk
 from .errors import Stale
 from .example import example_missions
-from .flyable import Flyable
-from .problems import PlanProblem, as_in_a_file, as_json, read
+from .problems import Flyable, PlanProblem, as_in_a_file, as_json, read
 from .shape import COMPLETED, Shape, check_together, missions_from, trips_of
 from .text import NAME, shapes_of, text_of
 

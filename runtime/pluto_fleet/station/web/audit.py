@@ -13,8 +13,8 @@ from contextlib import suppress
 from pathlib import Path
 from traceback import format_exception
 
+from .guard import Rate
 from .http import Request
-from .rates import Rate
 
 _LARGEST = 4 * 1024 * 1024
 """Bytes of a file; then it becomes `audit.log.1`, and what was there before is gone."""

@@ -1,15 +1,10 @@
-"""Who may ask what: a page on another site may press nothing, a stranger sees nothing.
-
-A browser sends requests for any page that asks it to. What such a page cannot do is to bear the
-name of ours (`Origin`), to send a header of its own without being asked first (`X-Pluto`), or to
-know the token. A name that was bent to this machine (DNS rebinding) shows in `Host`.
-"""
+"""Who may ask what, and how often; and what a browser must not do with the answer."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
 from enum import Enum
 from hmac import compare_digest
 from ipaddress import IPv4Address, IPv6Address, ip_address
@@ -18,8 +13,34 @@ from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.text import quoted
 
 from . import refusals
-from .http import Request
+from .http import Reply, Request
 from .refusals import Refusal
+
+_KNOWN = 1024
+"""Clients that are remembered; who is forgotten begins anew."""
+
+
+class Rate:
+    """What each client has left."""
+
+    def __init__(
+        self, a_second: float, clock: Callable[[], float], at_once: float | None = None
+    ) -> None:
+        self._a_second, self._clock = a_second, clock
+        self._at_once = a_second if at_once is None else at_once
+        self._left: dict[str, tuple[float, float]] = {}
+
+    def allows(self, client: str) -> bool:
+        """Whether this client may ask once more; if so, it has."""
+        now = self._clock()
+        left, since = self._left.pop(client, (self._at_once, now))
+        left = min(self._at_once, left + (now - since) * self._a_second)
+        allowed = left >= 1
+        self._left[client] = (left - 1 if allowed else left, now)
+        if len(self._left) > _KNOWN:
+            del self._left[next(iter(self._left))]
+        return allowed
+
 
 _HOST = re.compile(r"(\[[0-9a-f:.]+\]|[a-z0-9_.-]+)(?::([0-9]{1,5}))?")
 _LOOPBACK = ("127.0.0.1", "localhost", "[::1]")
@@ -151,3 +172,39 @@ def _address(text: str) -> IPv4Address | IPv6Address | None:
         return None
     mapped = address.ipv4_mapped if isinstance(address, IPv6Address) else None
     return mapped or address
+
+
+_PAGE = (
+    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:;"
+    " connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+)
+_PICTURE = (
+    "default-src 'none'; style-src 'unsafe-inline'; img-src data:; frame-ancestors 'none'; sandbox"
+)
+_DATA = "default-src 'none'; frame-ancestors 'none'; sandbox"
+
+_ALONE = (("Cross-Origin-Opener-Policy", "same-origin"),)
+"""Browsers heed it only where nobody can listen on the way, and else say that they do not."""
+
+_ALWAYS = (
+    ("X-Content-Type-Options", "nosniff"),
+    ("X-Frame-Options", "DENY"),
+    ("Referrer-Policy", "no-referrer"),
+    ("Cross-Origin-Resource-Policy", "same-origin"),
+    ("Permissions-Policy", "camera=(), geolocation=(), microphone=(), payment=(), usb=()"),
+)
+
+
+def dressed(request: Request, reply: Reply) -> Reply:
+    """Return an answer with all the headers that keep it safe."""
+    own = {name.lower() for name, _ in reply.headers}
+    kept = () if "cache-control" in own else (("Cache-Control", "no-store"),)
+    policy = (("Content-Security-Policy", _policy(request, reply)),)
+    alone = _ALONE if is_loopback(request.headers.get("host", "").rpartition(":")[0]) else ()
+    return replace(reply, headers=(*reply.headers, *kept, *policy, *alone, *_ALWAYS))
+
+
+def _policy(request: Request, reply: Reply) -> str:
+    if request.path == "/map":
+        return _PICTURE
+    return _PAGE if reply.type.startswith("text/html") else _DATA

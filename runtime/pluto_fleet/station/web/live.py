@@ -11,14 +11,12 @@ from contextlib import suppress
 
 from ..commands import Malformed
 from . import refusals
-from .answers import asked_number
 from .audit import Audit
 from .behind import Newest
-from .guard import Asking, Guard, knows, refusal
+from .guard import Asking, Guard, Rate, knows, refusal
 from .http import MISTAKES, Closed, Line, Reply, Request
-from .rates import Rate
 from .refusals import Refused
-from .strict_json import parsed_object
+from .strict_json import asked_number, parsed_object
 
 LIVE = "/api/live"
 """Where pages connect."""

@@ -1,39 +1,161 @@
-"""What each flight leaves to the next: who is lost, who was looked after since, who is retired.
-
-The newest journal says so. A file of the station's says it as well, for journals may be moved away;
-drones do not heal by that.
-"""
+"""What is known while nothing flies: the unfinished flight, where each drone was last heard of, who is lost."""
 
 from __future__ import annotations
 
 import json
 import shutil
+import time
 from collections.abc import Iterator, Sequence
 from contextlib import closing, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from plutoc_runtime import output
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.text import quoted
 
-from ..flight.lives import fleet_in
-from ..flight.offline import record_return, returned
 from ..flight.fly import recovered
-from ..gateway.sightings import SEEN, at_home
+from ..flight.lives import Resumable, fleet_in, how_to_go_on, reopen
+from ..flight.offline import record_loss, record_return, returned
+from ..gateway.sightings import SEEN, Sighting, at_home, sightings_in
 from ..journal import lock, place
 from ..journal.fold import Records
 from ..journal.header import Header, check
+from ..journal.place import gateway_folder
 from ..journal.reader import Reader
 from ..journal.store import Store
 from ..simulation.keeping import DRONES
-from .leftover import drawn
-from .rest import Rest
+from . import rows
 
 if TYPE_CHECKING:
+
     from plutoc_runtime.domain.app import App
 
-    from . import rows
-    from .settings import Settings
+    from ..files.fleet import DroneEntry, FleetFile
+    from .config import Settings
+
+FRESH = 4.0
+"""Seconds for which what was heard of a drone is how it is."""
+
+HOVERED = "it was in the air when it was last heard of: go and look"
+COMES_DOWN = "it is in the air, and the gateway brings it down"
+NEVER = "it has not been heard of yet"
+BACK = "it was brought back: it is asked how it is as soon as missions fly"
+
+
+class Rest:
+    """The drones of a fleet, as the last gateway that flew them has left them."""
+
+    def __init__(self, fleet: Sequence[DroneEntry], journal: Path | None) -> None:
+        self._fleet, self._journal = fleet, journal
+        self._folder = None if journal is None else gateway_folder(journal)
+        self._read_at: object = None
+        self._sightings: dict[str, Sighting] = {}
+
+    def rows(self, known: Records | None) -> Iterator[rows.Row]:
+        """Yield what there is to see of each; `known` is what the journal says of them."""
+        sightings, now = self._newest(), time.time()
+        for entry in self._fleet:
+            yield _row(entry.id, sightings.get(entry.id), known, now)
+
+    def write_down(self, app: App, known: Records | None) -> bool:
+        """Put on record who has crashed with no app there to be told; say whether anybody has.
+
+        Each news of the drones is looked at once.
+        """
+        before, sightings = self._read_at, self._newest()
+        if known is None or self._journal is None or self._read_at == before:
+            return False
+        told = {*known.lost, *known.mended}
+        new = [one for one in sightings if sightings[one].has_fallen and one not in told]
+        for drone in new:
+            with suppress(BadInput, OSError):  # an app that flies them now hears it from them
+                seen = sightings[drone]
+                record_loss(app, self._journal, drone, seen.why, seen.at)
+        return bool(new)
+
+    def _newest(self) -> dict[str, Sighting]:
+        """Read the gateway's file, if it is another than before."""
+        if self._folder is not None:
+            with suppress(OSError):
+                found = (self._folder / SEEN).stat()
+                at = found.st_mtime_ns, found.st_ino
+                if at != self._read_at:
+                    self._read_at, self._sightings = at, sightings_in(self._folder)
+        return self._sightings
+
+
+def _row(id: str, seen: Sighting | None, known: Records | None, now: float) -> rows.Row:
+    lost = known.lost.get(id) if known is not None else None
+    trips = known.flown.get(id, 0) if known is not None else 0
+    retired = known is not None and id in known.retired
+    if known is not None and id in known.mended:  # somebody has taken it in their hands since
+        return rows.drone_at(id, "UNKNOWN", None, trips, retired, BACK)
+    fresh = seen is not None and now - seen.when < FRESH
+    if lost is not None:
+        status, why = "LOST", str(lost["reason"])
+        if seen is None and lost["at"] is not None:
+            seen = Sighting(at=tuple(lost["at"]), battery=0.0, landed=True, when=0.0)
+    elif seen is None:
+        status, why = "UNKNOWN", NEVER
+    elif seen.why:
+        status, why = "LOST" if seen.has_fallen else "UNKNOWN", seen.why
+    elif seen.landed:
+        status, why = "LANDED", ""
+    else:
+        status, why = ("ALOFT", COMES_DOWN) if fresh else ("UNKNOWN", HOVERED)
+    return rows.drone_at(id, status, seen, trips, retired, why)
+
+
+AWAY = "put_away"
+"""The file that names the last journal with which nobody wants to go on."""
+
+
+def found(app: App, settings: Settings, going_on: bool = False) -> Resumable | None:
+    """Return the newest journal of the station's folder, opened, to be shown and gone on with.
+
+    A flight over another map would be drawn over this one, and misread: it is left alone, unless
+    this station was started to go on with it.
+    """
+    journal = place.newest_in(settings.folder)
+    if journal is None or journal.name == _put_away(settings):
+        return None
+    try:
+        taken = reopen(app, journal)
+    except BadInput as why:  # somebody else flies it, it is damaged, or it is another app's
+        output.tell(f"the last flight cannot be shown: {why}")
+        return None
+    same = taken.header["sim"], taken.header.get("crtp_sim") is not None
+    if same != (settings.sim, settings.crtp_sim is not None):
+        taken.store.close()
+        return None
+    if not going_on and drawn(taken.fleet) != drawn(settings.fleet):
+        taken.store.close()
+        if taken.is_over:
+            return None
+        output.tell(
+            "the last flight is not shown: it has another map, or other drones, than this station;"
+            f" serve with the fleet file with which it began. Without it, {how_to_go_on(app, journal)}"
+        )
+        return None
+    return taken
+
+
+def drawn(fleet: FleetFile) -> object:
+    """Return what people see of a fleet file."""
+    return fleet.airspace, [(one.id, one.category, one.home) for one in fleet.drones]
+
+
+def put_away(settings: Settings, journal: Path) -> None:
+    """Remember that nobody wants to go on with a journal; it stays where it is."""
+    (settings.own_folder / AWAY).write_text(journal.name, encoding="utf-8")
+
+
+def _put_away(settings: Settings) -> str:
+    with suppress(OSError, ValueError):
+        return (settings.own_folder / AWAY).read_text(encoding="utf-8")
+    return ""
+
 
 FILE = "drones.json"
 

@@ -5,26 +5,180 @@ from __future__ import annotations
 import json
 import re
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.alone.bound import Bound
+from plutoc_runtime.domain.fields import Entity
 
 from ..journal.fold import Records
-from .acts import Act, Once
-from .brain import BrokenHook
 from .invariants import ENDS, Invariants, items_of
-from .rule import at
+from .rules import at
+from .unreliable import BrokenHook
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
     from random import Random
 
     from plutoc_runtime.domain.app import App
+    from plutoc_runtime.domain.model import Mission, Trip
     from plutoc_runtime.domain.trace import Event
 
     from .case import Case
-    from .survival import Known
+
+    # was an import of itself
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Act:
+    """One action, done."""
+
+    job: str
+    """`mission/trip/round/attempt`."""
+    action: str
+    time: float
+
+
+class Once:
+    """Nothing that may be done only once is done twice, and the journal says what was done.
+
+    It is told the journal's events, and at the end what the world saw.
+    """
+
+    def __init__(self, repeat: Mapping[str, str]) -> None:
+        self._repeat = repeat
+        """By action: `safe`, `once` or `ask`."""
+        self._launched: dict[str, Place] = {}
+        """By job, which trip it flies."""
+        self._recorded: dict[str, None] = {}
+        self._wanted: Counter[Place] = Counter()
+        """How often an evaluator wanted a trip again."""
+        self._round: dict[object, object] = {}
+        self._completed: dict[object, None] = {}
+        """The missions that were."""
+
+    @property
+    def done(self) -> int:
+        """How many actions were done, as far as that is on record."""
+        return len(self._recorded)
+
+    def knows(self, job: str) -> bool:
+        """Whether it is on record that a drone was sent to do this."""
+        return job in self._launched
+
+    def take(self, event: Event) -> None:
+        """Something is on record."""
+        match event["event"]:
+            case "trip.launched":
+                place = (event["mission"], event["trip"], event["round"])
+                self._launched["/".join(map(str, (*place, event["attempt"])))] = place
+            case "trip.completed":
+                place = (event["mission"], event["trip"], event["round"])
+                self._recorded["/".join(map(str, (*place, event["attempt"])))] = None
+            case "mission.repeated":
+                self._round[event["mission"]] = event["round"]
+            case "mission.extended":
+                mission, redo = event["mission"], event["redo"]
+                assert isinstance(redo, list)
+                for trip in redo:
+                    self._wanted[mission, trip, self._round.get(mission, 0)] += 1
+            case "mission.ended" if event["status"] == "COMPLETED":
+                self._completed[event["mission"]] = None
+
+    def violations(self, acts: list[Act]) -> list[str]:
+        """Return what was done too often, and what is not on record as it was."""
+        found = []
+        jobs: Counter[str] = Counter()
+        places: Counter[Place] = Counter()
+        safe = {act.job for act in acts if self._repeat.get(act.action, "once") == "safe"}
+        for act in acts:
+            place = self._launched.get(act.job)
+            if place is None:
+                found.append(f"{act.time:g} s: {act.job} was flown before that was on record")
+            elif act.job not in safe:
+                jobs[act.job] += 1
+                places[place] += 1
+        for job, times in jobs.items():
+            if times > 1:
+                found.append(f"the action of {job} was done {times} times")
+            if job not in self._recorded and self._launched[job][0] in self._completed:
+                found.append(f"the action of {job} was done, and the journal does not say so")
+        for place, times in places.items():
+            if times > 1 + self._wanted[place]:
+                mission, trip, round_ = place
+                found.append(f"{trip} of {mission} was done {times} times in round {round_}")
+        done = {act.job for act in acts}
+        for job in self._recorded:
+            if job not in done:
+                found.append(f"the journal says that the action of {job} was done: it was not")
+        return found
+
+
+Place = tuple[object, object, object]
+"""Mission, trip, round."""
+
+
+@dataclass(frozen=True, slots=True)
+class Known:
+    """What was on record of one mission."""
+
+    round: int
+    attempts: int
+    completed: tuple[str, ...]
+    fields: tuple[object, ...]
+    trips: dict[str, tuple[object, ...]]
+    """By name: the attempt, and the fields that the graph gives a trip."""
+
+
+def known_of(app: App, mission: Mission[Any]) -> Known:
+    """Return what there is to know of a mission."""
+    return Known(
+        mission.round,
+        mission.attempts,
+        tuple(trip.name for trip in mission.completed_trips),
+        _fields(app, Entity.MISSION, mission),
+        {
+            trip.name: (trip.attempt, *_fields(app, Entity.TRIP, trip))
+            for trip in (*mission.trips, *mission.completed_trips)
+        },
+    )
+
+
+def forgotten(name: str, before: Known, after: Known, since: Sequence[Event]) -> Iterable[str]:
+    """Yield what an app has forgotten of a mission, but for what has happened to it since."""
+    launched = sum(event["event"] == "trip.launched" for event in since)
+    if any(event["event"] in _CHANGES for event in since):
+        return
+    if before.round != after.round:
+        yield f"{name} was in round {before.round}, and went on in round {after.round}"
+    flown = before.attempts + launched
+    interrupted = sum(event["event"] == "trip.interrupted" for event in since)
+    if not flown - interrupted <= after.attempts <= flown:
+        yield f"{name} had had {before.attempts} flights, and went on with {after.attempts - launched}"
+    if before.fields != after.fields:
+        yield f"{name} had {_shown(before.fields)}, and went on with {_shown(after.fields)}"
+    for trip in before.completed:
+        if trip not in after.completed:
+            yield f"{trip} of {name} was completed, and is to be flown again"
+    for trip, facts in before.trips.items():
+        found = after.trips.get(trip)
+        if found is None:
+            yield f"{trip} of {name} was forgotten"
+        elif found != facts:
+            yield f"{trip} of {name} had {_shown(facts)}, and went on with {_shown(found)}"
+
+
+_CHANGES = ("trip.reset", "trip.skipped", "mission.repeated", "mission.extended", "mission.changed")
+
+
+def _fields(app: App, entity: Entity, of: Mission[Any] | Trip) -> tuple[object, ...]:
+    return tuple(getattr(of, field.name) for field in app.fields if field.on is entity)
+
+
+def _shown(facts: Sequence[object]) -> str:
+    return ", ".join(map(repr, facts))
+
 
 _IN_A_HOOK = re.compile(
     r"(hook|policy|evaluator|modifier) \w+ "

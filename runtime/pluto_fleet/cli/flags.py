@@ -1,4 +1,4 @@
-"""The flags of the commands that fly, go on, stop and decide."""
+"""The flags of the commands that fly, go on, stop, decide, serve, and ask real drones."""
 
 from __future__ import annotations
 
@@ -101,3 +101,103 @@ def how_it_flies(parser: ArgumentParser) -> None:
         "--supervise", action="store_true", help="start the app again if it crashes"
     )
     parser.add_argument("--supervised", action="store_true", help=SUPPRESS)  # so it is then called
+
+
+def add_drones(command: Command) -> None:
+    """Add `drones`."""
+    drones = command("drones", "Say which real drones answer, and whether each is ready to fly.")
+    drones.add_argument(
+        "who",
+        metavar="DRONE",
+        nargs="*",
+        help="only these: a drone of the fleet file, or a uri; default: the fleet file's, "
+        "or all that can be found",
+    )
+    drones.add_argument(
+        "--fleet", metavar="F.toml", type=Path, help="the fleet file whose drones are asked"
+    )
+    drones.add_argument(
+        "--scan", action="store_true", help="with --fleet: find those, too, that it does not have"
+    )
+    drones.add_argument(
+        "--navigation",
+        metavar="NAME",
+        help="how drones are reached that no fleet file has (default crazyflie)",
+    )
+    drones.add_argument(
+        "--address",
+        metavar="A",
+        dest="addresses",
+        action="append",
+        default=[],
+        help="find those at this radio address, not at E7E7E7E7E7; may be given several times",
+    )
+    what = drones.add_mutually_exclusive_group()
+    what.add_argument(
+        "--identify",
+        metavar="DRONE",
+        help="let one show which it is, by its lights: a drone of the fleet file, or a uri",
+    )
+    what.add_argument(
+        "--save", metavar="F.toml", type=Path, help="write a fleet file of those that answer"
+    )
+    what.add_argument("--json", action="store_true", help="print one JSON object instead")
+
+
+def add_dry_run(fly: ArgumentParser, time: Callable[[str], float]) -> None:
+    """Add the flags of `fly` that let it print what every drone would be told."""
+    fly.add_argument(
+        "--dry-run",
+        action="store_true",
+        help="print every command that the drones would be given; none is reached, nothing flies",
+    )
+    fly.add_argument(
+        "--until",
+        metavar="TIME",
+        type=time,
+        help='with --dry-run: no further than to this time, such as "2 h"',
+    )
+
+
+HOST, PORT = "127.0.0.1", 8765
+
+
+def add_station(parser: ArgumentParser) -> None:
+    """Add what only `serve` takes."""
+    parser.add_argument(
+        "--missions",
+        dest="plan",
+        metavar="M.toml",
+        type=Path,
+        help="the plan that an empty station begins with",
+    )
+    parser.add_argument(
+        "--host",
+        metavar="H",
+        default=HOST,
+        help=f"the address to listen at; default {HOST}: this computer alone. Any other needs the"
+        " token that is printed",
+    )
+    parser.add_argument(
+        "--port",
+        metavar="N",
+        type=whole_number(0, 65_535),
+        default=PORT,
+        help=f"default {PORT}; 0: any that is free",
+    )
+    parser.add_argument(
+        "--name",
+        dest="names",
+        metavar="HOST",
+        action="append",
+        default=[],
+        help="another name that browsers may use for it, such as that of a proxy before it",
+    )
+    parser.add_argument(
+        "--folder",
+        metavar="D",
+        type=Path,
+        help="where plan and journals are kept; default: the user's own folder",
+    )
+    parser.add_argument("--open", action="store_true", help="open it in a browser")
+    parser.add_argument("--going-on", action="store_true", help=SUPPRESS)  # after a crash

@@ -1,19 +1,32 @@
-"""What a flown plan is to a person: two tables and a last line."""
+"""What came of a flight: two tables and a last line, and the exit code."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from plutoc_runtime.domain.fields import FieldType
 from plutoc_runtime.domain.status import Status
-from plutoc_runtime.domain.text import counted, duration, number, percent, printable
+from plutoc_runtime.domain.text import (
+    counted,
+    duration,
+    in_shell,
+    number,
+    percent,
+    printable,
+)
 from plutoc_runtime.flow.session import trips_data
+
+from ..flight.standing import ANSWERS, aside, count_flights, in_order, waiting
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
     from plutoc_runtime.domain.model import Drone, Mission
     from plutoc_runtime.flow.session import Outcome
+
+    from ..journal.fold import Record, Records
 
 
 class MissionRow(NamedTuple):
@@ -139,3 +152,61 @@ def table(
             for column, (cell, width) in enumerate(zip(row, widths, strict=True))
         ]
         yield "  ".join(aligned).rstrip()
+
+
+_NEEDS_A_PERSON = (Status.UNCERTAIN, Status.HELD)
+_BAD = (Status.FAILED, Status.CANCELLED)
+
+
+def exit_code(outcome: Outcome) -> int:
+    """Return 0, 1 if a mission failed or the simulation was given up, or 4 if one waits for a person.
+
+    A mission that `--until` cut short has not failed.
+    """
+    code = code_of([mission.status for mission in outcome.missions])
+    return 1 if outcome.given_up and not code else code
+
+
+def code_of(statuses: Sequence[Status]) -> int:
+    """Return the exit code for missions that stand so."""
+    if any(status in _NEEDS_A_PERSON for status in statuses):
+        return 4
+    return 1 if any(status in _BAD for status in statuses) else 0
+
+
+_HARMLESS = re.compile(r"[\w ,.:;/()+-]+")
+"""Names of which a shell leaves everything as it is, in quotation marks."""
+
+
+def report_of(
+    app: App, journal: Path, records: Records, drones: Sequence[Drone] = ()
+) -> tuple[int, list[str]]:
+    """Return the exit code of a flight that has a journal, and the lines of its report."""
+    rows = [_recorded_row(name, record) for name, record in in_order(records)]
+    statuses = [row.status for row in rows]
+    flights, failed, ended = count_flights(journal)
+    lines = [*mission_table(app, rows), ""]
+    if drones:
+        lines += [*drone_table(drones, {}), ""]
+    lines.append(in_one_line(statuses, ended or records.time, flights, failed))
+    return code_of(statuses), lines
+
+
+def waiting_lines(app: App, journal: Path, records: Records) -> Iterator[str]:
+    """Yield what is asked of a person, and the commands that answer it."""
+    for name, what, question in waiting(records):
+        yield f"{printable(name)}: {printable(question)}"
+        for answer in ANSWERS[what]:
+            yield f"  {app.name} decide {in_shell(journal)} {_typed(name)} {answer}"
+
+
+def _typed(name: str) -> str:
+    """Write a mission's name, which may come from a stranger, as it can be typed safely."""
+    word = f'"{name}"' if _HARMLESS.fullmatch(name) else in_shell(name)
+    return f"-- {word}" if name.startswith("-") else word
+
+
+def _recorded_row(name: str, record: Record) -> MissionRow:
+    status, reason = aside(record) or (Status(record["status"]), str(record["reason"]))
+    done, todo = len(record["done"]), len(record["todo"])
+    return MissionRow(name, status, done, todo, record["round"], record["attempts"], reason)

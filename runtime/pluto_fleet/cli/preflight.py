@@ -1,4 +1,4 @@
-"""Before real drones are flown: what can be known to be wrong without any radio."""
+"""What can be known to be wrong with real drones before any is reached."""
 
 from __future__ import annotations
 
