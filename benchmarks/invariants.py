@@ -23,14 +23,14 @@ sys.path[:0] = [str(Path(__file__).parents[1])]
 
 from pluto_fleet.files.fleet import DroneEntry, FleetFile
 from pluto_fleet.journal.event_line import line
-from pluto_fleet.trials.case import Case, Weather, blows_of
-from pluto_fleet.trials.record import Trial
-from pluto_fleet.trials.rig import tried
+from pluto_fleet.trials.case import Case, Weather, strikes_of
+from pluto_fleet.trials.lives import tried
+from pluto_fleet.trials.record import TrialResult
 from plutoc_runtime.alone.world import WorldData
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.app import App
 from plutoc_runtime.domain.model import AfterTrip
-from tests.testing.examples import app_of
+from tests.trials.examples import app_of
 
 APP = """pluto 1
 
@@ -88,10 +88,12 @@ def case_of(app: App, missions: int, trips: int, drones: int) -> Case:
         world=WorldData(),  # nothing to see: nor is it photos
     )
     weather = Weather(link=0.01, action=0.01, battery=0.01)
-    return Case(seed=1, missions=tuple(flown), fleet=fleet, weather=weather, blows=blows_of(BLOWS))
+    return Case(
+        seed=1, missions=tuple(flown), fleet=fleet, weather=weather, strikes=strikes_of(BLOWS)
+    )
 
 
-def hash_of(trial: Trial) -> str:
+def hash_of(trial: TrialResult) -> str:
     """Return the hash of everything that is on record."""
     digest = sha256()
     for event in trial.events:

@@ -202,5 +202,5 @@ def test_of_a_drone_that_is_silent_in_the_air_people_are_warned(tmp_path: Path) 
     )
     assert aloft(real, (one, two)) == [two]
     assert aloft(replace(real, sim=True), (one, two)) == []
-    said = "no word of a landing from b (last heard of at (2, 3)): what may still hover"
+    said = "no word of a landing from b (last heard of at (2, 3)): do not stand where"
     assert may_hover([two]).startswith(said)

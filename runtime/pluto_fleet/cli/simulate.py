@@ -19,7 +19,7 @@ from plutoc_runtime.flow.session import Outcome, outcome_data
 from ..flight.simulate import simulate as simulated
 from ..journal.event_line import line
 from ..process.signal_guard import Interrupted
-from ..report.progress import Progress, on_terminal
+from ..report.progress import Progress, simulation_progress
 from ..report.report import exit_code, report
 from ..report.sentences import line_of
 from .plans import Plan, load
@@ -43,7 +43,7 @@ class Halt(Interrupted):
 def simulate(app: App, options: Options) -> int:
     """Simulate the missions, once or with many seeds, and say what came of them."""
     plan = load(app, options)
-    progress = on_terminal(quiet=options.json or options.runs is not None)
+    progress = simulation_progress(quiet=options.json or options.runs is not None)
     try:
         if options.runs is None:
             return _once(app, options, plan, progress)

@@ -1,4 +1,4 @@
-"""A bar on standard error for those who wait at a terminal, or a line now and then elsewhere."""
+"""How far a long work is: a bar on standard error at a terminal, or a line now and then elsewhere."""
 
 from __future__ import annotations
 
@@ -12,20 +12,36 @@ from plutoc_runtime import output
 _AFTER, _EVERY = 1.0, 0.1
 """Seconds of real time until the bar appears, and between two pictures of it."""
 
+LINE_EVERY = 10.0
+"""Seconds of real time between two lines."""
+
 _WIDTH = 30
 
 
 class Progress:
     """How far the work is."""
 
-    def __init__(self, stream: TextIO, clock: Callable[[], float], *, shown: bool) -> None:
-        self._stream, self._clock, self._possible = stream, clock, shown
-        self._next = clock() + _AFTER
+    def __init__(
+        self,
+        stream: TextIO,
+        clock: Callable[[], float],
+        *,
+        shown: bool,
+        say: Callable[[str], object] | None = None,
+    ) -> None:
+        """Begin; where the bar is not `shown`, `say` is told a line now and then."""
+        self._stream, self._clock, self._shown = stream, clock, shown
+        self._say = None if shown else say
+        self._next = clock() + (_AFTER if shown else LINE_EVERY)
         self._drawn = 0
 
     def update(self, share: float, text: str) -> None:
         """So much of 1 is done."""
-        if not self._possible or (now := self._clock()) < self._next:
+        if not (self._shown or self._say) or (now := self._clock()) < self._next:
+            return
+        if self._say is not None:
+            self._next = now + LINE_EVERY
+            self._say(text)
             return
         self._next = now + _EVERY
         done = round(max(0.0, min(1.0, share)) * _WIDTH)
@@ -44,44 +60,20 @@ class Progress:
             self._stream.write(text)
             self._stream.flush()
         except OSError:
-            self._possible = False
+            self._shown = False
 
 
-def on_terminal(*, quiet: bool) -> Progress:
-    """Return a bar on standard error; none if nobody sits there, or reads lines there already."""
-    error, out = sys.stderr, sys.stdout
-    seen = error is not None and not error.closed and error.isatty()
-    busy = not quiet and out is not None and not out.closed and out.isatty()
-    return Progress(error, time.monotonic, shown=seen and not busy)
+def simulation_progress(*, quiet: bool) -> Progress:
+    """Return a bar on a terminal; none where lines are printed there already."""
+    busy = not quiet and _is_terminal(sys.stdout)
+    return Progress(sys.stderr, time.monotonic, shown=_is_terminal(sys.stderr) and not busy)
 
 
-EVERY = 10.0
-"""Seconds of real time between two lines."""
+def trial_progress(*, lines: bool) -> Progress:
+    """Return a bar on a terminal, and else perhaps lines."""
+    say = (lambda text: output.tell(f"plutoc test: {text}")) if lines else None
+    return Progress(sys.stderr, time.monotonic, shown=_is_terminal(sys.stderr), say=say)
 
 
-class Patience:
-    """Says how far the work is, and that it goes on."""
-
-    def __init__(
-        self, bar: Progress, clock: Callable[[], float], say: Callable[[str], object] | None
-    ) -> None:
-        self._bar, self._clock, self._say = bar, clock, say
-        self._next = clock() + EVERY
-
-    def tell(self, share: float, text: str) -> None:
-        """So much of 1 is done."""
-        self._bar.update(share, text)
-        if self._say is not None and (now := self._clock()) >= self._next:
-            self._next = now + EVERY
-            self._say(f"plutoc test: {text}")
-
-    def over(self) -> None:
-        """Take the bar away: what is found comes now."""
-        self._bar.clear()
-
-
-def patience(*, lines: bool) -> Patience:
-    """Return who tells those that wait at standard error."""
-    seen = sys.stderr is not None and sys.stderr.isatty()
-    bar = Progress(sys.stderr, time.monotonic, shown=seen)
-    return Patience(bar, time.monotonic, output.tell if lines and not seen else None)
+def _is_terminal(stream: TextIO | None) -> bool:
+    return stream is not None and not stream.closed and stream.isatty()

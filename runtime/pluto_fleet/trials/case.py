@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     # was an import of itself
 
 
-class Kind(Enum):
+class StrikeKind(Enum):
     """What can strike. The words are those of the command line."""
 
     CRASH = "crash"  # the brain dies once the row is durable and what waited for it was told
@@ -43,16 +43,16 @@ class Kind(Enum):
     __hash__ = object.__hash__
 
 
-DEATHS = (Kind.CRASH, Kind.KEPT, Kind.LOST)
-STOPS = (Kind.RTL, Kind.LAND)
-BY_HAND = (Kind.PAUSE, Kind.SKIP, Kind.CANCEL)
+DEATHS = (StrikeKind.CRASH, StrikeKind.KEPT, StrikeKind.LOST)
+STOPS = (StrikeKind.RTL, StrikeKind.LAND)
+BY_HAND = (StrikeKind.PAUSE, StrikeKind.SKIP, StrikeKind.CANCEL)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Blow:
+class Strike:
     """One of them."""
 
-    kind: Kind
+    kind: StrikeKind
     row: int
     """At which row of the journal, counted from 1 over all lives of the app."""
     after: float = 0.0
@@ -63,28 +63,28 @@ class Blow:
         return f"{self.kind.value}@{self.row}{later}"
 
 
-def blow_of(text: str) -> Blow:
-    """Read what `str` writes: `crash@12`, `rtl@3+1.5`; raise `ValueError` where it is no blow."""
+def strike_of(text: str) -> Strike:
+    """Read what `str` writes: `crash@12`, `rtl@3+1.5`; raise `ValueError` where it is no strike."""
     match = _BLOW.fullmatch(text)
     if match is None:
         raise ValueError(f"{text} is not written like crash@12 or rtl@3+1.5")
     kind, row, after = match.groups()
-    known = {one.value: one for one in Kind}
+    known = {one.value: one for one in StrikeKind}
     if kind not in known:
         raise ValueError(f"{kind} is nothing that can strike; what can: {', '.join(known)}")
-    return Blow(kind=known[kind], row=int(row), after=float(after or 0))
+    return Strike(kind=known[kind], row=int(row), after=float(after or 0))
 
 
-def blows_of(text: str) -> tuple[Blow, ...]:
+def strikes_of(text: str) -> tuple[Strike, ...]:
     """Read several, with commas or spaces between them; `-` is none."""
     if text.strip() == "-":
         return ()
-    return tuple(blow_of(part) for part in re.split(r"[,\s]+", text.strip()) if part)
+    return tuple(strike_of(part) for part in re.split(r"[,\s]+", text.strip()) if part)
 
 
-def blows_text(blows: Sequence[Blow]) -> str:
+def strikes_text(strikes: Sequence[Strike]) -> str:
     """Write several as one word of a command line."""
-    return ",".join(map(str, blows))
+    return ",".join(map(str, strikes))
 
 
 _BLOW = re.compile(r"([a-z-]+)@([1-9]\d{0,8})(?:\+(\d{1,6}(?:\.\d{1,6})?))?")
@@ -139,7 +139,7 @@ class Case:
     missions: tuple[Mission[Any], ...]
     fleet: FleetFile
     weather: Weather = FAIR
-    blows: tuple[Blow, ...] = ()
+    strikes: tuple[Strike, ...] = ()
 
 
 def fresh(mission: Mission[Any]) -> Mission[Any]:
@@ -225,7 +225,7 @@ WORDS: Mapping[str, str] = {
 }
 """Everything of which it is counted how often it has struck."""
 WRITTEN: Mapping[str, str] = {
-    **{kind.value: f"--strike {kind.value}" for kind in Kind},
+    **{kind.value: f"--strike {kind.value}" for kind in StrikeKind},
     "slow line": "--weather slow",
     "slow radio": "--weather radio",
     "slow disk": "--weather disk",

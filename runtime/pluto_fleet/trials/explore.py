@@ -16,15 +16,15 @@ from plutoc_runtime.domain.model import Item
 from plutoc_runtime.domain.quantities import Type
 
 from ..files.plan_check import problems
-from .case import DEATHS, FAIR, STOPS, Blow, Case, Kind, Weather
-from .rig import tried
+from .case import DEATHS, FAIR, STOPS, Case, Strike, StrikeKind, Weather
+from .lives import tried
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
     from plutoc_runtime.domain.model import Mission, Point, Trip
 
     from ..files.fleet import FleetFile
-    from .record import Trial
+    from .record import TrialResult
 
 TRIES = 50
 """So often is a mission drawn until the fleet can fly it."""
@@ -41,9 +41,9 @@ _VALUES: dict[Type, Plain] = {
 """What is given where an action has no default; any other number is 1."""
 
 
-def drawn_missions(app: App, fleet: FleetFile, seed: int) -> list[Mission[Any]]:
+def random_missions(app: App, fleet: FleetFile, seed: int) -> list[Mission[Any]]:
     """Return up to three missions of up to three trips that the fleet can fly, by a seed."""
-    drawing = _Drawing(app, fleet, Random(f"{seed}/missions"))
+    drawing = _Generator(app, fleet, Random(f"{seed}/missions"))
     missions: list[Mission[Any]] = []
     for _ in range(drawing.rng.choice((1, 2, 2, 3))):
         for _ in range(TRIES):
@@ -54,7 +54,7 @@ def drawn_missions(app: App, fleet: FleetFile, seed: int) -> list[Mission[Any]]:
     return missions
 
 
-class _Drawing:
+class _Generator:
     def __init__(self, app: App, fleet: FleetFile, rng: Random) -> None:
         self.app, self.fleet, self.rng = app, fleet, rng
         self.width, self.depth = fleet.airspace.size
@@ -124,7 +124,7 @@ class _Drawing:
 
 
 FAULTS = (
-    *(kind.value for kind in Kind),
+    *(kind.value for kind in StrikeKind),
     "failsafe",
     "death in recovery",
     "report to nobody",
@@ -155,17 +155,17 @@ _MOST_ROWS = 100
 _MIDST = 0.6
 """Seconds before an action is done."""
 _IN_THE_MIDST = (
-    (Kind.CRASH,),
-    (Kind.GATEWAY,),
-    (Kind.FREEZE,),
-    (Kind.CUT,),
-    (Kind.PAUSE,),
-    (Kind.GATEWAY, Kind.REBOOT),
-    (Kind.CRASH, Kind.REBOOT),
-    (Kind.CRASH, Kind.GATEWAY),
+    (StrikeKind.CRASH,),
+    (StrikeKind.GATEWAY,),
+    (StrikeKind.FREEZE,),
+    (StrikeKind.CUT,),
+    (StrikeKind.PAUSE,),
+    (StrikeKind.GATEWAY, StrikeKind.REBOOT),
+    (StrikeKind.CRASH, StrikeKind.REBOOT),
+    (StrikeKind.CRASH, StrikeKind.GATEWAY),
 )
 _BEYOND = 14
-"""Rows among which the next blow of a drawn case falls."""
+"""Rows among which the next strike of a drawn case falls."""
 
 
 @dataclass(slots=True, kw_only=True)
@@ -194,7 +194,7 @@ def explored(
     cases: Iterable[Case],
     tally: Tally,
     enough: Callable[[Tally], bool],
-    wrong: Callable[[Trial], tuple[str, ...]] = lambda trial: trial.wrong,
+    wrong: Callable[[TrialResult], tuple[str, ...]] = lambda trial: trial.wrong,
 ) -> None:
     """Try one case after the other, until all are tried or it is enough; `wrong` says what to find."""
     for case in cases:
@@ -227,54 +227,56 @@ def everywhere(app: App, case: Case) -> Iterator[Case]:
     trial = tried(app, case)
     for row in range(1, trial.rows + 1, 1 + trial.rows // _MOST_ROWS):
         for kind in (*DEATHS, *STOPS):
-            yield replace(case, blows=(Blow(kind=kind, row=row),))
+            yield replace(case, strikes=(Strike(kind=kind, row=row),))
         for death in DEATHS:
             for stop in STOPS:
-                first, second = Blow(kind=death, row=row), Blow(kind=stop, row=row + 1)
-                yield replace(case, blows=(first, second))
-                first, second = Blow(kind=stop, row=row), Blow(kind=death, row=row + 1)
-                yield replace(case, blows=(first, second))
+                first, second = Strike(kind=death, row=row), Strike(kind=stop, row=row + 1)
+                yield replace(case, strikes=(first, second))
+                first, second = Strike(kind=stop, row=row), Strike(kind=death, row=row + 1)
+                yield replace(case, strikes=(first, second))
     for act in trial.acts[:: 1 + len(trial.acts) // _MOST_ROWS]:
         moment = act.time - _MIDST
         row = bisect_right(trial.times, moment)
         if row:
             after = round(moment - trial.times[row - 1], 3)
             for kinds in _IN_THE_MIDST:
-                blows = tuple(Blow(kind=kind, row=row, after=after) for kind in kinds)
-                yield replace(case, blows=blows)
+                strikes = tuple(Strike(kind=kind, row=row, after=after) for kind in kinds)
+                yield replace(case, strikes=strikes)
 
 
 def small_case(
     app: App, fleet: FleetFile, seed: int, missions: Sequence[Mission[Any]] = ()
 ) -> Case:
     """Return a case to strike everywhere: small missions, and weather that is fair every other time."""
-    weather = FAIR if seed % 2 == 0 else drawn_weather(Random(f"{seed}/weather"))
-    flown = missions or drawn_missions(app, fleet, seed)
+    weather = FAIR if seed % 2 == 0 else random_weather(Random(f"{seed}/weather"))
+    flown = missions or random_missions(app, fleet, seed)
     return Case(seed=seed, missions=tuple(flown), fleet=fleet, weather=weather)
 
 
-def drawn_case(
+def random_case(
     app: App, fleet: FleetFile, seed: int, missions: Sequence[Mission[Any]] = ()
 ) -> Case:
     """Return a case in which anything may strike, by a seed."""
     rng = Random(f"{seed}/case")
-    blows = []
+    strikes = []
     row = 0
     for _ in range(rng.choice((1, 1, 2, 2, 3))):
         row += rng.randrange(1, _BEYOND)
-        blows.append(Blow(kind=rng.choice(tuple(Kind)), row=row, after=rng.choice(_MOMENTS)))
+        strikes.append(
+            Strike(kind=rng.choice(tuple(StrikeKind)), row=row, after=rng.choice(_MOMENTS))
+        )
         if rng.random() < 0.5:
             row = max(0, row - _BEYOND // 2)  # something else soon after, or during recovery
     return Case(
         seed=seed,
-        missions=tuple(missions or drawn_missions(app, fleet, seed)),
+        missions=tuple(missions or random_missions(app, fleet, seed)),
         fleet=fleet,
-        weather=drawn_weather(rng),
-        blows=tuple(blows),
+        weather=random_weather(rng),
+        strikes=tuple(strikes),
     )
 
 
-def drawn_weather(rng: Random) -> Weather:
+def random_weather(rng: Random) -> Weather:
     """Return some weather."""
     share = (0.0, 0.0, 0.1, 0.3)
     return Weather(

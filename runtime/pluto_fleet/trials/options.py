@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from ..arguments import whole_number
-from .case import Blow, Weather, blows_of, weather_of
+from .case import Strike, Weather, strikes_of, weather_of
 
 SEEDS = 100
 
@@ -26,7 +26,7 @@ class Options:
     fleet: Path | None = None
     seeds: int = SEEDS
     seed: int = 0
-    strike: tuple[Blow, ...] | None = None
+    strike: tuple[Strike, ...] | None = None
     weather: Weather | None = None
     json: bool = False
 
@@ -51,7 +51,7 @@ def parse(argv: Sequence[str]) -> Options:
     parser.add_argument("--seed", type=whole_number())
     parser.add_argument("--missions", type=Path)
     parser.add_argument("--fleet", type=Path)
-    parser.add_argument("--strike", type=_read(blows_of))
+    parser.add_argument("--strike", type=_read(strikes_of))
     parser.add_argument("--weather", type=_read(weather_of))
     parser.add_argument("--json", action="store_true")
     return parser.parse_args(argv, namespace=Options())

@@ -40,7 +40,7 @@ class Act:
     time: float
 
 
-class Once:
+class ExactlyOnce:
     """Nothing that may be done only once is done twice, and the journal says what was done.
 
     It is told the journal's events, and at the end what the world saw.
@@ -120,7 +120,7 @@ Place = tuple[object, object, object]
 
 
 @dataclass(frozen=True, slots=True)
-class Known:
+class MissionMemory:
     """What was on record of one mission."""
 
     round: int
@@ -131,9 +131,9 @@ class Known:
     """By name: the attempt, and the fields that the graph gives a trip."""
 
 
-def known_of(app: App, mission: Mission[Any]) -> Known:
+def memory_of(app: App, mission: Mission[Any]) -> MissionMemory:
     """Return what there is to know of a mission."""
-    return Known(
+    return MissionMemory(
         mission.round,
         mission.attempts,
         tuple(trip.name for trip in mission.completed_trips),
@@ -145,7 +145,9 @@ def known_of(app: App, mission: Mission[Any]) -> Known:
     )
 
 
-def forgotten(name: str, before: Known, after: Known, since: Sequence[Event]) -> Iterable[str]:
+def forgotten(
+    name: str, before: MissionMemory, after: MissionMemory, since: Sequence[Event]
+) -> Iterable[str]:
     """Yield what an app has forgotten of a mission, but for what has happened to it since."""
     launched = sum(event["event"] == "trip.launched" for event in since)
     if any(event["event"] in _CHANGES for event in since):
@@ -188,7 +190,7 @@ _IN_A_HOOK = re.compile(
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Trial:
+class TrialResult:
     """What came of a case."""
 
     violations: tuple[str, ...]
@@ -218,7 +220,7 @@ class Trial:
         return (*self.violations, *self.faults)
 
 
-class Book:
+class TrialRecord:
     """Everything that outlives a brain, and is no part of the world."""
 
     def __init__(self, app: App, case: Case) -> None:
@@ -231,11 +233,11 @@ class Book:
         self.events: list[Event] = []
         self.ends: dict[str, str] = {}
         """By mission, how it has ended."""
-        self.known: dict[str, Known] = {}
+        self.known: dict[str, MissionMemory] = {}
         """By mission, what the next life must know."""
         self.delays = 0.0
         """Seconds that trips were to wait."""
-        self.once = Once({name: action.repeat for name, action in app.actions.items()})
+        self.once = ExactlyOnce({name: action.repeat for name, action in app.actions.items()})
         self.fired: Counter[str] = Counter()
         self.endless = ""
         """The mission that sets out again and again, if one does."""
@@ -322,11 +324,11 @@ class Book:
                 records.take(event)
         return records
 
-    def closed(self, lives: int) -> Trial:
+    def closed(self, lives: int) -> TrialResult:
         """Return what came of it all."""
         whole = not (self.waits and self.found)
         found = self._invariants.over() if whole else self._invariants.found
-        return Trial(
+        return TrialResult(
             violations=(*self.found, *found, *self.once.violations(self.acts)),
             faults=tuple(self.faults),
             fired=self.fired,

@@ -15,10 +15,10 @@ from ..files.fleet_text import fleet_text
 from ..files.toml_text import numbers, text, value
 from ..report.report import table
 from ..report.sentences import line_of
-from .case import ENDS, WORDS, WRITTEN, blows_text, weather_text
+from .case import ENDS, WORDS, WRITTEN, strikes_text, weather_text
 from .explore import FAULTS
 from .options import SEEDS
-from .shrink import Alike
+from .shrink import MistakeKinds
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from .case import Case
     from .explore import Finding, Tally
     from .options import Options
-    from .record import Trial
+    from .record import TrialResult
 
 
 def missions_text(app: App, missions: Sequence[Mission[Any]]) -> str:
@@ -138,11 +138,11 @@ def _said(finding: Finding) -> Iterator[str]:
 
 def _others(findings: Sequence[Finding]) -> Iterator[str]:
     """Yield what else was found, once each: a mistake that shows once shows often."""
-    alike = Alike(findings[0].case)
+    alike = MistakeKinds(findings[0].case)
     known = {alike.kind(sentence) for sentence in findings[0].sentences}
     new: list[str] = []
     for finding in findings[1:]:
-        alike = Alike(finding.case)
+        alike = MistakeKinds(finding.case)
         for sentence in finding.sentences:
             if alike.kind(sentence) not in known:
                 known.add(alike.kind(sentence))
@@ -182,14 +182,14 @@ def repeated(case: Case, missions: Path | None, fleet: Path | None) -> list[str]
         words += [] if path is None else [flag, str(path)]
     words += ["--seed", str(case.seed)]
     weather = weather_text(case.weather)
-    if case.blows or not weather:
-        words += ["--strike", blows_text(case.blows) or "-"]
+    if case.strikes or not weather:
+        words += ["--strike", strikes_text(case.strikes) or "-"]
     if weather:
         words += ["--weather", weather]
     return words
 
 
-def shown_again(trial: Trial) -> Iterator[str]:
+def shown_again(trial: TrialResult) -> Iterator[str]:
     """Yield what happened in one case, and what of it may not be."""
     lines = [line for event in trial.events if (line := line_of(event)) is not None]
     yield from lines[-_MOST_EVENTS:]
@@ -213,7 +213,7 @@ def findings_data(app: App, tally: Tally, smallest: Finding | None) -> dict[str,
             {
                 "seed": finding.case.seed,
                 "what": list(finding.sentences),
-                "strike": blows_text(finding.case.blows),
+                "strike": strikes_text(finding.case.strikes),
                 "weather": weather_text(finding.case.weather),
             }
             for finding in tally.findings
@@ -227,7 +227,7 @@ def _data(app: App, finding: Finding) -> dict[str, object]:
     return {
         "what": list(finding.sentences),
         "seed": case.seed,
-        "strike": blows_text(case.blows),
+        "strike": strikes_text(case.strikes),
         "weather": weather_text(case.weather),
         "missions": missions_text(app, case.missions),
         "fleet": fleet_text(case.fleet),

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from plutoc_runtime.domain.errors import FlightFailed
 from plutoc_runtime.time.future import Future
 from plutoc_runtime.time.kernel import FLEET, Cancelled, Key, Kind, Task, Timer
-from plutoc_runtime.time.kernel import Kind as When
 from plutoc_runtime.time.virtual import VirtualTime
 
 from ..gateway.link import Link
@@ -36,7 +35,7 @@ class BrokenHook(RuntimeError):
     """What a hook raises that nobody expected."""
 
 
-class BrainTime(VirtualTime):
+class UnreliableTime(VirtualTime):
     """Virtual time for one brain: it wakes up late, and its hooks fail, as the weather has it."""
 
     def __init__(
@@ -59,7 +58,7 @@ class BrainTime(VirtualTime):
             task.drop()
         return task
 
-    def at(self, when: float, kind: When, key: Key, call: Callable[[], object]) -> Timer:
+    def at(self, when: float, kind: Kind, key: Key, call: Callable[[], object]) -> Timer:
         """Call this at a time, or a little later."""
         late = self._weather.late
         if late and when > self.now and self._chance.random() < late:
@@ -82,7 +81,7 @@ class BrainTime(VirtualTime):
         return result
 
 
-class Wire(Link):
+class UnreliableLink(Link):
     """A link whose messages travel for a while, each way, and in order."""
 
     def __init__(

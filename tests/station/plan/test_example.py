@@ -24,7 +24,7 @@ from plutoc_runtime.domain.status import Status
 from tests.flying import EXAMPLES
 from tests.runtime.files.an_app import APP, PLAIN
 from tests.station.plan.drawing import FLEET, a_plan, drawn, mission
-from tests.testing.examples import example, fleet_of
+from tests.trials.examples import example, fleet_of
 
 NAMES = sorted(path.parent.name for path in EXAMPLES.glob("*/app.pluto"))
 

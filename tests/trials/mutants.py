@@ -21,7 +21,7 @@ from pluto_fleet.jobs.reports import JobState
 from pluto_fleet.journal import values
 from pluto_fleet.journal.durable_link import Careful
 from pluto_fleet.journal.fold import Records
-from pluto_fleet.trials.record import Book
+from pluto_fleet.trials.record import TrialRecord
 from plutoc_runtime.domain.status import DroneStatus
 from plutoc_runtime.fleet.fleet import Fleet
 from tests.equivalence import mistakes
@@ -173,15 +173,15 @@ def ends_are_forgotten(patch: pytest.MonkeyPatch) -> None:
         if event["event"] != "trip.completed":
             really(self, event)
 
-    def read(self: Book, *given: Any) -> Records:
+    def read(self: TrialRecord, *given: Any) -> Records:
         patch.setattr(Records, "take", take)
         try:
             return really_read(self, *given)
         finally:
             patch.setattr(Records, "take", really)
 
-    really_read = Book.records
-    patch.setattr(Book, "records", read)
+    really_read = TrialRecord.records
+    patch.setattr(TrialRecord, "records", read)
 
 
 MUTANTS: Mapping[str, Mutant] = {

@@ -1,10 +1,10 @@
-"""A small share of `python -m tests.testing.campaign`: every example, struck everywhere once."""
+"""A small share of `python -m tests.trials.campaign`: every example, struck everywhere once."""
 
 from __future__ import annotations
 
 import pytest
 
-from tests.testing import campaign
+from tests.trials import campaign
 
 
 def test_no_example_does_what_no_run_may_do(capsys: pytest.CaptureFixture[str]) -> None:

@@ -6,9 +6,9 @@ from io import StringIO
 
 import pytest
 
-from pluto_fleet.report.progress import EVERY, Patience, Progress
+from pluto_fleet.report.progress import LINE_EVERY, Progress
 from pluto_fleet.trials import command
-from tests.testing.examples import example
+from tests.trials.examples import example
 
 
 class Clock:
@@ -24,23 +24,23 @@ class Clock:
 def test_without_a_terminal_a_line_comes_now_and_then() -> None:
     """One in ten seconds, with how far it is: nobody waits in silence, and no log is flooded."""
     clock, said = Clock(), list[str]()
-    patience = Patience(Progress(StringIO(), clock, shown=False), clock, said.append)
+    progress = Progress(StringIO(), clock, shown=False, say=said.append)
     for second in range(35):
         clock.now = float(second)
-        patience.tell(0.5, f"{second} runs")
-    patience.over()
-    assert EVERY == 10.0
-    assert said == ["plutoc test: 10 runs", "plutoc test: 20 runs", "plutoc test: 30 runs"]
+        progress.update(0.5, f"{second} runs")
+    progress.clear()
+    assert LINE_EVERY == 10.0
+    assert said == ["10 runs", "20 runs", "30 runs"]
 
 
 def test_at_a_terminal_a_bar_is_drawn_and_taken_away() -> None:
     """With the same words; what is found stands alone."""
     clock, terminal = Clock(), StringIO()
-    patience = Patience(Progress(terminal, clock, shown=True), clock, None)
+    progress = Progress(terminal, clock, shown=True)
     clock.now = 2.0
-    patience.tell(0.5, "12 runs")
+    progress.update(0.5, "12 runs")
     assert terminal.getvalue().endswith("] 12 runs")
-    patience.over()
+    progress.clear()
     assert terminal.getvalue().endswith(" \r")
 
 
@@ -50,13 +50,13 @@ def test_the_bar_fills_as_runs_are_done(seeds: int, monkeypatch: pytest.MonkeyPa
     shares: list[float] = []
 
     class Waiting:
-        def tell(self, share: float, _: str) -> None:
+        def update(self, share: float, _: str) -> None:
             shares.append(share)
 
-        def over(self) -> None:
+        def clear(self) -> None:
             pass
 
-    monkeypatch.setattr(command, "patience", lambda *, lines: Waiting())
+    monkeypatch.setattr(command, "trial_progress", lambda *, lines: Waiting())
     assert command.test(example("drugs_distribution"), ["--seeds", str(seeds), "--json"]) == 0
     assert len(shares) > 100
     assert shares[0] == 0

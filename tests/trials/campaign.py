@@ -1,6 +1,6 @@
 """Strikes every example everywhere, and by chance, and prints what struck and what was found.
 
-    python -m tests.testing.campaign --seeds 20
+    python -m tests.trials.campaign --seeds 20
 
 For each seed: small missions, with a crash, a Stop and both at every row of the journal and deaths in
 the midst of every action, and cases in which anything may strike; with `--own` the example's own
@@ -30,19 +30,19 @@ from pluto_fleet.trials.explore import (
     FAULTS,
     Finding,
     Tally,
-    drawn_case,
     everywhere,
     explored,
+    random_case,
     small_case,
 )
+from pluto_fleet.trials.lives import tried
 from pluto_fleet.trials.options import Options
 from pluto_fleet.trials.report import smallest_case
-from pluto_fleet.trials.rig import tried
 from pluto_fleet.trials.shrink import first_the_same, shows_the_same, shrunk
 from plutoc_runtime.domain.app import App
 from plutoc_runtime.domain.model import AfterTrip, Mission
 from tests.flying import NAMES
-from tests.testing.examples import example, fleet_of, missions_of
+from tests.trials.examples import example, fleet_of, missions_of
 
 HEADER = ("example", "runs", "rows", "lives", "completed", "failed", "cancelled", "found", "s")
 CHANCES = 20
@@ -64,7 +64,7 @@ def cases(
             continue
         for number in range(CHANCES):
             chance = seed * CHANCES + number
-            yield drawn_case(app, varied(fleet, Random(chance)), chance)
+            yield random_case(app, varied(fleet, Random(chance)), chance)
         yield from everywhere(app, small_case(app, fleet, seed))
 
 
@@ -146,7 +146,7 @@ def fired_in(results: Sequence[Struck]) -> Counter[str]:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Try what the command line asks for."""
     parser = ArgumentParser(
-        prog="python -m tests.testing.campaign", description=(__doc__ or "").splitlines()[0]
+        prog="python -m tests.trials.campaign", description=(__doc__ or "").splitlines()[0]
     )
     parser.add_argument("examples", nargs="*", metavar="EXAMPLE", help="default: all")
     parser.add_argument("--seeds", type=int, default=20, metavar="N", help="default: 20")

@@ -6,10 +6,10 @@ from dataclasses import replace
 
 import pytest
 
-from pluto_fleet.trials.case import BY_HAND, DEATHS, FAIR, STOPS, Blow, Case, Kind, Weather
-from pluto_fleet.trials.record import Trial
-from pluto_fleet.trials.rig import tried
-from tests.testing.examples import example, fleet_of, missions_of
+from pluto_fleet.trials.case import BY_HAND, DEATHS, FAIR, STOPS, Case, Strike, StrikeKind, Weather
+from pluto_fleet.trials.lives import tried
+from pluto_fleet.trials.record import TrialResult
+from tests.trials.examples import example, fleet_of, missions_of
 
 APP = example("alfalfa")
 FLEET = fleet_of("alfalfa", APP)
@@ -18,29 +18,32 @@ ROW = 4
 """A drone is on its way."""
 
 
-def struck(kind: Kind, after: float = 0.0) -> Trial:
+def struck(kind: StrikeKind, after: float = 0.0) -> TrialResult:
     """Return what comes of the example when something strikes it."""
-    return tried(APP, replace(CASE, blows=(Blow(kind=kind, row=ROW, after=after),)))
+    return tried(APP, replace(CASE, strikes=(Strike(kind=kind, row=ROW, after=after),)))
 
 
-@pytest.mark.parametrize("kind", Kind)
-def test_what_strikes_is_borne(kind: Kind) -> None:
+@pytest.mark.parametrize("kind", StrikeKind)
+def test_what_strikes_is_borne(kind: StrikeKind) -> None:
     """It strikes once, nothing is that may not be, and the mission ends."""
-    trial = struck(kind, after=1.0 if kind is Kind.FALL else 0.0)  # who stands cannot fall
+    trial = struck(kind, after=1.0 if kind is StrikeKind.FALL else 0.0)  # who stands cannot fall
     assert trial.fired[kind.value] == 1
     assert trial.wrong == ()
     (end,) = trial.ends.values()
-    assert end == ("CANCELLED" if kind is Kind.CANCEL else "COMPLETED")
+    assert end == ("CANCELLED" if kind is StrikeKind.CANCEL else "COMPLETED")
 
 
-@pytest.mark.parametrize("kind", [*DEATHS, *STOPS, Kind.FREEZE, Kind.GATEWAY, Kind.CUT, Kind.DISK])
-def test_after_these_the_app_lives_again(kind: Kind) -> None:
+@pytest.mark.parametrize(
+    "kind",
+    [*DEATHS, *STOPS, StrikeKind.FREEZE, StrikeKind.GATEWAY, StrikeKind.CUT, StrikeKind.DISK],
+)
+def test_after_these_the_app_lives_again(kind: StrikeKind) -> None:
     """Once more, and no oftener."""
     assert struck(kind).lives == 2
 
 
-@pytest.mark.parametrize("kind", [*BY_HAND, Kind.REBOOT, Kind.FALL])
-def test_these_the_app_outlives(kind: Kind) -> None:
+@pytest.mark.parametrize("kind", [*BY_HAND, StrikeKind.REBOOT, StrikeKind.FALL])
+def test_these_the_app_outlives(kind: StrikeKind) -> None:
     """Nobody need start it again."""
     assert struck(kind).lives == 1
 
@@ -50,15 +53,15 @@ def test_a_lost_row_is_not_on_record_and_a_kept_one_is() -> None:
     plain = tried(APP, CASE)
     row = next(place for place, time in enumerate(plain.times, start=1) if time > 0)
     kept, lost = (
-        tried(APP, replace(CASE, blows=(Blow(kind=kind, row=row),)))
-        for kind in (Kind.KEPT, Kind.LOST)
+        tried(APP, replace(CASE, strikes=(Strike(kind=kind, row=row),)))
+        for kind in (StrikeKind.KEPT, StrikeKind.LOST)
     )
     before = [trial.events.index(_second_life(trial)) for trial in (kept, lost)]
     assert before[0] > before[1]
     assert kept.wrong == lost.wrong == ()
 
 
-def _second_life(trial: Trial) -> object:
+def _second_life(trial: TrialResult) -> object:
     return [event for event in trial.events if event["event"] == "brain.began"][1]
 
 
@@ -95,8 +98,8 @@ def test_bad_weather_is_borne(weather: Weather, what: str) -> None:
 )
 def test_bad_weather_between_two_lives_is_borne(weather: Weather, what: str) -> None:
     """It needs a death to show."""
-    blows = (Blow(kind=Kind.CRASH, row=ROW, after=1.0),)
-    trial = tried(APP, replace(CASE, weather=weather, blows=blows))
+    strikes = (Strike(kind=StrikeKind.CRASH, row=ROW, after=1.0),)
+    trial = tried(APP, replace(CASE, weather=weather, strikes=strikes))
     assert trial.fired[what] > 0
     assert trial.wrong == ()
 

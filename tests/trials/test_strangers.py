@@ -1,4 +1,4 @@
-"""A small share of `python -m tests.testing.strangers`: random apps under all weathers."""
+"""A small share of `python -m tests.trials.strangers`: random apps under all weathers."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import pytest
 from pluto_fleet.simulation.body import Body
 from pluto_fleet.simulation.drones import SimulatedNavigation
 from plutoc_runtime.fleet.energy import CLIMB_SPEED
-from tests.testing import strangers
+from tests.trials import strangers
 
 
 def test_no_random_app_does_what_no_run_may_do(capsys: pytest.CaptureFixture[str]) -> None:

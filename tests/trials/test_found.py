@@ -9,13 +9,13 @@ import pytest
 
 from pluto_fleet.files.drones import DroneEntry
 from pluto_fleet.files.fleet import FleetFile, default_fleet
-from pluto_fleet.trials.case import Blow, Case, Kind, Weather
-from pluto_fleet.trials.rig import tried
+from pluto_fleet.trials.case import Case, Strike, StrikeKind, Weather
+from pluto_fleet.trials.lives import tried
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.app import App
 from plutoc_runtime.domain.model import AfterTrip, Item, Mission, Point
 from plutoc_runtime.hooks.context import Context
-from tests.testing.examples import app_of
+from tests.trials.examples import app_of
 
 CARRIER = app_of("""
     pluto 1
@@ -41,7 +41,7 @@ RELEASE_IS_LAUNCHED, FIRST_IS_COMPLETED = 2, 3
 """In which rows of the journals."""
 
 
-def carried(weather: Weather, *blows: Blow) -> Case:
+def carried(weather: Weather, *strikes: Strike) -> Case:
     """A mission that picks an item nearby and is to release it too far away for its limit of 30 s."""
     trips = [
         CARRIER.trip(
@@ -59,15 +59,15 @@ def carried(weather: Weather, *blows: Blow) -> Case:
         )
     ]
     mission = CARRIER.mission(name="m1", index=0, trips=trips)
-    return Case(seed=1, missions=(mission,), fleet=FLEET, weather=weather, blows=blows)
+    return Case(seed=1, missions=(mission,), fleet=FLEET, weather=weather, strikes=strikes)
 
 
 @pytest.mark.parametrize("after", [29.0, 29.8, 30.0, 30.2, 30.4, 31.0])
 def test_a_trip_that_is_called_off_and_fails_meanwhile_fails_once(after: float) -> None:
     """Its limit is over, its drone is asked what it has done, and falls before it has answered."""
-    fall = Blow(kind=Kind.FALL, row=RELEASE_IS_LAUNCHED, after=after)
+    fall = Strike(kind=StrikeKind.FALL, row=RELEASE_IS_LAUNCHED, after=after)
     trial = tried(CARRIER, carried(Weather(slow=0.4, radio=0.5), fall))
-    assert trial.fired[Kind.FALL.value] == 1
+    assert trial.fired[StrikeKind.FALL.value] == 1
     assert trial.wrong == ()
     assert trial.ends == {"m1": "FAILED"}
 
@@ -124,10 +124,12 @@ def test_what_a_dead_app_commanded_keeps_no_place_in_the_air(seed: int, after: f
         for place, name in enumerate(("m1", "m2"))
     )
     fleet = replace(default_fleet(app, 2), after_trip=AfterTrip.STAY, max_airborne=1)
-    cut = Blow(kind=Kind.CUT, row=FIRST_IS_COMPLETED, after=after)
-    case = Case(seed=seed, missions=missions, fleet=fleet, weather=Weather(radio=0.5), blows=(cut,))
+    cut = Strike(kind=StrikeKind.CUT, row=FIRST_IS_COMPLETED, after=after)
+    case = Case(
+        seed=seed, missions=missions, fleet=fleet, weather=Weather(radio=0.5), strikes=(cut,)
+    )
     trial = tried(app, case)
-    assert trial.fired[Kind.CUT.value] == 1
+    assert trial.fired[StrikeKind.CUT.value] == 1
     assert trial.wrong == ()
 
 
@@ -195,9 +197,9 @@ def test_a_drone_that_waits_to_take_off_is_brought_home_by_the_next_app() -> Non
         SPRAYER.mission(name="m1", index=0, trips=[measured]),
         sprayed("m2", 1, (1.5, 17.8, 1.2), safe_time=2.0),
     )
-    death = Blow(kind=Kind.LOST, row=1, after=2.2)
+    death = Strike(kind=StrikeKind.LOST, row=1, after=2.2)
     weather = Weather(slow=0.4, link=0.3)
-    case = Case(seed=189003, missions=missions, fleet=MIXED, weather=weather, blows=(death,))
+    case = Case(seed=189003, missions=missions, fleet=MIXED, weather=weather, strikes=(death,))
     trial = tried(SPRAYER, case)
     assert trial.fired["flight: link"] == 1
     assert trial.lives == 2
@@ -209,7 +211,9 @@ def test_no_action_begins_after_its_mission_was_paused(after: float) -> None:
     """The drone arrives while it is asked how far it is; and then it is brought home."""
     missions = (sprayed("m1", 0, (2.9, 2.7, 1.2)),)
     fair = Case(seed=1, missions=missions, fleet=NEIGHBOURS, weather=Weather(slow=0.4))
-    trial = tried(SPRAYER, replace(fair, blows=(Blow(kind=Kind.PAUSE, row=1, after=after),)))
+    trial = tried(
+        SPRAYER, replace(fair, strikes=(Strike(kind=StrikeKind.PAUSE, row=1, after=after),))
+    )
     assert trial.wrong == ()
     events = [event["event"] for event in trial.events]
     assert events.index("mission.paused") < events.index("action.begun")

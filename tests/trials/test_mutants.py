@@ -10,11 +10,11 @@ import pytest
 
 from pluto_fleet.files.fleet import FleetFile
 from pluto_fleet.trials.case import FAIR, Case
-from pluto_fleet.trials.explore import drawn_case, drawn_missions, everywhere
-from pluto_fleet.trials.rig import tried
+from pluto_fleet.trials.explore import everywhere, random_case, random_missions
+from pluto_fleet.trials.lives import tried
 from plutoc_runtime.domain.app import App
-from tests.testing.examples import example, fleet_of
-from tests.testing.mutants import MUTANTS
+from tests.trials.examples import example, fleet_of
+from tests.trials.mutants import MUTANTS
 
 SEEDS = range(0, 8, 2)
 BUDGET = 1500
@@ -23,9 +23,11 @@ BUDGET = 1500
 
 def cases(app: App, fleet: FleetFile) -> Iterator[Case]:
     """What CI tries of one example: much by chance, then everything everywhere."""
-    by_chance = (drawn_case(app, fleet, seed) for seed in range(300))
+    by_chance = (random_case(app, fleet, seed) for seed in range(300))
     small = (
-        Case(seed=seed, missions=tuple(drawn_missions(app, fleet, seed)), fleet=fleet, weather=FAIR)
+        Case(
+            seed=seed, missions=tuple(random_missions(app, fleet, seed)), fleet=fleet, weather=FAIR
+        )
         for seed in SEEDS
     )
     return chain(by_chance, *(everywhere(app, case) for case in small))

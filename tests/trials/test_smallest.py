@@ -19,16 +19,16 @@ from pluto_fleet.trials.explore import Tally, small_case
 from pluto_fleet.trials.options import Options
 from pluto_fleet.trials.report import report
 from pluto_fleet.trials.rules import Say, at
-from pluto_fleet.trials.shrink import Alike
+from pluto_fleet.trials.shrink import MistakeKinds
 from plutoc_runtime.alone import bound as enough
 from plutoc_runtime.domain.app import App
 from plutoc_runtime.domain.model import Drone
 from plutoc_runtime.domain.trace import Event
 from plutoc_runtime.fleet.fleet import Fleet
 from plutoc_runtime.hooks.context import Context
-from tests.testing.examples import app_of
-from tests.testing.mutants import free_in_flight
-from tests.testing.random_apps import random_app
+from tests.trials.examples import app_of
+from tests.trials.mutants import free_in_flight
+from tests.trials.random_apps import random_app
 
 Said = pytest.CaptureFixture[str]
 
@@ -75,7 +75,7 @@ def test_the_smallest_case_shows_what_was_found_first(
 def test_two_sentences_are_of_one_kind_if_only_names_and_numbers_differ() -> None:
     """Whoever it was, whenever, however much: it is the same rule, broken in the same way."""
     app = random_app(Random("0/app"))
-    alike = Alike(small_case(app, default_fleet(app), 0))
+    alike = MistakeKinds(small_case(app, default_fleet(app), 0))
     assert alike.kind("1.5 s: cf1 is free in the air") == alike.kind(
         "1e-05 s: cf5 is free in the air"
     )

@@ -16,36 +16,36 @@ from pluto_fleet.files.missions import load_missions
 from pluto_fleet.trials import explore
 from pluto_fleet.trials.case import (
     FAIR,
-    Blow,
     Case,
-    Kind,
+    Strike,
+    StrikeKind,
     Weather,
-    blows_of,
-    blows_text,
+    strikes_of,
+    strikes_text,
     weather_of,
     weather_text,
 )
-from pluto_fleet.trials.explore import Tally, drawn_case, drawn_missions, explored, small_case
+from pluto_fleet.trials.explore import Tally, explored, random_case, random_missions, small_case
+from pluto_fleet.trials.lives import TrialRun, tried
 from pluto_fleet.trials.report import missions_text
-from pluto_fleet.trials.rig import Rig, tried
 from pluto_fleet.trials.shrink import shrunk
-from tests.testing.examples import WAITING, app_of, example, fleet_of
+from tests.trials.examples import WAITING, app_of, example, fleet_of
 
 APP = example("drugs_distribution_retry")
 FLEET = fleet_of("drugs_distribution_retry", APP)
 
 BLOWS = st.builds(
-    Blow,
-    kind=st.sampled_from(Kind),
+    Strike,
+    kind=st.sampled_from(StrikeKind),
     row=st.integers(1, 10**6),
     after=st.sampled_from((0.0, 0.4, 1.125, 7.0)),
 )
 
 
 @given(st.lists(BLOWS, max_size=5).map(tuple))
-def test_what_strikes_can_be_written_and_read(blows: tuple[Blow, ...]) -> None:
+def test_what_strikes_can_be_written_and_read(strikes: tuple[Strike, ...]) -> None:
     """As a word of a command line."""
-    assert blows_of(blows_text(blows)) == blows
+    assert strikes_of(strikes_text(strikes)) == strikes
 
 
 @pytest.mark.parametrize(
@@ -54,7 +54,7 @@ def test_what_strikes_can_be_written_and_read(blows: tuple[Blow, ...]) -> None:
 def test_what_cannot_strike_is_refused(text: str) -> None:
     """It says how it is written."""
     with pytest.raises(ValueError, match=r"is not written like|nothing that can strike"):
-        blows_of(text)
+        strikes_of(text)
 
 
 @given(
@@ -90,7 +90,7 @@ def test_weather_that_cannot_be_is_refused(text: str) -> None:
 def test_drawn_missions_are_what_a_person_could_write(seed: int, tmp_path: Path) -> None:
     """Written down and read again they fly the same, row by row."""
     missions, fleet = tmp_path / "m.toml", tmp_path / "f.toml"
-    drawn = drawn_missions(APP, FLEET, seed)
+    drawn = random_missions(APP, FLEET, seed)
     missions.write_text(missions_text(APP, drawn), encoding="utf-8")
     fleet.write_text(fleet_text(FLEET), encoding="utf-8")
     there = load_fleet(fleet, APP)
@@ -104,15 +104,18 @@ def test_drawn_missions_are_what_a_person_could_write(seed: int, tmp_path: Path)
 @pytest.mark.parametrize("seed", range(20))
 def test_the_same_case_is_the_same_trial(seed: int) -> None:
     """Event by event, whatever strikes it."""
-    one, two = (tried(APP, drawn_case(APP, FLEET, seed)) for _ in range(2))
+    one, two = (tried(APP, random_case(APP, FLEET, seed)) for _ in range(2))
     assert one == two
 
 
 def test_a_case_is_made_as_small_as_it_can_be() -> None:
     """What does not matter is left out: here all but one mission, one trip and one crash."""
-    case = drawn_case(APP, FLEET, 1)
-    blows = (Blow(kind=Kind.PAUSE, row=2), Blow(kind=Kind.CRASH, row=5, after=2.2))
-    case = Case(seed=1, missions=case.missions, fleet=FLEET, weather=case.weather, blows=blows)
+    case = random_case(APP, FLEET, 1)
+    strikes = (
+        Strike(kind=StrikeKind.PAUSE, row=2),
+        Strike(kind=StrikeKind.CRASH, row=5, after=2.2),
+    )
+    case = Case(seed=1, missions=case.missions, fleet=FLEET, weather=case.weather, strikes=strikes)
 
     def fails(case: Case) -> bool:
         return tried(APP, case).fired["crash"] > 0
@@ -120,7 +123,7 @@ def test_a_case_is_made_as_small_as_it_can_be() -> None:
     assert fails(case)
     small = shrunk(case, fails)
     assert small.weather == FAIR
-    assert [str(blow) for blow in small.blows] == ["crash@1"]
+    assert [str(strike) for strike in small.strikes] == ["crash@1"]
     assert [len(mission.trips) for mission in small.missions] in ([1], [2])  # 2: pick and release
     assert len(small.fleet.drones) == 1
 
@@ -128,19 +131,19 @@ def test_a_case_is_made_as_small_as_it_can_be() -> None:
 def test_trials_leave_nothing_behind(monkeypatch: pytest.MonkeyPatch) -> None:
     """Many thousands come one after the other: none keeps its world in memory for long."""
     monkeypatch.setattr(explore, "FORGOTTEN", 4)
-    cases = (drawn_case(APP, FLEET, seed) for seed in range(8))
+    cases = (random_case(APP, FLEET, seed) for seed in range(8))
     explored(APP, cases, Tally(), lambda _: False)
-    assert [one for one in gc.get_objects() if isinstance(one, Rig)] == []
+    assert [one for one in gc.get_objects() if isinstance(one, TrialRun)] == []
 
 
 @pytest.mark.filterwarnings("error")
 def test_a_trial_that_is_interrupted_leaves_nothing_behind(monkeypatch: pytest.MonkeyPatch) -> None:
     """Else Python complains, below what was found, of what never came to be done."""
 
-    def interrupted(_: Rig) -> bool:
+    def interrupted(_: TrialRun) -> bool:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(Rig, "turn", interrupted)
+    monkeypatch.setattr(TrialRun, "turn", interrupted)
     with pytest.raises(KeyboardInterrupt):
         tried(APP, small_case(APP, FLEET, 0))
     gc.collect()

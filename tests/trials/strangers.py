@@ -1,6 +1,6 @@
 """Tries random apps that nobody has seen, as `plutoc test` does, in all weathers.
 
-    python -m tests.testing.strangers --apps 200
+    python -m tests.trials.strangers --apps 200
 
 Each has two categories of drones, which cannot stand in for each other, and actions of its own. For each
 app: cases in which anything may strike, as many in which links are lost over a slow radio, and one
@@ -23,12 +23,12 @@ from time import perf_counter
 from typing import TYPE_CHECKING
 
 from pluto_fleet.trials.case import Case, Weather
-from pluto_fleet.trials.explore import Finding, Tally, drawn_case, everywhere, explored, small_case
+from pluto_fleet.trials.explore import Finding, Tally, everywhere, explored, random_case, small_case
+from pluto_fleet.trials.lives import tried
 from pluto_fleet.trials.options import Options
 from pluto_fleet.trials.report import smallest_case
-from pluto_fleet.trials.rig import tried
 from pluto_fleet.trials.shrink import first_the_same, shows_the_same, shrunk
-from tests.testing.random_apps import random_app, random_fleet, random_source
+from tests.trials.random_apps import random_app, random_fleet, random_source
 
 if TYPE_CHECKING:
     from pluto_fleet.files.fleet import FleetFile
@@ -41,10 +41,10 @@ CASES = 10
 def cases(app: App, fleet: FleetFile, number: int, share: int, *, whole: bool) -> Iterator[Case]:
     """Yield everything that is tried of one app."""
     for seed in range(number * 1000, number * 1000 + share):
-        case = drawn_case(app, fleet, seed)
+        case = random_case(app, fleet, seed)
         yield case
         yield replace(case, weather=bad_radio(Random(f"{seed}/radio")))
-        yield replace(case, weather=bad_radio(Random(f"{seed}/radio")), blows=())
+        yield replace(case, weather=bad_radio(Random(f"{seed}/radio")), strikes=())
     if whole:
         yield from everywhere(app, small_case(app, fleet, number))
 
@@ -77,7 +77,7 @@ def strange(number: int, share: int = CASES, *, whole: bool = True) -> tuple[int
 def main(arguments: Sequence[str] | None = None) -> int:
     """Try what the command line asks for."""
     parser = ArgumentParser(
-        prog="python -m tests.testing.strangers", description=(__doc__ or "").splitlines()[0]
+        prog="python -m tests.trials.strangers", description=(__doc__ or "").splitlines()[0]
     )
     parser.add_argument("--apps", type=int, default=200, metavar="N", help="default: 200")
     parser.add_argument("--first", type=int, default=0, metavar="N", help="the first app")

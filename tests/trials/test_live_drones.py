@@ -1,4 +1,4 @@
-"""An action that asks its drone and sets what is on it, in all weathers and under all blows."""
+"""An action that asks its drone and sets what is on it, in all weathers and under all strikes."""
 
 from __future__ import annotations
 
@@ -6,11 +6,11 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet.trials.explore import drawn_case
-from pluto_fleet.trials.rig import tried
+from pluto_fleet.trials.explore import random_case
+from pluto_fleet.trials.lives import tried
 from plutoc_runtime.domain.model import Drone
 from plutoc_runtime.hooks.context import Context
-from tests.testing.examples import example, fleet_of
+from tests.trials.examples import example, fleet_of
 
 
 async def pollinate(drone: Drone, trip: Any, context: Context, *, dose: float) -> object:
@@ -30,5 +30,5 @@ FLEET = fleet_of("alfalfa", APP)
 @pytest.mark.parametrize("seed", range(25))
 def test_no_rule_is_broken_however_late_its_answers_are(seed: int) -> None:
     """The line to the gateway is slow, or the radio; the app dies while it asks; and so on."""
-    trial = tried(APP, drawn_case(APP, FLEET, seed))
+    trial = tried(APP, random_case(APP, FLEET, seed))
     assert trial.wrong == ()
