@@ -6,13 +6,14 @@ import asyncio
 import fcntl
 import os
 import secrets
-from collections.abc import Iterator
+from collections.abc import Callable, Coroutine, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from plutoc_runtime import output
 from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.text import in_shell
 
 from ..files.reading import text_of
 from ..files.real import as_flown
@@ -27,10 +28,8 @@ from ..station.session import Phase
 from ..station.station import Station
 from ..station.web.api import Api
 from ..station.web.audit import Audit
-from ..station.web.borrowed import borrowed
 from ..station.web.guard import Guard, needs_token, proper_name
 from ..station.web.listening import address, listening, port_of
-from ..station.web.server import serve as serve_web
 from ..station.web.static import floor_plan
 from .interrupts import Interrupts
 from .plans import load_fleet
@@ -39,9 +38,13 @@ from .shutdown import run
 from .supervise import Supervised, supervise
 
 if TYPE_CHECKING:
+    from socket import socket
+
     from plutoc_runtime.domain.app import App
 
     from .options import Options
+
+    Serve = Callable[[Api, socket, Callable[[], object]], Coroutine[object, object, None]]
 
 AGAIN = "serve shows what was interrupted, and Resume goes on with it"
 
@@ -49,7 +52,7 @@ AGAIN = "serve shows what was interrupted, and Resume goes on with it"
 def serve(app: App, options: Options) -> int:
     """Serve the station until somebody interrupts it; then all drones land first."""
     options.refuse_what_is_simulated()
-    borrowed(app.name)  # before anything is kept or flown
+    serve_web = _web_server(app.name)  # before anything is kept or flown
     settings = _settings(app, options)
     if options.is_real:
         where = str(options.fleet or app.name)
@@ -65,13 +68,32 @@ def serve(app: App, options: Options) -> int:
         left = settings.own_folder / LEFT
         interrupts = Interrupts(leaving, leaving.journal, AGAIN, last=left.touch)
         with interrupts.listening():
-            run(_serve(app, options, settings, station, interrupts))
+            run(_serve(serve_web, options, settings, station, interrupts))
         left.touch()
         return interrupts.code or 0
 
 
+def _web_server(app: str) -> Serve:
+    """Return what serves the pages, or say how to install it."""
+    try:
+        from ..station.web.server import serve
+    except ImportError as error:
+        if (error.name or "").startswith("pluto"):  # a mistake of ours
+            raise
+        package = app.rstrip("_")  # no package's name ends so
+        raise BadInput(
+            "serve needs a web server, the extra `station` of this package:"
+            f" pip install {in_shell(f'{package}[station]')}"
+        ) from None
+    return serve
+
+
 async def _serve(
-    app: App, options: Options, settings: Settings, station: Station, interrupts: Interrupts
+    serve_web: Serve,
+    options: Options,
+    settings: Settings,
+    station: Station,
+    interrupts: Interrupts,
 ) -> None:
     interrupts.loop = asyncio.get_running_loop()
     with listening(options.host, _port(options, settings)) as listener:
@@ -90,7 +112,7 @@ async def _serve(
 
                 webbrowser.open(address(guard))
 
-        server = asyncio.create_task(serve_web(api, listener, app.name, ready))
+        server = asyncio.create_task(serve_web(api, listener, ready))
         leaves = asyncio.create_task(station.leaves.wait())
         await asyncio.wait([server, leaves], return_when=asyncio.FIRST_COMPLETED)
         if station.leaves.is_set():

@@ -201,7 +201,7 @@ class Api:
             reply = self._refused(request, refusals.malformed(str(error)))
         except MISTAKES as error:
             self._audit.trouble(request, error)
-            reply = refusals.ours().reply
+            reply = refusals.OURS.reply
         return dressed(request, reply)
 
     async def live(self, line: Line, request: Request) -> None:
@@ -237,9 +237,9 @@ class Api:
         if request.path in ALWAYS:
             return await change(self._station, self._audit, request)
         if not self._rate(request).allows(request.client):
-            raise Refused(refusals.too_many())
+            raise Refused(refusals.TOO_MANY)
         if self._under_way >= _AT_ONCE:
-            raise Refused(refusals.too_busy())
+            raise Refused(refusals.TOO_BUSY)
         self._under_way += 1
         try:
             if request.method == "GET":
@@ -275,6 +275,6 @@ def _route(request: Request) -> None:
     """Refuse what leads nowhere."""
     allowed = ADDRESSES.get(request.path)
     if allowed is None:
-        raise Refused(refusals.no_such_page())
+        raise Refused(refusals.NO_SUCH_PAGE)
     if request.method not in allowed:
         raise Refused(refusals.wrong_method(", ".join(allowed)))

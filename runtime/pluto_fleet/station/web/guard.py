@@ -101,18 +101,18 @@ def refusal(guard: Guard, request: Request, asking: Asking) -> Refusal | None:
     headers = request.headers
     host = headers.get("host", "").lower()
     if not _is_ours(guard, host, request.local):
-        return refusals.unknown_host()
+        return refusals.UNKNOWN_HOST
     if asking is Asking.PAGE:
         return None
     if not _is_same_site(headers, host, asking):
-        return refusals.another_site()
+        return refusals.ANOTHER_SITE
     marked = headers.get("x-pluto") == "1"
     if asking is Asking.COMMAND and not marked:
-        return refusals.no_mark()
+        return refusals.NO_MARK
     if asking is Asking.LIVE:
         stranger = "origin" not in headers and guard.token is None and not marked
-        return refusals.no_mark() if stranger else None
-    return None if knows(guard, _bearer(headers)) else refusals.no_token()
+        return refusals.NO_MARK if stranger else None
+    return None if knows(guard, _bearer(headers)) else refusals.NO_TOKEN
 
 
 def knows(guard: Guard, token: str) -> bool:

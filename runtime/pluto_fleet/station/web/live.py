@@ -51,7 +51,7 @@ class Live:
         query = request.query
         counts = [asked_number(query, name) for name in ("seen", "log", "results")]
         if self._on >= _AT_ONCE:
-            raise Refused(refusals.too_busy())
+            raise Refused(refusals.TOO_BUSY)
         self._on += 1
         try:
             text = await self._station.newer(query.get("flight", ""), *counts)
@@ -88,9 +88,9 @@ class Live:
         """Let somebody in who may be, and hang up with a reason on whoever talks nonsense."""
         why = refusal(self._guard, request, Asking.LIVE)
         if why is None and request.path != LIVE:
-            why = refusals.no_such_page()
+            why = refusals.NO_SUCH_PAGE
         if why is None and (self._over or self._waiting >= _WAITING):
-            why = refusals.too_busy()
+            why = refusals.TOO_BUSY
         if why is not None:
             self._audit.refused(request, why.status, why.said)
             await line.refuse()
@@ -110,9 +110,9 @@ class Live:
             self._waiting -= 1
         token = first.get("token", "")
         if not isinstance(token, str) or not knows(self._guard, token):
-            raise _Improper(NO_TOKEN, refusals.no_token().said)
+            raise _Improper(NO_TOKEN, refusals.NO_TOKEN.said)
         if self._on >= _AT_ONCE:
-            raise _Improper(TOO_MANY, refusals.too_busy().said)
+            raise _Improper(TOO_MANY, refusals.TOO_BUSY.said)
         self._on += 1
         try:
             await self._tell(line, first)
@@ -123,7 +123,7 @@ class Live:
         rate = Rate(_MESSAGES, self._clock)
         while True:
             if not rate.allows(""):
-                raise _Improper(TOO_MANY, refusals.too_many().said)
+                raise _Improper(TOO_MANY, refusals.TOO_MANY.said)
             await line.send(await self._station.newer(*_seen(asked)))
             asked = await _heard(line, _NEXT)
 
