@@ -13,7 +13,7 @@ import pytest
 from pluto_fleet.drones.real_fleet import RealDrone, Wanted, real_data, real_fleet, real_of
 from pluto_fleet.files.crtp_fleet import as_crtp_fleet, missing_categories
 from pluto_fleet.files.fleet import DroneEntry, FleetFile
-from pluto_fleet.flight.lives import Flight, aloft, may_hover
+from pluto_fleet.flight.lives import FlightSetup, aloft, may_hover
 from pluto_fleet.jobs.reports import DroneReport
 from pluto_fleet.simulation.drones import SimulatedNavigation
 from plutoc_runtime.alone.faults import Faults
@@ -190,7 +190,7 @@ def test_of_a_drone_that_is_silent_in_the_air_people_are_warned(tmp_path: Path) 
         )
         for id, z in (("a", 0.0), ("b", 1.2))
     )
-    real = Flight(
+    real = FlightSetup(
         app=apps.app(apps.flow()),
         journal=tmp_path / "j",
         missions=(),

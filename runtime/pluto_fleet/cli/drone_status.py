@@ -50,7 +50,7 @@ class Tells(Protocol):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Asked:
+class DroneQuery:
     """A drone that is asked."""
 
     id: str
@@ -65,10 +65,10 @@ class Asked:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Answer:
+class DroneAnswer:
     """What came of it."""
 
-    asked: Asked
+    asked: DroneQuery
     problems: tuple[str, ...] = ()
     """Why it may not fly now; nothing: it is ready."""
     telemetry: DroneTelemetry | None = None
@@ -99,8 +99,11 @@ async def found(navigation: str, options: Mapping[str, object]) -> list[str]:
 
 
 async def answers(
-    asked: Sequence[Asked], folder: Path, localization: str = OWN, options: Options | None = None
-) -> list[Answer]:
+    asked: Sequence[DroneQuery],
+    folder: Path,
+    localization: str = OWN,
+    options: Options | None = None,
+) -> list[DroneAnswer]:
     """Return what each drone answers, told meanwhile where it is if the fleet has somebody for that."""
     navigations = {one.id: _made(one, folder) for one in asked}
     feeding: Feeding | None = None
@@ -116,7 +119,7 @@ async def answers(
             await feeding.close()
 
 
-async def identified(asked: Asked, folder: Path) -> None:
+async def identified(asked: DroneQuery, folder: Path) -> None:
     """Let a drone show which one it is; raise `BadInput` if it cannot."""
     navigation = _made(asked, folder)
     if not isinstance(navigation, Identifiable):
@@ -133,7 +136,7 @@ async def identified(asked: Asked, folder: Path) -> None:
             await _let_go(navigation)
 
 
-def _made(asked: Asked, folder: Path) -> DroneNavigation:
+def _made(asked: DroneQuery, folder: Path) -> DroneNavigation:
     how = RealDrone(
         id=asked.id if asked.known else "it",  # so that sentences about it can be read
         navigation=asked.navigation,
@@ -157,7 +160,9 @@ class _Heard:
     facts: Mapping[str, str] = field(default_factory=dict)
 
 
-async def _answer(asked: Asked, navigation: DroneNavigation, feeding: Feeding | None) -> Answer:
+async def _answer(
+    asked: DroneQuery, navigation: DroneNavigation, feeding: Feeding | None
+) -> DroneAnswer:
     so_far = _Heard()
     try:
         with holding({asked.id: asked.uri or asked.id}):
@@ -166,7 +171,7 @@ async def _answer(asked: Asked, navigation: DroneNavigation, feeding: Feeding | 
             finally:
                 await _let_go(navigation)
     except Held as held:  # an app flies it: nobody else may speak with it
-        return Answer(asked=asked, problems=(str(held),))
+        return DroneAnswer(asked=asked, problems=(str(held),))
     match end:
         case None:
             problems = so_far.problems
@@ -181,7 +186,9 @@ async def _answer(asked: Asked, navigation: DroneNavigation, feeding: Feeding | 
             problems = (_why(end),)
         case _:  # something is missing that all of them need
             raise end
-    return Answer(asked=asked, problems=problems, telemetry=so_far.telemetry, facts=so_far.facts)
+    return DroneAnswer(
+        asked=asked, problems=problems, telemetry=so_far.telemetry, facts=so_far.facts
+    )
 
 
 async def _ask(navigation: DroneNavigation, so_far: _Heard) -> None:
@@ -229,7 +236,7 @@ def _why(error: Exception) -> str:
     return f"its navigation made a mistake: {type(error).__name__}: {said}"
 
 
-def heard(answer: Answer) -> DroneTelemetry | None:
+def heard(answer: DroneAnswer) -> DroneTelemetry | None:
     """Return what a drone has told of itself, if it has told anything."""
     telemetry = answer.telemetry
     if telemetry is None or not all(map(isfinite, (telemetry.time, *telemetry.position))):

@@ -22,7 +22,7 @@ from ..files.real import navigation_of, not_real, options_of
 from ..journal.place import folder_of
 from ..report.report import table
 from .drone_file import write_fleet
-from .drone_status import Asked, answers, found, heard, identified
+from .drone_status import DroneQuery, answers, found, heard, identified
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from ..drones.telemetry import DroneTelemetry
     from ..files.fleet import FleetFile
     from ..files.free_tables import Options
-    from .drone_status import Answer
+    from .drone_status import DroneAnswer
     from .options import Options as Command
 
 NOT_READY = 1
@@ -91,7 +91,7 @@ class _Team:
         """All by which these drones, and others, are reached."""
         return list(dict.fromkeys([self.others, *(asked.navigation for asked in self.known)]))
 
-    def one(self, who: str) -> Asked:
+    def one(self, who: str) -> DroneQuery:
         """Return a drone by its name in the fleet file, or by its uri."""
         for asked in self.known:
             if who == asked.id or (asked.uri is not None and which(who) == which(asked.uri)):
@@ -103,26 +103,26 @@ class _Team:
         hint = near(who, [asked.id for asked in self.known])
         raise BadInput(f"the fleet has no drone {quoted(who)}{hint}")
 
-    async def all_found(self, addresses: Sequence[str]) -> list[Asked]:
+    async def all_found(self, addresses: Sequence[str]) -> list[DroneQuery]:
         """Return what can be found by the navigation of this fleet, as the fleet knows it."""
         where = {"addresses": list(addresses)} if addresses else {}
         uris = await found(self.others, {**self._options(), **where})
         known = {which(asked.uri): asked for asked in self.known if asked.uri is not None}
         return [known.get(which(uri)) or self._other(uri) for uri in uris]
 
-    def _other(self, uri: str) -> Asked:
+    def _other(self, uri: str) -> DroneQuery:
         options = self._options()
-        return Asked(id=uri, uri=uri, navigation=self.others, options=options, known=False)
+        return DroneQuery(id=uri, uri=uri, navigation=self.others, options=options, known=False)
 
     def _options(self) -> Options:
         return {} if self.fleet is None else self.fleet.options.get(self.others, {})
 
 
-def _known(app: App, fleet: FleetFile) -> list[Asked]:
+def _known(app: App, fleet: FleetFile) -> list[DroneQuery]:
     """Return the drones of a fleet file."""
     categories = {category.name: category for category in app.categories}
     return [
-        Asked(
+        DroneQuery(
             id=drone.id,
             uri=drone.uri,
             navigation=navigation_of(fleet, drone),
@@ -134,14 +134,14 @@ def _known(app: App, fleet: FleetFile) -> list[Asked]:
     ]
 
 
-def _identify(app: App, asked: Asked) -> int:
+def _identify(app: App, asked: DroneQuery) -> int:
     asyncio.run(identified(asked, _folder(app)))
     where = "" if asked.uri in (None, asked.id) else f" ({asked.uri})"
     output.line(f"{asked.id}{where} has shown itself")
     return 0
 
 
-async def _asked(app: App, options: Command, team: _Team) -> list[Answer]:
+async def _asked(app: App, options: Command, team: _Team) -> list[DroneAnswer]:
     asked = [team.one(who) for who in options.who]
     if not asked:
         asked = list(team.known)
@@ -158,7 +158,7 @@ async def _asked(app: App, options: Command, team: _Team) -> list[Answer]:
     return await answers(each, folder, fleet.localization, fleet.localization_options)
 
 
-def _say(told: Sequence[Answer]) -> None:
+def _say(told: Sequence[DroneAnswer]) -> None:
     if not told:
         output.line("no drone answers: are they switched on, and near?")
         return
@@ -186,7 +186,7 @@ LONGEST = 120
 """Characters of a cell: what a drone says of itself may be anything."""
 
 
-def drones_table(told: Sequence[Answer]) -> Iterator[str]:
+def drones_table(told: Sequence[DroneAnswer]) -> Iterator[str]:
     """Yield a line for each drone."""
     facts = list(dict.fromkeys(fact for one in told for fact in one.facts))
     shown = [fact for fact in facts if fact not in ONLY_IN_JSON]
@@ -209,12 +209,12 @@ def drones_table(told: Sequence[Answer]) -> Iterator[str]:
     )
 
 
-def drones_data(app: str, told: Sequence[Answer]) -> dict[str, object]:
+def drones_data(app: str, told: Sequence[DroneAnswer]) -> dict[str, object]:
     """Return the object that `drones --json` prints."""
     return {"app": app, "drones": [_data(one) for one in told]}
 
 
-def _data(one: Answer) -> dict[str, object]:
+def _data(one: DroneAnswer) -> dict[str, object]:
     telemetry = heard(one)
     return {
         "drone": one.asked.id if one.asked.known else None,

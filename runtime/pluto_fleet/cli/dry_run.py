@@ -46,7 +46,7 @@ if TYPE_CHECKING:
     from ..files.drones import DroneEntry
     from ..jobs.controls import Controls
     from .options import Options
-    from .plans import Plan
+    from .plans import LoadedPlan
 
 
 REFUSED = 2
@@ -57,13 +57,13 @@ def dry_run(app: App, options: Options) -> int:
     """Print what every drone would be told, and what came of it."""
     _refuse_what_does_not_go_together(options)
     plan = load(app, options)
-    given: list[Given] = []
+    given: list[CommandLog] = []
     top = {one.name: one.top_speed or one.speed for one in plan.app.categories}
     speeds = {drone.id: top[drone.category] for drone in plan.fleet.drones}
     climb = CLIMB_SPEED if options.sim else CLIMB_LIMIT
 
-    def around(kernel: Kernel, drones: Controls) -> Given:
-        given.append(Given(kernel, drones, speeds, climb))
+    def around(kernel: Kernel, drones: Controls) -> CommandLog:
+        given.append(CommandLog(kernel, drones, speeds, climb))
         return given[0]
 
     outcome = simulate(
@@ -86,7 +86,7 @@ def dry_run(app: App, options: Options) -> int:
     return REFUSED if refused else exit_code(outcome)
 
 
-def _refused(app: App, options: Options, plan: Plan) -> Iterator[str]:
+def _refused(app: App, options: Options, plan: LoadedPlan) -> Iterator[str]:
     """Yield what keeps `fly` from beginning, or a drone from being flown, as far as it is known."""
     try:
         where = str(options.fleet or app.name)
@@ -105,7 +105,7 @@ def _refused(app: App, options: Options, plan: Plan) -> Iterator[str]:
             yield f"{drone.id} would not be flown: {reason}"
 
 
-def _unfit(plan: Plan, drone: DroneEntry, wanted: Sequence[Wanted]) -> Iterator[str]:
+def _unfit(plan: LoadedPlan, drone: DroneEntry, wanted: Sequence[Wanted]) -> Iterator[str]:
     """Yield what a drone's navigation says it cannot do, before there is any drone."""
     with TemporaryDirectory() as folder:
         navigation = made(plan.app, plan.fleet, drone, Path(folder))
@@ -131,7 +131,7 @@ def _refuse_what_does_not_go_together(options: Options) -> None:
             raise BadInput(f"{flag} is for a flight, and --dry-run is none: leave one out")
 
 
-def _lines(plan: Plan, outcome: Outcome, commands: Sequence[Command]) -> Iterator[str]:
+def _lines(plan: LoadedPlan, outcome: Outcome, commands: Sequence[LoggedCommand]) -> Iterator[str]:
     yield from table(
         ("time", "drone", "command", "to", "at most"),
         [
@@ -161,7 +161,7 @@ def _place(point: Point) -> str:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Command:
+class LoggedCommand:
     """One command to one drone."""
 
     time: float
@@ -172,7 +172,7 @@ class Command:
     """The most that it may fly, metres per second."""
 
 
-class Given(Before):
+class CommandLog(Before):
     """Drones that can be told what others can; each command is kept, and handed on to those others."""
 
     def __init__(
@@ -181,13 +181,13 @@ class Given(Before):
         super().__init__(drones)
         self._kernel = kernel
         self._speeds, self._climb_limit = speeds, climb
-        self.commands: list[Command] = []
+        self.commands: list[LoggedCommand] = []
 
     def _note(
         self, drone: str, what: str, to: Point | None = None, speed: float | None = None
     ) -> None:
         self.commands.append(
-            Command(time=self._kernel.now, drone=drone, what=what, to=to, speed=speed)
+            LoggedCommand(time=self._kernel.now, drone=drone, what=what, to=to, speed=speed)
         )
 
     def _here(self, drone: str, height: float) -> Point:

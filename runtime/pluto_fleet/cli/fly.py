@@ -18,8 +18,8 @@ from plutoc_runtime.domain.text import printable
 
 from ..flight.config import End, Stops
 from ..flight.lives import (
-    Flight,
-    Observer,
+    FlightObserver,
+    FlightSetup,
     Resumable,
     aloft,
     how_to_go_on,
@@ -82,7 +82,7 @@ def fly(app: App, options: Options) -> int:
     if options.supervise:
         return supervised(app, options, journal, _words(options, journal))
     store = Store.create(journal, begun)
-    flight = Flight(
+    flight = FlightSetup(
         app=plan.app,
         journal=store.path,
         missions=plan.missions,
@@ -150,7 +150,7 @@ STOPPED = 130
 """The exit code after `tell J stop`, as after Ctrl-C."""
 
 
-def see_through(flight: Flight, store: Store, known: Recovered | None = None) -> int:
+def see_through(flight: FlightSetup, store: Store, known: Recovered | None = None) -> int:
     """Fly until all is over or somebody stops it; say what came of it, and return the exit code.
 
     `known` is what the journal says, if it has been read already.
@@ -176,7 +176,7 @@ def reported(app: App, journal: Path, records: Records, drones: Sequence[Drone] 
 
 
 async def _heard(
-    flight: Flight,
+    flight: FlightSetup,
     store: Store,
     stops: Stops,
     interrupts: Interrupts,
@@ -184,7 +184,7 @@ async def _heard(
 ) -> Lived:
     """Live, and hear whoever wants it to end."""
     interrupts.loop = asyncio.get_running_loop()
-    return await run_flight(flight, store, stops, known, Observer(tell=tell, say=output.tell))
+    return await run_flight(flight, store, stops, known, FlightObserver(tell=tell, say=output.tell))
 
 
 def supervised(app: App, options: Options, journal: Path, first: Sequence[str] | None) -> int:

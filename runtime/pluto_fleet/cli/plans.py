@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Plan:
+class LoadedPlan:
     """What shall be flown, by whom and where."""
 
     app: App
@@ -40,7 +40,7 @@ class Plan:
     """The same; None: there was none."""
 
 
-def load(app: App, options: Options) -> Plan:
+def load(app: App, options: Options) -> LoadedPlan:
     """Return the plan of a command's files; raise `BadInput` where nobody could fly it."""
     fleet, fleet_text = load_fleet(app, options)
     if options.is_real:
@@ -55,7 +55,7 @@ def load(app: App, options: Options) -> Plan:
     if not options.supervised:  # then it has been said
         for sentence in look_alikes(missions, fleet.drones):
             output.tell(f"{options.missions}: warning: {sentence}")
-    return Plan(
+    return LoadedPlan(
         app=app,
         missions=missions,
         fleet=fleet,

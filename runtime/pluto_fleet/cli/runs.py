@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from ..report.progress import Progress
     from ..trials.invariants import Items
     from .options import Options
-    from .plans import Plan
+    from .plans import LoadedPlan
 
     # was an import of itself
 
@@ -45,12 +45,14 @@ BROKEN = 70
 _MOST_VIOLATIONS = 10
 
 
-def often(app: App, options: Options, count: int, plan: Plan, progress: Progress, fly: Fly) -> int:
+def often(
+    app: App, options: Options, count: int, plan: LoadedPlan, progress: Progress, fly: Fly
+) -> int:
     """Fly with one seed after the other; say what came of each, and of all."""
     if options.plot is not None:
         kind_of(options.plot)
         drawing()  # whoever lacks it shall not fly first
-    runs: list[Run] = []
+    runs: list[RunFigures] = []
     data: list[dict[str, object]] = []
     worst, items = 0, items_of(plan.missions)
     for place in range(count):
@@ -78,7 +80,7 @@ def often(app: App, options: Options, count: int, plan: Plan, progress: Progress
     return worst
 
 
-def _said(app: App, options: Options, runs: Sequence[Run]) -> Iterator[str]:
+def _said(app: App, options: Options, runs: Sequence[RunFigures]) -> Iterator[str]:
     yield ""
     yield from _figures(runs)
     yield ""
@@ -89,7 +91,7 @@ def _said(app: App, options: Options, runs: Sequence[Run]) -> Iterator[str]:
     yield _in_words(runs)
 
 
-def _figures(runs: Sequence[Run]) -> Iterator[str]:
+def _figures(runs: Sequence[RunFigures]) -> Iterator[str]:
     """Yield a table of what the runs took; one run has no percentiles."""
     if len(runs) == 1:
         return
@@ -114,7 +116,7 @@ def _whole(value: float) -> str:
     return number(round(value, 1))
 
 
-def _broken(app: App, options: Options, runs: Sequence[Run]) -> Iterator[str]:
+def _broken(app: App, options: Options, runs: Sequence[RunFigures]) -> Iterator[str]:
     """Yield what must never be, and how to see it again."""
     found = [(run.seed, sentence) for run in runs for sentence in run.violations]
     for seed, sentence in found[:_MOST_VIOLATIONS]:
@@ -132,7 +134,7 @@ def _broken(app: App, options: Options, runs: Sequence[Run]) -> Iterator[str]:
     yield "This is a mistake of ours, or of whoever made a block: please report it, with that file."
 
 
-def _in_words(runs: Sequence[Run]) -> str:
+def _in_words(runs: Sequence[RunFigures]) -> str:
     good = [run.makespan for run in runs if run.success]
     text = (
         f"{len(good)} of {counted(len(runs), 'run')} succeeded ({percent(len(good) / len(runs))})"
@@ -154,7 +156,7 @@ ENOUGH = 20
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Run:
+class RunFigures:
     """What the summary needs to know of one run."""
 
     seed: int
@@ -171,7 +173,7 @@ class Run:
     """What no run may do, whatever goes wrong, and this one did."""
 
 
-def run_of(seed: int, outcome: Outcome, items: Items) -> Run:
+def run_of(seed: int, outcome: Outcome, items: Items) -> RunFigures:
     """Return what the summary needs to know of an outcome."""
     trips = trips_data(outcome)
     invariants = Invariants(items)
@@ -182,7 +184,7 @@ def run_of(seed: int, outcome: Outcome, items: Items) -> Run:
         if isinstance(level, float):
             levels.append(level)
     whole = all(mission.status.value in ENDS for mission in outcome.missions)
-    return Run(
+    return RunFigures(
         seed=seed,
         success=exit_code(outcome) == 0,
         makespan=outcome.duration,
@@ -194,7 +196,7 @@ def run_of(seed: int, outcome: Outcome, items: Items) -> Run:
     )
 
 
-def summary(runs: Sequence[Run]) -> dict[str, object]:
+def summary(runs: Sequence[RunFigures]) -> dict[str, object]:
     """Return the figures of all runs; there is at least one.
 
     The makespan is that of the runs that succeeded: a mission that failed early is not a fast one.
@@ -265,7 +267,7 @@ def drawing() -> Any:
         ) from None
 
 
-def plot(path: Path, title: str, runs: Sequence[Run]) -> None:
+def plot(path: Path, title: str, runs: Sequence[RunFigures]) -> None:
     """Write the picture: the same runs give the same bytes."""
     kind = kind_of(path)
     matplotlib = drawing()

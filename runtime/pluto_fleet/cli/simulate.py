@@ -22,7 +22,7 @@ from ..process.signal_guard import Interrupted
 from ..report.progress import Progress, simulation_progress
 from ..report.report import exit_code, report
 from ..report.sentences import line_of
-from .plans import Plan, load
+from .plans import LoadedPlan, load
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
@@ -57,7 +57,7 @@ def simulate(app: App, options: Options) -> int:
         progress.clear()
 
 
-def _once(app: App, options: Options, plan: Plan, progress: Progress) -> int:
+def _once(app: App, options: Options, plan: LoadedPlan, progress: Progress) -> int:
     watch = _watcher(options, len(plan.missions), progress)
     with trace_file(options.trace) as write:
 
@@ -85,7 +85,9 @@ def _once(app: App, options: Options, plan: Plan, progress: Progress) -> int:
     return exit_code(outcome)
 
 
-def _fly(app: App, options: Options, plan: Plan, seed: int, listener: Listener | None) -> Outcome:
+def _fly(
+    app: App, options: Options, plan: LoadedPlan, seed: int, listener: Listener | None
+) -> Outcome:
     return simulated(
         app,
         deepcopy(plan.missions),  # a run changes its missions

@@ -44,7 +44,7 @@ GATEWAY_DEATHS = 5
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Flight:
+class FlightSetup:
     """A journal, and all that is needed to go on with it."""
 
     app: App
@@ -88,10 +88,10 @@ class Resumable:
         note = gateway_folder(self.store.path) / NOTE
         return all_over(self.known.records) and not note.exists()
 
-    def flight(self, speed: float | None) -> Flight:
+    def flight(self, speed: float | None) -> FlightSetup:
         """Return the flight that goes on; without a speed it goes on at the one it had."""
         folder = gateway_folder(self.store.path)
-        return Flight(
+        return FlightSetup(
             app=self.app,
             journal=self.store.path,
             missions=self.planned,
@@ -130,7 +130,7 @@ def fleet_in(app: App, journal: Path, header: Header) -> FleetFile:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Observer:
+class FlightObserver:
     """What is told of a flight while it goes on."""
 
     tell: Callable[[Event], object]
@@ -144,7 +144,11 @@ class Observer:
 
 
 async def run_flight(
-    flight: Flight, store: Store, stops: Stops, known: Recovered | None, observer: Observer
+    flight: FlightSetup,
+    store: Store,
+    stops: Stops,
+    known: Recovered | None,
+    observer: FlightObserver,
 ) -> Lived:
     """Live once more each time that the gateway dies; `known` is what the journal says."""
     folder = gateway_folder(flight.journal)
@@ -190,7 +194,7 @@ async def run_flight(
         store = Store.open(flight.journal)
 
 
-def aloft(flight: Flight, drones: Iterable[Drone]) -> list[Drone]:
+def aloft(flight: FlightSetup, drones: Iterable[Drone]) -> list[Drone]:
     """Return the real drones that were last heard of in the air, though all were to be down."""
     return [] if flight.sim else [drone for drone in drones if not drone.telemetry.landed]
 
@@ -204,7 +208,7 @@ def may_hover(drones: Iterable[Drone]) -> str:
     )
 
 
-async def _real(flight: Flight, folder: Path, known: Recovered | None) -> RealFleet:
+async def _real(flight: FlightSetup, folder: Path, known: Recovered | None) -> RealFleet:
     """Return how the drones are flown; simulated Crazyflies are there when this returns."""
     records = () if known is None else known.records.missions.values()
     real = real_fleet(flight.fleet, flight.missions, records=records)

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
 
     from ..files.fleet import DroneEntry, FleetFile
-    from .config import Settings
+    from .config import StationConfig
 
 FRESH = 4.0
 """Seconds for which what was heard of a drone is how it is."""
@@ -43,7 +43,7 @@ NEVER = "it has not been heard of yet"
 BACK = "it was brought back: it is asked how it is as soon as missions fly"
 
 
-class Rest:
+class IdleDrones:
     """The drones of a fleet, as the last gateway that flew them has left them."""
 
     def __init__(self, fleet: Sequence[DroneEntry], journal: Path | None) -> None:
@@ -111,14 +111,14 @@ AWAY = "put_away"
 """The file that names the last journal with which nobody wants to go on."""
 
 
-def found(app: App, settings: Settings, going_on: bool = False) -> Resumable | None:
+def found(app: App, config: StationConfig, going_on: bool = False) -> Resumable | None:
     """Return the newest journal of the station's folder, opened, to be shown and gone on with.
 
     A flight over another map would be drawn over this one, and misread: it is left alone, unless
     this station was started to go on with it.
     """
-    journal = place.newest_in(settings.folder)
-    if journal is None or journal.name == _put_away(settings):
+    journal = place.newest_in(config.folder)
+    if journal is None or journal.name == _put_away(config):
         return None
     try:
         taken = reopen(app, journal)
@@ -126,10 +126,10 @@ def found(app: App, settings: Settings, going_on: bool = False) -> Resumable | N
         output.tell(f"the last flight cannot be shown: {why}")
         return None
     same = taken.header["sim"], taken.header.get("crtp_sim") is not None
-    if same != (settings.sim, settings.crtp_sim is not None):
+    if same != (config.sim, config.crtp_sim is not None):
         taken.store.close()
         return None
-    if not going_on and drawn(taken.fleet) != drawn(settings.fleet):
+    if not going_on and drawn(taken.fleet) != drawn(config.fleet):
         taken.store.close()
         if taken.is_over:
             return None
@@ -146,41 +146,41 @@ def drawn(fleet: FleetFile) -> object:
     return fleet.airspace, [(one.id, one.category, one.home) for one in fleet.drones]
 
 
-def put_away(settings: Settings, journal: Path) -> None:
+def put_away(config: StationConfig, journal: Path) -> None:
     """Remember that nobody wants to go on with a journal; it stays where it is."""
-    (settings.own_folder / AWAY).write_text(journal.name, encoding="utf-8")
+    (config.own_folder / AWAY).write_text(journal.name, encoding="utf-8")
 
 
-def _put_away(settings: Settings) -> str:
+def _put_away(config: StationConfig) -> str:
     with suppress(OSError, ValueError):
-        return (settings.own_folder / AWAY).read_text(encoding="utf-8")
+        return (config.own_folder / AWAY).read_text(encoding="utf-8")
     return ""
 
 
 FILE = "drones.json"
 
 
-class Inheritance:
+class FleetHistory:
     """What is known of the drones before a flight begins."""
 
-    def __init__(self, app: App, settings: Settings) -> None:
-        self._app, self._settings = app, settings
-        self._kind = [settings.sim, settings.crtp_sim is not None]
-        self._file = settings.own_folder / FILE
-        self._fleet = [entry.id for entry in settings.fleet.drones]
+    def __init__(self, app: App, config: StationConfig) -> None:
+        self._app, self._config = app, config
+        self._kind = [config.sim, config.crtp_sim is not None]
+        self._file = config.own_folder / FILE
+        self._fleet = [entry.id for entry in config.fleet.drones]
         self.records = Records()
         self._journal: Path | None = None
         """The newest one, if its drones are these."""
-        self._rest = Rest(settings.fleet.drones, None)
+        self._idle = IdleDrones(config.fleet.drones, None)
 
     def read(self) -> None:
         """Read it anew: somebody else may have brought a drone back, or flown meanwhile."""
         self.records, self._journal = self._kept(), None
-        journal = place.newest_in(self._settings.folder)
+        journal = place.newest_in(self._config.folder)
         if journal is not None:
             with suppress(BadInput):  # whoever shows the last flight says what is wrong with it
                 self._take(journal)
-        self._rest = Rest(self._settings.fleet.drones, self._journal)
+        self._idle = IdleDrones(self._config.fleet.drones, self._journal)
 
     def _take(self, journal: Path) -> None:
         with closing(Store.open(journal)) as store:
@@ -188,7 +188,7 @@ class Inheritance:
             check(journal, header, self._app)
             if [header["sim"], header.get("crtp_sim") is not None] != self._kind:
                 return
-            same = drawn(fleet_in(self._app, journal, header)) == drawn(self._settings.fleet)
+            same = drawn(fleet_in(self._app, journal, header)) == drawn(self._config.fleet)
             records = recovered(store).records
         if "lost" not in header:  # it was not begun by a station
             for drone, why in self.records.lost.items():
@@ -211,7 +211,7 @@ class Inheritance:
     def leave(self, journal: Path, records: Records) -> None:
         """Keep what a flight has left behind."""
         self.records, self._journal = records, journal
-        self._rest = Rest(self._settings.fleet.drones, journal)
+        self._idle = IdleDrones(self._config.fleet.drones, journal)
         self._keep()
 
     def _keep(self) -> None:
@@ -255,7 +255,7 @@ class Inheritance:
 
     def flown_elsewhere(self) -> int | None:
         """Return the process that commands the drones of the newest journal, if any does."""
-        journal = place.newest_in(self._settings.folder)
+        journal = place.newest_in(self._config.folder)
         process = None if journal is None else lock.holder(journal)
         if journal is None or process is None:
             return None
@@ -284,24 +284,24 @@ class Inheritance:
             for name in (*self._world(old), SEEN):
                 with suppress(FileNotFoundError):
                     shutil.copyfile(old / name, new / name)
-        if self._settings.sim:
-            at_home(new, {entry.id: entry.home for entry in self._settings.fleet.drones})
+        if self._config.sim:
+            at_home(new, {entry.id: entry.home for entry in self._config.fleet.drones})
 
     def _world(self, folder: Path) -> Sequence[str]:
         """Return the files of the simulated world of a gateway, which nobody lives in any more."""
-        if self._settings.crtp_sim is not None:
+        if self._config.crtp_sim is not None:
             from ..crtp.process import DRONES as CRAZYFLIES  # few want them
             from ..crtp.process import end
 
             end(folder)
             return [CRAZYFLIES]
-        return [DRONES] if self._settings.sim else []
+        return [DRONES] if self._config.sim else []
 
     def rows(self) -> Iterator[rows.Row]:
         """Yield what there is to see of the drones while there is no flight at all."""
-        if self._rest.write_down(self._app, self.records):
+        if self._idle.write_down(self._app, self.records):
             self.read()
             self._keep()
         known = self.records
         if self._journal is not None or known.lost or known.mended or known.retired:
-            yield from self._rest.rows(known)
+            yield from self._idle.rows(known)

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Settings:
+class StationConfig:
     """What does not change while a station is there."""
 
     folder: Path
@@ -53,14 +53,14 @@ class Settings:
 Shape = dict[str, object]
 
 
-def described(app: App, settings: Settings) -> Shape:
+def described(app: App, config: StationConfig) -> Shape:
     """Return it as plain data; of fields and actions only those that this app has."""
-    graph, space = app_graph(app), settings.fleet.airspace
+    graph, space = app_graph(app), config.fleet.airspace
     return {
         "name": app.name,
         "title": app.title or app.name,
-        "sim": settings.sim or settings.crtp_sim is not None,
-        "speed": settings.speed or 1.0,
+        "sim": config.sim or config.crtp_sim is not None,
+        "speed": config.speed or 1.0,
         "fields": {
             entity.value: [_field(field) for field in app.fields if field.on is entity]
             for entity in Entity
@@ -70,14 +70,14 @@ def described(app: App, settings: Settings) -> Shape:
         "categories": [_category(category) for category in app.categories],
         "drones": [
             {"id": entry.id, "category": entry.category, "home": list(entry.home)}
-            for entry in settings.fleet.drones
+            for entry in config.fleet.drones
         ],
         "map": {
             "size": list(space.size),
             "cruise_height": space.cruise_height,
             "ceiling": space.ceiling,
             "no_fly": [[list(corner) for corner in area] for area in space.no_fly],
-            "image": "/map" if settings.image is not None else None,
+            "image": "/map" if config.image is not None else None,
         },
         "retries": _retries(graph),
         "rounds": any(field.type is FieldType.ROUNDS for field in app.fields),

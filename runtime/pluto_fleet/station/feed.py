@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from plutoc_runtime.domain.trace import Event
 
 
-class Versions:
+class VersionedRows:
     """Rows by their names, each as JSON with the number of its last change."""
 
     def __init__(self) -> None:

@@ -21,17 +21,17 @@ from plutoc_runtime.time.kernel import WHATEVER
 from ..flight.config import End, Stops
 from ..flight.live_engine import live_engine
 from ..flight.live_fleet import live_fleet
-from ..flight.lives import Flight, Observer, run_flight
+from ..flight.lives import FlightObserver, FlightSetup, run_flight
 from ..flight.standing import records_in
 from ..journal.fold import Records
 from ..journal.lock import holder
 from ..journal.place import written
 from ..journal.reader import Reader
 from . import rows
-from .between_flights import Rest
-from .feed import Feed, Versions
+from .between_flights import IdleDrones
+from .feed import Feed, VersionedRows
 from .plan.shape import BROKEN_OFF
-from .wait_reasons import Waiting
+from .wait_reasons import WaitReasons
 
 if TYPE_CHECKING:
     # was an import of itself
@@ -58,29 +58,29 @@ class Phase(Enum):
     """Every mission has ended."""
 
 
-def phase_of(outing: Outing | None) -> Phase:
+def phase_of(session: FlightSession | None) -> Phase:
     """Return what goes on, by the flight there is."""
-    if outing is None:
+    if session is None:
         return Phase.IDLE
-    if outing.lives:
-        return Phase.STOPPING if outing.stops.asked is not None else Phase.FLYING
-    if outing.trouble:
+    if session.lives:
+        return Phase.STOPPING if session.stops.asked is not None else Phase.FLYING
+    if session.trouble:
         return Phase.INTERRUPTED
-    match outing.end:
+    match session.end:
         case End.OVER:
             return Phase.OVER
         case End.STOPPED:
             return Phase.STOPPED
-    was_stopped = outing.records is not None and outing.records.stopped
+    was_stopped = session.records is not None and session.records.stopped
     return Phase.STOPPED if was_stopped else Phase.INTERRUPTED
 
 
-class Outing:
+class FlightSession:
     """A journal, whoever lives it, and what everybody sees of it."""
 
     def __init__(
         self,
-        flight: Flight,
+        flight: FlightSetup,
         ended: Callable[[], object],
         seen: Callable[[], object],
         known: Records | None = None,
@@ -92,7 +92,7 @@ class Outing:
         self.flight = flight
         self.id = flight.journal.name
         self.feed = Feed(flight.app, UNITS if flight.sim else {})
-        self.missions, self.drones = Versions(), Versions()
+        self.missions, self.drones = VersionedRows(), VersionedRows()
         self.stops = Stops()
         self.one: OneLife | None = None
         """What is lived now."""
@@ -104,8 +104,8 @@ class Outing:
         """Why it could not go on."""
         self.task: asyncio.Task[None] | None = None
         self._ended, self._seen = ended, seen
-        self._rest = Rest(flight.fleet.drones, flight.journal)
-        self._waiting = Waiting(time.monotonic)
+        self._idle = IdleDrones(flight.fleet.drones, flight.journal)
+        self._waiting = WaitReasons(time.monotonic)
         self._left_at = 0.0
         self._read_at: int | None = None
         """When its journal had been written last, as it was read."""
@@ -166,7 +166,7 @@ class Outing:
         self.task.add_done_callback(lambda _: self._ended())
 
     async def _live(self, store: Store, known: Recovered | None) -> None:
-        observer = Observer(tell=self._hear, say=self._say, born=self._born, patient=True)
+        observer = FlightObserver(tell=self._hear, say=self._say, born=self._born, patient=True)
         try:
             lived = await run_flight(self.flight, store, self.stops, known, observer)
         except BadInput as error:
@@ -229,7 +229,7 @@ class Outing:
                 if holder(self.journal) is not None:  # it is read when that has ended
                     return
                 self._show_what_counts()
-            if self._rest.write_down(self.flight.app, self.records):
+            if self._idle.write_down(self.flight.app, self.records):
                 self._show_what_counts()
             self._read_at = written(self.journal)
 
@@ -251,7 +251,7 @@ class Outing:
     def _see_drones(self, number: int) -> bool:
         put, changed = self.drones.put, False
         life = self.life
-        for row in self._rest.rows(self.records) if life is None else self._drones_now(life):
+        for row in self._idle.rows(self.records) if life is None else self._drones_now(life):
             changed |= put(str(row["id"]), row, number)
         return changed
 

@@ -34,7 +34,7 @@ _DOES = {
 }
 
 
-class Waiting:
+class WaitReasons:
     """What is said of those who wait; asked for at each look, and found out now and then."""
 
     def __init__(self, clock: Callable[[], float]) -> None:

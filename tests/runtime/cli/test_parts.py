@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pluto_fleet.cli.runs import Run, spread, summary
+from pluto_fleet.cli.runs import RunFigures, spread, summary
 from pluto_fleet.report.progress import Progress
 from pluto_fleet.report.report import table
 from pluto_fleet.report.sentences import line_of
@@ -21,7 +21,7 @@ from plutoc_runtime.domain.trace import dumped
 def test_the_summary_counts_successes_and_times_only_those() -> None:
     """A mission that failed early is not a fast one."""
     runs = [
-        Run(seed=seed, success=seed != 2, makespan=float(10 * seed), attempts=seed, failed=0)
+        RunFigures(seed=seed, success=seed != 2, makespan=float(10 * seed), attempts=seed, failed=0)
         for seed in range(1, 5)
     ]
     figures = summary(runs)

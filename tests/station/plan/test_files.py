@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from pluto_fleet.files.missions import load_missions
-from pluto_fleet.station.plan.plan import Plan, Stale
+from pluto_fleet.station.plan.plan import MissionPlan, Stale
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.model import Mission
 from tests.runtime.files.an_app import APP
@@ -58,7 +58,7 @@ name = "2"
 """
 
 
-def imported(text: str) -> Plan:
+def imported(text: str) -> MissionPlan:
     plan = a_plan()
     plan.import_toml(text, plan.revision)
     return plan

@@ -174,7 +174,7 @@ def _problem(missions: Sequence[Shape], place: Place, text: str, alone: str) -> 
     )
 
 
-class Flyable:
+class FlyabilityCache:
     """What is known of each mission, by its key: it is asked about again when it has changed."""
 
     def __init__(self, app: App, fleet: FleetFile) -> None:

@@ -6,6 +6,8 @@ import asyncio
 import time
 from collections.abc import Awaitable, Callable, Coroutine, Mapping
 from dataclasses import replace
+from pathlib import Path
+from typing import Protocol
 
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.text import cut_off, printable
@@ -14,13 +16,12 @@ from ..commands import NEEDS, Malformed
 from ..plan.errors import Stale
 from . import refusals
 from .audit import Audit
-from .behind import Plan, Station
-from .guard import Asking, Guard, Rate, dressed, refusal
-from .http import MISTAKES, Line, Reply, Request, json_reply, text_reply
+from .guard import Access, Guard, Rate, refusal, with_safe_headers
+from .http import MISTAKES, PageSocket, Reply, Request, json_reply, text_reply
 from .http import said as in_words
-from .live import LIVE, Live
+from .live import LIVE, LiveUpdates, UpdateSource
 from .refusals import Refusal, Refused
-from .static import handed_out, pages, picture
+from .static import file_reply, pages, picture
 from .strict_json import asked_number, parsed_object
 
 ADDRESSES: Mapping[str, tuple[str, ...]] = {
@@ -40,7 +41,54 @@ _NAME = "missions.toml"
 _JSON, _TOML = "application/json", "application/toml"
 
 
-async def read(station: Station, path: str) -> Reply:
+class ServedPlan(Protocol):
+    """The plan; each change names the revision that it was made on, and another is `Stale`."""
+
+    def data(self) -> Mapping[str, object]:
+        """Return all of it, and what is known to be wrong with it."""
+
+    async def examined(self) -> None:
+        """Wait until all is known that is wrong with it."""
+
+    def replace(self, revision: int, missions: object) -> None:
+        """Put missions in its place."""
+
+    async def import_file(self, text: str, revision: int, file: str) -> None:
+        """Put those of a missions file in its place; what is wrong with it says its name."""
+
+    def example(self, revision: int) -> None:
+        """Put an example in its place."""
+
+    def export_toml(self) -> str:
+        """Return it as a missions file."""
+
+
+class ServedStation(UpdateSource, Protocol):
+    """What flies, what everybody sees, and what may be commanded."""
+
+    @property
+    def plan(self) -> ServedPlan:
+        """The plan that people draw."""
+
+    @property
+    def image(self) -> Path | None:
+        """The floor plan."""
+
+    @property
+    def described(self) -> Mapping[str, object]:
+        """What never changes while the server lives."""
+
+    async def command(self, name: str, id: str, given: Mapping[str, object], /) -> str:
+        """Do it, unless it was done by this id before; `BadInput` says why not."""
+
+    def console(self) -> str:
+        """Return all that was said."""
+
+    def results(self) -> list[object]:
+        """Return all that came of actions."""
+
+
+async def read(station: ServedStation, path: str) -> Reply:
     """Answer somebody who only wants to know."""
     match path:
         case "/api/app":
@@ -61,7 +109,7 @@ async def read(station: Station, path: str) -> Reply:
             return Reply(status=200, body=results.body, headers=(named,))
 
 
-async def change(station: Station, audit: Audit, request: Request) -> Reply:
+async def change(station: ServedStation, audit: Audit, request: Request) -> Reply:
     """Do what somebody commands, and note it, whatever comes of it."""
     wanted = _TOML if request.path == "/api/plan/import" else _JSON
     if request.headers.get("content-type", "").partition(";")[0].strip().lower() != wanted:
@@ -91,7 +139,7 @@ async def change(station: Station, audit: Audit, request: Request) -> Reply:
 
 
 async def _commanded(
-    station: Station, audit: Audit, request: Request, name: str, given: dict[str, object]
+    station: ServedStation, audit: Audit, request: Request, name: str, given: dict[str, object]
 ) -> Reply:
     id = given.pop("id", None)
     if not isinstance(id, str) or not 0 < len(id) <= _LONGEST_ID:
@@ -111,7 +159,7 @@ async def _at_once(edit: Callable[[], None]) -> None:
 
 
 async def _edited(
-    plan: Plan, audit: Audit, request: Request, edit: Coroutine[None, None, None]
+    plan: ServedPlan, audit: Audit, request: Request, edit: Coroutine[None, None, None]
 ) -> Reply:
     """Change the plan; who has seen an older one is given the newest."""
     try:
@@ -173,7 +221,7 @@ class Api:
 
     def __init__(
         self,
-        station: Station,
+        station: ServedStation,
         guard: Guard,
         audit: Audit,
         *,
@@ -186,7 +234,7 @@ class Api:
         self._picture = picture(station.image) if station.image is not None else None
         self._commands, self._edits = Rate(_COMMANDS, clock), Rate(_EDITS, clock)
         self._reads = Rate(_READS, clock)
-        self._live = Live(station, guard, audit, clock)
+        self._live = LiveUpdates(station, guard, audit, clock)
         self._under_way = self._waiting = 0
 
     async def answer(self, request: Request) -> Reply:
@@ -202,11 +250,11 @@ class Api:
         except MISTAKES as error:
             self._audit.trouble(request, error)
             reply = refusals.OURS.reply
-        return dressed(request, reply)
+        return with_safe_headers(request, reply)
 
-    async def live(self, line: Line, request: Request) -> None:
+    async def live(self, page: PageSocket, request: Request) -> None:
         """Keep a page up to date for as long as it asks."""
-        await self._live.talk(line, request)
+        await self._live.talk(page, request)
 
     def end(self) -> None:
         """Hang up on everybody who is connected."""
@@ -217,16 +265,16 @@ class Api:
         return why.reply
 
     async def _answer(self, request: Request) -> Reply:
-        asking = _asking(request)
-        why = refusal(self.guard, request, asking)
+        access = _asking(request)
+        why = refusal(self.guard, request, access)
         if why is not None:
             if why.status == 401:
                 await self._slow_down()
             raise Refused(why)
-        if asking is Asking.PAGE and request.path in self._pages:
-            return handed_out(self._pages[request.path], request)
+        if access is Access.PAGE and request.path in self._pages:
+            return file_reply(self._pages[request.path], request)
         if request.path == "/map" and self._picture is not None:
-            return handed_out(self._picture, request)
+            return file_reply(self._picture, request)
         _route(request)
         if request.path == LIVE:
             return await self._live.poll(request)
@@ -264,11 +312,11 @@ class Api:
             self._waiting -= 1
 
 
-def _asking(request: Request) -> Asking:
+def _asking(request: Request) -> Access:
     if request.method != "GET":
-        return Asking.COMMAND
+        return Access.COMMAND
     reads = request.path.startswith("/api/") or request.path == "/map"
-    return Asking.READ if reads else Asking.PAGE
+    return Access.READ if reads else Access.PAGE
 
 
 def _route(request: Request) -> None:

@@ -73,7 +73,7 @@ def proper_name(text: str) -> str:
     return name
 
 
-class Asking(Enum):
+class Access(Enum):
     """What a request is, as far as it matters who may ask it."""
 
     PAGE = "a page"  # the same for everybody, and says nothing of what flies
@@ -93,7 +93,7 @@ def needs_token(host: str, names: tuple[str, ...]) -> bool:
     return bool(names) or not is_loopback(host)
 
 
-def refusal(guard: Guard, request: Request, asking: Asking) -> Refusal | None:
+def refusal(guard: Guard, request: Request, access: Access) -> Refusal | None:
     """Return why this may not be asked; None: it may.
 
     On a WebSocket the token is not looked for here: it comes with the first message.
@@ -102,14 +102,14 @@ def refusal(guard: Guard, request: Request, asking: Asking) -> Refusal | None:
     host = headers.get("host", "").lower()
     if not _is_ours(guard, host, request.local):
         return refusals.UNKNOWN_HOST
-    if asking is Asking.PAGE:
+    if access is Access.PAGE:
         return None
-    if not _is_same_site(headers, host, asking):
+    if not _is_same_site(headers, host, access):
         return refusals.ANOTHER_SITE
     marked = headers.get("x-pluto") == "1"
-    if asking is Asking.COMMAND and not marked:
+    if access is Access.COMMAND and not marked:
         return refusals.NO_MARK
-    if asking is Asking.LIVE:
+    if access is Access.LIVE:
         stranger = "origin" not in headers and guard.token is None and not marked
         return refusals.NO_MARK if stranger else None
     return None if knows(guard, _bearer(headers)) else refusals.NO_TOKEN
@@ -127,13 +127,13 @@ def _bearer(headers: Mapping[str, str]) -> str:
     return token.strip() if kind.lower() == "bearer" else ""
 
 
-def _is_same_site(headers: Mapping[str, str], host: str, asking: Asking) -> bool:
+def _is_same_site(headers: Mapping[str, str], host: str, access: Access) -> bool:
     """Whether a page of ours asks, or no page at all."""
     site = headers.get("sec-fetch-site", "same-origin")
-    match asking:
-        case Asking.LIVE:  # browsers differ in how near a ws: address is to its page's
+    match access:
+        case Access.LIVE:  # browsers differ in how near a ws: address is to its page's
             near = site != "cross-site"
-        case Asking.READ:  # "none": somebody typed the address
+        case Access.READ:  # "none": somebody typed the address
             near = site in ("same-origin", "none")
         case _:
             near = site == "same-origin"
@@ -195,7 +195,7 @@ _ALWAYS = (
 )
 
 
-def dressed(request: Request, reply: Reply) -> Reply:
+def with_safe_headers(request: Request, reply: Reply) -> Reply:
     """Return an answer with all the headers that keep it safe."""
     own = {name.lower() for name, _ in reply.headers}
     kept = () if "cache-control" in own else (("Cache-Control", "no-store"),)

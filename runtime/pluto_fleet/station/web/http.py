@@ -51,7 +51,7 @@ class Closed(Exception):
     """Whoever was connected is no longer."""
 
 
-class Line(Protocol):
+class PageSocket(Protocol):
     """A WebSocket: first opened or refused, then talked on. All but `close` may raise `Closed`."""
 
     async def open(self) -> None:

@@ -8,13 +8,13 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Callable
 from contextlib import suppress
+from typing import Protocol
 
 from ..commands import Malformed
 from . import refusals
 from .audit import Audit
-from .behind import Newest
-from .guard import Asking, Guard, Rate, knows, refusal
-from .http import MISTAKES, Closed, Line, Reply, Request
+from .guard import Access, Guard, Rate, knows, refusal
+from .http import MISTAKES, Closed, PageSocket, Reply, Request
 from .refusals import Refused
 from .strict_json import asked_number, parsed_object
 
@@ -32,14 +32,21 @@ _FIRST, _NEXT = 10.0, 120.0
 _LONGEST_FLIGHT = 100
 
 NO_TOKEN, MALFORMED, TOO_MANY, TROUBLE, SILENT, OVER = 4401, 4400, 4429, 1011, 4408, 1012
-"""Why a line is closed. From 4400 on they are HTTP's, and 4000 more."""
+"""Why a page is closed. From 4400 on they are HTTP's, and 4000 more."""
 
 
-class Live:
+class UpdateSource(Protocol):
+    """What pages are kept up to date with."""
+
+    async def newer(self, flight: str, seen: int, log: int, results: int) -> str:
+        """Return what is newer than what was seen, as JSON; wait for it, but not for long."""
+
+
+class LiveUpdates:
     """All pages that are kept up to date."""
 
     def __init__(
-        self, station: Newest, guard: Guard, audit: Audit, clock: Callable[[], float]
+        self, station: UpdateSource, guard: Guard, audit: Audit, clock: Callable[[], float]
     ) -> None:
         self._station, self._guard, self._audit, self._clock = station, guard, audit, clock
         self._on = self._waiting = 0
@@ -59,22 +66,22 @@ class Live:
             self._on -= 1
         return Reply(status=200, body=text.encode("utf-8", "replace"))
 
-    async def talk(self, line: Line, request: Request) -> None:
+    async def talk(self, page: PageSocket, request: Request) -> None:
         """Tell a page for as long as it asks."""
         task = asyncio.current_task()
         assert task is not None
         self._talks.add(task)
         try:
-            await self._admit(line, request)
+            await self._admit(page, request)
         except Closed:
             pass
         except asyncio.CancelledError:
             if not self._over:
                 raise
-            await _hang_up(line, OVER, "the station ends")
+            await _hang_up(page, OVER, "the station ends")
         except MISTAKES as error:
             self._audit.trouble(request, error)
-            await _hang_up(line, TROUBLE, "something went wrong inside the station")
+            await _hang_up(page, TROUBLE, "something went wrong inside the station")
         finally:
             self._talks.discard(task)
 
@@ -84,28 +91,28 @@ class Live:
         for task in self._talks:
             task.cancel()
 
-    async def _admit(self, line: Line, request: Request) -> None:
+    async def _admit(self, page: PageSocket, request: Request) -> None:
         """Let somebody in who may be, and hang up with a reason on whoever talks nonsense."""
-        why = refusal(self._guard, request, Asking.LIVE)
+        why = refusal(self._guard, request, Access.LIVE)
         if why is None and request.path != LIVE:
             why = refusals.NO_SUCH_PAGE
         if why is None and (self._over or self._waiting >= _WAITING):
             why = refusals.TOO_BUSY
         if why is not None:
             self._audit.refused(request, why.status, why.said)
-            await line.refuse()
+            await page.refuse()
             return
         try:
-            await self._converse(line)
+            await self._converse(page)
         except _Improper as error:
             self._audit.refused(request, error.code - 4000, str(error))
-            await _hang_up(line, error.code, str(error))
+            await _hang_up(page, error.code, str(error))
 
-    async def _converse(self, line: Line) -> None:
+    async def _converse(self, page: PageSocket) -> None:
         self._waiting += 1
         try:
-            await line.open()
-            first = await _heard(line, _FIRST)
+            await page.open()
+            first = await _heard(page, _FIRST)
         finally:
             self._waiting -= 1
         token = first.get("token", "")
@@ -115,17 +122,17 @@ class Live:
             raise _Improper(TOO_MANY, refusals.TOO_BUSY.said)
         self._on += 1
         try:
-            await self._tell(line, first)
+            await self._tell(page, first)
         finally:
             self._on -= 1
 
-    async def _tell(self, line: Line, asked: dict[str, object]) -> None:
+    async def _tell(self, page: PageSocket, asked: dict[str, object]) -> None:
         rate = Rate(_MESSAGES, self._clock)
         while True:
             if not rate.allows(""):
                 raise _Improper(TOO_MANY, refusals.TOO_MANY.said)
-            await line.send(await self._station.newer(*_seen(asked)))
-            asked = await _heard(line, _NEXT)
+            await page.send(await self._station.newer(*_seen(asked)))
+            asked = await _heard(page, _NEXT)
 
 
 class _Improper(Exception):
@@ -136,11 +143,11 @@ class _Improper(Exception):
         self.code = code
 
 
-async def _heard(line: Line, within: float) -> dict[str, object]:
+async def _heard(page: PageSocket, within: float) -> dict[str, object]:
     """Return what is said next, if it comes in time and makes sense."""
     try:
         async with asyncio.timeout(within):
-            text = await line.receive()
+            text = await page.receive()
     except TimeoutError:
         raise _Improper(SILENT, f"nothing was said for {within:g} seconds") from None
     try:
@@ -158,6 +165,6 @@ def _seen(asked: dict[str, object]) -> tuple[str, int, int, int]:
             raise _Improper(MALFORMED, "a message says flight, seen, log and results")
 
 
-async def _hang_up(line: Line, code: int, why: str) -> None:
+async def _hang_up(page: PageSocket, code: int, why: str) -> None:
     with suppress(Closed):
-        await line.close(code, why)
+        await page.close(code, why)

@@ -58,7 +58,7 @@ TOO_MANY = Refusal(
 """From one client."""
 TOO_BUSY = Refusal(
     503,
-    "too many are asking at once: nothing was changed; try again in a second."
+    "too many are access at once: nothing was changed; try again in a second."
     " A Stop is always taken",
     _SOON,
 )

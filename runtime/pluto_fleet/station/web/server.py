@@ -57,7 +57,7 @@ async def serve(api: Api, listener: socket.socket, ready: Callable[[], object]) 
     async def application(scope: Scope, receive: Receive, send: Send) -> None:
         request = _request(scope, receive)
         if scope["type"] == "websocket":
-            await api.live(SocketLine(WebSocket(scope, receive, send)), request)
+            await api.live(StarletteSocket(WebSocket(scope, receive, send)), request)
             return
         reply = await api.answer(request)
         headers = {"Content-Type": reply.type, **dict(reply.headers)}
@@ -146,7 +146,7 @@ def _began(connection: LimitedConnection) -> float:
     return connection._began
 
 
-class SocketLine:
+class StarletteSocket:
     """A page that stays connected by a WebSocket."""
 
     def __init__(self, socket: WebSocket) -> None:

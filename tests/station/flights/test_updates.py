@@ -6,8 +6,8 @@ import asyncio
 import json
 from typing import Any
 
-from pluto_fleet.station.plan.plan import Plan
-from pluto_fleet.station.updates import Scene
+from pluto_fleet.station.plan.plan import MissionPlan
+from pluto_fleet.station.updates import Updates
 from tests.runtime.files.an_app import APP
 from tests.station.plan.drawing import FLEET
 
@@ -36,9 +36,9 @@ class Shown:
 
     def __init__(self) -> None:
         self.described: dict[str, object] = {"server": "x"}
-        self.outing: Any = Unseen()
-        self.plan = Plan(APP, FLEET, None)
-        self.inheritance: Any = Nothing()
+        self.session: Any = Unseen()
+        self.plan = MissionPlan(APP, FLEET, None)
+        self.history: Any = Nothing()
 
 
 def test_a_mistake_in_what_is_shown_leaves_nobody_waiting_nor_who_heard_of_the_drones() -> None:
@@ -47,13 +47,13 @@ def test_a_mistake_in_what_is_shown_leaves_nobody_waiting_nor_who_heard_of_the_d
     async def scenario() -> dict[str, Any]:
         asyncio.get_running_loop().set_exception_handler(lambda _, about: complaints.append(about))
         shown = Shown()
-        scene = Scene(shown)
+        scene = Updates(shown)
         waiting = asyncio.ensure_future(scene.newer("", 0, 0, 0))
         await asyncio.sleep(0)
         scene.hurry()
         async with asyncio.timeout(5):
             await asyncio.sleep(0)
-            shown.outing = None
+            shown.session = None
             told: dict[str, Any] = json.loads(await waiting)
         return told
 
