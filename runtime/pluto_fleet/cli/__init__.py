@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
 
 _WITHOUT_HOOKS = (["tell"], ["journal"], ["--version"])
-"""Commands that need nothing of an app but its name: a Stop must work whatever is in hooks.py."""
+"""Commands that need nothing of an app but its name: a Stop must work though hooks.py does not."""
 
 
 def start(name: str, load: Callable[[], App]) -> int:

@@ -1,4 +1,4 @@
-"""Asks real drones how they are, all at once: none is armed, none moves, and a silent one delays nobody.
+"""Asks real drones how they are, all at once: none is armed, none moves, and a silent one delays no other.
 
 A drone that is in the air is not let go of either: for some, that would switch the motors off.
 """
@@ -81,7 +81,7 @@ class _Silent(Exception):
 
 
 async def found(navigation: str, options: Mapping[str, object]) -> list[str]:
-    """Return where drones answer; raise `BadInput` if nobody can look, or there are none to ask."""
+    """Return where drones answer; raise `BadInput` if they cannot be looked for."""
     by = load_navigation(navigation)
     if not isinstance(by, Scannable):
         raise BadInput(
@@ -104,7 +104,7 @@ async def answers(
     localization: str = OWN,
     options: Options | None = None,
 ) -> list[DroneAnswer]:
-    """Return what each drone answers, told meanwhile where it is if the fleet has somebody for that."""
+    """Return what each drone answers, told meanwhile where it is if the fleet has a localization."""
     navigations = {one.id: _made(one, folder) for one in asked}
     feeding: Feeding | None = None
     if localization != OWN:
@@ -170,7 +170,7 @@ async def _answer(
                 (end,) = await asyncio.gather(_ask(navigation, so_far), return_exceptions=True)
             finally:
                 await _let_go(navigation)
-    except Held as held:  # an app flies it: nobody else may speak with it
+    except Held as held:  # an app flies it, and alone may speak with it
         return DroneAnswer(asked=asked, problems=(str(held),))
     match end:
         case None:
@@ -207,7 +207,7 @@ async def _ask(navigation: DroneNavigation, so_far: _Heard) -> None:
 async def _let_go(navigation: DroneNavigation) -> None:
     """Close the link to a drone that stands on the ground, or that has never answered."""
     flying = False
-    with suppress(Exception):  # whatever is wrong with it, nobody has anything left to ask
+    with suppress(Exception):  # a drone that fails now has been asked all there was
         flying = navigation.telemetry.flying
     if not flying:
         with suppress(Exception):
@@ -215,7 +215,7 @@ async def _let_go(navigation: DroneNavigation) -> None:
 
 
 async def _within(seconds: float, coroutine: Coroutine[object, object, T]) -> T:
-    """Return what comes of it, or raise `_Silent`; whoever does not hear of it is left behind."""
+    """Return what comes of it, or raise `_Silent`; a call that does not end is left behind."""
     task = asyncio.ensure_future(coroutine)
     try:
         done, _ = await asyncio.wait({task}, timeout=seconds)

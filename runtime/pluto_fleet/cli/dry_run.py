@@ -94,7 +94,7 @@ def _refused(app: App, options: Options, plan: LoadedPlan) -> Iterator[str]:
     except BadInput as error:
         yield f"{app.name} fly would not begin:\n{error}"
         return
-    if options.crtp_sim is not None:  # they are fitted with whatever the plan asks for
+    if options.crtp_sim is not None:  # they are fitted with all that the plan asks for
         return
     wanted = real_fleet(plan.fleet, plan.missions).wanted
     categories = {category.name: category for category in plan.app.categories}
@@ -244,7 +244,7 @@ class CommandLog(Before):
         await self._controls.write(drone, name, value)
 
     def break_off(self, drone: str) -> None:
-        """Stop whatever a drone does, and hover; a command under way raises `FlightFailed`."""
+        """Stop what a drone does, and hover; a command under way raises `FlightFailed`."""
         if not self._controls.telemetry(drone).landed:
             self._note(drone, "stop, and hover")
         self._controls.break_off(drone)

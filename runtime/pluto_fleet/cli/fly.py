@@ -53,7 +53,7 @@ if TYPE_CHECKING:
 
 
 def fly(app: App, options: Options) -> int:
-    """Fly the missions and say what came of them; whoever interrupts it lands the drones."""
+    """Fly the missions and say what came of them; an interrupt lands the drones."""
     options.refuse_what_is_simulated()
     plan = load(app, options)
     if options.is_real:
@@ -151,7 +151,7 @@ STOPPED = 130
 
 
 def see_through(flight: FlightSetup, store: Store, known: Recovered | None = None) -> int:
-    """Fly until all is over or somebody stops it; say what came of it, and return the exit code.
+    """Fly until all is over or it is stopped; say what came of it, and return the exit code.
 
     `known` is what the journal says, if it has been read already.
     """
@@ -182,7 +182,7 @@ async def _heard(
     interrupts: Interrupts,
     known: Recovered | None,
 ) -> Lived:
-    """Live, and hear whoever wants it to end."""
+    """Live, and hear interrupts."""
     interrupts.loop = asyncio.get_running_loop()
     return await run_flight(flight, store, stops, known, FlightObserver(tell=tell, say=output.tell))
 
@@ -216,9 +216,9 @@ def _is_over(app: App, journal: Path, code: int) -> bool:
 
 
 def tell(event: Event) -> None:
-    """Show an event to whoever watches."""
+    """Show an event on standard output."""
     line = line_of(event)
     if line is not None:
-        with suppress(output.ClosedPipe, output.CannotWrite):  # whoever watches has gone: fly on
+        with suppress(output.ClosedPipe, output.CannotWrite):  # the reader has gone: fly on
             output.line(line)
             output.flush()

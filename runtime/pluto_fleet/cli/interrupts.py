@@ -1,7 +1,7 @@
 """Ctrl-C and `kill` while drones fly: the first time they land, the second time the app is gone.
 
 They are told to the app and not to the processes that its hooks fork: a copy of the app's handlers
-would land the fleet when somebody ends such a child.
+would land the fleet when such a child is ended.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ class Stoppable(Protocol):
     """What can be brought to its end."""
 
     asked: Down | None
-    """How, once somebody has asked for that."""
+    """How, once that was asked for."""
 
     def stop(self, how: Down) -> None:
         """Bring all drones down; called in the loop's thread."""
@@ -42,7 +42,7 @@ class Stoppable(Protocol):
 
 
 class Interrupts:
-    """Whoever wants the app to end, and whether it has heard."""
+    """The signals that ask the app to end, and whether it has heard."""
 
     def __init__(
         self,

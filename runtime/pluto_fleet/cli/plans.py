@@ -41,7 +41,7 @@ class LoadedPlan:
 
 
 def load(app: App, options: Options) -> LoadedPlan:
-    """Return the plan of a command's files; raise `BadInput` where nobody could fly it."""
+    """Return the plan of a command's files; raise `BadInput` where it cannot be flown."""
     fleet, fleet_text = load_fleet(app, options)
     if options.is_real:
         app = as_flown(app, fleet)
@@ -78,7 +78,7 @@ FLEET = "fleet.toml"
 
 
 def take_fleet_beside(options: Options) -> None:
-    """Take it where no other one is named. Real drones fly only by a file that somebody has named."""
+    """Take the fleet file beside the missions where none is named; real drones need a named one."""
     missions = _missions(options)
     if missions is None or options.fleet is not None:
         return

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 def check_real(app: App, fleet: FleetFile, where: str, *, stand_ins: bool) -> None:
     """Raise `BadInput` if this fleet cannot be flown from here; nothing has started.
 
-    `where` its file is, for whoever must mend it. Navigations are made, and reach for nothing.
+    `where` names its file, in messages. Navigations are made, and reach for nothing.
     """
     problems = [] if stand_ins else not_real(fleet)
     if problems:

@@ -51,7 +51,7 @@ def often(
     """Fly with one seed after the other; say what came of each, and of all."""
     if options.plot is not None:
         kind_of(options.plot)
-        drawing()  # whoever lacks it shall not fly first
+        drawing()  # said before anything flies
     runs: list[RunFigures] = []
     data: list[dict[str, object]] = []
     worst, items = 0, items_of(plan.missions)
@@ -131,7 +131,7 @@ def _broken(app: App, options: Options, runs: Sequence[RunFigures]) -> Iterator[
         f"See it again: {app.name} simulate {in_shell(options.missions)}{fleet} --seed {runs[0].seed}"
         f"{fail}{until} --trace trace.jsonl"
     )
-    yield "This is a mistake of ours, or of whoever made a block: please report it, with that file."
+    yield "This is a mistake of ours, or of a block's author: please report it, with that file."
 
 
 def _in_words(runs: Sequence[RunFigures]) -> str:
@@ -170,7 +170,7 @@ class RunFigures:
     battery: float | None = None
     """The lowest level that any drone came down with; None: none flew."""
     violations: tuple[str, ...] = ()
-    """What no run may do, whatever goes wrong, and this one did."""
+    """What no run may ever do, and this one did."""
 
 
 def run_of(seed: int, outcome: Outcome, items: Items) -> RunFigures:

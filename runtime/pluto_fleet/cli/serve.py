@@ -50,7 +50,7 @@ AGAIN = "serve shows what was interrupted, and Resume goes on with it"
 
 
 def serve(app: App, options: Options) -> int:
-    """Serve the station until somebody interrupts it; then all drones land first."""
+    """Serve the station until it is interrupted; then all drones land first."""
     options.refuse_what_is_simulated()
     serve_web = _web_server(app.name)  # before anything is kept or flown
     config = _config(app, options)
@@ -174,7 +174,9 @@ def _make_room(config: StationConfig) -> None:
     """See to it that the station's folder is there."""
     folder = config.folder
     try:
-        folder.mkdir(mode=0o700, parents=True, exist_ok=True)  # nobody else's, and so all in it
+        folder.mkdir(
+            mode=0o700, parents=True, exist_ok=True
+        )  # for this user alone, and so all in it
         config.own_folder.mkdir(mode=0o700, exist_ok=True)
         if not os.access(config.own_folder, os.W_OK | os.X_OK):
             raise PermissionError(0, "it may only be read")
@@ -189,7 +191,7 @@ def _plan(app: App, options: Options, config: StationConfig) -> MissionPlan:
     if options.plan is not None:
         if plan.is_empty:
             plan.import_toml(text_of(options.plan), plan.revision, str(options.plan))
-        elif not options.going_on:  # nobody has just said so
+        elif not options.going_on:  # after a crash that was said before
             output.tell(f"the plan that was drawn here stays: {options.plan} is not read")
     return plan
 
@@ -209,7 +211,7 @@ def _port(options: Options, config: StationConfig) -> int:
 
 
 def _token(config: StationConfig) -> str:
-    """Return the token: the same after a restart, so that nobody is locked out in mid-flight."""
+    """Return the token: the same after a restart, so that no page is locked out in mid-flight."""
     file = config.own_folder / "token"
     with suppress(OSError, ValueError):
         known = file.read_text(encoding="ascii").strip()
@@ -227,7 +229,7 @@ _TOKEN = 32
 
 @contextmanager
 def _alone(config: StationConfig) -> Iterator[None]:
-    """Let nobody else serve from this folder."""
+    """Let no other station serve from this folder."""
     with (config.own_folder / "lock").open("a+", encoding="ascii") as lock:
         try:
             fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)

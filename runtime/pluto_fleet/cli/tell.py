@@ -68,7 +68,7 @@ def asked(app: App, options: Options, request: Mapping[str, object]) -> str:
         if not journal.exists():
             raise missing(journal) from None
         raise Nobody(
-            f"{journal}: {app.name} is not running, so there is nobody to tell; "
+            f"{journal}: {app.name} is not running, so it cannot be told; "
             f"{app.name} resume {in_shell(journal)} goes on"
         ) from None
     except Ended as error:
@@ -132,16 +132,16 @@ def _stop(app: App, options: Options, request: dict[str, object]) -> str:
     journal, how = Path(os.path.realpath(options.the_journal)), Down(request["how"])
     again = f"{app.name} resume {in_shell(journal)}"
     if gateway_folder(journal).is_dir():
-        # If the app crashes meanwhile, whoever starts it again shall land as well.
+        # If the app crashes meanwhile, the next one that is started shall land as well.
         offline.leave_stop(journal, how)
     until = time.monotonic() + PATIENCE
     while True:
         try:
             return ask(note_of(journal), request, AT_ONCE)
-        except (Nobody, Silent) as nobody:
+        except (Nobody, Silent) as unheard:
             with suppress(Nobody):
                 said = stop_directly(gateway_folder(journal), how, PATIENCE)
-                return f"{nobody}: {said} without it; {again} goes on"
+                return f"{unheard}: {said} without it; {again} goes on"
         if holder(journal) is None:
             if not journal.exists():
                 raise missing(journal)
@@ -164,14 +164,14 @@ def cut_motors(app: App, journal: Path, drone: str | None) -> str:
                 break
         except Silent:
             raise Silent(
-                f"{journal}: what commands the drones does not answer, so nobody can say whether"
+                f"{journal}: what commands the drones does not answer, so it is not known whether"
                 " their motors are cut"
             ) from None
         time.sleep(0.05)  # it may have died this moment, and be started again
     if not journal.exists():
         raise missing(journal)
     raise Nobody(
-        f"{journal}: nobody commands its drones, so no motor can be cut from here;"
+        f"{journal}: nothing commands its drones, so no motor can be cut from here;"
         f" {app.name} resume {in_shell(journal)} reaches them again"
     )
 

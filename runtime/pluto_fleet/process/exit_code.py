@@ -54,7 +54,7 @@ def _report_bug(name: str, error: BaseException) -> None:
     if os.environ.get("PLUTO_DEBUG") == "1":
         output.tell("".join(traceback.format_exception(error)).rstrip())
     where = getattr(error, "__notes__", ())  # the block, if it was in one
-    whose = "of ours, or of whoever made that block" if where else "of ours"
+    whose = "of ours, or of that block's author" if where else "of ours"
     output.tell(
         "\n".join([f"{name}: internal error: {type(error).__name__}: {error}", *where])
         + f"\nThis is a mistake {whose}: please report it"

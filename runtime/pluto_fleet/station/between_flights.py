@@ -89,7 +89,7 @@ def _row(id: str, seen: Sighting | None, known: Records | None, now: float) -> r
     lost = known.lost.get(id) if known is not None else None
     trips = known.flown.get(id, 0) if known is not None else 0
     retired = known is not None and id in known.retired
-    if known is not None and id in known.mended:  # somebody has taken it in their hands since
+    if known is not None and id in known.mended:  # a person has taken it in their hands since
         return rows.drone_at(id, "UNKNOWN", None, trips, retired, BACK)
     fresh = seen is not None and now - seen.when < FRESH
     if lost is not None:
@@ -108,7 +108,7 @@ def _row(id: str, seen: Sighting | None, known: Records | None, now: float) -> r
 
 
 AWAY = "put_away"
-"""The file that names the last journal with which nobody wants to go on."""
+"""The file that names the last journal that was put away."""
 
 
 def found(app: App, config: StationConfig, going_on: bool = False) -> Resumable | None:
@@ -122,7 +122,7 @@ def found(app: App, config: StationConfig, going_on: bool = False) -> Resumable 
         return None
     try:
         taken = reopen(app, journal)
-    except BadInput as why:  # somebody else flies it, it is damaged, or it is another app's
+    except BadInput as why:  # another process flies it, it is damaged, or it is another app's
         output.tell(f"the last flight cannot be shown: {why}")
         return None
     same = taken.header["sim"], taken.header.get("crtp_sim") is not None
@@ -147,7 +147,7 @@ def drawn(fleet: FleetFile) -> object:
 
 
 def put_away(config: StationConfig, journal: Path) -> None:
-    """Remember that nobody wants to go on with a journal; it stays where it is."""
+    """Remember that a journal is not to be gone on with; it stays where it is."""
     (config.own_folder / AWAY).write_text(journal.name, encoding="utf-8")
 
 
@@ -174,11 +174,11 @@ class FleetHistory:
         self._idle = IdleDrones(config.fleet.drones, None)
 
     def read(self) -> None:
-        """Read it anew: somebody else may have brought a drone back, or flown meanwhile."""
+        """Read it anew: another process may have brought a drone back, or flown meanwhile."""
         self.records, self._journal = self._kept(), None
         journal = place.newest_in(self._config.folder)
         if journal is not None:
-            with suppress(BadInput):  # whoever shows the last flight says what is wrong with it
+            with suppress(BadInput):  # what shows the last flight says what is wrong with it
                 self._take(journal)
         self._idle = IdleDrones(self._config.fleet.drones, self._journal)
 
@@ -229,7 +229,7 @@ class FleetHistory:
 
     @property
     def lost(self) -> Sequence[str]:
-        """The drones of the fleet that nobody may have."""
+        """The drones of the fleet that may not fly."""
         return [drone for drone in self._fleet if drone in self.records.lost]
 
     def bring_back(self, id: str, drone: str) -> str:
@@ -259,16 +259,16 @@ class FleetHistory:
         process = None if journal is None else lock.holder(journal)
         if journal is None or process is None:
             return None
-        with closing(Reader(journal)) as reader:  # whoever writes it has it open
+        with closing(Reader(journal)) as reader:  # its writer has it open
             header: dict[str, object] = next((json.loads(row.text)[0] for row in reader.rows()), {})
         same = [header.get("sim"), header.get("crtp_sim") is not None] == self._kind
         return process if same else None
 
     def check_free(self) -> None:
-        """Raise `BadInput` where somebody commands the drones of the newest journal."""
+        """Raise `BadInput` where another process commands the drones of the newest journal."""
         if (process := self.flown_elsewhere()) is not None:
             raise BadInput(
-                f"somebody has gone on with the last flight elsewhere (process {process}): end it"
+                f"the last flight was gone on with elsewhere (process {process}): end it"
                 " there first"
             )
 
@@ -288,7 +288,7 @@ class FleetHistory:
             at_home(new, {entry.id: entry.home for entry in self._config.fleet.drones})
 
     def _world(self, folder: Path) -> Sequence[str]:
-        """Return the files of the simulated world of a gateway, which nobody lives in any more."""
+        """Return the files of the simulated world of a gateway, which has ended."""
         if self._config.crtp_sim is not None:
             from ..crtp.process import DRONES as CRAZYFLIES  # few want them
             from ..crtp.process import end

@@ -46,7 +46,7 @@ class StationConfig:
 
     @property
     def own_folder(self) -> Path:
-        """What is nobody's but the station's."""
+        """Where only the station keeps anything."""
         return self.folder / "station"
 
 

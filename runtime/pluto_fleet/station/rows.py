@@ -1,4 +1,4 @@
-"""What everybody sees of a mission and of a drone, as plain data; and at which blocks a mission is."""
+"""What pages show of a mission and of a drone, as plain data; and at which blocks a mission is."""
 
 from __future__ import annotations
 
@@ -176,7 +176,7 @@ def drone_at(
     retired: bool,
     why: str,
 ) -> Row:
-    """Return the same of a drone that nobody commands now; `seen` is when it was heard of last."""
+    """Return the same of a drone that is not commanded now; `seen` is when it was heard of last."""
     if seen is None:
         return _drone_row(id, status, None, None, None, trips, retired, why)
     battery = seen.battery if seen.when else None
@@ -225,7 +225,7 @@ def _trip(trip: Trip) -> list[object]:
 def _recorded_trip(data: Record, status: str) -> list[object]:
     x, y, _ = data["target"]
     stands = data.get("status", status)
-    if stands == TripStatus.EXECUTING.value:  # nobody knows: it will be asked
+    if stands == TripStatus.EXECUTING.value:  # not known: it will be asked
         stands = TripStatus.WAITING.value
     priority = data.get("fields", {}).get(PRIORITY)
     return [data["name"], stands, round(x, 3), round(y, 3), priority, data["action"]]

@@ -51,7 +51,7 @@ class Phase(Enum):
     STOPPING = "stopping"
     """All drones are coming down."""
     STOPPED = "stopped"
-    """Somebody has stopped it: it can be resumed, or put away."""
+    """It was stopped: it can be resumed, or put away."""
     INTERRUPTED = "interrupted"
     """It has ended otherwise than it should: the same."""
     OVER = "over"
@@ -76,7 +76,7 @@ def phase_of(session: FlightSession | None) -> Phase:
 
 
 class FlightSession:
-    """A journal, whoever lives it, and what everybody sees of it."""
+    """A journal, the life that it is gone on with, and what pages show of it."""
 
     def __init__(
         self,
@@ -148,7 +148,7 @@ class FlightSession:
         }
 
     def read(self, known: Recovered) -> None:
-        """Show what a journal says that nobody lives."""
+        """Show what the journal of an ended life says."""
         self.records = known.records
         told = Records()
         with closing(Reader(self.flight.journal)) as reader:
@@ -198,7 +198,7 @@ class FlightSession:
         one.when_seen(self._seen)
 
     def _hear(self, event: Event) -> None:
-        """Tell everybody, but not within the instant that flies: it must not fall by a console."""
+        """Tell the pages, but not within the instant that flies: it must not fail by a console."""
         asyncio.get_running_loop().call_soon(self.feed.take, event)
 
     def _say(self, text: str, kind: str = "bad") -> None:
@@ -212,7 +212,7 @@ class FlightSession:
         known = self.records.time if self.records is not None else 0.0
         return max(known, self._left_at)  # that of those who saw the drones down does not go back
 
-    # What everybody sees
+    # What pages show
 
     def look(self, number: int) -> bool:
         """Note what has changed, under this number; say whether anything has."""

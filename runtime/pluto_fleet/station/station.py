@@ -1,4 +1,4 @@
-"""The station: what flies, what everybody sees of it, and what may be commanded."""
+"""The station: what flies, what pages show of it, and what may be commanded."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ class Station:
         self.session: FlightSession | None = None
         """What flies, or flew last."""
         self.leaves = asyncio.Event()
-        """Set when nothing flies any more and somebody wants the station to end."""
+        """Set when the station was told to end and nothing flies any more."""
         self._leaving = False
         self._answers: OrderedDict[str, asyncio.Future[str]] = OrderedDict()
         self._updates = Updates(self)
@@ -101,9 +101,9 @@ class Station:
     # What may be commanded
 
     async def command(self, name: str, id: str, given: Mapping[str, object]) -> str:
-        """Do what somebody asks for, once; return what was done, or raise `BadInput`.
+        """Do what is asked for, once; return what was done, or raise `BadInput`.
 
-        Whoever asks again under the same name, having heard no answer, gets the answer of then.
+        It is idempotent: a command that is sent again under the same id gets the answer of then.
         """
         arguments = checked(name, given)
         if id in self._answers:
@@ -115,7 +115,7 @@ class Station:
         answer.add_done_callback(_heard)
         while len(self._answers) > REMEMBERED and next(iter(self._answers.values())).done():
             self._answers.popitem(last=False)
-        return await asyncio.shield(answer)  # whoever asked may go: it is done all the same
+        return await asyncio.shield(answer)  # the page may go: it is done all the same
 
     def _was_done(self, id: str) -> bool:
         session = self.session
@@ -147,7 +147,7 @@ class Station:
     async def _start(self, id: str, given: Mapping[str, object]) -> str:
         await self.plan.examined()
         if self.session is None:
-            self.begin()  # somebody else may have flown meanwhile
+            self.begin()  # another process may have flown meanwhile
         phase = self.phase
         if phase is Phase.STOPPING:
             raise BadInput("the drones are coming down: wait until they are")
@@ -158,14 +158,14 @@ class Station:
             self._look_at_the_drones()
         chosen = given["missions"]
         missions, keys = self.plan.launchable(chosen if isinstance(chosen, list) else None)
-        if not missions and phase is Phase.FLYING:  # somebody else was quicker
+        if not missions and phase is Phase.FLYING:  # another page was quicker
             return "every mission of the plan flies already"
         if not missions:
             raise BadInput("there is no mission yet: make one first")
         if given["revision"] not in (None, self.plan.revision):
             raise BadInput("the plan has changed meanwhile: look at it, and start again")
         text = self.plan.text(keys)
-        self.plan.launched(keys)  # before anything flies: nobody may change it from now on
+        self.plan.launched(keys)  # before anything flies: it may not be changed from now on
         try:
             if phase is Phase.FLYING:
                 await self._add(id, missions)
@@ -269,7 +269,7 @@ class Station:
         elsewhere = lock.holder(self.session.journal)
         if elsewhere is not None:
             raise BadInput(
-                f"somebody has gone on with it elsewhere (process {elsewhere}): end it there first"
+                f"it was gone on with elsewhere (process {elsewhere}): end it there first"
             )
         folder = place.gateway_folder(self.session.journal)
         with suppress(BadInput):  # nothing flies any more, as it should be
@@ -316,18 +316,18 @@ class Station:
         return "nothing flies"
 
     async def _cut_motors(self, drone: str) -> str:
-        """Let the gateway switch a drone's motors off, whatever the app does meanwhile."""
+        """Let the gateway switch a drone's motors off, past the app."""
         if self.session is None:
             raise BadInput("nothing flies")
         folder = place.gateway_folder(self.session.journal)
         try:
             said = await asyncio.to_thread(cut_directly, folder, drone, STOP_WITHIN)
         except Nobody:
-            raise BadInput("nobody commands the drones now") from None
+            raise BadInput("nothing commands the drones now") from None
         except Silent:
             raise BadInput("what commands the drones does not answer") from None
         if not self.session.lives:
-            with suppress(BadInput):  # what is on record then, whoever flies it writes
+            with suppress(BadInput):  # an app that flies it writes that itself
                 reason = f"{drone}'s motors were cut"
                 record_loss(self._app, self.session.journal, drone, reason, None)
         return said
@@ -356,17 +356,17 @@ class Station:
             self.leaves.set()
 
     def _over(self) -> None:
-        """Nothing flies any more: let the plan be drawn anew, and whoever waits for it go."""
+        """Nothing flies any more: let the plan be drawn anew, and a station end that waits for it."""
         self._lock_what_flies()
         if self.session is not None and self.session.records is not None:
             self.history.leave(self.session.journal, self.session.records)
         if self._leaving:
             self.leaves.set()
 
-    # What everybody sees
+    # What pages show
 
     async def newer(self, flight: str, seen: int, log: int, results: int) -> str:
-        """Return what has changed since somebody looked, as soon as anything has, or in a second."""
+        """Return what has changed since a page looked, as soon as anything has, or in a second."""
         return await self._updates.newer(flight, seen, log, results)
 
     def console(self) -> str:
@@ -384,6 +384,6 @@ _NOT_YET = "the drones are just being asked where they are: try again in a momen
 
 
 def _heard(answer: asyncio.Future[str]) -> None:
-    """Whoever asked may have gone: a refusal that nobody hears is no mistake."""
+    """The page may have gone: a refusal that is not heard is no mistake."""
     if not answer.cancelled():
         answer.exception()

@@ -1,4 +1,4 @@
-"""What everybody sees: one look at the station a tenth of a second, whoever watches.
+"""What pages show: one look at the station a tenth of a second, for all that watch.
 
 A page says what it has seen, and is told once what has changed since, when anything has. So one that
 does not read costs nothing, and sees the newest state as soon as it does.
@@ -21,13 +21,13 @@ if TYPE_CHECKING:
     from .session import FlightSession
 
 LATEST = 0.12
-"""Seconds between two looks at what has changed, when nobody says that there is something new."""
+"""Seconds between two looks at what has changed, unless something new is announced."""
 
 SOONEST = 0.08
 """Seconds between two looks, however much is new: the drones are heard of ten times a second."""
 
 PATIENCE = 1.0
-"""Seconds after which whoever asks is answered, though nothing has changed."""
+"""Seconds after which a page is answered, though nothing has changed."""
 
 
 class StationState(Protocol):
@@ -52,7 +52,7 @@ class Updates:
         self._ticked_at = 0.0
 
     async def newer(self, flight: str, seen: int, log: int, results: int) -> str:
-        """Return what has changed since somebody looked, as soon as anything has, or in a second."""
+        """Return what has changed since a page looked, as soon as anything has, or in a second."""
         loop = asyncio.get_running_loop()
         until = loop.time() + PATIENCE
         while True:
@@ -67,7 +67,7 @@ class Updates:
                 return self._told(session, seen, log, results)
 
     async def _next_tick(self) -> None:
-        """Wait for the next look, which is everybody's."""
+        """Wait for the next look, which all pages share."""
         loop = asyncio.get_running_loop()
         if self._tick is None:
             self._tick = loop.create_future()
@@ -77,7 +77,7 @@ class Updates:
     def hurry(self) -> None:
         """The drones were just heard of: look now, and what is seen of them is new.
 
-        Not within this call: whoever hears of drones must not fall by what is shown of them.
+        Not within this call: what flies must not fail by what is shown of it.
         """
         loop = asyncio.get_running_loop()
         if self._timer is not None and loop.time() - self._ticked_at >= SOONEST:
@@ -92,7 +92,7 @@ class Updates:
         self._ticked_at = asyncio.get_running_loop().time()
         try:
             self._note_what_is_new()
-        finally:  # whoever waits is answered, whatever could not be shown
+        finally:  # pages are answered though something could not be shown
             if tick is not None:
                 tick.set_result(None)
 
@@ -140,7 +140,7 @@ class Updates:
 
 
 def _busy(session: FlightSession | None) -> str:
-    """Return for what everybody has to wait."""
+    """Return for what all have to wait."""
     if session is None or not session.lives:
         return ""
     if session.life is None:

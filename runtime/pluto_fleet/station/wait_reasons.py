@@ -46,7 +46,7 @@ class WaitReasons:
         self._left = AT_ONCE
 
     def look(self, fleet: LiveFleet) -> None:
-        """Somebody looks at all missions and drones now."""
+        """Begin a look at all missions and drones."""
         now, self._left = self._clock(), AT_ONCE
         if now - self._looked >= EACH:
             self._looked = now
@@ -57,13 +57,13 @@ class WaitReasons:
             }
 
     def why(self, fleet: LiveFleet, trip: Trip) -> str:
-        """Say why nobody flies a trip yet; empty: that is found out at one of the next looks."""
+        """Say why no drone flies a trip yet; empty: that is found out at one of the next looks."""
         now = self._clock()
         since, said = self._known.get(id(trip), (-EACH, ""))
         request = self._requests.get(id(trip))
         if request is not None and self._left and now - since >= EACH:
             self._left -= 1
-            said = why_nobody(fleet, request)
+            said = why_no_drone(fleet, request)
             self._known[id(trip)] = now, said
         return said
 
@@ -76,8 +76,8 @@ class WaitReasons:
         return "its battery has little more than its reserve" if fleet.is_low(drone) else ""
 
 
-def why_nobody(fleet: LiveFleet, request: Request) -> str:
-    """Say what keeps each drone of the fleet from flying what somebody waits for."""
+def why_no_drone(fleet: LiveFleet, request: Request) -> str:
+    """Say what keeps each drone of the fleet from flying what a mission waits for."""
     queue, able = fleet.queue, 0
     low: list[tuple[float, float, float]] = []
     does: Counter[str] = Counter()

@@ -103,7 +103,7 @@ class Weather:
     battery: float = 0.0
     """Flights whose battery is empty all at once."""
     hook: float = 0.0
-    """Calls of hooks that raise an error that nobody expected."""
+    """Calls of hooks that raise an unexpected error."""
     block: float = 0.0
     """Calls of hooks that take half a minute."""
     late: float = 0.0
@@ -126,7 +126,7 @@ FAIR = Weather()
 
 _SHARES = ("crash", "link", "action", "battery", "hook", "block", "late", "snapshot")
 _MOST = 3_600.0
-"""Seconds, of all others but `jump`: whoever is kept waiting for longer need not be at fault."""
+"""Seconds, of all others but `jump`: an app that is kept waiting for longer need not be at fault."""
 _LONGEST_JUMP = 1e10
 """Seconds: a clock may well begin in 1970."""
 
@@ -213,7 +213,7 @@ WORDS: Mapping[str, str] = {
     "late wake-up": "the app woke up late",
     "clock jump": "the machine's clock was set",
     "snapshot": "the app began with a snapshot of its journal",
-    "hook raising": "a hook raised an error that nobody expected",
+    "hook raising": "a hook raised an unexpected error",
     "hook blocking": "a hook took half a minute",
     "go on": "a person let a paused mission go on",
     "decision": "a person was asked what had become of a trip",

@@ -38,7 +38,7 @@ FOUND, BAD_INPUT = 1, 2
 STRUCK_EVERYWHERE = 3
 """Of so many seeds, what can strike does so at every row of the journal."""
 ENOUGH = 5
-"""After so many findings nobody looks for more."""
+"""After so many findings the search ends."""
 
 _WRONG = attrgetter("wrong")
 

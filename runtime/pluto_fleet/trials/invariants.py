@@ -1,4 +1,4 @@
-"""What must be true of every run of every app, whatever goes wrong: read off its events.
+"""What must be true of every run of every app with any faults: read off its events.
 
 The rules know nothing of how the runtime works inside. They are told one event after the other (see
 `trace.py`), so a run may be as long as it likes, and they cost little beside it. A run may have

@@ -125,7 +125,7 @@ class TrialLife:
         """Take the row of an instant."""
         run = self.run
         self.added += 1
-        if run.brain is not self:  # somebody else has the journal by now
+        if run.brain is not self:  # another life has the journal by now
             return self.added
         run.record.times.append(run.world.now)
         events: list[Event] = _read(row)[0]
@@ -258,7 +258,7 @@ class TrialLife:
 
     def told(self, command: Callable[[], object]) -> bool:
         """Tell the app something; say whether it could."""
-        if self.task.is_set:  # it is about to end, and hears nobody any more
+        if self.task.is_set:  # it is about to end, and hears nothing any more
             return False
         try:
             command()
@@ -267,7 +267,7 @@ class TrialLife:
         return True
 
     def person(self) -> None:
-        """Somebody looks, lets go on what is paused, and decides what waits."""
+        """A person looks, lets go on what is paused, and decides what waits."""
         run = self.run
         if run.brain is not self:
             return
@@ -296,7 +296,7 @@ class TrialLife:
             self.run.lose_brain(self.run.case.weather.down)
 
     def stopped(self, _: object) -> None:
-        """Everything is down: somebody goes on later."""
+        """Everything is down: it goes on later."""
         self.due.append(self.rest)
 
     def rest(self) -> None:
@@ -352,7 +352,7 @@ class TrialRun(TrialWorld):
             self.blame(error)
 
     def turn(self) -> bool:
-        """Take whatever is due next; False: nothing ever will be."""
+        """Take what is due next; False: nothing ever will be."""
         world, brain = self.world, self.brain
         at = world.next_time()
         if brain is not None:
@@ -389,7 +389,7 @@ class TrialRun(TrialWorld):
         """Name who waits, for a sentence."""
         brain = self.brain
         tasks = [] if brain is None else [task.name for task in brain.kernel.tasks]
-        return ", ".join(sorted(tasks)) or "nobody"
+        return ", ".join(sorted(tasks)) or "nothing"
 
     def start_life(self) -> None:
         """A brain begins, or goes on."""

@@ -40,7 +40,7 @@ _USAGE = """plutoc test [-h] [--seeds N] [--seed N] [--missions M.toml]
                    [--fleet F.toml] [--strike WHAT@ROW,…]
                    [--weather WHAT=HOW,…] [--json]
                    FILE"""
-"""As `plutoc test` itself has it: whoever reads this has typed that."""
+"""As `plutoc test` itself has it: that is what the reader has typed."""
 
 
 def parse(argv: Sequence[str]) -> Options:

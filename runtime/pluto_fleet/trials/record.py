@@ -194,7 +194,7 @@ class TrialResult:
     """What came of a case."""
 
     violations: tuple[str, ...]
-    """What no run may do, whatever the app's own code does."""
+    """What no run may do, with any hooks."""
     faults: tuple[str, ...]
     """What the app's own code did wrong without being made to."""
     fired: Counter[str]
@@ -283,7 +283,7 @@ class TrialRecord:
             self.did(flight.id, flight.trip.action, now)
 
     def answer(self, name: str, records: Records) -> str:
-        """Say what is true about a mission that asks: somebody looks whether it was done."""
+        """Say what is true about a mission that asks, as a person would who looks whether it was done."""
         record = records.missions[name]
         if record["held"]:
             return "cancel"

@@ -61,7 +61,7 @@ class EndsOnce:
         self._say = say
         self._ended: Counter[object] = Counter()
         self._set_out_by_now: dict[object, None] = {}
-        """Those that were on their way to a drone: they may not begin anew, whatever a person skips."""
+        """Those that were on their way to a drone: they may not begin anew, also after a skip."""
         self._waits: dict[object, object] = {}
         """Those that wait for a person, and why."""
         self.hears = {

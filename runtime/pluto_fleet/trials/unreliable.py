@@ -32,7 +32,7 @@ _LONG = 30.0
 
 
 class BrokenHook(RuntimeError):
-    """What a hook raises that nobody expected."""
+    """What a hook raises unexpectedly."""
 
 
 class UnreliableTime(VirtualTime):
@@ -104,7 +104,7 @@ class UnreliableLink(Link):
         self._send(partial(self._real.fly, job, partial(self._told, report)))
 
     def break_off(self, drone: str) -> None:
-        """Stop whatever a drone does."""
+        """Stop what a drone does."""
         self._send(partial(self._real.break_off, drone))
 
     def attach(self, id: str, report: Report) -> None:
@@ -112,7 +112,7 @@ class UnreliableLink(Link):
         self._send(partial(self._real.attach, id, partial(self._told, report)))
 
     def forget(self, id: str) -> None:
-        """Nobody will ask for a job any more."""
+        """A job will not be asked for any more."""
         self._send(partial(self._real.forget, id))
 
     def hold(self, drone: str) -> Coroutine[Any, Any, None]:
@@ -162,7 +162,7 @@ class UnreliableLink(Link):
     async def _far(self, command: Callable[[], Coroutine[Any, Any, T]]) -> T:
         """Let the gateway do something, in the world and not in a brain that may die, and hear of it.
 
-        Messages travel; whoever does not want it any more, says so.
+        Messages travel; a task that is cancelled here is cancelled there.
         """
         over: Future[T] = Future()
         under_way: list[Task[T]] = []
@@ -207,7 +207,7 @@ class UnreliableLink(Link):
 
 
 def _settle(over: Future[T], task: Task[T]) -> None:
-    """Tell what came of a command; one that was called off is waited for by nobody."""
+    """Tell what came of a command; one that was called off is not waited for."""
     if task.error is None:
         over.set(task.result())
     elif not isinstance(task.error, Cancelled):

@@ -81,7 +81,7 @@ class TrialWorld:
         self.over = True
 
     def raise_from(self, kernel: VirtualTime) -> None:
-        """An error that nobody caught is a mistake of ours: the trial ends with it."""
+        """An error that was not caught is a mistake of ours: the trial ends with it."""
         if kernel.crashed is not None:
             error, kernel.crashed = kernel.crashed, None
             self.blame(error)

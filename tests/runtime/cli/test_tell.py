@@ -104,7 +104,7 @@ def test_where_nobody_commands_drones_no_motor_is_cut(journal: Path, command: Co
     journal.touch()
     code, _, err = command("tell", journal, "cut-motors", "--all")
     assert code == 2
-    assert "nobody commands its drones, so no motor can be cut from here" in err
+    assert "nothing commands its drones, so no motor can be cut from here" in err
     assert "resume" in err
 
 
@@ -149,7 +149,7 @@ def test_where_no_app_runs_one_is_told_how_to_go_on(journal: Path, command: Comm
     code, out, err = command("tell", journal, "pause")
     assert (code, out) == (2, "")
     assert err == (
-        f"{journal}: alfalfa is not running, so there is nobody to tell; "
+        f"{journal}: alfalfa is not running, so it cannot be told; "
         f"alfalfa resume {journal} goes on\n"
     )
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 from pluto_fleet.flight.live_fleet import live_fleet
-from pluto_fleet.station.wait_reasons import AT_ONCE, WaitReasons, why_nobody
+from pluto_fleet.station.wait_reasons import AT_ONCE, WaitReasons, why_no_drone
 from plutoc_runtime.alone.motion import Charge
 from plutoc_runtime.domain.model import Category, Item
 from plutoc_runtime.domain.status import DroneStatus
@@ -33,7 +33,7 @@ def said(fleet: Living) -> list[str]:
     """Return what is said of each that waits."""
     session = fleet.life.session
     return [
-        why_nobody(live_fleet(session.core), request) for request in session.core.queue.waiters()
+        why_no_drone(live_fleet(session.core), request) for request in session.core.queue.waiters()
     ]
 
 

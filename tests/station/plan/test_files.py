@@ -166,7 +166,7 @@ def test_a_bad_file_is_told_by_the_name_that_it_has() -> None:
         asyncio.run(plan.import_file("[[mission]", plan.revision, "north.toml"))
 
 
-def test_what_nobody_can_fly_is_taken_and_told() -> None:
+def test_what_unflyable_trips_is_taken_and_told() -> None:
     """Whoever draws can mend it."""
     plan = imported(FILE.replace('"4 g"', '"8 g"').replace("0.004", "0.008"))
     [(_, _, _, sentence)] = said(plan)

@@ -31,7 +31,7 @@ class KeptPlan:
     missions: Sequence[Shape] = ()
     revision: int = 0
     said: str = ""
-    """What somebody must hear of it."""
+    """What people must hear of it."""
 
 
 class _Unreadable(Exception):

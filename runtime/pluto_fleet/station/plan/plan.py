@@ -26,10 +26,10 @@ if TYPE_CHECKING:
 __all__ = ["MissionPlan", "Stale"]
 
 MOST_SHOWN = 1_000
-"""Problems that pages get: nobody reads the next one."""
+"""Problems that pages get at most."""
 
 MOST_SAID = 10
-"""So many problems are told to whoever presses Start; all stand where they are."""
+"""Problems that the answer to Start names; pages show all where they are."""
 
 
 class MissionPlan:
@@ -44,7 +44,7 @@ class MissionPlan:
         self._app, self._fleet, self._keep = app, fleet, keep
         kept = on_disk.read(keep, app) if keep else on_disk.KeptPlan()
         self.trouble = kept.said
-        """What went wrong with keeping it, for everybody; empty: nothing."""
+        """What went wrong with keeping it, as pages show it; empty: nothing."""
         # From the clock: no number may ever mean two plans, though one could not be kept.
         self.revision = max(kept.revision + 1, round(now() * 1000))
         self._missions = list(kept.missions)
@@ -62,7 +62,7 @@ class MissionPlan:
 
     @property
     def is_empty(self) -> bool:
-        """Whether nobody has drawn anything yet."""
+        """Whether nothing was drawn yet."""
         return not self._missions
 
     async def examined(self) -> None:
@@ -76,7 +76,7 @@ class MissionPlan:
     # What pages do
 
     def replace(self, revision: object, missions: object) -> None:
-        """Take the plan that somebody has drawn; raise `Stale` if it was drawn on an old one."""
+        """Take the plan that a page has drawn; raise `Stale` if it was drawn on an old one."""
         given = missions_from(missions, self._app)
         drawn = self._with_launched(given)
         if drawn != self._missions or self._overrules(given):
@@ -121,9 +121,9 @@ class MissionPlan:
     ) -> tuple[list[Mission[Any]], list[str]]:
         """Return the missions that Start starts, with their keys; raise `BadInput` if it cannot.
 
-        These are the chosen ones, by their keys. Nobody chose: all that have not been completed; if
-        all were, all anew, but not while any of them flies. They are new ones each time: whoever
-        flies them changes them.
+        These are the chosen ones, by their keys. Without a choice: all that have not been completed; if
+        all were, all anew, but not while any of them flies. They are new ones each time: a
+        flight changes them.
         """
         self._flyability.ask_at_once(self._readable())
         waiting = self._wanted(chosen)
@@ -149,7 +149,7 @@ class MissionPlan:
         return [mission for mission in waiting if mission["key"] in chosen]
 
     def launched(self, keys: Collection[str]) -> None:
-        """These missions fly: nobody may change them now."""
+        """These missions fly: they may not be changed now."""
         self._mark(lambda mission: bool(mission["launched"]) or mission["key"] in keys)
 
     def adopt(self, names: Collection[str]) -> None:

@@ -61,7 +61,7 @@ def sentence(text: str, names: Container[str]) -> str:
 
 
 def in_one_go(trips: Sequence[Trip], reason: str) -> str:
-    """Say why nobody can fly these trips, beside the first of them."""
+    """Say why no drone can fly these trips, beside the first of them."""
     if len(trips) == 1:
         return reason
     return f"from here to trip {trips[-1].name} one drone must fly all: {reason}"
@@ -95,7 +95,7 @@ def read(
     return found, [_of_its_height(one, missions, airspace) for one in problems]
 
 
-def nobody_can_fly(
+def unflyable_trips(
     app: App, fleet: FleetFile, airspace: Airspace, mission: Shape
 ) -> list[PlanProblem]:
     """Return what no drone of the fleet could ever do of a mission that can be read."""
@@ -218,4 +218,4 @@ class FlyabilityCache:
         return self._known.get(mission["key"], (None, ()))[0] == mission
 
     def _found(self, mission: Shape, airspace: Airspace) -> Sequence[PlanProblem]:
-        return nobody_can_fly(self._app, self._fleet, airspace, mission)
+        return unflyable_trips(self._app, self._fleet, airspace, mission)

@@ -64,7 +64,7 @@ class ServedPlan(Protocol):
 
 
 class ServedStation(UpdateSource, Protocol):
-    """What flies, what everybody sees, and what may be commanded."""
+    """What flies, what pages show, and what may be commanded."""
 
     @property
     def plan(self) -> ServedPlan:
@@ -89,7 +89,7 @@ class ServedStation(UpdateSource, Protocol):
 
 
 async def read(station: ServedStation, path: str) -> Reply:
-    """Answer somebody who only wants to know."""
+    """Answer a request that changes nothing."""
     match path:
         case "/api/app":
             return json_reply(200, station.described)
@@ -110,7 +110,7 @@ async def read(station: ServedStation, path: str) -> Reply:
 
 
 async def change(station: ServedStation, audit: Audit, request: Request) -> Reply:
-    """Do what somebody commands, and note it, whatever comes of it."""
+    """Do what is commanded, and note it with what came of it."""
     wanted = _TOML if request.path == "/api/plan/import" else _JSON
     if request.headers.get("content-type", "").partition(";")[0].strip().lower() != wanted:
         raise Refused(refusals.wrong_type(wanted))
@@ -202,14 +202,14 @@ def _nothing_else(given: Mapping[str, object]) -> None:
 
 
 ALWAYS = ("/api/stop", "/api/cut-motors")
-"""They bring drones down: whoever may command may always command these."""
+"""They bring drones down: no limit of rates or load holds for them."""
 
 _COMMANDS, _EDITS, _READS = 20.0, 20.0, 100.0
-"""A second, for each client; whoever draws the plan has all commands left."""
+"""A second, for each client; edits of the plan use up no commands."""
 _AT_ONCE = 64
 """Requests that are under way, Stops not counted."""
 _WRONG_TOKEN = 0.5
-"""Seconds that whoever lacks the token waits to be told so."""
+"""Seconds after which a wrong token is refused."""
 _WAITING = 32
 """So many wait; more are told at once."""
 
@@ -238,7 +238,7 @@ class Api:
         self._under_way = self._waiting = 0
 
     async def answer(self, request: Request) -> Reply:
-        """Answer whatever is asked: no request breaks anything, and none is told how we are made."""
+        """Answer any request: none breaks anything, and none is told how we are made."""
         if request.method == "HEAD":  # like GET; the server leaves the body out
             request = replace(request, method="GET")
         try:
@@ -257,7 +257,7 @@ class Api:
         await self._live.talk(page, request)
 
     def end(self) -> None:
-        """Hang up on everybody who is connected."""
+        """Hang up on all pages."""
         self._live.end()
 
     def _refused(self, request: Request, why: Refusal) -> Reply:
@@ -302,7 +302,7 @@ class Api:
         return self._edits if request.path.startswith("/api/plan") else self._commands
 
     async def _slow_down(self) -> None:
-        """Let those who guess wait, and nobody else."""
+        """Let only those wait that guess."""
         if self._waiting >= _WAITING:
             return
         self._waiting += 1

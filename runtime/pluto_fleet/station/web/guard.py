@@ -76,7 +76,7 @@ def proper_name(text: str) -> str:
 class Access(Enum):
     """What a request is, as far as it matters who may ask it."""
 
-    PAGE = "a page"  # the same for everybody, and says nothing of what flies
+    PAGE = "a page"  # the same for all, and says nothing of what flies
     READ = "reading"
     COMMAND = "a command"
     LIVE = "staying connected"
@@ -133,7 +133,7 @@ def _is_same_site(headers: Mapping[str, str], host: str, access: Access) -> bool
     match access:
         case Access.LIVE:  # browsers differ in how near a ws: address is to its page's
             near = site != "cross-site"
-        case Access.READ:  # "none": somebody typed the address
+        case Access.READ:  # "none": the address was typed
             near = site in ("same-origin", "none")
         case _:
             near = site == "same-origin"
@@ -184,7 +184,7 @@ _PICTURE = (
 _DATA = "default-src 'none'; frame-ancestors 'none'; sandbox"
 
 _ALONE = (("Cross-Origin-Opener-Policy", "same-origin"),)
-"""Browsers heed it only where nobody can listen on the way, and else say that they do not."""
+"""Browsers heed it only on this machine or over TLS, and else log that they do not."""
 
 _ALWAYS = (
     ("X-Content-Type-Options", "nosniff"),

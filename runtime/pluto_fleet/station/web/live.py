@@ -86,13 +86,13 @@ class LiveUpdates:
             self._talks.discard(task)
 
     def end(self) -> None:
-        """Hang up on everybody: nobody is waited for."""
+        """Hang up on all pages at once."""
         self._over = True
         for task in self._talks:
             task.cancel()
 
     async def _admit(self, page: PageSocket, request: Request) -> None:
-        """Let somebody in who may be, and hang up with a reason on whoever talks nonsense."""
+        """Let a page in that may be, and hang up with a reason on one that sends nonsense."""
         why = refusal(self._guard, request, Access.LIVE)
         if why is None and request.path != LIVE:
             why = refusals.NO_SUCH_PAGE
@@ -136,7 +136,7 @@ class LiveUpdates:
 
 
 class _Improper(Exception):
-    """Somebody is hung up on, and told why."""
+    """Why a page is hung up on."""
 
     def __init__(self, code: int, why: str) -> None:
         super().__init__(why)
@@ -157,7 +157,7 @@ async def _heard(page: PageSocket, within: float) -> dict[str, object]:
 
 
 def _seen(asked: dict[str, object]) -> tuple[str, int, int, int]:
-    """Return what somebody says to have seen."""
+    """Return what a page says it has seen."""
     match asked:
         case {"flight": str(flight), "seen": int(seen), "log": int(log), "results": int(results)}:
             return flight[:_LONGEST_FLIGHT], seen, log, results

@@ -1,6 +1,6 @@
 """The pages, and the floor plan: bytes that were read once, each by the one name that it has.
 
-No path is ever made of what somebody asks for. What is not in the table is not there.
+No path is ever made of a request. What is not in the table is not there.
 """
 
 from __future__ import annotations
