@@ -10,17 +10,7 @@ from typing import TYPE_CHECKING
 
 from ..drones.errors import LinkLost, NavigationError, NotReady, Rejected
 from ..drones.telemetry import LINK_LOST, DroneEvent, DroneTelemetry
-from . import (
-    actions,
-    flying,
-    lights,
-    logs,
-    parameters,
-    preflight,
-    recovery,
-    starting,
-    words,
-)
+from . import actions, flying, lights, logs, parameters, preflight, recovery, starting, words
 from .alarms import Alarms
 from .battery import Battery
 from .emergency import cut

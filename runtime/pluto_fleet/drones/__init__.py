@@ -15,15 +15,7 @@ from .errors import (
     Rejected,
     TargetTimeout,
 )
-from .protocol import (
-    Acts,
-    CaredFor,
-    DroneNavigation,
-    Identifiable,
-    Locatable,
-    Readable,
-    Scannable,
-)
+from .protocol import Acts, CaredFor, DroneNavigation, Identifiable, Locatable, Readable, Scannable
 from .reports import Reports
 from .setup import DroneSetup
 from .telemetry import (

@@ -11,8 +11,7 @@ from plutoc_runtime.domain.actions import PICK, RELEASE
 from plutoc_runtime.domain.fields import Entity, FieldType
 from plutoc_runtime.domain.quantities import QUANTITIES, units_of
 
-from .graph.picture import laid_out
-from .graph.read import app_graph
+from .graph.picture import app_graph, laid_out
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.actions import Action, Parameter
@@ -21,7 +20,7 @@ if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Category
 
     from ..files.fleet import FleetFile
-    from .graph.read import Graph
+    from .graph.picture import Graph
 
     # was an import of itself
 

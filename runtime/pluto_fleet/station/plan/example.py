@@ -12,7 +12,7 @@ from plutoc_runtime.domain.quantities import Type
 from plutoc_runtime.domain.text import mass
 
 from . import errors
-from .problems import unflyable_trips, read
+from .problems import read, unflyable_trips
 from .shape import Shape
 
 if TYPE_CHECKING:
