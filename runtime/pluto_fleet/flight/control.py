@@ -21,16 +21,7 @@ from ..journal.recorder import Recorder
 from . import interventions
 from .live_engine import live_engine
 from .live_fleet import live_fleet
-from .reconcile import (
-    Fate,
-    doubt,
-    fly_again,
-    fly_on,
-    settle_doubt,
-    standing,
-    was_done,
-    what_became,
-)
+from .reconcile import Fate, doubt, fly_again, fly_on, settle_doubt, standing, was_done, what_became
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Drone, Trip

@@ -12,16 +12,7 @@ from plutoc_runtime.trips.flight import Flight
 from . import interventions
 from .control import CANCELLED
 from .live_fleet import live_fleet
-from .reconcile import (
-    Fate,
-    doubt,
-    fly_again,
-    fly_on,
-    settle_doubt,
-    standing,
-    was_done,
-    what_became,
-)
+from .reconcile import Fate, doubt, fly_again, fly_on, settle_doubt, standing, was_done, what_became
 from .restore import Rebuilt, last_flight, rebuilt, remember, restore_results
 
 if TYPE_CHECKING:

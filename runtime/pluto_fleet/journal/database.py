@@ -15,14 +15,7 @@ from plutoc_runtime.domain.trace import Event
 
 from . import errors, wal
 from .errors import TROUBLE
-from .format import (
-    APPLICATION,
-    TABLES,
-    VERSION,
-    row_checksum,
-    snapshot_checksum,
-    tip_checksum,
-)
+from .format import APPLICATION, TABLES, VERSION, row_checksum, snapshot_checksum, tip_checksum
 
 PATIENCE = 5.0
 """Seconds that a commit waits for somebody who looks at the file with a tool of his own."""

@@ -68,7 +68,7 @@ def test_check_warns_of_names_that_look_alike(missions: Path, command: Command) 
     )
 
 
-def test_a_plan_that_no_drone_can_fly_is_refused(missions: Path, command: Command) -> None:
+def test_a_plan_that_unflyable_trips_is_refused(missions: Path, command: Command) -> None:
     """By check and simulate alike, before anything starts."""
     fleet = missions.with_name("f.toml")
     fleet.write_text('[[drone]]\nid = "a"\ncategory = "scout"\nhome = [1, 1]\n')

@@ -12,8 +12,8 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet.cli import often
-from pluto_fleet.cli.summary import percentile, run_of
+from pluto_fleet.cli import runs as often
+from pluto_fleet.cli.runs import percentile, run_of
 from pluto_fleet.trials.invariants import Items
 from plutoc_runtime.alone.simulate import Outcome
 from plutoc_runtime.domain.trace import Event
