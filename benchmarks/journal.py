@@ -22,8 +22,7 @@ from pathlib import Path
 from measuring.instant import APP, Instant, ground, plan
 from measuring.options import at_least_one
 from pluto_fleet.flight.recorded_flight import Life
-from pluto_fleet.journal.fold import Records
-from pluto_fleet.journal.replay import replayed
+from pluto_fleet.journal.fold import Records, replayed
 from pluto_fleet.journal.store import Store
 from pluto_fleet.journal.writer import Writer
 from pluto_fleet.process.realtime import RealTime

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ..journal import errors
-from ..journal.replay import replayed
+from ..journal.fold import replayed
 from .live_flight import OneLife
 
 if TYPE_CHECKING:
