@@ -9,18 +9,15 @@ from contextlib import asynccontextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 
-import pytest
-
 from pluto_fleet.crazyflie.navigation import Crazyflie
 from pluto_fleet.crtp.drone import Build, SimulatedCrazyflie
-from pluto_fleet.crtp.record import Deed, InMemory
+from pluto_fleet.crtp.flight_log import CommandRecord, MemoryLog
 from pluto_fleet.crtp.server import Server
 from pluto_fleet.drones import DroneEvent, DroneSetup, LinkLost
 from plutoc_runtime.domain.model import Point
-from tests.kill.lives import eventually
 
 FAST = 1.0
-"""Metres per second: nobody wants to wait, and no course is followed faster."""
+"""Metres per second: tests must not wait, and no course is followed faster."""
 PATIENCE = 30.0
 """Seconds until what does not end is said to hang: the machine may be busy."""
 
@@ -35,7 +32,7 @@ class Hangar:
 
     navigation: Crazyflie
     server: Server
-    record: InMemory
+    record: MemoryLog
     id: str
     events: list[DroneEvent] = field(default_factory=list)
     heard: asyncio.Event = field(default_factory=asyncio.Event)
@@ -56,13 +53,13 @@ class Hangar:
         return self.drone.body.airborne
 
     @property
-    def deeds(self) -> list[Deed]:
+    def commands(self) -> list[CommandRecord]:
         """What it was commanded; who only asks what it is commands nothing."""
-        return [deed for deed in self.record.deeds if deed.what != "asked"]
+        return [command for command in self.record.commands if command.what != "asked"]
 
-    def did(self, what: str) -> list[Deed]:
+    def did(self, what: str) -> list[CommandRecord]:
         """Return the commands of one kind."""
-        return [deed for deed in self.deeds if deed.what == what]
+        return [command for command in self.commands if command.what == what]
 
     async def let(self, name: str, value: float | bool = True) -> None:
         """Let something go wrong."""
@@ -103,7 +100,7 @@ async def hangar(
 ) -> AsyncIterator[Hangar]:
     """Make a drone, not connected yet; in the end it is closed, and so is the simulation."""
     build = build or Build(id="cf1", home=(1.0, 2.0, 0.0))
-    record = InMemory()
+    record = MemoryLog()
     server = Server([build], record)
     await server.start()
     setup = DroneSetup(
@@ -142,27 +139,7 @@ def all_at_once(flights: Sequence[Flight], new_folder: Callable[[], Path]) -> Ou
 
 
 def threads_left() -> list[str]:
-    """Return the threads that somebody has started and not ended."""
+    """Return the threads that were started and not ended."""
     fine = ("MainThread", "pytest", "execnet", "Shared Radio")  # cflib never lets go of a dongle
     names = [thread.name for thread in threading.enumerate()]
     return [name for name in names if not name.startswith(fine)]
-
-
-def as_tests(
-    flights: Sequence[Flight],
-) -> tuple[Callable[[Flight, Outcomes], None], Callable[[Outcomes], None]]:
-    """Return the tests of a module's `FLIGHTS`: of each flight, and of what all of them leave."""
-
-    @pytest.mark.parametrize("flown", flights, ids=lambda flown: flown.__name__)
-    def each(flown: Flight, outcomes: Outcomes) -> None:
-        """Each flight goes as its name says."""
-        outcome = outcomes[flown]
-        if outcome is not None:
-            raise outcome
-
-    def threads(outcomes: Outcomes) -> None:
-        """cflib has many threads, and so have we: when drones are closed, all of them end."""
-        assert len(outcomes) == len(flights)
-        assert eventually(lambda: not threads_left(), PATIENCE), threads_left()
-
-    return each, threads

@@ -10,7 +10,7 @@ import pytest
 
 from pluto_fleet.crazyflie.navigation import Crazyflie
 from pluto_fleet.crtp.drone import Build
-from pluto_fleet.crtp.record import InMemory
+from pluto_fleet.crtp.flight_log import MemoryLog
 from pluto_fleet.drones import LINK_LOST, DroneSetup, LinkLost
 from tests.crazyflie.hangar import PATIENCE
 from tests.crtp.radio import Ether, plugged_in
@@ -34,7 +34,7 @@ def navigation(ether: Ether, drone: str, folder: Path) -> Crazyflie:
 
 def ether() -> Ether:
     builds = [Build(id=id, home=(2.0 * at, 1.0, 0.0)) for at, id in enumerate(IDS)]
-    return Ether(builds, InMemory())
+    return Ether(builds, MemoryLog())
 
 
 def left() -> list[str]:
@@ -73,7 +73,7 @@ def test_a_dongle_that_is_pulled_out_is_a_lost_link_and_back_it_is_used_again(
     assert left() == []
 
 
-def test_a_dongle_that_hangs_holds_nobody_up(tmp_path: Path) -> None:
+def test_a_dongle_that_hangs_holds_no_one_up(tmp_path: Path) -> None:
     air = ether()
 
     async def fly() -> None:

@@ -7,9 +7,9 @@ import struct
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pluto_fleet.crtp.logs import MOST_BLOCKS, Logs
-from pluto_fleet.crtp.ports import Errno, Port, packed
-from pluto_fleet.crtp.variables import parameters, temperature, variables
+from pluto_fleet.crtp.logs import MOST_BLOCKS, Logs, temperature
+from pluto_fleet.crtp.packets import Errno, Port, packed
+from pluto_fleet.crtp.params import parameters
 from tests.crtp.bench import Bench
 
 CREATE, APPEND, START, STOP, DELETE, RESET = 6, 7, 3, 4, 2, 5
@@ -17,7 +17,7 @@ FLOAT = 7
 
 
 def names() -> list[str]:
-    return list(variables(Bench().drone))
+    return list(Bench().drone.variables)
 
 
 def created(bench: Bench, number: int, *wanted: str) -> int:
@@ -90,7 +90,7 @@ def test_a_parameter_is_set_and_read_back() -> None:
     assert bench.told(Port.PARAMETERS, 1, grip) == grip + b"\0\0"
     assert bench.told(Port.PARAMETERS, 2, grip + b"\1") == grip + b"\1"
     assert bench.told(Port.PARAMETERS, 1, grip) == grip + b"\0\1"
-    assert bench.deeds[-1].what == "set gripper.closed"
+    assert bench.commands[-1].what == "set gripper.closed"
 
 
 def test_what_is_read_only_keeps_its_value_and_what_is_not_there_is_said_to_be_so() -> None:
@@ -99,7 +99,7 @@ def test_what_is_read_only_keeps_its_value_and_what_is_not_there_is_said_to_be_s
     assert bench.told(Port.PARAMETERS, 1, b"\xff\xff") == b"\xff\xff" + bytes([Errno.ENOENT])
 
 
-def test_a_parameter_set_by_its_name_is_told_to_whoever_listens() -> None:
+def test_a_parameter_set_by_its_name_is_told_to_all_that_listen() -> None:
     bench = Bench()
     answer = bench.told(Port.PARAMETERS, 3, b"\0led\0bitmask\0\x08\xff")
     assert answer == b"\0led\0bitmask\0\0"
@@ -118,7 +118,7 @@ def test_a_persistent_parameter_says_so_and_outlives_a_restart() -> None:
 
 
 @given(st.integers(0, 15), st.integers(0, 3), st.binary(max_size=30))
-def test_whatever_it_is_sent_it_lives_on(port: int, channel: int, data: bytes) -> None:
+def test_it_lives_on_no_matter_what_it_is_sent(port: int, channel: int, data: bytes) -> None:
     bench = Bench()
     bench.drone.receive(packed(port, channel, data), bench.now)
     bench.passes(0.05)

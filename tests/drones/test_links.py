@@ -8,7 +8,7 @@ import pytest
 
 from plutoc_runtime.domain.errors import Failure
 from tests.drones.fakes import FakeDrone
-from tests.drones.jumping import run, the_loop
+from tests.drones.jumping import the_loop
 from tests.drones.teams import flying
 
 
@@ -23,7 +23,7 @@ def test_silence_in_the_air_is_a_lost_link(tmp_path: Path, command: str) -> None
             flies = flown.begin(
                 team.hold("cf1") if command == "hold" else team.go_to("cf1", (5.0, 1.0, 1.0))
             )
-            await flown.until(lambda: team._members["cf1"].lane.doing)
+            await flown.until(lambda: team._vehicles["cf1"].commands.doing)
             drone.goes_silent()
             assert await flown.until(lambda: flies.is_set) == pytest.approx(1.1, abs=0.15)
             failed = await flown.failure(team.go_to("cf1", (5.0, 1.0, 1.0)))
@@ -35,14 +35,14 @@ def test_silence_in_the_air_is_a_lost_link(tmp_path: Path, command: str) -> None
     run(flight())
 
 
-def test_a_drone_that_comes_back_can_be_flown_home(tmp_path: Path) -> None:
+async def test_a_drone_that_comes_back_can_be_flown_home(tmp_path: Path) -> None:
     """It is connected to again and again, and hovers meanwhile."""
 
     async def flight() -> None:
         async with flying(tmp_path) as flown:
             drone, team = await flown.up(), flown.team
             drone.goes_silent()
-            await flown.until(lambda: not team._members["cf1"].linked)
+            await flown.until(lambda: not team._vehicles["cf1"].linked)
             reaches = flown.begin(team.reach("cf1"))
             the_loop().call_later(40, setattr, drone, "answers", True)
             assert await flown.until(lambda: reaches.is_set) < 47
@@ -62,7 +62,7 @@ def test_a_drone_that_stays_away_is_lost_and_lands_when_it_appears(tmp_path: Pat
         async with flying(tmp_path) as flown:
             drone, team = await flown.up(), flown.team
             drone.goes_silent()
-            await flown.until(lambda: not team._members["cf1"].linked)
+            await flown.until(lambda: not team._vehicles["cf1"].linked)
             reaches = flown.begin(team.reach("cf1"))
             assert await flown.until(lambda: reaches.is_set) == pytest.approx(120, abs=1)
             assert not reaches.result()
@@ -75,7 +75,7 @@ def test_a_drone_that_stays_away_is_lost_and_lands_when_it_appears(tmp_path: Pat
     run(flight())
 
 
-def test_a_drone_that_was_switched_off_and_on_has_landed(tmp_path: Path) -> None:
+async def test_a_drone_that_was_switched_off_and_on_has_landed(tmp_path: Path) -> None:
     """It is found with its motors off, somewhere else, and it has forgotten what it did."""
 
     async def flight() -> None:
@@ -83,10 +83,10 @@ def test_a_drone_that_was_switched_off_and_on_has_landed(tmp_path: Path) -> None
             drone, team = await flown.up(), flown.team
             drone.goes_silent()
             drone.falls(tells=False)
-            await flown.until(lambda: not team._members["cf1"].linked)
+            await flown.until(lambda: not team._vehicles["cf1"].linked)
             drone.put((2.0, 2.0, 0.0))
             drone.answers = True
-            await flown.until(lambda: team._members["cf1"].linked)
+            await flown.until(lambda: team._vehicles["cf1"].linked)
             standing = await flown.do(team.roll_call("cf1"))
             assert (standing.landed, standing.boot, standing.location) == (True, 1, (2, 2, 0))
             assert await flown.do(team.reach("cf1"))
@@ -94,7 +94,7 @@ def test_a_drone_that_was_switched_off_and_on_has_landed(tmp_path: Path) -> None
     run(flight())
 
 
-def test_a_roll_call_tries_a_lost_drone_once_more_and_does_not_hang(tmp_path: Path) -> None:
+async def test_a_roll_call_tries_a_lost_drone_once_more_and_does_not_hang(tmp_path: Path) -> None:
     """However its navigation hangs."""
 
     async def flight() -> None:
@@ -103,7 +103,7 @@ def test_a_roll_call_tries_a_lost_drone_once_more_and_does_not_hang(tmp_path: Pa
             await flown.do(team.roll_call("cf1"))
             drone.goes_silent()
             drone.hangs = drone.clings = {"connect"}
-            await flown.until(lambda: not team._members["cf1"].linked)
+            await flown.until(lambda: not team._vehicles["cf1"].linked)
             before = the_loop().time()
             standing = await flown.do(team.roll_call("cf1"))
             assert the_loop().time() - before <= 17
@@ -124,7 +124,9 @@ def test_a_drone_that_cannot_fly_any_more_counts_as_landed(tmp_path: Path) -> No
     run(flight())
 
 
-def test_a_link_that_is_lost_in_the_take_off_leaves_a_drone_in_the_air(tmp_path: Path) -> None:
+async def test_a_link_that_is_lost_in_the_take_off_leaves_a_drone_in_the_air(
+    tmp_path: Path,
+) -> None:
     """It has not said that it flies, but it may."""
 
     async def flight() -> None:
@@ -150,42 +152,34 @@ def test_a_drone_on_the_ground_is_linked_again_quietly(tmp_path: Path) -> None:
             drone, team = flown.drones["cf1"], flown.team
             await flown.do(team.roll_call("cf1"))
             drone.goes_silent()
-            await flown.until(lambda: not team._members["cf1"].linked)
+            await flown.until(lambda: not team._vehicles["cf1"].linked)
             drone.answers = True
-            await flown.until(lambda: team._members["cf1"].linked)
+            await flown.until(lambda: team._vehicles["cf1"].linked)
             await flown.do(team.takeoff("cf1", 1.0))
 
     run(flight())
 
 
-def test_who_takes_long_to_connect_is_connected_all_the_same(tmp_path: Path) -> None:
+async def test_who_takes_long_to_connect_is_connected_all_the_same(tmp_path: Path) -> None:
     """The roll call does not wait for it; a radio that many share is slow."""
-
-    async def flight() -> None:
-        drone = FakeDrone()
-        drone.slow = {"connect": 25.0}
-        async with flying(tmp_path, drone) as flown:
-            standing = await flown.do(flown.team.roll_call("cf1"))
-            assert (standing.reached, standing.problems) == (False, ("cf1 did not answer in 15 s",))
-            assert await flown.do(flown.team.reach("cf1"))
-            assert the_loop().time() < 1000 + 27
-
-    run(flight())
+    drone = FakeDrone()
+    drone.slow = {"connect": 25.0}
+    async with flying(tmp_path, drone) as flown:
+        standing = await flown.do(flown.team.roll_call("cf1"))
+        assert (standing.reached, standing.problems) == (False, ("cf1 did not answer in 15 s",))
+        assert await flown.do(flown.team.reach("cf1"))
+        assert the_loop().time() < 1000 + 27
 
 
-def test_a_drone_that_is_away_for_long_is_looked_for_rarely(tmp_path: Path) -> None:
-    """Others need the radio; but as soon as somebody asks for it, it is tried."""
-
-    async def flight() -> None:
-        drone = FakeDrone()
-        drone.answers = False
-        async with flying(tmp_path, drone) as flown:
-            await flown.until(lambda: the_loop().time() > 1300)
-            attempts = drone.attempts
-            await flown.until(lambda: the_loop().time() > 1600)
-            assert drone.attempts - attempts < 12
-            drone.answers = True
-            assert (await flown.do(flown.team.roll_call("cf1"))).reached
-            assert flown.log.count("cf1 does not answer") == 1
-
-    run(flight())
+async def test_a_drone_that_is_away_for_long_is_looked_for_rarely(tmp_path: Path) -> None:
+    """Others need the radio; but as soon as it is asked for, it is tried."""
+    drone = FakeDrone()
+    drone.answers = False
+    async with flying(tmp_path, drone) as flown:
+        await flown.until(lambda: the_loop().time() > 1300)
+        attempts = drone.attempts
+        await flown.until(lambda: the_loop().time() > 1600)
+        assert drone.attempts - attempts < 12
+        drone.answers = True
+        assert (await flown.do(flown.team.roll_call("cf1"))).reached
+        assert flown.log.count("cf1 does not answer") == 1

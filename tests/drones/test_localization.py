@@ -8,10 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from pluto_fleet.drones.feeding import Feeding
-from pluto_fleet.drones.making import make_team
+from pluto_fleet.drones.localization import LocalizationFeed
 from pluto_fleet.drones.real_fleet import RealDrone, RealFleet
-from pluto_fleet.drones.team import TeamDrone
+from pluto_fleet.drones.team import TeamDrone, make_team
 from pluto_fleet.process.realtime import RealTime
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.errors import BadInput, Failure
@@ -42,12 +41,12 @@ class Camera:
             await asyncio.sleep(0.1)
 
 
-def test_a_drone_that_nobody_sees_lands_and_does_not_take_off(tmp_path: Path) -> None:
+async def test_a_drone_that_is_not_seen_lands_and_does_not_take_off(tmp_path: Path) -> None:
     """It does not know where it is."""
 
     async def flight() -> None:
         drone, camera = Located(), Camera()
-        feeding = Feeding("camera", camera, {"cf1": drone}, print, the_loop().time)
+        feeding = LocalizationFeed("camera", camera, {"cf1": drone}, print, the_loop().time)
         async with flying(tmp_path, drone, feeding=feeding) as flown:
             await flown.up()
             the_loop().call_later(2, setattr, camera, "looks", False)

@@ -1,4 +1,4 @@
-"""Each fault, on Crazyflies behind one gateway: what it becomes, and that nobody else suffers.
+"""Each fault, on Crazyflies behind one gateway: what it becomes, and that no other suffers.
 
 All drones of a test fly at once, in real time, through the unmodified cflib over UDP.
 """
@@ -13,7 +13,7 @@ import pytest
 
 from pluto_fleet.crtp.drone import Build
 from pluto_fleet.crtp.faults import Value
-from pluto_fleet.crtp.record import InMemory
+from pluto_fleet.crtp.flight_log import MemoryLog
 from pluto_fleet.crtp.server import Server
 from plutoc_runtime.domain.errors import Failure
 from plutoc_runtime.domain.model import Point
@@ -93,7 +93,7 @@ async def silent_in_flight(hall: Hall) -> None:
 
 
 async def switched_off_in_flight(hall: Hall) -> None:
-    """Its port is closed: at once it is known that nobody is there."""
+    """Its port is closed: at once it is known that no drone is there."""
     began = asyncio.ensure_future(hall.let("gone", "gone"))
     failed = await hall.flown.fails("gone", hall.there("gone"))
     assert failed.failure is Failure.LINK
@@ -160,7 +160,7 @@ def test_each_fault_fails_its_own_flight_and_no_other(tmp_path: Path) -> None:
     """In the end all that flew has landed, with its motors never cut, and no thread is left."""
 
     async def fly() -> None:
-        record = InMemory()
+        record = MemoryLog()
         server = Server([Build(id=id, home=home) for id, home in HOMES.items()], record)
         await server.start()
         await server.let("mute", "silent")
@@ -180,7 +180,7 @@ def test_each_fault_fails_its_own_flight_and_no_other(tmp_path: Path) -> None:
             told = zip(stories, ends, strict=True)
             wrong = [f"{story}: {end!r}" for story, end in told if end is not None]
             assert not any(map(hall.flies, HOMES))
-            assert list(dropped(record.deeds)) == []
+            assert list(dropped(record.commands)) == []
             assert not wrong, "\n".join([*wrong, *flown.log])
         finally:
             await server.close()

@@ -1,10 +1,8 @@
-"""No code of a user's is run, and nothing is unpickled that others could have written."""
+"""No code of a user's is run, and nothing is unpickled."""
 
 from __future__ import annotations
 
 import ast
-import os
-import pickle
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -16,9 +14,7 @@ import plutoc
 import plutoc_blocks
 import plutoc_grammar
 import plutoc_runtime
-from plutoc.cache import cache_file
-from plutoc.syntax.grammar import parser
-from tests.cli.conftest import APP, Call
+from tests.cli.conftest import Call
 
 FOLDERS = [Path(one.__path__[0]) for one in (plutoc, plutoc_runtime, plutoc_blocks, plutoc_grammar)]
 MODULES = [path for folder in FOLDERS for path in sorted(folder.rglob("*.py"))]
@@ -210,7 +206,7 @@ def test_the_trap_works(tmp_path: Path, broken: Path) -> None:
 
 @pytest.mark.skipif(not hasattr(os, "getuid") or os.getuid() != 0, reason="only root can give away")
 @pytest.mark.parametrize("what", ["folder", "file"])
-def test_what_belongs_to_somebody_else_is_not_used(
+def test_what_belongs_to_another_user_is_not_used(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, what: str
 ) -> None:
     """Even if its mode is right."""

@@ -12,14 +12,14 @@ import pytest
 
 from pluto_fleet.crazyflie.navigation import Crazyflie
 from pluto_fleet.crtp.drone import Build, SimulatedCrazyflie
-from pluto_fleet.crtp.record import InMemory
+from pluto_fleet.crtp.flight_log import MemoryLog
 from pluto_fleet.crtp.server import Server
 from pluto_fleet.drones import DroneNavigation, DroneSetup
 from pluto_fleet.drones.conformance import NavigationContract, Truth
 
 pytest.importorskip("cflib")
 
-NOBODY = "udp://127.0.0.1:9"
+NO_DRONE = "udp://127.0.0.1:9"
 
 
 class Hangar:
@@ -27,7 +27,7 @@ class Hangar:
 
     def __init__(self, folder: Path) -> None:
         builds = [Build(id=f"cf{at}", home=(float(at), 2.0, 0.0)) for at in range(1, 9)]
-        self.folder, self.server = folder, Server(builds, InMemory())
+        self.folder, self.server = folder, Server(builds, MemoryLog())
         self.fresh = list(reversed(builds))
         self.flown: dict[DroneNavigation, SimulatedCrazyflie] = {}
         self._loop = asyncio.new_event_loop()
@@ -70,7 +70,7 @@ class TestCrazyflie(NavigationContract):
         return self.hangar.take()
 
     def make_unreachable(self) -> DroneNavigation:
-        return self.hangar.take(NOBODY)
+        return self.hangar.take(NO_DRONE)
 
     def silence(self, navigation: DroneNavigation) -> None:
         self.hangar.let(navigation, "silent")

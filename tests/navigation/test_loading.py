@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from pluto_fleet.drones import trial
+from pluto_fleet.drones import inspection
 from pluto_fleet.drones.loading import (
     load_localization,
     load_navigation,
@@ -71,7 +71,7 @@ def test_of_two_packages_that_offer_one_name_neither_is_chosen(
     )
 
 
-def test_a_name_that_nobody_offers_is_told_with_those_that_are(
+def test_a_name_that_no_package_offers_is_told_with_those_that_are(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     offered(tmp_path, "pluto-wren", "plutoc.navigations", f"parakeet = {HERE}:Good")
@@ -142,7 +142,7 @@ def test_a_module_that_hangs_is_not_waited_for(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """It is named, and there is a limit."""
-    monkeypatch.setattr(trial, "LIMIT", 0.5)
+    monkeypatch.setattr(inspection, "IMPORT_LIMIT", 0.5)
     (tmp_path / "hanging_drones.py").write_text(f"while True: pass\n{CLASSES}")
     monkeypatch.syspath_prepend(tmp_path)
     assert refused("hanging_drones:Drone") == (
@@ -226,7 +226,7 @@ def test_what_is_made_is_made_of_the_setup() -> None:
 def test_what_a_module_raises_commands_no_terminal(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Nor does it fill one: somebody else wrote it."""
+    """Nor does it fill one: another author wrote it."""
     (tmp_path / "loud_drones.py").write_text(
         f"raise RuntimeError('\\x1b[31mred\\n' + 9999 * 'very ')\n{CLASSES}"
     )

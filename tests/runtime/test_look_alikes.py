@@ -1,4 +1,4 @@
-"""Names that look alike are told, for whoever reads them would take one for the other."""
+"""Names that look alike are told: a reader would take one for the other."""
 
 from __future__ import annotations
 

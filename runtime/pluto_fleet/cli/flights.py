@@ -193,8 +193,8 @@ async def _real(flight: Flight, folder: Path, known: Recovered | None) -> RealFl
     real = real_fleet(flight.fleet, flight.missions, records=records)
     if not flight.crtp:
         return real
+    from ..crtp.equipment import fitted
     from ..crtp.process import start, told  # few want them
-    from ..crtp.stand_in import fitted
 
     homes = {drone.id: drone.home for drone in flight.fleet.drones}
     uris = await asyncio.to_thread(start, folder, homes)

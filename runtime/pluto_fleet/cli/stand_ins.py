@@ -7,7 +7,6 @@ from itertools import count
 from typing import TYPE_CHECKING
 
 from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.fleet.landing_sites import free_spots
 
 from ..files.fleet import CRAZYFLIE, OWN, navigation_of
 

@@ -23,9 +23,9 @@ from plutoc_runtime.domain.errors import BadInput
 from ..process import respawn as again
 from ..process.forked import deaf, in_children, not_for_children
 from ..process.ipc import NotRunning, answering, ask, listening
-from .camera import camera, port_of
 from .drone import Build, SimulatedCrazyflie
-from .record import InFiles, Point
+from .equipment import camera, port_of
+from .flight_log import FileLog, Point
 from .server import HOST, Server
 
 NOTE, DRONES, LOCK, LOG = "crtp", "crtp.json", "crtp.lock", "crtp.log"
@@ -120,10 +120,8 @@ def main(arguments: Sequence[str]) -> int:
 
 
 async def _run(folder: Path) -> None:
-    kept, record = _kept(folder), InFiles(folder)
-    server = Server(
-        [_build(id, number, one) for number, (id, one) in enumerate(kept.items())], record
-    )
+    kept, log = _kept(folder), FileLog(folder)
+    server = Server([_build(id, number, one) for number, (id, one) in enumerate(kept.items())], log)
     for id, drone in server.drones.items():
         _restore(drone, kept[id])
     over = asyncio.Event()
@@ -136,7 +134,7 @@ async def _run(folder: Path) -> None:
     try:
         async with listening(folder / NOTE, answering(desk.answer)):
             while not over.is_set():
-                record.flush()
+                log.flush()
                 _write(folder, _state(server))
                 if server.quiet > _IDLE and not server.airborne and not is_flown(folder):
                     break
@@ -147,7 +145,7 @@ async def _run(folder: Path) -> None:
         no_more()
         await desk.close()
         await server.close()
-        record.close()
+        log.close()
         _write(folder, _state(server))
 
 

@@ -7,9 +7,9 @@ from functools import partial
 from math import dist
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.alone.files import DroneData
+from plutoc_runtime.alone.files import HOME_SIZE
+from plutoc_runtime.domain.fleet_data import DroneData
 from plutoc_runtime.domain.text import quoted
-from plutoc_runtime.fleet.landing_sites import HOME_SIZE
 
 from . import errors, values
 from .options import Options, options_under

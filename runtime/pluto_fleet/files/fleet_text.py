@@ -10,7 +10,7 @@ import tomlkit
 from .fleet import CRAZYFLIE, OWN
 
 if TYPE_CHECKING:
-    from plutoc_runtime.alone.world import WorldData
+    from plutoc_runtime.domain.fleet_data import WorldData
 
     from .drones import DroneEntry
     from .fleet import FleetFile

@@ -12,7 +12,7 @@ from unicodedata import normalize
 from plutoc_runtime.domain.actions import BUILT_IN
 from plutoc_runtime.domain.fields import Entity, FieldType
 from plutoc_runtime.domain.text import quoted
-from plutoc_runtime.fleet.capability import Lacks, Miss, chain_of, miss_of
+from plutoc_runtime.fleet.reach import Lacks, Miss, chain_of, miss_of
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.airspace import Airspace

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.alone.bound import Bound, see_through
+from plutoc_runtime.alone.simulate import Bound, see_through
 from plutoc_runtime.alone.world import World
 from plutoc_runtime.domain.model import Mission
 from plutoc_runtime.domain.trace import Event

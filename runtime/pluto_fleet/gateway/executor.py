@@ -8,9 +8,9 @@ from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from plutoc_runtime.domain.errors import Failure, FlightFailed
+from plutoc_runtime.domain.errors import ANY_ERROR, Cancelled, Failure, FlightFailed
 from plutoc_runtime.fleet.energy import docked, flight_seconds
-from plutoc_runtime.time.kernel import FLEET, WHATEVER, Cancelled, Kernel, Task
+from plutoc_runtime.time.kernel import FLEET, Kernel, Task
 
 from ..jobs.job import motors_cut
 from .envelope import Envelope
@@ -291,7 +291,7 @@ class Pilots:
         except FlightFailed as error:
             traffic.stopped(drone, fails=error.failure is not Failure.REFUSED)
             raise
-        except WHATEVER:
+        except ANY_ERROR:
             traffic.stopped(drone, fails=False)
             raise
 

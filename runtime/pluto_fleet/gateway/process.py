@@ -177,7 +177,7 @@ async def run(folder: Path, settings: Settings) -> None:
         seen = Sightings(folder / SEEN, simulated.telemetry, down=simulated.down)
         await _command(folder, settings, kernel, simulated, seen)
         return
-    from ..drones.making import make_team  # a simulation does without
+    from ..drones.team import make_team  # a simulation does without
 
     uris = {drone.id: drone.uri or drone.id for drone in settings.real.drones}
     with holding(uris, patience=LEAVING):

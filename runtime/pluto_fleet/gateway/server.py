@@ -11,9 +11,9 @@ from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.domain.errors import BadInput, FlightFailed
+from plutoc_runtime.domain.errors import BadInput, Cancelled, FlightFailed
 from plutoc_runtime.domain.text import quoted, shown
-from plutoc_runtime.time.kernel import FLEET, Cancelled, Task
+from plutoc_runtime.time.kernel import FLEET, Task
 
 from ..jobs.reports import Down
 from ..process.ipc import Message, line, message_in

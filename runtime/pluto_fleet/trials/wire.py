@@ -7,9 +7,9 @@ from collections.abc import Callable, Coroutine
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from plutoc_runtime.domain.errors import FlightFailed
+from plutoc_runtime.domain.errors import Cancelled, FlightFailed
 from plutoc_runtime.time.future import Future
-from plutoc_runtime.time.kernel import FLEET, Cancelled, Kind, Task
+from plutoc_runtime.time.kernel import FLEET, Kind, Task
 
 from ..gateway.gateway import Link
 

@@ -1,4 +1,4 @@
-"""Whoever is said to be on a way still, without a look at it, is on it still."""
+"""A drone that is said to be on a way still, without a look at it, is on it still."""
 
 from __future__ import annotations
 

@@ -113,7 +113,7 @@ class Fake(Bare):
 
 
 class Mocap:
-    """Sees `cf1`, and nobody else."""
+    """Sees `cf1` alone."""
 
     def __init__(self, options: Mapping[str, object]) -> None:
         assert options == {"host": "lab"}

@@ -27,7 +27,7 @@ class Team(SimulatedNavigation):
     """The same, with what a gateway adds: flights begin, and drones are brought home."""
 
     async def takeoff(self, drone: str, height: float, order: Order | None = None) -> None:
-        """Take off for a flight, or for nobody."""
+        """Take off for a flight, or for none."""
         body, now = self.bodies[drone], self._kernel.now
         body.check(now)
         body.begin(draw(self._faults, self._seed, order), now)
