@@ -23,7 +23,7 @@ from ..drones.protocol import Identifiable, Locatable, Scannable
 from ..drones.real_fleet import RealDrone
 from ..drones.team import make_one
 from ..files.behaviour import OWN
-from ..gateway.drone_lock import Held, holding
+from ..gateway.drone_lock import DroneInUse, lock_drones
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Point
@@ -120,7 +120,7 @@ async def identified(asked: Asked, folder: Path) -> None:
     navigation = _made(asked, folder)
     if not isinstance(navigation, Identifiable):
         raise BadInput(f"{asked.id} has nothing by which it could show itself")
-    with holding({asked.id: asked.uri or asked.id}):
+    with lock_drones({asked.id: asked.uri or asked.id}):
         try:
             await _within(CONNECT, navigation.connect())
             await _within(CONNECT, navigation.identify())
@@ -161,12 +161,12 @@ async def _answer(
 ) -> Answer:
     so_far = _Heard()
     try:
-        with holding({asked.id: asked.uri or asked.id}):
+        with lock_drones({asked.id: asked.uri or asked.id}):
             try:
                 (end,) = await asyncio.gather(_ask(navigation, so_far), return_exceptions=True)
             finally:
                 await _let_go(navigation)
-    except Held as held:  # an app flies it: nobody else may speak with it
+    except DroneInUse as held:  # an app flies it: nobody else may speak with it
         return Answer(asked=asked, problems=(str(held),))
     match end:
         case None:

@@ -16,7 +16,7 @@ from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.text import in_shell, place
 
 from ..drones.real_fleet import real_fleet
-from ..flight.config import End, Lived, Setting, Stops
+from ..flight.config import End, FlightConfig, FlightResult, Stops
 from ..flight.fly import Recovered, live
 from ..gateway.settings import settings_for
 from ..gateway.starting import connect
@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
     from ..drones.real_fleet import RealFleet
     from ..files.fleet import FleetFile
-    from ..flight.live_flight import OneLife
+    from ..flight.live_flight import LiveFlight
     from ..journal.fold import Records
     from .options import Options
 
@@ -120,7 +120,7 @@ async def _heard(
     stops: Stops,
     interrupts: Interrupts,
     known: Recovered | None,
-) -> Lived:
+) -> FlightResult:
     """Live, and hear whoever wants it to end."""
     interrupts.loop = asyncio.get_running_loop()
     return await lives(flight, store, stops, known, Watcher(tell=tell, say=output.tell))
@@ -134,7 +134,7 @@ class Watcher:
     """Told of each event, once it is on record."""
     say: Callable[[str], object]
     """Told what is no event of the flight: a gateway has died."""
-    born: Callable[[OneLife], object] | None = None
+    born: Callable[[LiveFlight], object] | None = None
     """Told of each life when it begins."""
     patient: bool = False
     """Whether somebody is there who can decide what missions ask."""
@@ -142,7 +142,7 @@ class Watcher:
 
 async def lives(
     flight: Flight, store: Store, stops: Stops, known: Recovered | None, watcher: Watcher
-) -> Lived:
+) -> FlightResult:
     """Live once more each time that the gateway dies; `known` is what the journal says."""
     folder = gateway_folder(flight.journal)
     settings = settings_for(
@@ -153,7 +153,7 @@ async def lives(
         real=None if flight.sim else await _real(flight, folder, known),
         speed=flight.speed,
     )
-    setting = Setting(
+    setting = FlightConfig(
         app=flight.app,
         missions=flight.missions,
         fleet=flight.fleet,

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import tomlkit
 
-from ..jobs.controls import Before
+from ..jobs.controls import ForwardingControls
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.actions import Plain
@@ -30,7 +30,7 @@ class Command:
     """The most that it may fly, metres per second."""
 
 
-class Given(Before):
+class Given(ForwardingControls):
     """Drones that can be told what others can; each command is kept, and handed on to those others."""
 
     def __init__(

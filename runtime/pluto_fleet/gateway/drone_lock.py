@@ -28,15 +28,15 @@ _EACH = 0.05
 """Seconds between two looks."""
 
 
-class Held(BadInput):
+class DroneInUse(BadInput):
     """Another process commands one of these drones."""
 
 
 @contextmanager
-def holding(
+def lock_drones(
     drones: Mapping[str, str], folder: Path | None = None, patience: float = 0.0
 ) -> Iterator[None]:
-    """Let no other process command these drones, by their ids and URIs; `Held` if one does.
+    """Let no other process command these drones, by their ids and URIs; `DroneInUse` if one does.
 
     `folder` is where the locks are; default: where they are for all processes of this user.
     Whoever held them last may just be leaving: `patience` is for how many seconds that is waited for.
@@ -67,7 +67,7 @@ def _taken(file: Path, id: str, uri: str, until: float) -> int:
         who = os.pread(lock, 20, 0).decode("ascii", "replace").strip()
         os.close(lock)
         whose = f"process {who}" if who.isdecimal() else "another process"
-        raise Held(
+        raise DroneInUse(
             f"{id} ({quoted(uri)}) is commanded by {whose} already, and two must not fly one drone:"
             " stop that flight first, or wait: a minute after its drones are down it lets go of them"
         )

@@ -29,9 +29,9 @@ from ..process.forked import deaf, in_children, not_for_children
 from ..process.ipc import listening
 from ..process.realtime import RealTime
 from ..simulation.drones import SimulatedNavigation
-from ..simulation.keeping import Keeper
 from ..simulation.moments import this_moment
-from .drone_lock import LEAVING, holding
+from ..simulation.world_store import WorldStore
+from .drone_lock import LEAVING, lock_drones
 from .gateway import Gateway
 from .ledger import FileLedger
 from .server import Server
@@ -180,7 +180,7 @@ async def run(folder: Path, settings: Settings) -> None:
     from ..drones.team import make_team  # a simulation does without
 
     uris = {drone.id: drone.uri or drone.id for drone in settings.real.drones}
-    with holding(uris, patience=LEAVING):
+    with lock_drones(uris, patience=LEAVING):
         team = make_team(kernel, settings.drones, settings.real, settings.airspace, folder, _say)
         team.begin()
         seen = Sightings(folder / SEEN, team.telemetry, down=team.down)
@@ -193,7 +193,7 @@ async def run(folder: Path, settings: Settings) -> None:
 
 def _simulated(folder: Path, settings: Settings, kernel: RealTime) -> SimulatedNavigation:
     """Return the simulated drones, in the world as it was left."""
-    keeper = Keeper(folder, kernel.time, settings.speed, this_moment)
+    keeper = WorldStore(folder, kernel.time, settings.speed, this_moment)
     navigation = SimulatedNavigation(
         kernel,
         settings.drones,

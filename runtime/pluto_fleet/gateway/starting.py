@@ -20,7 +20,7 @@ from ..process import respawn as again
 from ..process.ipc import ask
 from ..process.ipc import connect as open_connection
 from .process import ANOTHER_RUNS, LOCK, LOG, NO_ROOM, NOTE, SETTINGS
-from .remote import SILENCE, RemoteLink
+from .remote import GATEWAY_TIMEOUT, RemoteLink
 from .settings import Settings, data_of
 from .wire import MAX_REPORT
 
@@ -89,7 +89,7 @@ async def _linked(
     reader, writer = await open_connection(folder / NOTE, MAX_REPORT)
     link = RemoteLink(kernel, reader, writer, lost)
     try:
-        async with asyncio.timeout(SILENCE):
+        async with asyncio.timeout(GATEWAY_TIMEOUT):
             await link.link(epoch, settings.patience)
     except BaseException:
         writer.close()

@@ -25,7 +25,7 @@ from ..journal.fold import Records
 from ..journal.header import Header, check
 from ..journal.reader import Reader
 from ..journal.store import Store
-from ..simulation.keeping import DRONES
+from ..simulation.world_store import DRONES
 from .leftover import drawn
 from .rest import Rest
 

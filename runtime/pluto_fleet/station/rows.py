@@ -13,7 +13,7 @@ from plutoc_runtime.domain.text import cut_off
 from ..cli.flown import aside
 from ..flight.control import ANSWERS
 from ..flight.interventions import PRIORITY
-from ..gateway.wire import SILENT
+from ..gateway.wire import STALE_AFTER
 from .whereabouts import END, ENDED, blocks_of
 
 if TYPE_CHECKING:
@@ -113,7 +113,7 @@ def drone_row(
         drone.trips,
         retired,
         why,
-        time.time() - silence if heard and silence > SILENT else None,
+        time.time() - silence if heard and silence > STALE_AFTER else None,
     )
 
 

@@ -36,8 +36,8 @@ if TYPE_CHECKING:
     from plutoc_runtime.domain.trace import Event
 
     from ..flight.fly import Recovered
-    from ..flight.live_flight import OneLife
-    from ..flight.recorded_flight import Life
+    from ..flight.live_flight import LiveFlight
+    from ..flight.recorded_flight import RecordedFlight
     from ..journal.store import Store
 
 
@@ -60,7 +60,7 @@ class Outing:
         self.feed = Feed(flight.app, UNITS if flight.sim else {})
         self.missions, self.drones = Versions(), Versions()
         self.stops = Stops()
-        self.one: OneLife | None = None
+        self.one: LiveFlight | None = None
         """What is lived now."""
         self.records: Records | None = known
         """What the journal said when it was read last."""
@@ -87,7 +87,7 @@ class Outing:
         return self.task is not None and not self.task.done()
 
     @property
-    def life(self) -> Life | None:
+    def life(self) -> RecordedFlight | None:
         """What is lived now, if the drones can be reached."""
         return self.one.life if self.one is not None else None
 
@@ -158,10 +158,10 @@ class Outing:
         with suppress(BadInput, OSError):
             self.records = records_in(self.flight.app, self.flight.journal)
 
-    def _born(self, one: OneLife) -> None:
+    def _born(self, one: LiveFlight) -> None:
         self.records = self.known  # until the drones have been reached anew
         self.one = one
-        one.when_seen(self._seen)
+        one.on_telemetry(self._seen)
 
     def _hear(self, event: Event) -> None:
         """Tell everybody, but not within the instant that flies: it must not fall by a console."""
@@ -221,7 +221,7 @@ class Outing:
             changed |= put(str(row["id"]), row, number)
         return changed
 
-    def _drones_now(self, life: Life) -> Iterator[rows.Row]:
+    def _drones_now(self, life: RecordedFlight) -> Iterator[rows.Row]:
         work = rows.mission_of_each(live_engine(life.session).states)
         fleet = live_fleet(life.session.core)
         for drone in life.session.drones:

@@ -41,7 +41,7 @@ if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
     from plutoc_runtime.domain.model import Mission
 
-    from ..flight.recorded_flight import Life
+    from ..flight.recorded_flight import RecordedFlight
     from .plan.plan import Plan
     from .settings import Settings
 
@@ -202,7 +202,7 @@ class Station:
         if one is None:
             raise BadInput(_NOT_YET)
 
-        def add(life: Life) -> str:
+        def add(life: RecordedFlight) -> str:
             life.add(missions)
             life.control.remember(id, "start")
             return ""
@@ -341,7 +341,7 @@ class Station:
         if outing.one is None or outing.life is None:
             raise BadInput(_NOT_YET)
 
-        def do(life: Life) -> str:
+        def do(life: RecordedFlight) -> str:
             said = perform(life.control, {"command": name, **given})
             life.control.remember(id, name)
             return said

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from plutoc_runtime.domain.errors import BadInput, Cancelled, Failure
 
-from ..flight.recorded_flight import Life
+from ..flight.recorded_flight import RecordedFlight
 from ..jobs.reports import Down
 from .blows import BY_HAND, DEATHS, STOPS, Blow, Kind
 from .brain import BrainTime
@@ -54,7 +54,7 @@ class Living:
         self.full = False
         planned = () if records.missions else tuple(map(fresh, case.missions))
         self.before: dict[str, Known] = {} if planned else dict(rig.book.known)
-        self.life = Life(
+        self.life = RecordedFlight(
             rig.app,
             case.fleet,
             self.kernel,

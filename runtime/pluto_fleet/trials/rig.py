@@ -19,7 +19,7 @@ from plutoc_runtime.time.virtual import VirtualTime
 
 from ..gateway.gateway import Gateway
 from ..gateway.ledger import MemoryLedger
-from ..gateway.lossy_line import LOST, Line
+from ..gateway.lossy_line import LOST, LossyLine
 from ..jobs.reports import Down
 from ..process.signal_guard import by_a_person
 from ..simulation.drones import SimulatedDrone, SimulatedNavigation
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
 
     from ..jobs.controls import Controls
-    from ..simulation.drones import Deed
+    from ..simulation.drones import WorldAction
     from .case import Case
 
 PATIENCE = 3.0
@@ -185,7 +185,7 @@ class Rig:
         """Let this happen after so many seconds of the world's."""
         self.world.schedule(self.world.now + seconds, When.FLIGHT, FLEET, call)
 
-    def seen(self, deed: Deed) -> None:
+    def seen(self, deed: WorldAction) -> None:
         """A drone has done something to the world."""
         if deed.job is not None:
             self.book.did(deed.job, deed.action, self.world.now)
@@ -208,7 +208,7 @@ class Rig:
             max_airborne=fleet.max_airborne,
         )
         if any(blow.kind is Kind.REPORT for blow in self.case.blows):
-            gateway.line = Line(gateway, self.fate)
+            gateway.line = LossyLine(gateway, self.delay)
         return gateway
 
     def radio_delay(self, _: str) -> float:
@@ -216,7 +216,7 @@ class Rig:
         self.fired["slow radio"] += 1
         return self.case.weather.radio
 
-    def fate(self) -> float:
+    def delay(self) -> float:
         """Say whether a report is heard."""
         lost, self.loses_report = self.loses_report, False
         return LOST if lost else 0.0
