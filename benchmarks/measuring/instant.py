@@ -7,7 +7,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from pluto_fleet.files.fleet import DroneEntry, FleetFile
+from pluto_fleet.files.drones import DroneEntry
+from pluto_fleet.files.fleet import FleetFile
 from pluto_fleet.jobs.job import Job
 from pluto_fleet.jobs.reports import Down, DroneReport, FleetReport
 from pluto_fleet.process.realtime import RealTime

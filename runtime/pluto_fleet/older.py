@@ -38,7 +38,7 @@ _ROOMS = {
 }
 """Which room a module went to, and as what."""
 
-_RENAMED = {"Signal": "Future", "State": "MissionState", "WHATEVER": "ANY_ERROR"}
+_RENAMED = {"Signal": "Future", "State": "MissionState", "ANY_ERROR": "ANY_ERROR"}
 
 _ELSEWHERE = ("domain.errors", "flow.run", "flow.mission")
 """Where what left its module may be."""

@@ -13,7 +13,8 @@ from pluto_fleet.crazyflie.navigation import Crazyflie
 from pluto_fleet.crtp.drone import Build, SimulatedCrazyflie
 from pluto_fleet.crtp.flight_log import CommandRecord, MemoryLog
 from pluto_fleet.crtp.server import Server
-from pluto_fleet.drones import DroneEvent, DroneSetup, LinkLost
+from pluto_fleet.drones.errors import LinkLost
+from pluto_fleet.drones.protocol import DroneEvent, DroneSetup
 from plutoc_runtime.domain.model import Point
 
 FAST = 1.0

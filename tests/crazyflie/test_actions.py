@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from pluto_fleet.crtp.equipment import camera, picture, port_of
-from pluto_fleet.drones import ActionNotDone, Rejected
+from pluto_fleet.drones.errors import ActionNotDone, Rejected
 from plutoc_runtime.domain.model import Item, Photo
 from tests.crazyflie.hangar import FAST, hangar
 
@@ -131,18 +131,3 @@ async def test_it_says_what_it_is(folder: Path) -> None:
         assert facts["protocol"] == "12" and facts["firmware"] == "2025c0de0ace"
         assert "bcLighthouse4" in facts["decks"] and "bcFlow2" not in facts["decks"]
         assert one.commands == []
-
-
-FLIGHTS: list[Flight] = [
-    it_measures_what_the_fleet_file_names,
-    it_picks_and_releases_by_a_parameter,
-    what_it_has_not_it_says_before_it_flies,
-    without_a_grip_it_does_not_pretend,
-    its_camera_s_picture_is_kept_and_covers_ground,
-    a_camera_that_is_not_there_fails_the_action,
-    variables_are_read_and_parameters_set,
-    it_blinks_and_has_its_lights_back,
-    it_says_what_it_is,
-]
-
-test_action, test_no_thread_is_left = as_tests(FLIGHTS)

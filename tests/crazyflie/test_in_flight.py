@@ -9,16 +9,8 @@ from pathlib import Path
 import pytest
 
 from pluto_fleet.crtp.drone import Build
-from pluto_fleet.drones import (
-    BATTERY_LOW,
-    CRASHED,
-    LOCKED,
-    Crashed,
-    Locked,
-    NotReady,
-    OutsideArea,
-    Rejected,
-)
+from pluto_fleet.drones.errors import Crashed, Locked, NotReady, OutsideArea, Rejected
+from pluto_fleet.drones.protocol import BATTERY_LOW, CRASHED, LOCKED
 from tests.crazyflie.hangar import FAST, hangar
 
 pytest.importorskip("cflib")

@@ -11,7 +11,8 @@ import pytest
 
 from pluto_fleet.crazyflie.navigation import Crazyflie
 from pluto_fleet.crtp.drone import Build
-from pluto_fleet.drones import LINK_LOST, DroneSetup, LinkLost, NotReady
+from pluto_fleet.drones.errors import LinkLost, NotReady
+from pluto_fleet.drones.protocol import LINK_LOST, DroneSetup
 from tests.crazyflie.hangar import FAST, PATIENCE, Outcomes, hangar, threads_left
 from tests.kill.lives import eventually
 

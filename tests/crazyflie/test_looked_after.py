@@ -7,7 +7,8 @@ from pathlib import Path
 import pytest
 
 from pluto_fleet.crtp.drone import Build
-from pluto_fleet.drones import BATTERY_LOW, LOCKED, Locked, NotReady
+from pluto_fleet.drones.errors import Locked, NotReady
+from pluto_fleet.drones.protocol import BATTERY_LOW, LOCKED
 from tests.crazyflie.hangar import FAST, hangar
 
 pytest.importorskip("cflib")

@@ -23,7 +23,8 @@ from pluto_fleet.crazyflie.trajectory import SpeedLimits
 from pluto_fleet.crazyflie.worker import Worker
 from pluto_fleet.crtp.body import AxisState as Start
 from pluto_fleet.crtp.body import Body, profile
-from pluto_fleet.drones import BATTERY_LOW, CRASHED, LOCKED, LinkLost
+from pluto_fleet.drones.errors import LinkLost
+from pluto_fleet.drones.protocol import BATTERY_LOW, CRASHED, LOCKED
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.model import Point
 

@@ -11,7 +11,8 @@ import pytest
 from pluto_fleet.crazyflie.navigation import Crazyflie
 from pluto_fleet.crtp.drone import Build
 from pluto_fleet.crtp.flight_log import MemoryLog
-from pluto_fleet.drones import LINK_LOST, DroneSetup, LinkLost
+from pluto_fleet.drones.errors import LinkLost
+from pluto_fleet.drones.protocol import LINK_LOST, DroneSetup
 from tests.crazyflie.hangar import PATIENCE
 from tests.crtp.radio import Ether, plugged_in
 from tests.kill.lives import eventually

@@ -10,7 +10,7 @@ import pytest
 from pluto_fleet.crtp.drone import Build
 from pluto_fleet.crtp.packets import Port, unpacked
 from pluto_fleet.crtp.supervisor import Supervisor
-from pluto_fleet.drones import NotReady, Rejected
+from pluto_fleet.drones.errors import NotReady, Rejected
 from tests.crazyflie.hangar import FAST, Hangar, hangar
 
 pytest.importorskip("cflib")

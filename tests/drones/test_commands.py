@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from pluto_fleet.drones import Rejected
+from pluto_fleet.drones.errors import Rejected
 from pluto_fleet.drones.real_fleet import RequiredAction
 from plutoc_runtime.domain.errors import Failure, FlightFailed
 from plutoc_runtime.domain.model import Category, Item
@@ -19,28 +19,24 @@ PILLS = Item(name="pills", mass=0.004)
 
 async def test_a_flight_is_told_step_by_step(tmp_path: Path) -> None:
     """Each command returns when the drone is there; the telemetry says so."""
-
-    async def flight() -> None:
-        async with flying(tmp_path) as flown:
-            team, seen = flown.team, flown.team.telemetry["cf1"]
-            assert (seen.location, seen.battery_level, seen.landed) == ((1, 1, 0), 0.0, True)
-            standing = await flown.do(team.drone_report("cf1"))
-            assert standing.reached
-            assert (standing.landed, standing.problems, standing.done) == (True, (), None)
-            team.begins("cf1", None, 0.0)
-            await flown.do(team.takeoff("cf1", 1.0))
-            assert not seen.landed
-            await flown.do(team.takeoff("cf1", 1.0))  # it flies already
-            await flown.do(team.go_to("cf1", (3.0, 1.0, 1.0)))
-            assert seen.location == pytest.approx((3, 1, 1), abs=0.1)
-            assert await flown.do(team.act("cf1", "measure", {}, None, "j")) == 21.5
-            await flown.do(team.land("cf1"))
-            assert seen.landed
-            await flown.do(team.land("cf1"))
-            told = ["takeoff 1", "go to 3 1 1", "measure", "land"]
-            assert flown.drones["cf1"].told == told
-
-    run(flight())
+    async with flying(tmp_path) as flown:
+        team, seen = flown.team, flown.team.telemetry["cf1"]
+        assert (seen.location, seen.battery_level, seen.landed) == ((1, 1, 0), 0.0, True)
+        standing = await flown.do(team.drone_report("cf1"))
+        assert standing.reached
+        assert (standing.landed, standing.problems, standing.done) == (True, (), None)
+        team.begins("cf1", None, 0.0)
+        await flown.do(team.takeoff("cf1", 1.0))
+        assert not seen.landed
+        await flown.do(team.takeoff("cf1", 1.0))  # it flies already
+        await flown.do(team.go_to("cf1", (3.0, 1.0, 1.0)))
+        assert seen.location == pytest.approx((3, 1, 1), abs=0.1)
+        assert await flown.do(team.act("cf1", "measure", {}, None, "j")) == 21.5
+        await flown.do(team.land("cf1"))
+        assert seen.landed
+        await flown.do(team.land("cf1"))
+        told = ["takeoff 1", "go to 3 1 1", "measure", "land"]
+        assert flown.drones["cf1"].told == told
 
 
 async def test_all_drones_are_connected_at_once_and_a_silent_one_delays_no_other(
@@ -71,50 +67,40 @@ async def test_a_drone_that_is_slower_than_its_category_is_waited_for(tmp_path: 
 
 async def test_a_roll_call_says_what_keeps_a_drone_from_flying(tmp_path: Path) -> None:
     """Its preflight, and the actions of the plan that its category has and its hardware has not."""
-
-    async def flight() -> None:
-        category = Category(name="scout", actions=frozenset({"take_photo", "measure"}))
-        drone = FakeDrone()
-        drone.reasons = ("its position is uncertain", "\x1b[2Jlocked")
-        drone.lacks = {"take_photo", "pick_item"}
-        wanted = [
-            RequiredAction(action=name, parameters={}) for name in ("take_photo", "pick_item")
-        ]
-        async with flying(tmp_path, drone, category=category, wanted=wanted) as flown:
-            problems = (await flown.do(flown.team.drone_report("cf1"))).problems
-            assert problems == (
-                "its position is uncertain",
-                "\\x1b[2Jlocked",
-                "cf1 cannot take_photo",
-            )
-            assert flown.team.why_not("cf1", "take_photo", {}) == "cf1 cannot take_photo"
-            assert flown.team.why_not("cf1", "dance", {}) == "cf1 has no action dance"
-            failed = await flown.failure(flown.team.takeoff("cf1", 1.0))
-            assert failed.failure is Failure.REFUSED
-            assert "cf1 is not ready: its position is uncertain; " in str(failed)
-            assert drone.told == []
-
-    run(flight())
+    category = Category(name="scout", actions=frozenset({"take_photo", "measure"}))
+    drone = FakeDrone()
+    drone.reasons = ("its position is uncertain", "\x1b[2Jlocked")
+    drone.lacks = {"take_photo", "pick_item"}
+    wanted = [RequiredAction(action=name, parameters={}) for name in ("take_photo", "pick_item")]
+    async with flying(tmp_path, drone, category=category, wanted=wanted) as flown:
+        problems = (await flown.do(flown.team.drone_report("cf1"))).problems
+        assert problems == (
+            "its position is uncertain",
+            "\\x1b[2Jlocked",
+            "cf1 cannot take_photo",
+        )
+        assert flown.team.why_not("cf1", "take_photo", {}) == "cf1 cannot take_photo"
+        assert flown.team.why_not("cf1", "dance", {}) == "cf1 has no action dance"
+        failed = await flown.failure(flown.team.takeoff("cf1", 1.0))
+        assert failed.failure is Failure.REFUSED
+        assert "cf1 is not ready: its position is uncertain; " in str(failed)
+        assert drone.told == []
 
 
-def test_a_drone_without_the_hardware_of_the_plan_is_not_handed_out(tmp_path: Path) -> None:
-    """After the roll call it is waited for until somebody has mended it."""
-
-    async def flight() -> None:
-        drone, wanted = FakeDrone(), [RequiredAction(action="take_photo", parameters={})]
-        drone.lacks = {"take_photo"}
-        async with flying(tmp_path, drone, wanted=wanted) as flown:
-            standing = await flown.do(flown.team.drone_report("cf1"))
-            assert standing.problems == ("cf1 cannot take_photo",)
-            assert await flown.do(flown.team.reach("cf1"))
-            with pytest.raises(FlightFailed, match="cf1 is not ready: cf1 cannot take_photo"):
-                flown.team.begins("cf1", None, 0.0)
-            fetched = flown.begin(flown.team.fetched("cf1"))
-            the_loop().call_later(60, drone.lacks.clear)
-            assert await flown.until(lambda: fetched.is_set) > 59
-            assert fetched.result()
-
-    run(flight())
+async def test_a_drone_without_the_hardware_of_the_plan_is_not_handed_out(tmp_path: Path) -> None:
+    """After the roll call it is waited for until it has been mended."""
+    drone, wanted = FakeDrone(), [RequiredAction(action="take_photo", parameters={})]
+    drone.lacks = {"take_photo"}
+    async with flying(tmp_path, drone, wanted=wanted) as flown:
+        standing = await flown.do(flown.team.drone_report("cf1"))
+        assert standing.problems == ("cf1 cannot take_photo",)
+        assert await flown.do(flown.team.reach("cf1"))
+        with pytest.raises(FlightFailed, match="cf1 is not ready: cf1 cannot take_photo"):
+            flown.team.begins("cf1", None, 0.0)
+        fetched = flown.begin(flown.team.fetched("cf1"))
+        the_loop().call_later(60, drone.lacks.clear)
+        assert await flown.until(lambda: fetched.is_set) > 59
+        assert fetched.result()
 
 
 async def test_no_drone_takes_off_below_its_reserve(tmp_path: Path) -> None:
@@ -144,42 +130,34 @@ async def test_what_is_broken_off_ends_in_a_hover(tmp_path: Path) -> None:
 
 async def test_a_command_that_is_not_wanted_any_more_ends_in_a_hover(tmp_path: Path) -> None:
     """As when the kernel cancels it."""
-
-    async def flight() -> None:
-        async with flying(tmp_path) as flown:
-            drone = await flown.up()
-            flies = flown.begin(flown.team.go_to("cf1", (5.0, 1.0, 1.0)))
-            await flown.until(lambda: drone.place[0] > 2)
-            flown.kernel.post(flies.cancel)
-            await flown.until(lambda: drone.told[-1] == "hold", 1)
-            hovers = flown.begin(flown.team.hold("cf1"))
-            await flown.until(lambda: flown.team._vehicles["cf1"].commands.doing == "hover", 1)
-            flown.kernel.post(hovers.cancel)
-
-    run(flight())
+    async with flying(tmp_path) as flown:
+        drone = await flown.up()
+        flies = flown.begin(flown.team.go_to("cf1", (5.0, 1.0, 1.0)))
+        await flown.until(lambda: drone.place[0] > 2)
+        flown.kernel.post(flies.cancel)
+        await flown.until(lambda: drone.told[-1] == "hold", 1)
+        hovers = flown.begin(flown.team.hold("cf1"))
+        await flown.until(lambda: flown.team._vehicles["cf1"].commands.doing == "hover", 1)
+        flown.kernel.post(hovers.cancel)
 
 
 async def test_a_takeoff_that_is_broken_off_before_the_drone_says_that_it_flies_is_no_landing(
     tmp_path: Path,
 ) -> None:
     """The command may have reached it: until that is known it counts as in the air."""
-
-    async def flight() -> None:
-        drone = FakeDrone()
-        drone.hangs = {"takeoff"}
-        async with flying(tmp_path, drone) as flown:
-            await flown.do(flown.team.drone_report("cf1"))
-            seen = flown.team.telemetry["cf1"]
-            rises = flown.begin(flown.team.takeoff("cf1", 1.0))
-            await flown.until(lambda: not seen.landed, 1)
-            flown.kernel.post(rises.cancel)
-            assert not seen.landed
-            drone.hangs.clear()
-            await flown.do(flown.team.land("cf1"))
-            assert drone.told == ["hold", "land"]
-            assert seen.landed
-
-    run(flight())
+    drone = FakeDrone()
+    drone.hangs = {"takeoff"}
+    async with flying(tmp_path, drone) as flown:
+        await flown.do(flown.team.drone_report("cf1"))
+        seen = flown.team.telemetry["cf1"]
+        rises = flown.begin(flown.team.takeoff("cf1", 1.0))
+        await flown.until(lambda: not seen.landed, 1)
+        flown.kernel.post(rises.cancel)
+        assert not seen.landed
+        drone.hangs.clear()
+        await flown.do(flown.team.land("cf1"))
+        assert drone.told == ["hold", "land"]
+        assert seen.landed
 
 
 async def test_who_stands_on_the_ground_is_not_sent_anywhere(tmp_path: Path) -> None:
@@ -221,30 +199,26 @@ async def test_an_action_of_the_apps_own_reads_and_writes(tmp_path: Path) -> Non
 
 
 @pytest.mark.parametrize("hangs", [False, True])
-def test_cut_motors_waits_for_nothing(tmp_path: Path, hangs: bool) -> None:
-    """Whatever the drone does, and however its navigation hangs in that."""
-
-    async def flight() -> None:
-        async with flying(tmp_path) as flown:
-            drone, team = await flown.up(), flown.team
-            drone.fell = Rejected  # it says no more than that it will not
-            if hangs:
-                drone.hangs = drone.clings = {"go_to", "hold"}
-            flies = flown.begin(team.go_to("cf1", (5.0, 1.0, 1.0)))
-            await flown.until(lambda: "fly" in team._vehicles["cf1"].commands.doing)
-            before = the_loop().time()
-            await flown.do(team.cut("cf1"))
-            assert the_loop().time() - before < 0.2
-            assert not drone.motors
-            await flown.until(lambda: flies.is_set, 1)
-            assert str(flies.error) == "cf1's motors were cut"
-            assert drone.told[-1] == "emergency stop"
-            assert "motors were cut" in str(await flown.failure(team.takeoff("cf1", 1.0)))
-            flown.begin(team.land("cf1"))
-            flown.kernel.post(team.break_off, "cf1")
-            await flown.until(lambda: team.telemetry["cf1"].landed)
-            assert drone.told[-1] == "emergency stop"
-            team.mended("cf1")
-            team.begins("cf1", None, 0.0)
-
-    run(flight())
+async def test_cut_motors_waits_for_nothing(tmp_path: Path, hangs: bool) -> None:
+    """No matter what the drone does, and however its navigation hangs in that."""
+    async with flying(tmp_path) as flown:
+        drone, team = await flown.up(), flown.team
+        drone.fell = Rejected  # it says no more than that it will not
+        if hangs:
+            drone.hangs = drone.clings = {"go_to", "hold"}
+        flies = flown.begin(team.go_to("cf1", (5.0, 1.0, 1.0)))
+        await flown.until(lambda: "fly" in team._vehicles["cf1"].commands.doing)
+        before = the_loop().time()
+        await flown.do(team.cut("cf1"))
+        assert the_loop().time() - before < 0.2
+        assert not drone.motors
+        await flown.until(lambda: flies.is_set, 1)
+        assert str(flies.error) == "cf1's motors were cut"
+        assert drone.told[-1] == "emergency stop"
+        assert "motors were cut" in str(await flown.failure(team.takeoff("cf1", 1.0)))
+        flown.begin(team.land("cf1"))
+        flown.kernel.post(team.break_off, "cf1")
+        await flown.until(lambda: team.telemetry["cf1"].landed)
+        assert drone.told[-1] == "emergency stop"
+        team.mended("cf1")
+        team.begins("cf1", None, 0.0)

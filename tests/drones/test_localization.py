@@ -10,7 +10,8 @@ import pytest
 
 from pluto_fleet.drones.localization import LocalizationFeed
 from pluto_fleet.drones.real_fleet import RealDrone, RealFleet
-from pluto_fleet.drones.team import TeamDrone, make_team
+from pluto_fleet.drones.team import make_team
+from pluto_fleet.drones.vehicle import TeamDrone
 from pluto_fleet.process.realtime import RealTime
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.errors import BadInput, Failure

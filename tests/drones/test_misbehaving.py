@@ -9,7 +9,8 @@ from typing import cast
 
 import pytest
 
-from pluto_fleet.drones import BATTERY_LOW, DroneEvent, NavigationError
+from pluto_fleet.drones.errors import NavigationError
+from pluto_fleet.drones.protocol import BATTERY_LOW, DroneEvent
 from plutoc_runtime.domain.errors import Failure, FlightFailed
 from tests.drones.fakes import FakeDrone
 from tests.drones.jumping import the_loop
@@ -155,23 +156,19 @@ async def test_who_holds_up_the_loop_is_named(tmp_path: Path) -> None:
 
 async def test_telemetry_that_makes_no_sense_is_silence(tmp_path: Path) -> None:
     """A drone that does not know where it is cannot be flown."""
-
-    async def flight() -> None:
-        async with flying(tmp_path) as flown:
-            drone = await flown.up()
-            seen = flown.team.telemetry["cf1"]
-            before = seen.location
-            drone.put((float("nan"), 1.0, 1.0))
-            failed = await flown.failure(flown.team.hold("cf1"))
-            assert failed.failure is Failure.LINK
-            assert seen.location == before
-            drone.put((1.0, 1.0, 1.0))
-            drone.raises = {"telemetry": KeyError("x")}
-            assert seen.location == before
-            assert any("made a mistake: KeyError" in line for line in flown.log)
-            drone.raises = {}
-
-    run(flight())
+    async with flying(tmp_path) as flown:
+        drone = await flown.up()
+        seen = flown.team.telemetry["cf1"]
+        before = seen.location
+        drone.put((float("nan"), 1.0, 1.0))
+        failed = await flown.failure(flown.team.hold("cf1"))
+        assert failed.failure is Failure.LINK
+        assert seen.location == before
+        drone.put((1.0, 1.0, 1.0))
+        drone.raises = {"telemetry": KeyError("x")}
+        assert seen.location == before
+        assert any("made a mistake: KeyError" in line for line in flown.log)
+        drone.raises = {}
 
 
 async def test_answers_that_are_none_are_mistakes(tmp_path: Path) -> None:
@@ -217,16 +214,12 @@ async def test_one_that_is_never_out_of_news_holds_up_no_one(tmp_path: Path) -> 
         assert flown.log.count("cf1: news: still here") == 1
 
 
-def test_if_the_watch_breaks_all_ends_and_all_land_first(tmp_path: Path) -> None:
-    """Nobody flies where nobody watches."""
-
-    async def flight() -> None:
-        drone = FakeDrone()
-        with pytest.raises(ZeroDivisionError):
-            async with flying(tmp_path, drone) as flown:
-                await flown.up()
-                flown.team._vehicles["cf1"].position_problem = lambda: str(1 / 0)
-                await flown.until(lambda: flown.kernel.crashed)
-        assert not drone.motors
-
-    run(flight())
+async def test_if_the_watch_breaks_all_ends_and_all_land_first(tmp_path: Path) -> None:
+    """No drone flies that is not watched."""
+    drone = FakeDrone()
+    with pytest.raises(ZeroDivisionError):
+        async with flying(tmp_path, drone) as flown:
+            await flown.up()
+            flown.team._vehicles["cf1"].position_problem = lambda: str(1 / 0)
+            await flown.until(lambda: flown.kernel.crashed)
+    assert not drone.motors

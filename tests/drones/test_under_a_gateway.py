@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from pluto_fleet.drones import BATTERY_LOW
+from pluto_fleet.drones.protocol import BATTERY_LOW
 from pluto_fleet.drones.real_fleet import RealFleet
 from pluto_fleet.gateway.gateway import Gateway
 from pluto_fleet.gateway.ledger import FileLedger
@@ -171,36 +171,30 @@ async def test_another_gateway_flies_none_whose_motors_were_cut(tmp_path: Path) 
 @pytest.mark.parametrize("back", [True, False])
 async def test_a_goodbye_leaves_none_behind_in_the_air(tmp_path: Path, back: bool) -> None:
     """The brain may go at once; who was silent is landed when it is back, and given up in the end."""
-
-    async def flight() -> None:
-        async with commanded(tmp_path, 2, PATIENCE) as (flown, gateway):
-            over, link, lost = Future[None](), gateway.link(1), flown.drones["cf2"]
-            ending = Ending(gateway, over, settings(real=NOBODY, speed=1.0))
-            server = Server(
-                gateway, Publisher(flown.team.telemetry), flown.log.append, ending.goodbye
-            )
-            ending.server = server
-            ours, theirs = socket.socketpair()
-            serving = asyncio.ensure_future(
-                server.serve(*await asyncio.open_unix_connection(sock=ours))
-            )
-            reader, writer = await asyncio.open_unix_connection(sock=theirs)
-            flown.kernel.post(ending.look)
-            await flown.do(link.fleet_report())
-            for id in flown.drones:
-                await flown.do(flown.team.takeoff(id, 1.2))
-            writer.write(line({"do": "link", "epoch": 2}))
-            writer.write(line({"do": "goodbye"}))
-            lost.goes_silent()
-            async with asyncio.timeout(10):  # or the brain would be kept waiting
-                await reader.read()
-            assert not flown.drones["cf1"].motors
-            assert not over.is_set
-            lost.answers = back
-            seconds = await flown.until(lambda: over.is_set, LINGERS + 2)
-            assert lost.motors is not back
-            assert seconds < 30 if back else seconds > LINGERS - 2
-            writer.close()
-            await serving
-
-    run(flight())
+    async with commanded(tmp_path, 2, PATIENCE) as (flown, gateway):
+        over, link, lost = Future[None](), gateway.link(1), flown.drones["cf2"]
+        ending = Ending(gateway, over, settings(real=NO_DRONES, speed=1.0))
+        server = Server(gateway, Publisher(flown.team.telemetry), flown.log.append, ending.goodbye)
+        ending.server = server
+        ours, theirs = socket.socketpair()
+        serving = asyncio.ensure_future(
+            server.serve(*await asyncio.open_unix_connection(sock=ours))
+        )
+        reader, writer = await asyncio.open_unix_connection(sock=theirs)
+        flown.kernel.post(ending.look)
+        await flown.do(link.fleet_report())
+        for id in flown.drones:
+            await flown.do(flown.team.takeoff(id, 1.2))
+        writer.write(line({"do": "link", "epoch": 2}))
+        writer.write(line({"do": "goodbye"}))
+        lost.goes_silent()
+        async with asyncio.timeout(10):  # or the brain would be kept waiting
+            await reader.read()
+        assert not flown.drones["cf1"].motors
+        assert not over.is_set
+        lost.answers = back
+        seconds = await flown.until(lambda: over.is_set, LINGERS + 2)
+        assert lost.motors is not back
+        assert seconds < 30 if back else seconds > LINGERS - 2
+        writer.close()
+        await serving

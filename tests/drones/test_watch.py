@@ -6,15 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from pluto_fleet.drones import (
-    BATTERY_LOW,
-    CRASHED,
-    LINK_LOST,
-    LOCKED,
-    POSITION_LOST,
-    LinkLost,
-    Rejected,
-)
+from pluto_fleet.drones.errors import LinkLost, Rejected
+from pluto_fleet.drones.protocol import BATTERY_LOW, CRASHED, LINK_LOST, LOCKED, POSITION_LOST
 from pluto_fleet.drones.safety import outside_area
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.errors import Failure

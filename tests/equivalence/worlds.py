@@ -11,7 +11,8 @@ from dataclasses import dataclass, field
 from random import Random
 from typing import Any
 
-from pluto_fleet.files.fleet import DroneEntry, FleetFile
+from pluto_fleet.files.drones import DroneEntry
+from pluto_fleet.files.fleet import FleetFile
 from plutoc.emit.model_file import fields_of
 from plutoc.graph.model import Graph
 from plutoc_runtime.alone.faults import Faults

@@ -13,7 +13,8 @@ import pytest
 from pluto_fleet.cli.flights import Flight, aloft, may_hover
 from pluto_fleet.cli.stand_ins import who_is_missing, with_stand_ins
 from pluto_fleet.drones.real_fleet import RealDrone, RequiredAction, real_data, real_fleet, real_of
-from pluto_fleet.files.fleet import DroneEntry, FleetFile
+from pluto_fleet.files.drones import DroneEntry
+from pluto_fleet.files.fleet import FleetFile
 from pluto_fleet.jobs.reports import DroneReport
 from pluto_fleet.simulation.drones import SimulatedNavigation
 from plutoc_runtime.alone.faults import Faults
@@ -126,7 +127,7 @@ class Unready:
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch, *drones: str) -> None:
         self.unready = {*drones}
-        monkeypatch.setattr(SimulatedNavigation, "roll_call", self.answer)
+        monkeypatch.setattr(SimulatedNavigation, "drone_report", self.answer)
 
     async def answer(self, drone: str) -> DroneReport:
         """Answer the roll call."""

@@ -1,8 +1,10 @@
-"""No code of a user's is run, and nothing is unpickled."""
+"""No code of a user's is run, and nothing is unpickled that others could have written."""
 
 from __future__ import annotations
 
 import ast
+import os
+import pickle
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -14,7 +16,9 @@ import plutoc
 import plutoc_blocks
 import plutoc_grammar
 import plutoc_runtime
-from tests.cli.conftest import Call
+from plutoc.cache import cache_file
+from plutoc.syntax.grammar import parser
+from tests.cli.conftest import APP, Call
 
 FOLDERS = [Path(one.__path__[0]) for one in (plutoc, plutoc_runtime, plutoc_blocks, plutoc_grammar)]
 MODULES = [path for folder in FOLDERS for path in sorted(folder.rglob("*.py"))]

@@ -14,8 +14,9 @@ from pluto_fleet.crazyflie.navigation import Crazyflie
 from pluto_fleet.crtp.drone import Build, SimulatedCrazyflie
 from pluto_fleet.crtp.flight_log import MemoryLog
 from pluto_fleet.crtp.server import Server
-from pluto_fleet.drones import DroneNavigation, DroneSetup
-from pluto_fleet.drones.conformance import NavigationContract, Truth
+from pluto_fleet.drones.conformance.contract import NavigationContract
+from pluto_fleet.drones.conformance.recording import Truth
+from pluto_fleet.drones.protocol import DroneNavigation, DroneSetup
 
 pytest.importorskip("cflib")
 

@@ -23,7 +23,8 @@ from pluto_fleet.journal.place import commands_note
 from pluto_fleet.journal.store import Store
 from pluto_fleet.process.ipc import NotRunning, ask
 from pluto_fleet.process.realtime import RealTime
-from pluto_fleet.simulation.drones import SimulatedDrone, SimulatedNavigation
+from pluto_fleet.simulation.body import SimulatedDrone
+from pluto_fleet.simulation.drones import SimulatedNavigation
 from plutoc_runtime.alone.faults import Faults
 from plutoc_runtime.alone.world import World
 from plutoc_runtime.domain.airspace import Airspace

@@ -258,7 +258,7 @@ def test_who_is_not_ready_is_named_and_in_the_end_not_waited_for(
         await Future[None]()
         return False
 
-    monkeypatch.setattr(Executor, "roll_call", drone_report)
+    monkeypatch.setattr(Executor, "drone_report", drone_report)
     fleet = living(*"ab")
     vars(fleet.gateway.navigation).update(recover=fetched)
     live_fleet(fleet.life.session.core).somebody_comes = False

@@ -6,7 +6,8 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet.files.fleet import DroneEntry, FleetFile
+from pluto_fleet.files.drones import DroneEntry
+from pluto_fleet.files.fleet import FleetFile
 from pluto_fleet.files.plan_check import endless, problems
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.model import Category, Item, Point

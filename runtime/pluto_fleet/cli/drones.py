@@ -13,7 +13,6 @@ from plutoc_runtime.domain.text import counted, quoted
 from plutoc_runtime.domain.trace import dumped
 
 from ..crazyflie.driver import require
-from ..files.behaviour import CRAZYFLIE
 from ..files.drones import which
 from ..files.errors import near
 from ..files.fleet import CRAZYFLIE, load_fleet, navigation_of, not_real, options_of

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from plutoc_runtime.domain.errors import BadInput
 
 from ..files.fleet import CRAZYFLIE, OWN, navigation_of
+from ..jobs.landing_sites import free_spots
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -38,7 +38,7 @@ class _Timed(Generic[T]):
             thrown = None
             try:
                 yield waits_for
-            except WHATEVER as error:
+            except ANY_ERROR as error:
                 thrown = error
 
 

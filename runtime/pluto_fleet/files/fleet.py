@@ -9,9 +9,8 @@ from itertools import cycle, islice
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.alone.files import FleetData
-from plutoc_runtime.alone.world import Feature, Source, WorldData
 from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.domain.fleet_data import Feature, FleetData, Source, WorldData
 from plutoc_runtime.domain.geometry import covers_ground
 from plutoc_runtime.domain.model import AfterTrip
 from plutoc_runtime.domain.quantities import Type

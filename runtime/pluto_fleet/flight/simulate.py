@@ -15,7 +15,8 @@ from plutoc_runtime.time.virtual import VirtualTime
 
 from ..gateway.gateway import Gateway
 from ..process.signal_guard import guard_hooks
-from ..simulation.drones import SimulatedDrone, SimulatedNavigation
+from ..simulation.body import SimulatedDrone
+from ..simulation.drones import SimulatedNavigation
 from .live_engine import LiveEngine
 from .live_fleet import LiveFleet
 

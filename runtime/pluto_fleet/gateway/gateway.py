@@ -9,9 +9,9 @@ from collections.abc import Callable, Coroutine, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
-from plutoc_runtime.domain.errors import BadInput, Failure, FlightFailed
+from plutoc_runtime.domain.errors import BadInput, Cancelled, Failure, FlightFailed
 from plutoc_runtime.time.future import Future
-from plutoc_runtime.time.kernel import FLEET, Cancelled, Kernel, Kind, Task
+from plutoc_runtime.time.kernel import FLEET, Kernel, Kind, Task
 
 from ..jobs.controls import FleetDrone
 from ..jobs.reports import Down, DroneReport, FleetReport

@@ -12,8 +12,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pluto_fleet.files import drones
+from pluto_fleet.files.drones import DroneEntry
 from pluto_fleet.files.fleet import (
-    DroneEntry,
     FleetFile,
     default_fleet,
     load_fleet,
@@ -22,7 +22,6 @@ from pluto_fleet.files.fleet import (
     options_of,
 )
 from pluto_fleet.files.fleet_text import fleet_text
-from plutoc_runtime.alone.world import Feature, Source, WorldData
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.app import App
 from plutoc_runtime.domain.errors import BadInput

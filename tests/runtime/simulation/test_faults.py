@@ -411,14 +411,10 @@ def test_under_all_mishaps_the_drone_comes_home_or_is_lost(
 
 async def test_faults_come_in_real_time_too() -> None:
     """A battery with two milliseconds left says so on asyncio's clock."""
-
-    async def main() -> None:
-        kernel = RealTime()
-        navigation = team(kernel, battery_level=0.002 / SCOUT.flight_time)
-        trip = kernel.spawn(flight(navigation), FLEET, "trip")
-        trip.watch(lambda _: None)
-        with pytest.raises(FlightFailed, match="cf1 ran out of battery at"):
-            await kernel.run(trip)
-        assert navigation.telemetry["cf1"].landed
-
-    asyncio.run(main())
+    kernel = RealTime()
+    navigation = team(kernel, battery_level=0.002 / SCOUT.flight_time)
+    trip = kernel.spawn(flight(navigation), FLEET, "trip")
+    trip.watch(lambda _: None)
+    with pytest.raises(FlightFailed, match="cf1 ran out of battery at"):
+        await kernel.run(trip)
+    assert navigation.telemetry["cf1"].landed
