@@ -264,7 +264,7 @@ def test_a_disk_without_room_for_a_gateway_is_said_to_be_full(tmp_path: Path) ->
 
 def test_a_gateway_that_hangs_is_replaced(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """It says nothing any more: it is killed, and another one takes over the world."""
-    monkeypatch.setattr(remote, "SILENCE", 1.5)  # it says something each second
+    monkeypatch.setattr(remote, "GATEWAY_TIMEOUT", 1.5)  # it says something each second
 
     async def play(brain: Brain) -> None:
         link = await brain.linked()
