@@ -272,7 +272,7 @@ def test_a_gateway_that_hangs_is_replaced(tmp_path: Path, monkeypatch: pytest.Mo
         hung = pid(tmp_path)
         assert hung is not None
         os.kill(hung, signal.SIGSTOP)
-        monkeypatch.setattr(starting, "SILENCE", 0.5)
+        monkeypatch.setattr(starting, "GATEWAY_TIMEOUT", 0.5)
         await brain.kernel.run(brain.lost)
         link = await brain.linked()
         assert pid(tmp_path) != hung

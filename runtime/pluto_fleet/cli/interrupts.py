@@ -22,8 +22,7 @@ from plutoc_runtime.domain.errors import BadInput
 from ..gateway.starting import stop_directly
 from ..jobs.reports import Down
 from ..journal.place import gateway_folder
-from ..process.forked import in_children
-from ..process.hard_exit import leave
+from ..process.forked import in_children, leave
 from . import stop_mark
 
 AT_ONCE = 1.0

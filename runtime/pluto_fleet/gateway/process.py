@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import fcntl
 import json
 import os
 import signal
@@ -25,7 +24,8 @@ from plutoc_runtime.time.kernel import FLEET, Kind
 from ..drones.real_fleet import SLACK
 from ..jobs.reports import Down
 from ..jobs.telemetry import Publisher
-from ..process.forked import deaf, in_children, not_for_children
+from ..process import locks
+from ..process.forked import deaf, in_children
 from ..process.ipc import listening
 from ..process.realtime import RealTime
 from ..simulation.drones import SimulatedNavigation
@@ -141,7 +141,7 @@ def main(arguments: Sequence[str]) -> int:
 
 def _alone(folder: Path) -> int:
     """Run the gateway of a folder, unless another one does."""
-    lock = taken(folder)
+    lock = locks.take(folder / LOCK)
     if lock is None:
         return ANOTHER_RUNS
     try:
@@ -153,20 +153,6 @@ def _alone(folder: Path) -> int:
     finally:
         os.close(lock)
     return 0
-
-
-def taken(folder: Path) -> int | None:
-    """Take the folder's lock, which goes with the process; None: another gateway has it."""
-    lock = os.open(folder / LOCK, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o600)
-    try:
-        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        os.close(lock)
-        return None
-    not_for_children(lock)
-    os.ftruncate(lock, 0)
-    os.pwrite(lock, f"{os.getpid()}\n".encode(), 0)
-    return lock
 
 
 async def run(folder: Path, settings: Settings) -> None:
