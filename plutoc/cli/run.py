@@ -29,7 +29,7 @@ from plutoc_runtime.domain.text import printable
 
 FLEET = "fleet.toml"
 MISSIONS = "missions.toml"
-TRIALS = "pluto_fleet.testing"
+TRIALS = "pluto_fleet.trials"
 
 
 def run(options: Options) -> int:

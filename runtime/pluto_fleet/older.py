@@ -29,7 +29,7 @@ _ROOMS = {
     "time": "kernel signals:future virtual",
     "hooks": "plain:keepable context handle:live_drone soundness",
     "fleet": (
-        "allocation:queue capability:reach request:reach energy navigation policy"
+        "allocation:queue capability:reach request:queue energy navigation policy"
         " policies policies.assignment policies.batch_optimal policies.first policies.least_used"
         " policies.nearest policies.own"
     ),

@@ -16,10 +16,11 @@ from typing import TYPE_CHECKING
 
 from ..domain.errors import HookFault, MissionFailed
 from ..domain.status import DroneStatus
+from ..time.future import Future
 from ..time.kernel import FLEET, Kernel, Kind, Timer
 from .energy import docked
 from .policy import Batch, Choice, Policy
-from .reach import Reach, Request
+from .reach import Demand, Reach
 
 if TYPE_CHECKING:
     from ..domain.model import Drone, Trip
@@ -28,6 +29,42 @@ _FREE, _BUSY, _LOST = DroneStatus.FREE, DroneStatus.BUSY, DroneStatus.LOST
 _IN_THE_AIR = (_BUSY, DroneStatus.RETURNING, DroneStatus.RECOVERING)
 
 _in_the_file = attrgetter("index")
+
+
+class Request(Future["Drone"]):
+    """A mission that waits for a drone; it is set to the one that it gets."""
+
+    __slots__ = ("_demand", "_levels", "_reach", "_trips", "policy", "trip", "why")
+
+    def __init__(self, reach: Reach, trips: Sequence[Trip], policy: Policy) -> None:
+        self.is_set = False
+        self.error = self.waiter = self._value = self._watchers = None
+        self.trip, self.policy = trips[0], policy
+        self.why = ""
+        """Why it got its drone."""
+        self._levels = reach.levels(self.trip)
+        self._reach, self._trips = reach, trips
+        self._demand: Demand | None = None
+
+    @property
+    def demand(self) -> Demand:
+        """What it asks of a drone, exactly."""
+        if self._demand is None:
+            self._demand = Demand(self._reach, self._trips)
+        return self._demand
+
+    def able(self, drone: Drone) -> bool:
+        """Say whether a drone can fly the trip now."""
+        level = drone.telemetry.battery_level
+        return level >= self._levels[drone.category] or level >= self.level(drone)
+
+    def never(self, drone: Drone) -> str | None:
+        """Return why a drone cannot fly the trip even with a full battery; None: it can."""
+        return None if self._levels[drone.category] <= 1.0 else self.demand.never(drone)
+
+    def level(self, drone: Drone) -> float:
+        """Return what it takes in a drone's battery, where it stands; never: infinite."""
+        return inf if self.never(drone) is not None else self.demand.battery(drone)
 
 
 class Queue:

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from enum import IntEnum
-from math import hypot, inf
+from math import hypot
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..domain.actions import PICK, RELEASE
 from ..domain.fields import FieldType
 from ..domain.text import mass, percent, place, quoted
-from ..time.future import Future
 from .energy import CLIMB_SPEED, needed, share
 
 if TYPE_CHECKING:
@@ -18,7 +17,6 @@ if TYPE_CHECKING:
     from ..domain.app import App
     from ..domain.fleet_data import FleetData
     from ..domain.model import Category, Drone, Item, Mission, Point, Trip
-    from .policy import Policy
 
 
 class Lacks(IntEnum):
@@ -231,39 +229,3 @@ class Demand:
             part = needed(category, self._airspace, here, self._stops, home)
             self._levels[key] = NO_WAY if part is None else part + category.reserve
         return self._levels[key]
-
-
-class Request(Future["Drone"]):
-    """A mission that waits for a drone; it is set to the one that it gets."""
-
-    __slots__ = ("_demand", "_levels", "_reach", "_trips", "policy", "trip", "why")
-
-    def __init__(self, reach: Reach, trips: Sequence[Trip], policy: Policy) -> None:
-        self.is_set = False
-        self.error = self.waiter = self._value = self._watchers = None
-        self.trip, self.policy = trips[0], policy
-        self.why = ""
-        """Why it got its drone."""
-        self._levels = reach.levels(self.trip)
-        self._reach, self._trips = reach, trips
-        self._demand: Demand | None = None
-
-    @property
-    def demand(self) -> Demand:
-        """What it asks of a drone, exactly."""
-        if self._demand is None:
-            self._demand = Demand(self._reach, self._trips)
-        return self._demand
-
-    def able(self, drone: Drone) -> bool:
-        """Say whether a drone can fly the trip now."""
-        level = drone.telemetry.battery_level
-        return level >= self._levels[drone.category] or level >= self.level(drone)
-
-    def never(self, drone: Drone) -> str | None:
-        """Return why a drone cannot fly the trip even with a full battery; None: it can."""
-        return None if self._levels[drone.category] <= 1.0 else self.demand.never(drone)
-
-    def level(self, drone: Drone) -> float:
-        """Return what it takes in a drone's battery, where it stands; never: infinite."""
-        return inf if self.never(drone) is not None else self.demand.battery(drone)
