@@ -127,7 +127,7 @@ class Unready:
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch, *drones: str) -> None:
         self.unready = {*drones}
-        monkeypatch.setattr(SimulatedNavigation, "roll_call", self.answer)
+        monkeypatch.setattr(SimulatedNavigation, "drone_report", self.answer)
 
     async def answer(self, drone: str) -> DroneReport:
         """Answer the roll call."""

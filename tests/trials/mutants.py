@@ -13,12 +13,12 @@ from pluto_fleet.flight import recovery
 from pluto_fleet.flight import restore as rebuilding
 from pluto_fleet.flight.live_engine import LiveEngine
 from pluto_fleet.flight.live_fleet import LiveFleet
-from pluto_fleet.flight.reconcile import Fate
+from pluto_fleet.flight.reconcile import Outcome
 from pluto_fleet.gateway.gateway import Gateway, Link
-from pluto_fleet.gateway.jobs import Given
+from pluto_fleet.gateway.jobs import AssignedJob
 from pluto_fleet.jobs.reports import JobState
 from pluto_fleet.journal import values
-from pluto_fleet.journal.durable_link import Careful
+from pluto_fleet.journal.durable_link import DurableLink
 from pluto_fleet.journal.fold import Records
 from pluto_fleet.trials.record import TrialRecord
 from plutoc_runtime.domain.status import DroneStatus
@@ -58,15 +58,15 @@ def free_in_flight(patch: pytest.MonkeyPatch) -> None:
 
 def done_before_the_action(patch: pytest.MonkeyPatch) -> None:
     """The ledger says DONE when the action begins."""
-    really = Given.begins
+    really = AssignedJob.begins
 
-    def begins(self: Given) -> None:
+    def begins(self: AssignedJob) -> None:
         really(self)
         self.state = JobState.DONE
         self._jobs.write(self)
         self.state = JobState.BEGUN
 
-    patch.setattr(Given, "begins", begins)
+    patch.setattr(AssignedJob, "begins", begins)
 
 
 def cancel_forgets_the_task(patch: pytest.MonkeyPatch) -> None:
@@ -124,13 +124,13 @@ def no_drone_is_asked(patch: pytest.MonkeyPatch) -> None:
 
 def doubt_is_flown_again(patch: pytest.MonkeyPatch) -> None:
     """What may have been done is done once more."""
-    really = interruption.fate
+    really = interruption.outcome_of
 
-    def fate(*args: Any) -> Fate:
+    def outcome_of(*args: Any) -> Outcome:
         found = really(*args)
-        return Fate.AGAIN if found is Fate.UNKNOWN else found
+        return Outcome.NOT_DONE if found is Outcome.UNKNOWN else found
 
-    patch.setattr(interruption, "fate", fate)
+    patch.setattr(interruption, "outcome_of", outcome_of)
 
 
 def stops_count(patch: pytest.MonkeyPatch) -> None:
@@ -156,7 +156,7 @@ def carriers_are_given_away(patch: pytest.MonkeyPatch) -> None:
 
 def flies_before_it_is_on_record(patch: pytest.MonkeyPatch) -> None:
     """A drone leaves before that could be known."""
-    patch.setattr(Careful, "fly", lambda self, job, report: self._link.fly(job, report))
+    patch.setattr(DurableLink, "fly", lambda self, job, report: self._link.fly(job, report))
 
 
 def delays_go_on_while_stopped(patch: pytest.MonkeyPatch) -> None:

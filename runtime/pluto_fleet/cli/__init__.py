@@ -36,8 +36,7 @@ def start(name: str, load: Callable[[], App]) -> int:
     with ending:
         from plutoc_runtime.hooks.calls import loaded
 
-        from ..process.forked import end_if_forked
-        from ..process.hard_exit import refused
+        from ..process.forked import end_if_forked, refused
         from ..process.signal_guard import guard_hooks, interrupted_by_a_person
 
         guard_hooks()
@@ -82,7 +81,7 @@ def _bare(name: str) -> App:
 
 def _heard(app: App) -> int:
     """Run the program's command; hooks neither interrupt it for a person nor end it as if it were over."""
-    from ..process.hard_exit import instead_of, refused
+    from ..process.forked import instead_of, refused
     from ..process.signal_guard import interrupted_by_a_person
 
     command = sys.argv[1:2]
@@ -99,7 +98,7 @@ def _heard(app: App) -> int:
 
 def _ended_by_hooks(name: str, status: int) -> NoReturn:
     """End as after a crash: drones may fly, and `--supervise` starts the app again."""
-    from ..process.hard_exit import leave
+    from ..process.forked import leave
 
     output.tell(f"{name}: something in the app's own code ends it by os._exit({status})")
     leave(INTERNAL)

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Protocol, TypeVar, cast
 
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.text import number, of, printable, quoted
+from plutoc_runtime.hooks.calls import Held
 
 from ..drones.loading import load_navigation, make_localization
 from ..drones.localization import LocalizationFeed
@@ -23,7 +24,7 @@ from ..drones.protocol import Identifiable, Locatable, Scannable
 from ..drones.real_fleet import RealDrone
 from ..drones.team import make_one
 from ..files.fleet import OWN
-from ..gateway.drone_lock import Held, holding
+from ..gateway.drone_lock import lock_drones
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Point
@@ -123,7 +124,7 @@ async def identified(asked: DroneQuery, folder: Path) -> None:
     navigation = _made(asked, folder)
     if not isinstance(navigation, Identifiable):
         raise BadInput(f"{asked.id} has nothing by which it could show itself")
-    with holding({asked.id: asked.uri or asked.id}):
+    with lock_drones({asked.id: asked.uri or asked.id}):
         try:
             await _within(CONNECT, navigation.connect())
             await _within(CONNECT, navigation.identify())
@@ -164,7 +165,7 @@ async def _answer(
 ) -> DroneAnswer:
     so_far = _Heard()
     try:
-        with holding({asked.id: asked.uri or asked.id}):
+        with lock_drones({asked.id: asked.uri or asked.id}):
             try:
                 (end,) = await asyncio.gather(_ask(navigation, so_far), return_exceptions=True)
             finally:

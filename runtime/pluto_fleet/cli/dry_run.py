@@ -27,7 +27,6 @@ from ..drones.real_fleet import SLACK, RequiredAction, real_fleet
 from ..drones.vehicle import CLIMB_LIMIT
 from ..files.values import text
 from ..flight.simulate import simulate
-from ..jobs.controls import Before
 from ..report.report import exit_code, report, table
 from ..report.sentences import line_of
 from .plans import load

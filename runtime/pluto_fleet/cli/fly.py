@@ -46,7 +46,6 @@ if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Drone
     from plutoc_runtime.domain.trace import Event
 
-    from ..flight.config import Lived
     from ..flight.fly import Recovered
     from ..journal.fold import Records
     from .options import Options

@@ -23,8 +23,7 @@ from ..flight.offline import leave_stop
 from ..gateway.starting import stop_directly
 from ..jobs.reports import Down
 from ..journal.place import gateway_folder
-from ..process.forked import in_children
-from ..process.hard_exit import leave
+from ..process.forked import in_children, leave
 
 AT_ONCE = 1.0
 """Seconds that the app may take to stop its drones, before they are told without it."""

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
     from plutoc_runtime.domain.app import App
 
-    from ..journal.reading import Row
+    from ..journal.database import Row
     from .options import Options
 
 DAMAGED = 1

@@ -14,7 +14,7 @@ from plutoc_runtime import output
 from plutoc_runtime.domain.errors import ANY_ERROR
 from plutoc_runtime.hooks.calls import said
 
-from ..process.hard_exit import leave
+from ..process.forked import leave
 from ..process.signal_guard import by_a_person
 
 if TYPE_CHECKING:

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from plutoc.syntax.tree import Setting
 from plutoc_runtime.alone.faults import Faults
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.text import in_shell, place
@@ -24,7 +25,7 @@ from ..gateway.starting import connect, speed_in
 from ..journal.header import Header, check
 from ..journal.place import commands_note, gateway_folder
 from ..journal.store import Store
-from .config import End, Lived, Setting, Stops
+from .config import End, Stops
 from .fly import Recovered, live, recovered
 from .offline import pending_stop
 from .standing import all_over, finished
@@ -36,7 +37,6 @@ if TYPE_CHECKING:
 
     from ..drones.real_fleet import RealFleet
     from ..files.fleet import FleetFile
-    from .live_flight import OneLife
 
 GATEWAY_DEATHS = 5
 """How many gateways may die in a row with nothing finished in between."""

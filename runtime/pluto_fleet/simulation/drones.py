@@ -38,7 +38,7 @@ __all__ = ["SimulatedDrone", "SimulatedNavigation"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Deed:
+class WorldAction:
     """Something that a drone does to the world, or sees of it."""
 
     drone: str
@@ -65,7 +65,7 @@ class SimulatedNavigation:
         faults: Faults,
         seed: int,
         airspace: Airspace,
-        record: Callable[[Deed], object] | None = None,
+        record: Callable[[WorldAction], object] | None = None,
     ) -> None:
         self._kernel, self._world, self._airspace = kernel, world, airspace
         self._faults, self._seed = faults, seed
@@ -172,7 +172,7 @@ class SimulatedNavigation:
         value = self._world.gives(action, parameters, body.location, self._kernel.now)
         aboard = item if action == PICK else None if action == RELEASE else body.carries
         if self.record is not None:
-            deed = Deed(
+            deed = WorldAction(
                 drone=drone,
                 action=action,
                 item=item,
@@ -251,7 +251,7 @@ class SimulatedNavigation:
         """Whoever meets it takes off what it carries."""
         self.bodies[drone].unload()
 
-    async def roll_call(self, drone: str) -> DroneReport:
+    async def drone_report(self, drone: str) -> DroneReport:
         """Ask a drone where it is and what it has done."""
         return self.bodies[drone].standing
 

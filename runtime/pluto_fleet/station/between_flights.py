@@ -24,7 +24,7 @@ from ..journal.header import Header, check
 from ..journal.place import gateway_folder
 from ..journal.reader import Reader
 from ..journal.store import Store
-from ..simulation.keeping import DRONES
+from ..simulation.world_store import DRONES
 from . import rows
 
 if TYPE_CHECKING:

@@ -17,7 +17,7 @@ from plutoc_runtime.flow.location import declaration_above
 from ..flight.control import ANSWERS
 from ..flight.interventions import PRIORITY
 from ..flight.standing import aside
-from ..gateway.wire import SILENT
+from ..gateway.wire import STALE_AFTER
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
@@ -164,7 +164,7 @@ def drone_row(
         drone.trips,
         retired,
         why,
-        time.time() - silence if heard and silence > SILENT else None,
+        time.time() - silence if heard and silence > STALE_AFTER else None,
     )
 
 

@@ -37,8 +37,8 @@ if TYPE_CHECKING:
     from plutoc_runtime.domain.trace import Event
 
     from ..flight.fly import Recovered
-    from ..flight.live_flight import OneLife
-    from ..flight.recorded_flight import Life
+    from ..flight.live_flight import LiveFlight
+    from ..flight.recorded_flight import RecordedFlight
     from ..journal.store import Store
 
 
@@ -93,7 +93,7 @@ class FlightSession:
         self.feed = Feed(flight.app, UNITS if flight.sim else {})
         self.missions, self.drones = VersionedRows(), VersionedRows()
         self.stops = Stops()
-        self.one: OneLife | None = None
+        self.one: LiveFlight | None = None
         """What is lived now."""
         self.records: Records | None = known
         """What the journal said when it was read last."""
@@ -120,7 +120,7 @@ class FlightSession:
         return self.task is not None and not self.task.done()
 
     @property
-    def life(self) -> Life | None:
+    def life(self) -> RecordedFlight | None:
         """What is lived now, if the drones can be reached."""
         return self.one.life if self.one is not None else None
 
@@ -191,10 +191,10 @@ class FlightSession:
         with suppress(BadInput, OSError):
             self.records = records_in(self.flight.app, self.flight.journal)
 
-    def _born(self, one: OneLife) -> None:
+    def _born(self, one: LiveFlight) -> None:
         self.records = self.known  # until the drones have been reached anew
         self.one = one
-        one.when_seen(self._seen)
+        one.on_telemetry(self._seen)
 
     def _hear(self, event: Event) -> None:
         """Tell the pages, but not within the instant that flies: it must not fail by a console."""
@@ -254,7 +254,7 @@ class FlightSession:
             changed |= put(str(row["id"]), row, number)
         return changed
 
-    def _drones_now(self, life: Life) -> Iterator[rows.Row]:
+    def _drones_now(self, life: RecordedFlight) -> Iterator[rows.Row]:
         work = rows.mission_of_each(live_engine(life.session).states)
         fleet = live_fleet(life.session.core)
         for drone in life.session.drones:

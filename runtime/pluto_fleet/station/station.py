@@ -18,6 +18,7 @@ from ..flight.commands import perform
 from ..flight.config import End
 from ..flight.lives import FlightSetup, reopen
 from ..flight.offline import clear_stop, record_loss
+from ..flight.recorded_flight import RecordedFlight
 from ..gateway.starting import cut_directly, let_end, still_runs, stop_directly
 from ..jobs.reports import Down
 from ..journal import lock, place
@@ -38,7 +39,6 @@ if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
     from plutoc_runtime.domain.model import Mission
 
-    from ..flight.recorded_flight import Life
     from .config import StationConfig
     from .plan.plan import MissionPlan
 
@@ -201,7 +201,7 @@ class Station:
         if one is None:
             raise BadInput(_NOT_YET)
 
-        def add(life: Life) -> str:
+        def add(life: RecordedFlight) -> str:
             life.add(missions)
             life.control.remember(id, "start")
             return ""
@@ -340,7 +340,7 @@ class Station:
         if session.one is None or session.life is None:
             raise BadInput(_NOT_YET)
 
-        def do(life: Life) -> str:
+        def do(life: RecordedFlight) -> str:
             said = perform(life.control, {"command": name, **given})
             life.control.remember(id, name)
             return said

@@ -15,7 +15,7 @@ def run(name: str, words: list[str]) -> int:
     from plutoc_runtime.hooks.calls import loaded
 
     from ..process.exit_code import ExitCode
-    from ..process.hard_exit import refused
+    from ..process.forked import refused
     from ..process.signal_guard import guard_hooks, interrupted_by_a_person
     from .command import test
 

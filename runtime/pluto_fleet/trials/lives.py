@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 
 from plutoc_runtime.domain.errors import ANY_ERROR, BadInput, Cancelled, Failure
 
-from ..flight.recorded_flight import Life
 from ..jobs.reports import Down
 from ..process.signal_guard import by_a_person
 from .case import BY_HAND, DEATHS, STOPS, Strike, StrikeKind, fresh

@@ -146,13 +146,13 @@ class UnreliableLink(Link):
         """Bring a drone home after a failed flight."""
         return self._far(partial(self._real.recover, drone))
 
-    def roll_call(self, drone: str) -> Coroutine[Any, Any, DroneReport]:
+    def drone_report(self, drone: str) -> Coroutine[Any, Any, DroneReport]:
         """Ask a drone where it is and what it has done."""
-        return self._far(partial(self._real.roll_call, drone))
+        return self._far(partial(self._real.drone_report, drone))
 
-    def call(self) -> Coroutine[Any, Any, FleetReport]:
+    def fleet_report(self) -> Coroutine[Any, Any, FleetReport]:
         """Ask all drones and the ledger how everything stands."""
-        return self._far(partial(self._real.call))
+        return self._far(partial(self._real.fleet_report))
 
     def bring_down(self, how: Down) -> Coroutine[Any, Any, None]:
         """Bring all drones down."""

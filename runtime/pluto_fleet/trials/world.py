@@ -5,6 +5,7 @@ from __future__ import annotations
 from random import Random
 from typing import TYPE_CHECKING
 
+from plutoc.syntax.lines import Line
 from plutoc_runtime.alone.faults import Faults
 from plutoc_runtime.alone.world import World
 from plutoc_runtime.time.kernel import FLEET
@@ -13,7 +14,7 @@ from plutoc_runtime.time.virtual import VirtualTime
 
 from ..gateway.gateway import Gateway
 from ..gateway.ledger import MemoryLedger
-from ..gateway.lossy_line import LOST, Line
+from ..gateway.lossy_line import LOST
 from ..simulation.body import SimulatedDrone
 from ..simulation.drones import SimulatedNavigation
 from ..simulation.radio import Radio
@@ -26,7 +27,6 @@ if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
 
     from ..jobs.controls import Controls
-    from ..simulation.drones import Deed
     from .case import Case
 
 

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from plutoc_runtime.domain.airspace import Airspace
     from plutoc_runtime.domain.model import Point, Telemetry
 
-    from ...jobs.controls import Craft
+    from ...jobs.controls import FleetDrone
 
 
 FURTHEST, SHARE = 1.5, 0.05
@@ -93,7 +93,7 @@ _SLOPES = (4.0, 1.5, 0.0)
 
 
 def ways_home(
-    airspace: Airspace, drone: Craft, here: Point, stands: bool, step: float
+    airspace: Airspace, drone: FleetDrone, here: Point, stands: bool, step: float
 ) -> list[Section]:
     """Return ways home that end on the ground; none where there is no way."""
     cruise, (x, y, _) = airspace.cruise_height, here
@@ -172,7 +172,7 @@ class Ground:
 
     def __init__(
         self,
-        drones: Mapping[str, Craft],
+        drones: Mapping[str, FleetDrone],
         telemetry: Mapping[str, Telemetry],
         airspace: Airspace,
         step: float,

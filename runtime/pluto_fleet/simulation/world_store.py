@@ -20,14 +20,14 @@ from plutoc_runtime.domain.errors import Failure, FlightFailed
 
 from ..journal.values import item_data, item_of, point_of, value_data, value_of
 from .body import Body, Snapshot
-from .drones import Deed
+from .drones import WorldAction
 from .moments import Moment
 
 DEEDS, DRONES = "world.jsonl", "drones.json"
 """What was done, a line each; how the drones stand."""
 
 
-class Keeper:
+class WorldStore:
     """The files of one simulated world. Nothing is ever taken out of the one with the deeds."""
 
     def __init__(
@@ -82,7 +82,7 @@ class Keeper:
         self._counts = seen
         self._told = []
 
-    def record(self, deed: Deed) -> None:
+    def record(self, deed: WorldAction) -> None:
         """Write down what a drone does, or let it fail to do so."""
         body = self._bodies[deed.drone]
         data = {
