@@ -68,13 +68,13 @@ class Reports:
         loop = asyncio.get_running_loop()
 
         def hand_over(told: T) -> None:
-            with suppress(RuntimeError):  # the loop is closed: nobody wants to hear any more
+            with suppress(RuntimeError):  # the loop is closed
                 loop.call_soon_threadsafe(hear, told)
 
         return hand_over
 
     def happened(self, kind: str, reason: str) -> None:
-        """Tell of something that nobody has asked for, once."""
+        """Tell of something that happened without a command, once."""
         self._events.put_nowait(DroneEvent(kind=kind, reason=reason))
 
     def refuse(self, target: Point, speed: float) -> None:
@@ -131,7 +131,7 @@ class Sample:
 
 
 class VehicleTelemetry:
-    """A drone's telemetry, for all who want to know: it stays current.
+    """A drone's telemetry, for all subscribers: it stays current.
 
     Before its first word it stands at home, with nothing in its battery.
     """
@@ -185,7 +185,7 @@ class VehicleTelemetry:
 
     @property
     def landed(self) -> bool:
-        """Whether it is on the ground; who was silent for longer than it can fly must be."""
+        """Whether it is on the ground; one that was silent for longer than it can fly must be."""
         last, now = self.look(), self._calls.clock()
         if now < self.rises_until:
             return False
