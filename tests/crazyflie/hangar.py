@@ -20,7 +20,7 @@ from plutoc_runtime.domain.model import Point
 from tests.kill.lives import eventually
 
 FAST = 1.0
-"""Metres per second: nobody wants to wait, and no course is followed faster."""
+"""Metres per second: a test is to be short, and no trajectory is followed faster."""
 PATIENCE = 30.0
 """Seconds until what does not end is said to hang: the machine may be busy."""
 
@@ -142,7 +142,7 @@ def all_at_once(flights: Sequence[Flight], new_folder: Callable[[], Path]) -> Ou
 
 
 def threads_left() -> list[str]:
-    """Return the threads that somebody has started and not ended."""
+    """Return the threads that were started and not ended."""
     fine = ("MainThread", "pytest", "execnet", "Shared Radio")  # cflib never lets go of a dongle
     names = [thread.name for thread in threading.enumerate()]
     return [name for name in names if not name.startswith(fine)]

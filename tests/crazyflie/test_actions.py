@@ -48,7 +48,7 @@ async def it_picks_and_releases_by_a_parameter(folder: Path) -> None:
 async def what_it_has_not_it_says_before_it_flies(folder: Path) -> None:
     async with hangar(folder, {"grip": {**GRIP, "parameter": "hook.open"}}) as one:
         cf = one.navigation
-        assert cf.why_not("release_item", {}) is None  # it is not connected: nobody knows
+        assert cf.why_not("release_item", {}) is None  # it is not connected: that is not known
         await cf.connect()
         assert cf.why_not("release_item", {}) == 'cf1 has no parameter "hook.open"'
         camera = cf.why_not("take_photo", {})

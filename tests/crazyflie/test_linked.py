@@ -20,7 +20,7 @@ from tests.crazyflie.hangar import FAST, Flight, as_tests, hangar
 pytest.importorskip("cflib")
 
 
-async def closing_what_somebody_else_has_sent_up_lets_it_hover(folder: Path) -> None:
+async def closing_what_another_program_has_sent_up_lets_it_hover(folder: Path) -> None:
     async with hangar(folder) as one:
         await one.navigation.connect()
         await one.navigation.takeoff(0.5, FAST)
@@ -71,7 +71,7 @@ async def a_drone_whose_port_is_closed_is_a_lost_link(folder: Path) -> None:
         assert await cf.preflight() == []
 
 
-async def nobody_there_is_said_within_the_limit(folder: Path) -> None:
+async def an_absent_drone_is_reported_within_the_limit(folder: Path) -> None:
     async with hangar(folder) as one:
         await one.let("silent")
         with pytest.raises(LinkLost, match=r"cf1 does not answer at udp://.*: nothing came in 5 s"):
@@ -123,7 +123,7 @@ async def the_emergency_stop_is_sent_to_a_drone_that_is_not_heard(folder: Path) 
         assert one.drone.supervisor.locked
 
 
-async def a_folder_that_takes_no_files_keeps_nobody_from_flying(folder: Path) -> None:
+async def a_folder_that_takes_no_files_keeps_no_drone_from_flying(folder: Path) -> None:
     async with hangar(folder / "not there") as one:
         await one.navigation.connect()
         assert await one.navigation.preflight() == []
@@ -158,15 +158,15 @@ async def without_a_uri_it_says_what_is_missing(folder: Path) -> None:
 
 
 FLIGHTS: list[Flight] = [
-    closing_what_somebody_else_has_sent_up_lets_it_hover,
+    closing_what_another_program_has_sent_up_lets_it_hover,
     silence_in_the_air_is_a_lost_link_and_connecting_again_lands_it,
     a_drone_whose_port_is_closed_is_a_lost_link,
-    nobody_there_is_said_within_the_limit,
+    an_absent_drone_is_reported_within_the_limit,
     who_is_slow_to_tell_its_tables_is_connected_to_by_and_by,
     closing_while_connecting_ends_that,
     firmware_without_a_supervisor_is_refused_with_what_to_flash,
     the_emergency_stop_is_sent_to_a_drone_that_is_not_heard,
-    a_folder_that_takes_no_files_keeps_nobody_from_flying,
+    a_folder_that_takes_no_files_keeps_no_drone_from_flying,
     one_that_was_just_switched_on_is_told_where_it_begins,
     one_that_has_flown_already_keeps_its_place,
     without_a_uri_it_says_what_is_missing,

@@ -61,7 +61,7 @@ async def one_that_is_still_telling_its_parameters_is_waited_for(folder: Path) -
         assert "than 0.5 m/s (posCtlPid.yVelMax)" in reason
 
 
-async def nobody_waits_for_parameters_of_one_that_is_silent(folder: Path) -> None:
+async def parameters_of_one_that_is_silent_are_not_waited_for(folder: Path) -> None:
     async with hangar(folder) as one:
         cf = one.navigation
         await one.let("latency", 0.03)
@@ -71,7 +71,7 @@ async def nobody_waits_for_parameters_of_one_that_is_silent(folder: Path) -> Non
         assert "stopped answering" in reason
 
 
-async def a_course_is_as_slow_as_its_controller_whoever_asks_for_more(folder: Path) -> None:
+async def a_trajectory_is_as_slow_as_its_controller_at_any_speed(folder: Path) -> None:
     """A drone that is met in the air must come home, however fast its category is."""
     async with hangar(folder) as one:
         cf = one.navigation
@@ -91,8 +91,8 @@ FLIGHTS: list[Flight] = [
     one_whose_controller_was_set_to_follow_faster_is_ready,
     one_whose_controller_was_set_to_follow_slower_is_not_ready,
     one_that_is_still_telling_its_parameters_is_waited_for,
-    nobody_waits_for_parameters_of_one_that_is_silent,
-    a_course_is_as_slow_as_its_controller_whoever_asks_for_more,
+    parameters_of_one_that_is_silent_are_not_waited_for,
+    a_trajectory_is_as_slow_as_its_controller_at_any_speed,
 ]
 
 test_pace, test_no_thread_is_left = as_tests(FLIGHTS)

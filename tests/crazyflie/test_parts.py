@@ -54,7 +54,7 @@ def state(
 # The worker
 
 
-def test_a_call_that_hangs_is_given_up_and_nobody_is_held_up_after_it() -> None:
+def test_a_call_that_hangs_is_given_up_and_holds_up_no_other() -> None:
     released = Event()
 
     async def use() -> None:
@@ -72,7 +72,7 @@ def test_a_call_that_hangs_is_given_up_and_nobody_is_held_up_after_it() -> None:
     asyncio.run(use())
 
 
-def test_a_call_that_nobody_waits_for_any_more_is_not_made() -> None:
+def test_a_call_that_was_given_up_is_not_made() -> None:
     made: list[str] = []
 
     async def use() -> None:
@@ -124,7 +124,7 @@ def test_where_it_was_long_ago_says_nothing_of_its_speed() -> None:
 
 
 @given(sent=st.floats(0.0, 16777.0), passed=st.floats(0.0, 9.0), x=st.floats(-500.0, 500.0))
-def test_it_is_never_sent_far_to_stop_whatever_its_telemetry_makes_believe(
+def test_it_is_never_sent_far_to_stop_even_if_its_telemetry_is_wrong(
     sent: float, passed: float, x: float
 ) -> None:
     target, seconds = trajectory.braking(state(0.0, sent=sent), state(0.1, x=x, sent=sent + passed))
@@ -153,7 +153,7 @@ def test_a_drone_hovers_once_it_has_not_moved_for_a_moment() -> None:
     comes = [state(tick / 10, x=0.04 * tick) for tick in range(6)]
     sways = [state(tick / 10, x=0.02 * (tick % 2)) for tick in range(6)]
     assert not trajectory.hovers(comes, near) and trajectory.hovers(sways, near)
-    assert not trajectory.hovers(sways[:3], near)  # nobody knows yet
+    assert not trajectory.hovers(sways[:3], near)  # not known yet
     stands = [state(0.5 + tick / 10, x=0.2) for tick in (1, 2, 3)]
     assert not trajectory.hovers([*comes, *stands[:2]], near)
     assert trajectory.hovers([*comes, *stands], near)
@@ -283,7 +283,7 @@ def told(*variances: float, every: float = 0.25) -> PositionConfidence:
 
 
 @pytest.mark.parametrize("variance", [0.0004, 0.001, 0.003])
-def test_whoever_is_seen_by_lighthouse_camera_or_radio_beacons_is_sure_enough(
+def test_one_that_is_seen_by_lighthouse_camera_or_radio_beacons_is_sure_enough(
     variance: float,
 ) -> None:
     """What was measured of drones at rest: radio beacons are the worst of them."""
@@ -291,7 +291,7 @@ def test_whoever_is_seen_by_lighthouse_camera_or_radio_beacons_is_sure_enough(
     assert told(*[variance] * 5).sure(1.0, SURE_WITHIN)
 
 
-def test_whoever_was_not_sure_within_the_last_second_is_not_sure() -> None:
+def test_one_that_was_not_sure_within_the_last_second_is_not_sure() -> None:
     assert not told(*[1e-5] * 8, 0.5).sure(2.0, SURE_WITHIN)
     assert not told(*[1e-5] * 8, nan).sure(2.0, SURE_WITHIN)
     assert told(*[1e-5] * 8, 0.5).variance == 0.5
@@ -307,7 +307,7 @@ def test_one_that_only_sees_the_ground_pass_by_is_steady_once_its_variance_stays
         assert not certainty.sure(tick / 4, SURE_WITHIN)
 
 
-def test_what_it_said_long_ago_makes_nobody_sure() -> None:
+def test_what_it_said_long_ago_does_not_make_it_sure() -> None:
     certainty = told(*[0.0] * 8)
     assert certainty.sure(2.0, SURE_WITHIN) and not certainty.sure(9.0, SURE_WITHIN)
 
@@ -368,7 +368,7 @@ def test_one_variable_may_be_what_every_other_quantity_is_measured_by() -> None:
 # Tables of contents
 
 
-def test_tables_are_kept_where_nobody_else_may_write(
+def test_tables_are_kept_where_no_other_user_may_write(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """For cflib runs what it finds in them."""

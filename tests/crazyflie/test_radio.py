@@ -73,7 +73,7 @@ def test_a_dongle_that_is_pulled_out_is_a_lost_link_and_back_it_is_used_again(
     assert left() == []
 
 
-def test_a_dongle_that_hangs_holds_nobody_up(tmp_path: Path) -> None:
+def test_a_dongle_that_hangs_holds_up_no_other(tmp_path: Path) -> None:
     air = ether()
 
     async def fly() -> None:

@@ -144,7 +144,7 @@ async def nothing_is_above_its_commander_when_it_takes_off(folder: Path) -> None
         assert "setpoints end" in before and "setpoints end" not in after
 
 
-async def one_that_somebody_else_has_steered_takes_off(folder: Path) -> None:
+async def one_that_another_program_has_steered_takes_off(folder: Path) -> None:
     async with hangar(folder) as one:
         cf = one.navigation
         await cf.connect()
@@ -154,7 +154,7 @@ async def one_that_somebody_else_has_steered_takes_off(folder: Path) -> None:
         await cf.land(FAST)
 
 
-async def one_that_somebody_else_steers_while_it_is_armed_takes_off(folder: Path) -> None:
+async def one_that_another_program_steers_while_it_is_armed_takes_off(folder: Path) -> None:
     """Arming takes its time, some seconds after a landing."""
     async with hangar(folder) as one:
         cf = one.navigation
@@ -201,8 +201,8 @@ FLIGHTS: list[Flight] = [
     a_take_off_that_a_disarming_cancels_is_commanded_once_more,
     twice_cancelled_it_is_a_refusal,
     nothing_is_above_its_commander_when_it_takes_off,
-    one_that_somebody_else_has_steered_takes_off,
-    one_that_somebody_else_steers_while_it_is_armed_takes_off,
+    one_that_another_program_has_steered_takes_off,
+    one_that_another_program_steers_while_it_is_armed_takes_off,
     one_that_disarms_itself_just_now_is_waited_for,
 ]
 

@@ -192,7 +192,7 @@ class Dongle:
         return self.ether.sent((channel, rate, address), data, self._retries)
 
     def scan_channels(self, start: int, stop: int, packet: Sequence[int]) -> tuple[int, ...]:
-        """Return the channels on which somebody answers."""
+        """Return the channels on which a drone answers."""
         found = []
         for channel in range(start, stop + 1):
             self.set_channel(channel)

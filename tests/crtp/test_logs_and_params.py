@@ -99,7 +99,7 @@ def test_what_is_read_only_keeps_its_value_and_what_is_not_there_is_said_to_be_s
     assert bench.told(Port.PARAMETERS, 1, b"\xff\xff") == b"\xff\xff" + bytes([Errno.ENOENT])
 
 
-def test_a_parameter_set_by_its_name_is_told_to_whoever_listens() -> None:
+def test_a_parameter_set_by_its_name_is_told_to_all_that_listen() -> None:
     bench = Bench()
     answer = bench.told(Port.PARAMETERS, 3, b"\0led\0bitmask\0\x08\xff")
     assert answer == b"\0led\0bitmask\0\0"
@@ -118,7 +118,7 @@ def test_a_persistent_parameter_says_so_and_outlives_a_restart() -> None:
 
 
 @given(st.integers(0, 15), st.integers(0, 3), st.binary(max_size=30))
-def test_whatever_it_is_sent_it_lives_on(port: int, channel: int, data: bytes) -> None:
+def test_no_packet_stops_it(port: int, channel: int, data: bytes) -> None:
     bench = Bench()
     bench.drone.receive(packed(port, channel, data), bench.now)
     bench.passes(0.05)

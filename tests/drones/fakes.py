@@ -20,7 +20,7 @@ class FakeDrone:
         self.told: list[str] = []
         """The commands that reached it."""
         self.attempts = 0
-        """How often somebody has tried to connect to it."""
+        """How often a connection was tried."""
         self.answers = True
         """Whether it can be reached, and tells where it is."""
         self.reasons: Sequence[str] = ()
@@ -57,7 +57,7 @@ class FakeDrone:
         self.events_told(DroneEvent(kind=kind, reason=reason))
 
     def events_told(self, event: DroneEvent) -> None:
-        """Let it tell whatever this is."""
+        """Let it tell this, sense or nonsense."""
         self._events.put_nowait(event)
 
     def falls(self, *, tells: bool = True) -> None:

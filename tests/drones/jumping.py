@@ -1,4 +1,4 @@
-"""An asyncio loop whose clock jumps to whatever comes next: ten minutes take a moment."""
+"""An asyncio loop whose clock jumps to what comes next: ten minutes take a moment."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class _Selector(selectors.DefaultSelector):
         """Return what can be read now."""
         ready = super().select(0)
         if not ready and timeout is None:
-            raise RuntimeError("nothing will ever happen again, and somebody still waits")
+            raise RuntimeError("nothing will ever happen again, and a task still waits")
         if not ready and timeout and self.passes is not None:
             self.passes(timeout)
         return ready
@@ -41,7 +41,7 @@ class JumpingLoop(asyncio.SelectorEventLoop):
         return self.now
 
     def advance(self, seconds: float) -> None:
-        """Let time pass: within a step of somebody's, that is as if it blocked."""
+        """Let time pass: within a step of a task, that is as if it blocked."""
         self.now += seconds
 
 

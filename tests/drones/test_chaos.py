@@ -1,4 +1,4 @@
-"""Whatever goes wrong, and whenever: every flight and every rescue ends, and what can land has landed."""
+"""However much goes wrong, and whenever: every flight and every rescue ends, and what can land has landed."""
 
 from __future__ import annotations
 
@@ -90,7 +90,7 @@ FAULTS: tuple[Callable[[FakeDrone, Random], None], ...] = (
 
 
 async def trouble(flown: Flown, gateway: Gateway, chance: Random) -> None:
-    """Let something go wrong every now and then, and somebody look after what lies about."""
+    """Let something go wrong every now and then, and a person look after what lies about."""
     while True:
         await asyncio.sleep(chance.expovariate(1 / 15))
         drone = chance.choice(list(flown.drones.values()))

@@ -43,7 +43,7 @@ def test_a_flight_is_told_step_by_step(tmp_path: Path) -> None:
     run(flight())
 
 
-def test_all_drones_are_connected_at_once_and_a_silent_one_delays_nobody(tmp_path: Path) -> None:
+def test_all_drones_are_connected_at_once_and_a_silent_one_delays_no_other(tmp_path: Path) -> None:
     """It is given up after 15 s; the others have answered long before."""
 
     async def flight() -> None:
@@ -104,7 +104,7 @@ def test_a_roll_call_says_what_keeps_a_drone_from_flying(tmp_path: Path) -> None
 
 
 def test_a_drone_without_the_hardware_of_the_plan_is_not_handed_out(tmp_path: Path) -> None:
-    """After the roll call it is waited for until somebody has mended it."""
+    """After the roll call it is waited for until a person has mended it."""
 
     async def flight() -> None:
         drone, wanted = FakeDrone(), [RequiredAction(action="take_photo", parameters={})]
@@ -156,7 +156,7 @@ def test_what_is_broken_off_ends_in_a_hover(tmp_path: Path) -> None:
     run(flight())
 
 
-def test_a_command_that_nobody_wants_any_more_ends_in_a_hover(tmp_path: Path) -> None:
+def test_a_command_that_is_not_wanted_any_more_ends_in_a_hover(tmp_path: Path) -> None:
     """As when the kernel cancels it."""
 
     async def flight() -> None:
@@ -248,7 +248,7 @@ def test_an_action_of_the_apps_own_reads_and_writes(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("hangs", [False, True])
 def test_cut_motors_waits_for_nothing(tmp_path: Path, hangs: bool) -> None:
-    """Whatever the drone does, and however its navigation hangs in that."""
+    """In any command, and however its navigation hangs in that."""
 
     async def flight() -> None:
         async with flying(tmp_path) as flown:

@@ -14,7 +14,7 @@ from tests.drones.teams import flying
 
 @pytest.mark.parametrize("command", ["go_to", "hold"])
 def test_silence_in_the_air_is_a_lost_link(tmp_path: Path, command: str) -> None:
-    """After a second, in a flight or while it hovers, whatever its navigation notices."""
+    """After a second, in a flight or while it hovers, also where its navigation does not notice."""
 
     async def flight() -> None:
         async with flying(tmp_path) as flown:
@@ -56,7 +56,7 @@ def test_a_drone_that_comes_back_can_be_flown_home(tmp_path: Path) -> None:
 
 
 def test_a_drone_that_stays_away_is_lost_and_lands_when_it_appears(tmp_path: Path) -> None:
-    """After two minutes nobody waits for it; should it hover after all, it must not for long."""
+    """After two minutes it is not waited for; should it hover after all, it must not for long."""
 
     async def flight() -> None:
         async with flying(tmp_path) as flown:
@@ -113,7 +113,7 @@ def test_a_roll_call_tries_a_lost_drone_once_more_and_does_not_hang(tmp_path: Pa
 
 
 def test_a_drone_that_cannot_fly_any_more_counts_as_landed(tmp_path: Path) -> None:
-    """Its battery must be empty by then: nobody waits for it to come down."""
+    """Its battery must be empty by then: it is not waited for."""
 
     async def flight() -> None:
         async with flying(tmp_path) as flown:
@@ -143,7 +143,7 @@ def test_a_link_that_is_lost_in_the_take_off_leaves_a_drone_in_the_air(tmp_path:
 
 
 def test_a_drone_on_the_ground_is_linked_again_quietly(tmp_path: Path) -> None:
-    """Nobody waited for it, and nothing has failed."""
+    """It was not waited for, and nothing has failed."""
 
     async def flight() -> None:
         async with flying(tmp_path) as flown:
@@ -174,7 +174,7 @@ def test_who_takes_long_to_connect_is_connected_all_the_same(tmp_path: Path) -> 
 
 
 def test_a_drone_that_is_away_for_long_is_looked_for_rarely(tmp_path: Path) -> None:
-    """Others need the radio; but as soon as somebody asks for it, it is tried."""
+    """Others need the radio; but as soon as it is asked for, it is tried."""
 
     async def flight() -> None:
         drone = FakeDrone()

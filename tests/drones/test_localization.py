@@ -41,7 +41,7 @@ class Camera:
             await asyncio.sleep(0.1)
 
 
-def test_a_drone_that_nobody_sees_lands_and_does_not_take_off(tmp_path: Path) -> None:
+def test_a_drone_that_is_not_seen_lands_and_does_not_take_off(tmp_path: Path) -> None:
     """It does not know where it is."""
 
     async def flight() -> None:

@@ -1,4 +1,4 @@
-"""Navigations that hang, raise whatever they like, or hold up everybody: nobody else suffers."""
+"""Navigations that hang, raise any exception, or block the loop: no other drone suffers."""
 
 from __future__ import annotations
 
@@ -153,7 +153,7 @@ def test_a_failure_counts_by_what_it_says_of_itself(tmp_path: Path) -> None:
 
 
 def test_who_holds_up_the_loop_is_named(tmp_path: Path) -> None:
-    """And nobody else is taken to be silent for that."""
+    """And no other is taken to be silent for that."""
 
     async def flight() -> None:
         async with flying(tmp_path, FakeDrone(), FakeDrone("cf2", (3.0, 1.0, 0.0))) as flown:
@@ -192,7 +192,7 @@ def test_telemetry_that_makes_no_sense_is_silence(tmp_path: Path) -> None:
 
 
 def test_answers_that_are_none_are_mistakes(tmp_path: Path) -> None:
-    """Whatever a navigation gives: nobody who asked it falls over that."""
+    """No answer of a navigation makes its caller fall over."""
 
     class Odd(FakeDrone):
         async def read(self, name: str) -> float:
@@ -222,7 +222,7 @@ def test_answers_that_are_none_are_mistakes(tmp_path: Path) -> None:
     run(flight())
 
 
-def test_one_that_is_never_out_of_news_holds_up_nobody(tmp_path: Path) -> None:
+def test_one_that_is_never_out_of_news_holds_up_no_other(tmp_path: Path) -> None:
     """Its events come one after the other without a pause; the log is not filled with them."""
 
     class Chatty(FakeDrone):
@@ -241,7 +241,7 @@ def test_one_that_is_never_out_of_news_holds_up_nobody(tmp_path: Path) -> None:
 
 
 def test_if_the_watch_breaks_all_ends_and_all_land_first(tmp_path: Path) -> None:
-    """Nobody flies where nobody watches."""
+    """No drone flies that is not watched."""
 
     async def flight() -> None:
         drone = FakeDrone()

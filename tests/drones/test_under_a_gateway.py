@@ -28,7 +28,7 @@ from tests.gateway.flights import Task
 from tests.gateway.processes import settings
 
 PATIENCE = 6.0
-NOBODY = RealFleet(drones=(), localization="own", localization_options={})
+NO_DRONES = RealFleet(drones=(), localization="own", localization_options={})
 
 
 class Craft:
@@ -92,7 +92,7 @@ def test_a_job_is_flown_by_a_real_drone(tmp_path: Path) -> None:
 
 
 def test_a_silent_drone_fails_its_job_and_comes_home_when_it_is_back(tmp_path: Path) -> None:
-    """Nobody else notices."""
+    """No other drone notices."""
 
     async def flight() -> None:
         async with commanded(tmp_path, 2) as (flown, gateway):
@@ -113,7 +113,7 @@ def test_a_silent_drone_fails_its_job_and_comes_home_when_it_is_back(tmp_path: P
 
 
 def test_a_drone_with_a_low_battery_is_waited_for_where_it_landed(tmp_path: Path) -> None:
-    """Recovered when somebody has put it home."""
+    """Recovered when a person has put it home."""
 
     async def flight() -> None:
         async with commanded(tmp_path) as (flown, gateway):
@@ -134,8 +134,8 @@ def test_a_drone_with_a_low_battery_is_waited_for_where_it_landed(tmp_path: Path
     run(flight())
 
 
-def test_without_a_brain_all_land_and_a_silent_one_delays_nobody(tmp_path: Path) -> None:
-    """When it is back, and still nobody commands, it lands, too."""
+def test_without_a_brain_all_land_and_a_silent_one_delays_no_other(tmp_path: Path) -> None:
+    """When it is back, and still does not command, it lands, too."""
 
     async def flight() -> None:
         async with commanded(tmp_path, 3, PATIENCE) as (flown, gateway):
@@ -157,8 +157,8 @@ def test_without_a_brain_all_land_and_a_silent_one_delays_nobody(tmp_path: Path)
     run(flight())
 
 
-def test_another_gateway_flies_nobody_whose_motors_were_cut(tmp_path: Path) -> None:
-    """Whatever the drone says of itself: it was switched off and on, and has forgotten."""
+def test_another_gateway_flies_no_drone_whose_motors_were_cut(tmp_path: Path) -> None:
+    """Also where the drone says that it is well: it was switched off and on, and has forgotten."""
 
     async def flight() -> None:
         ledger = FileLedger(tmp_path / "ledger")
@@ -189,13 +189,13 @@ def test_another_gateway_flies_nobody_whose_motors_were_cut(tmp_path: Path) -> N
 
 
 @pytest.mark.parametrize("back", [True, False])
-def test_a_goodbye_leaves_nobody_behind_in_the_air(tmp_path: Path, back: bool) -> None:
+def test_a_goodbye_leaves_no_drone_behind_in_the_air(tmp_path: Path, back: bool) -> None:
     """The brain may go at once; who was silent is landed when it is back, and given up in the end."""
 
     async def flight() -> None:
         async with commanded(tmp_path, 2, PATIENCE) as (flown, gateway):
             over, link, lost = Future[None](), gateway.link(1), flown.drones["cf2"]
-            ending = Ending(gateway, over, settings(real=NOBODY, speed=1.0))
+            ending = Ending(gateway, over, settings(real=NO_DRONES, speed=1.0))
             server = Server(
                 gateway, Publisher(flown.team.telemetry), flown.log.append, ending.goodbye
             )

@@ -46,7 +46,7 @@ async def falls(flown: Flown, drone: FakeDrone) -> tuple[Failure | None, str]:
 def test_a_drone_that_leaves_the_permitted_area_holds_and_lands(
     tmp_path: Path, wind: tuple[float, float, float], where: str
 ) -> None:
-    """Its flight fails, and somebody must look after it."""
+    """Its flight fails, and a person must look after it."""
 
     async def flight() -> None:
         async with flying(tmp_path) as flown:
@@ -111,7 +111,7 @@ def test_a_little_beside_the_permitted_area_is_no_reason_to_land() -> None:
 
 
 def test_an_empty_battery_lands_where_it_is(tmp_path: Path) -> None:
-    """Not at once: under load a battery shows less for a moment. Then somebody must fetch it."""
+    """Not at once: under load a battery shows less for a moment. Then a person must fetch it."""
 
     async def flight() -> None:
         async with flying(tmp_path) as flown:
@@ -131,7 +131,7 @@ def test_an_empty_battery_lands_where_it_is(tmp_path: Path) -> None:
 
 
 def test_a_drone_with_a_low_battery_lands_and_is_waited_for(tmp_path: Path) -> None:
-    """It says so itself; whoever puts it home and charges it makes it well."""
+    """It says so itself; a person who puts it home and charges it makes it well."""
 
     async def flight() -> None:
         async with flying(tmp_path) as flown:
@@ -154,7 +154,7 @@ def test_a_drone_with_a_low_battery_lands_and_is_waited_for(tmp_path: Path) -> N
     run(flight())
 
 
-def test_nobody_fetches_for_ever(tmp_path: Path) -> None:
+def test_a_drone_is_not_waited_for_for_ever(tmp_path: Path) -> None:
     """After ten minutes it is lost."""
 
     async def flight() -> None:
@@ -242,7 +242,7 @@ def test_a_drone_that_is_waited_for_hears_that_it_was_looked_after(tmp_path: Pat
 def test_a_drone_that_does_not_forget_its_crash_is_lost_and_can_be_brought_back_again(
     tmp_path: Path,
 ) -> None:
-    """It was not set upright: whoever has done that says so once more, and need not wait."""
+    """It was not set upright: a person who has done that says so once more, and need not wait."""
 
     async def flight() -> None:
         drone = Mended()
@@ -285,7 +285,7 @@ def test_a_drone_that_does_not_hear_that_it_was_looked_after_is_told_again(tmp_p
 
 
 def test_a_drone_that_crashes_on_its_way_home_is_lost_at_once(tmp_path: Path) -> None:
-    """Nobody is asked to put it home: it would wait there for a word that is said of lost ones."""
+    """It is not to be put home: it would wait there for a word that is said of lost ones."""
 
     async def flight() -> None:
         drone = Mended()
@@ -300,7 +300,7 @@ def test_a_drone_that_crashes_on_its_way_home_is_lost_at_once(tmp_path: Path) ->
 
 
 @pytest.mark.parametrize("hovers", [False, True])
-def test_what_befalls_a_drone_later_nobody_has_looked_after(tmp_path: Path, hovers: bool) -> None:
+def test_what_befalls_a_drone_later_has_not_been_looked_after(tmp_path: Path, hovers: bool) -> None:
     """It was brought back when it had not crashed: that says nothing of a crash in its next flight."""
 
     async def flight() -> None:
@@ -384,7 +384,7 @@ def test_a_landing_that_does_not_succeed_is_tried_again(tmp_path: Path) -> None:
     run(flight())
 
 
-def test_the_log_says_when_nobody_watched(tmp_path: Path) -> None:
+def test_the_log_says_when_the_drones_were_not_watched(tmp_path: Path) -> None:
     """And a drone that told all the time has not lost its link for that."""
 
     async def flight() -> None:

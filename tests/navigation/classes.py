@@ -105,7 +105,7 @@ class Choosy(Good):
 
 
 class Cameras:
-    """Somebody who sees the drones."""
+    """A localization that sees the drones."""
 
     def __init__(self, options: Mapping[str, object]) -> None:
         self.options = options

@@ -19,7 +19,7 @@ from pluto_fleet.drones.conformance import NavigationContract, Truth
 
 pytest.importorskip("cflib")
 
-NOBODY = "udp://127.0.0.1:9"
+CLOSED_PORT = "udp://127.0.0.1:9"
 
 
 class Hangar:
@@ -70,7 +70,7 @@ class TestCrazyflie(NavigationContract):
         return self.hangar.take()
 
     def make_unreachable(self) -> DroneNavigation:
-        return self.hangar.take(NOBODY)
+        return self.hangar.take(CLOSED_PORT)
 
     def silence(self, navigation: DroneNavigation) -> None:
         self.hangar.let(navigation, "silent")

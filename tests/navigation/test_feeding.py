@@ -1,4 +1,4 @@
-"""What a localization sees is fed to the drones, whatever it does."""
+"""What a localization sees is fed to the drones, also where it fails."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class Drone:
 
 
 class Eyes:
-    """Somebody who sees what is put into a queue; None: it stops looking."""
+    """A localization that sees what is put into a queue; None: it stops looking."""
 
     def __init__(self) -> None:
         self.seen: asyncio.Queue[object] = asyncio.Queue()
@@ -117,7 +117,7 @@ def test_who_is_not_seen_for_a_second_is_told_so() -> None:
         (("cf\x1b9", (1.0, 2.0, 0.0)), r'sees "cf\x1b9", which is not in the fleet'),
     ],
 )
-def test_nonsense_is_told_once_and_fed_to_nobody(what: object, said: str) -> None:
+def test_nonsense_is_told_once_and_not_fed(what: object, said: str) -> None:
     async def play(scene: Scene) -> None:
         scene.now += 2
         await scene.sees(what, what)
@@ -128,7 +128,7 @@ def test_nonsense_is_told_once_and_fed_to_nobody(what: object, said: str) -> Non
     played(play)
 
 
-def test_a_drone_that_takes_long_to_hear_keeps_nobody_and_hears_the_latest() -> None:
+def test_a_drone_that_takes_long_to_hear_delays_no_other_and_hears_the_latest() -> None:
     async def play(scene: Scene) -> None:
         scene.cf1.free.clear()
         await scene.sees(*[("cf1", (float(i), 0.0, 0.0)) for i in range(5)])

@@ -71,7 +71,7 @@ def test_of_two_packages_that_offer_one_name_neither_is_chosen(
     )
 
 
-def test_a_name_that_nobody_offers_is_told_with_those_that_are(
+def test_a_name_that_is_not_offered_is_told_with_those_that_are(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     offered(tmp_path, "pluto-wren", "plutoc.navigations", f"parakeet = {HERE}:Good")
@@ -226,7 +226,7 @@ def test_what_is_made_is_made_of_the_setup() -> None:
 def test_what_a_module_raises_commands_no_terminal(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Nor does it fill one: somebody else wrote it."""
+    """Nor does it fill one: another author wrote it."""
     (tmp_path / "loud_drones.py").write_text(
         f"raise RuntimeError('\\x1b[31mred\\n' + 9999 * 'very ')\n{CLASSES}"
     )

@@ -28,7 +28,7 @@ def mark(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     yield tmp_path / "run"
     loading._loaded.cache_clear()
     for name in {*sys.modules} - before:
-        if name.partition(".")[0] in ("somebody", "elsewhere"):
+        if name.partition(".")[0] in ("theirs", "elsewhere"):
             del sys.modules[name]
 
 
@@ -53,7 +53,7 @@ def write(mark: Path, **modules: str) -> None:
         ("from elsewhere import Drone", "Drone", 'no class "Drone"'),
         ("from elsewhere import *", "Drone", 'no class "Drone"'),
         ("from gone import Drone", "Drone", 'needs "gone"'),
-        ("from somebody import Drone", "Drone", 'no class "Drone"'),
+        ("from theirs import Drone", "Drone", 'no class "Drone"'),
         ("from ... import Drone", "Drone", 'no class "Drone"'),
         ("def __getattr__(name): return OTHERS[name]", "Drone", 'no class "Drone"'),
         ("1 +", "Drone", "cannot be imported: SyntaxError"),
@@ -63,11 +63,11 @@ def write(mark: Path, **modules: str) -> None:
 def test_a_module_without_the_class_is_not_run(
     mark: Path, text: str, named: str, why: str, load: Callable[[str], object]
 ) -> None:
-    """Whatever else it does as it is imported: a fleet file that somebody sent may name anything."""
-    write(mark, somebody=text, elsewhere="")
+    """Without being imported: a fleet file from elsewhere may name anything."""
+    write(mark, theirs=text, elsewhere="")
     why = why if load is load_navigation else why.replace("connect; it has no method preflight", "")
     with pytest.raises(BadInput) as refused:
-        load(f"somebody:{named}")
+        load(f"theirs:{named}")
     assert why in str(refused.value)
     assert not mark.exists()
 
@@ -77,15 +77,15 @@ def test_a_module_without_the_class_is_not_run(
     [
         ("antigravity:Drone", '"antigravity" is a module of Python\'s own'),
         ("idlelib.pyshell:PyShell", '"idlelib.pyshell" is a module of Python\'s own'),
-        ("somebody.gone:Drone", 'there is no "somebody.gone"'),
-        ("somebody.gone.far:Drone", 'there is no "somebody.gone"'),
-        ("somebody.inner:Drone", 'no class "Drone"'),
-        ("somebody.inner.far:Drone", 'there is no "somebody.inner.far"'),
+        ("theirs.gone:Drone", 'there is no "theirs.gone"'),
+        ("theirs.gone.far:Drone", 'there is no "theirs.gone"'),
+        ("theirs.inner:Drone", 'no class "Drone"'),
+        ("theirs.inner.far:Drone", 'there is no "theirs.inner.far"'),
     ],
 )
 def test_nor_is_what_a_module_stands_in(mark: Path, name: str, why: str) -> None:
     """The packages above it are run by an import, too."""
-    write(mark, somebody____init__="", somebody__inner="")
+    write(mark, theirs____init__="", theirs__inner="")
     with pytest.raises(BadInput) as refused:
         load_navigation(name)
     assert why in str(refused.value)
@@ -96,27 +96,27 @@ def test_nor_is_what_a_module_stands_in(mark: Path, name: str, why: str) -> None
 @pytest.mark.parametrize(
     ("modules", "name"),
     [
-        ({"somebody": GOOD}, "somebody:Good"),
-        ({"somebody": f"{GOOD} as Drone"}, "somebody:Drone"),
-        ({"somebody": f"{GOOD}\nclass Drone(Good): ..."}, "somebody:Drone"),
-        ({"somebody": f"{GOOD}\nDrone = Good"}, "somebody:Drone"),
-        ({"somebody": f"try:\n    {GOOD}\nexcept ImportError:\n    pass"}, "somebody:Good"),
-        ({"somebody": f"{GOOD}\nclass Kit:\n    Drone = Good"}, "somebody:Kit.Drone"),
-        ({"somebody": "from elsewhere import *", "elsewhere": GOOD}, "somebody:Good"),
+        ({"theirs": GOOD}, "theirs:Good"),
+        ({"theirs": f"{GOOD} as Drone"}, "theirs:Drone"),
+        ({"theirs": f"{GOOD}\nclass Drone(Good): ..."}, "theirs:Drone"),
+        ({"theirs": f"{GOOD}\nDrone = Good"}, "theirs:Drone"),
+        ({"theirs": f"try:\n    {GOOD}\nexcept ImportError:\n    pass"}, "theirs:Good"),
+        ({"theirs": f"{GOOD}\nclass Kit:\n    Drone = Good"}, "theirs:Kit.Drone"),
+        ({"theirs": "from elsewhere import *", "elsewhere": GOOD}, "theirs:Good"),
         (
             {
-                "somebody____init__": "from .inner import Drone",
-                "somebody__inner": f"{GOOD} as Drone",
+                "theirs____init__": "from .inner import Drone",
+                "theirs__inner": f"{GOOD} as Drone",
             },
-            "somebody:Drone",
+            "theirs:Drone",
         ),
         (
-            {"somebody____init__": "from . import inner", "somebody__inner": GOOD},
-            "somebody:inner.Good",
+            {"theirs____init__": "from . import inner", "theirs__inner": GOOD},
+            "theirs:inner.Good",
         ),
         (
-            {"somebody": f"{GOOD}\ndef __getattr__(name): return {{'Drone': Good}}[name]"},
-            "somebody:Drone",
+            {"theirs": f"{GOOD}\ndef __getattr__(name): return {{'Drone': Good}}[name]"},
+            "theirs:Drone",
         ),
     ],
 )

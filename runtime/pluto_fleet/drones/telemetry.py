@@ -24,7 +24,6 @@ T = TypeVar("T")
 
 SILENCE = 1.0
 """Seconds without a word, after which a link is lost."""
-_LOOK = 0.02
 
 
 class Reports:
@@ -39,6 +38,7 @@ class Reports:
         self.crashed = ""
         """Why it is said to have crashed, if it has."""
         self._events: asyncio.Queue[DroneEvent | None] = asyncio.Queue()
+        self._told = asyncio.Event()
 
     def tell(
         self,
@@ -62,6 +62,8 @@ class Reports:
         if crashed and not self.crashed:
             self.happened(CRASHED, crashed)
         self.crashed = crashed
+        self._told.set()
+        self._told = asyncio.Event()
 
     def from_thread(self, hear: Callable[[T], object]) -> Callable[[T], object]:
         """Return what any thread may call, for `hear` to be called within the event loop."""
@@ -101,7 +103,9 @@ class Reports:
                 raise LinkLost(f"{self._id} has told nothing for {SILENCE:.0f} s")
             if now - began > seconds:
                 raise TargetTimeout(f"{self._id} is not there after {seconds:.0f} s")
-            await asyncio.sleep(_LOOK)
+            with suppress(TimeoutError):
+                async with asyncio.timeout(SILENCE / 10):
+                    await self._told.wait()
 
     async def events(self) -> AsyncIterator[DroneEvent]:
         """Yield what happens, until `close`."""

@@ -17,7 +17,7 @@ def send() -> None:
 
 
 class Wrong(Simulated):
-    """Nobody else flies meanwhile."""
+    """No other drone flies meanwhile."""
 
     async def go_to(self, target: Point, speed: float) -> None:
         self.check(target, speed)

@@ -13,7 +13,7 @@ SAYS = "returned as if nothing had happened"
 
 
 class Wrong(Simulated):
-    """It is said to be there, and nobody knows."""
+    """It is said to be there, and that is not known."""
 
     async def go_to(self, target: Point, speed: float) -> None:
         with suppress(LinkLost):

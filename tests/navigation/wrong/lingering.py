@@ -11,7 +11,7 @@ SAYS = "the thread radio"
 
 
 class Wrong(Simulated):
-    """It waits for a word that nobody says."""
+    """It waits for a word that never comes."""
 
     over = threading.Event()
 

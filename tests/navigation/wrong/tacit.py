@@ -1,4 +1,4 @@
-"""Says of a crash only to whoever has given a command that it failed."""
+"""Says of a crash only to the caller of a command that it failed."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ SAYS = "no event told that it crashed"
 
 
 class Wrong(Simulated):
-    """Of one that hovers nobody hears."""
+    """One that hovers tells nothing."""
 
     async def events(self) -> AsyncIterator[DroneEvent]:
         async for event in super().events():

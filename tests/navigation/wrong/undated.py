@@ -1,4 +1,4 @@
-"""Dates what the drone told with the moment at which somebody asks."""
+"""Dates what the drone told with the moment at which it is asked."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ SAYS = "it is when the drone told it"
 
 
 class Wrong(Simulated):
-    """Nobody sees that it is silent."""
+    """That it is silent is not seen."""
 
     @property
     def telemetry(self) -> DroneTelemetry:
