@@ -21,15 +21,16 @@ from random import Random
 
 sys.path[:0] = [str(Path(__file__).parents[1])]
 
-from pluto_fleet.files.fleet import DroneEntry, FleetFile
+from pluto_fleet.files.drones import DroneEntry
+from pluto_fleet.files.fleet import FleetFile
 from pluto_fleet.journal.event_line import line
 from pluto_fleet.trials.blows import blows_of
 from pluto_fleet.trials.book import Trial
 from pluto_fleet.trials.case import Case, Weather
 from pluto_fleet.trials.rig import tried
-from plutoc_runtime.alone.world import WorldData
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.app import App
+from plutoc_runtime.domain.fleet_data import WorldData
 from plutoc_runtime.domain.model import AfterTrip
 from tests.testing.examples import app_of
 

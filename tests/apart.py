@@ -1,7 +1,7 @@
 """What runs at one time on one machine, and must not meet: the tests of two checkouts, two campaigns.
 
 Real drones are locked once a user, so that no two processes command one. Tests command simulated ones
-by the addresses that anybody's have, and a port that one has left may be another's next.
+by the addresses that other tests' have, and a port that one has left may be another's next.
 """
 
 from __future__ import annotations

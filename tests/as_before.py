@@ -24,7 +24,7 @@ from plutoc.cli import main as plutoc
 HERE = Path(__file__).parent
 EXAMPLES = HERE.parent / "examples"
 LIBRARY = HERE.parent / "runtime"
-"""This checkout's, whichever is installed."""
+"""This checkout's, not the installed one's."""
 KEPT = HERE / "as_before.json"
 MISHAPS = {"nothing goes wrong": "", "mishaps": "crash=10%,link=5%,action=5%,battery=5%"}
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import os
 import signal
 from collections.abc import Iterator
@@ -10,6 +11,7 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 from tests.apart import apart
+from tests.loops import run_async
 from tests.one_brain import share_one_brain
 
 # The same examples in every run, however busy the machine is: a test that fails is a change's fault.
@@ -21,7 +23,7 @@ settings.load_profile("pluto")
 if "PLUTO_EMBEDDED" not in os.environ:  # there the runtime is what one app carries
     share_one_brain()
 
-# Whoever runs this in the background may have it, and all that it starts, deaf to these.
+# A shell that runs this in the background may make it, and all that it starts, deaf to these.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
 if hasattr(signal, "SIGHUP") and signal.getsignal(signal.SIGHUP) is signal.SIG_IGN:
@@ -41,6 +43,11 @@ def own_locks() -> Iterator[None]:
     """Take no drone's lock that other tests on this machine take, those of another checkout."""
     with apart():
         yield
+
+
+def pytest_pyfunc_call(pyfuncitem: pytest.Function) -> bool | None:
+    """Run an async test."""
+    return run_async(pyfuncitem, asyncio.run)
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:

@@ -80,7 +80,7 @@ def test_declarations_load_no_event_loop() -> None:
 
 
 def test_the_compiler_names_no_block() -> None:
-    """It asks for properties: a block of somebody else's is as good as ours."""
+    """It asks for properties: a block of another author's is as good as ours."""
     names = {block.name for block in BLOCKS}
     named = [
         (path.relative_to(COMPILER).as_posix(), line)

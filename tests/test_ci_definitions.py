@@ -103,7 +103,7 @@ def levels(folder: Path) -> list[str]:
 
 
 def test_the_two_ask_the_same_questions() -> None:
-    """Whoever commits hears what CI would say."""
+    """A commit is told what CI would say."""
     assert list(hooks()) == list(STEPS)
     assert {*STEPS.values(), FINDINGS} <= steps().keys()
 
@@ -138,7 +138,7 @@ def test_a_mistake_is_found_before_a_commit_and_in_ci(
 
 @pytest.mark.parametrize("name", ["--fix.pluto", "-o.pluto"])
 def test_a_file_that_looks_like_an_option_is_a_file(project: Path, name: str) -> None:
-    """Whoever sends a change chooses the names in it."""
+    """The author of a change chooses the names in it."""
     shutil.copy(project / APP, project / name)
     assert run(project, "git", "add", "--", name).returncode == 0
     for one in (FORM, SOUND):

@@ -1,4 +1,4 @@
-"""The same input gives the same bytes: packages and traces, whatever the hash seed and the folder."""
+"""The same input gives the same bytes: packages and traces, for every hash seed and folder."""
 
 from __future__ import annotations
 

@@ -117,7 +117,7 @@ def test_the_figures_that_were_promised_are_there() -> None:
 
 
 def test_what_must_come_of_the_work_is_known() -> None:
-    """The hash decides, so everybody must come to the same counts."""
+    """The hash decides, so all must come to the same counts."""
     assert expected(Work()) == Done(missions=400, completed=2000, failed=97)
 
 
@@ -170,7 +170,7 @@ def test_a_gap_is_from_a_landing_to_the_next_launch_of_that_drone() -> None:
     assert notes.gaps == [2.0]
 
 
-def test_nobody_lands_before_all_are_in_the_air() -> None:
+def test_no_drone_lands_before_all_are_in_the_air() -> None:
     """Then all come down, in the order in which they took off."""
     told: list[object] = []
 

@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 
 from plutoc.compile import compile_source
-from plutoc.report.graph import mermaid
+from plutoc.report.pictures import mermaid
 from plutoc.source import Source
 
 ROOT = Path(__file__).parent.parent
@@ -25,11 +25,11 @@ def test_the_readmes_python_and_picture_are_what_its_source_becomes() -> None:
     assert picture.strip() == mermaid(compiled.checked).strip()
 
 
-def test_ci_sees_to_a_browser_and_runs_the_readmes_test_command() -> None:
+def test_ci_sees_to_a_browser_and_runs_the_readmes_test_command_and_then_the_long_tests() -> None:
     (command,) = (text.strip() for _, text in BLOCKS if "pytest" in text)
     lines = (ROOT / ".ci/run").read_text().splitlines()
     said = [line for line in lines if line and not line.startswith(("#", "set ", "cd ", "export "))]
-    assert said == [".ci/chromium", command]
+    assert said == [".ci/chromium", command, ".venv/bin/python -m pytest -n 2 -m long"]
 
 
 def test_every_page_that_the_readme_names_exists() -> None:

@@ -27,10 +27,14 @@ def start(name: str, load: Callable[[], App], *, brain: str, seam: Seam) -> int:
 
 def main(app: App, argv: Sequence[str] | None = None, *, brain: str, seam: Seam) -> int:
     """Run one command of an app that is loaded, and return its exit code."""
-    from .seam import meet
+    from .seam import NEWEST, meet
 
     if not meet(app.name, brain, seam):
         return 2
+    if seam[0] < NEWEST[0]:
+        from .older import loaded_again
+
+        app = loaded_again(brain)
     from .cli import main as run
 
     return run(app, argv)

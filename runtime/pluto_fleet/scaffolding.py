@@ -25,8 +25,11 @@ _COPY = _HERE / "_brain"
 _bound = BRAIN
 
 
-def bind(brain: str) -> None:
-    """Let the library use this brain from now on: an app's `_runtime`; once a process."""
+def bind(brain: str, *, carries: bool = True) -> None:
+    """Let the library use this brain from now on: an app's `_runtime`; once a process.
+
+    An app that carries an older one gets the library's copy in its place.
+    """
     global _bound
     if brain == _bound:
         return
@@ -34,7 +37,10 @@ def bind(brain: str) -> None:
         raise RuntimeError(f"{_bound} is this process's brain already: it cannot be {brain}, too")
     _bound = brain
     sys.meta_path.insert(0, _Brain())
-    sys.meta_path.append(_Copy())
+    if carries:
+        sys.meta_path.append(_Copy())
+    else:
+        sys.meta_path.insert(0, _Copy())
 
 
 def app_package() -> str:

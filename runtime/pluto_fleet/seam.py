@@ -10,11 +10,12 @@ import sys
 from importlib.metadata import PackageNotFoundError, version
 
 from . import __version__
+from .older import provide
 from .scaffolding import bind
 
 Seam = tuple[int, int]
 
-OLDEST, NEWEST = (1, 0), (1, 0)
+OLDEST, NEWEST = (1, 0), (2, 0)
 """What this library speaks, and all between."""
 
 _met: Seam | None = None
@@ -27,7 +28,9 @@ def meet(app: str, brain: str, seam: Seam) -> bool:
     if why is not None:
         print(why, file=sys.stderr)
         return False
-    bind(brain)
+    bind(brain, carries=seam[0] == NEWEST[0])
+    if seam[0] < NEWEST[0]:
+        provide(brain)
     _met = seam
     return True
 

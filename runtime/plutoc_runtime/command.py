@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from .domain.app import App
     from .flow.session import Outcome
 
-SEAM = (1, 0)
+SEAM = (2, 0)
 _SEAM = ".".join(map(str, SEAM))
 
 _EXTRAS = {"serve": "[station]", "drones": "[crazyflie]", "--plot": "[plot]", "--runs": ""}
@@ -121,7 +121,7 @@ def _checked(app: App, options: Any) -> int:
     from .alone.faults import Faults
     from .alone.files import load_fleet, load_missions
     from .alone.simulate import default_fleet, simulate
-    from .fleet.capability import problems
+    from .fleet.reach import problems
 
     beside = options.missions.parent / "fleet.toml"
     if options.fleet is None and os.path.lexists(beside):

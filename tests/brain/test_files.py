@@ -18,10 +18,9 @@ from pluto_fleet.trials.drawing import drawn_missions
 from pluto_fleet.trials.plan_text import missions_text
 from plutoc_runtime.alone import files
 from plutoc_runtime.alone import simulate as alone
-from plutoc_runtime.alone.files import DroneData, FleetData
-from plutoc_runtime.alone.world import Feature, Source, WorldData
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.fleet_data import DroneData, Feature, FleetData, Source, WorldData
 from plutoc_runtime.domain.model import AfterTrip
 from tests.flying import EXAMPLES
 from tests.runtime.files.an_app import APP, PLAIN

@@ -9,18 +9,16 @@ from contextlib import asynccontextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 
-import pytest
-
 from pluto_fleet.crazyflie.navigation import Crazyflie
 from pluto_fleet.crtp.drone import Build, SimulatedCrazyflie
 from pluto_fleet.crtp.flight_log import CommandRecord, MemoryLog
 from pluto_fleet.crtp.server import Server
-from pluto_fleet.drones import DroneEvent, DroneSetup, LinkLost
+from pluto_fleet.drones.errors import LinkLost
+from pluto_fleet.drones.protocol import DroneEvent, DroneSetup
 from plutoc_runtime.domain.model import Point
-from tests.kill.lives import eventually
 
 FAST = 1.0
-"""Metres per second: a test is to be short, and no trajectory is followed faster."""
+"""Metres per second: tests must not wait, and no course is followed faster."""
 PATIENCE = 30.0
 """Seconds until what does not end is said to hang: the machine may be busy."""
 
@@ -146,23 +144,3 @@ def threads_left() -> list[str]:
     fine = ("MainThread", "pytest", "execnet", "Shared Radio")  # cflib never lets go of a dongle
     names = [thread.name for thread in threading.enumerate()]
     return [name for name in names if not name.startswith(fine)]
-
-
-def as_tests(
-    flights: Sequence[Flight],
-) -> tuple[Callable[[Flight, Outcomes], None], Callable[[Outcomes], None]]:
-    """Return the tests of a module's `FLIGHTS`: of each flight, and of what all of them leave."""
-
-    @pytest.mark.parametrize("flown", flights, ids=lambda flown: flown.__name__)
-    def each(flown: Flight, outcomes: Outcomes) -> None:
-        """Each flight goes as its name says."""
-        outcome = outcomes[flown]
-        if outcome is not None:
-            raise outcome
-
-    def threads(outcomes: Outcomes) -> None:
-        """cflib has many threads, and so have we: when drones are closed, all of them end."""
-        assert len(outcomes) == len(flights)
-        assert eventually(lambda: not threads_left(), PATIENCE), threads_left()
-
-    return each, threads

@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 
 from pluto_fleet.crtp.equipment import camera, picture, port_of
-from pluto_fleet.drones import ActionNotDone, Rejected
+from pluto_fleet.drones.errors import ActionNotDone, Rejected
 from plutoc_runtime.domain.model import Item, Photo
-from tests.crazyflie.hangar import FAST, Flight, as_tests, hangar
+from tests.crazyflie.hangar import FAST, hangar
 
 pytest.importorskip("cflib")
 
@@ -19,7 +19,7 @@ PILLS = Item(name="pills", mass=0.004)
 GRIP = {"parameter": "gripper.closed", "pick": 1, "release": 0, "seconds": 0.1}
 
 
-async def it_measures_what_the_fleet_file_names(folder: Path) -> None:
+async def test_it_measures_what_the_fleet_file_names(folder: Path) -> None:
     options = {"measure": {"temperature": "bme.temp", "dust": "dust.pm25"}, "measure_seconds": 0.3}
     async with hangar(folder, options) as one:
         cf = one.navigation
@@ -35,7 +35,7 @@ async def it_measures_what_the_fleet_file_names(folder: Path) -> None:
         assert unknown is not None and 'measure = { light = "group.name" }' in unknown
 
 
-async def it_picks_and_releases_by_a_parameter(folder: Path) -> None:
+async def test_it_picks_and_releases_by_a_parameter(folder: Path) -> None:
     async with hangar(folder, {"grip": GRIP}) as one:
         cf = one.navigation
         await cf.connect()
@@ -45,7 +45,7 @@ async def it_picks_and_releases_by_a_parameter(folder: Path) -> None:
         assert one.drone.parameters["gripper.closed"] == 0
 
 
-async def what_it_has_not_it_says_before_it_flies(folder: Path) -> None:
+async def test_what_it_has_not_it_says_before_it_flies(folder: Path) -> None:
     async with hangar(folder, {"grip": {**GRIP, "parameter": "hook.open"}}) as one:
         cf = one.navigation
         assert cf.why_not("release_item", {}) is None  # it is not connected: that is not known
@@ -60,14 +60,14 @@ async def what_it_has_not_it_says_before_it_flies(folder: Path) -> None:
             await cf.act("take_photo", {}, None)
 
 
-async def without_a_grip_it_does_not_pretend(folder: Path) -> None:
+async def test_without_a_grip_it_does_not_pretend(folder: Path) -> None:
     async with hangar(folder) as one:
         await one.navigation.connect()
         reason = one.navigation.why_not("pick_item", {})
         assert reason is not None and "name the parameter of its gripper" in reason
 
 
-async def its_camera_s_picture_is_kept_and_covers_ground(folder: Path) -> None:
+async def test_its_camera_s_picture_is_kept_and_covers_ground(folder: Path) -> None:
     streaming = await camera()
     options = {"camera": f"127.0.0.1:{port_of(streaming)}", "camera_view": [90, 60]}
     async with hangar(folder, options) as one:
@@ -88,14 +88,14 @@ async def its_camera_s_picture_is_kept_and_covers_ground(folder: Path) -> None:
         assert data[15:] in (picture(number) for number in range(10))
 
 
-async def a_camera_that_is_not_there_fails_the_action(folder: Path) -> None:
+async def test_a_camera_that_is_not_there_fails_the_action(folder: Path) -> None:
     async with hangar(folder, {"camera": "127.0.0.1:9"}) as one:
         await one.navigation.connect()
         with pytest.raises(ActionNotDone, match=r"cf1 gives no photo at 127\.0\.0\.1:9"):
             await one.navigation.act("take_photo", {}, None)
 
 
-async def variables_are_read_and_parameters_set(folder: Path) -> None:
+async def test_variables_are_read_and_parameters_set(folder: Path) -> None:
     async with hangar(folder) as one:
         cf = one.navigation
         await cf.connect()
@@ -114,7 +114,7 @@ async def variables_are_read_and_parameters_set(folder: Path) -> None:
         assert together == [pytest.approx(20.5)] * 3
 
 
-async def it_blinks_and_has_its_lights_back(folder: Path) -> None:
+async def test_it_blinks_and_has_its_lights_back(folder: Path) -> None:
     async with hangar(folder) as one:
         await one.navigation.connect()
         await one.navigation.identify()
@@ -124,25 +124,10 @@ async def it_blinks_and_has_its_lights_back(folder: Path) -> None:
         assert {command.what for command in one.commands} == {"set led.bitmask"}
 
 
-async def it_says_what_it_is(folder: Path) -> None:
+async def test_it_says_what_it_is(folder: Path) -> None:
     async with hangar(folder) as one:
         await one.navigation.connect()
         facts = await one.navigation.facts()
         assert facts["protocol"] == "12" and facts["firmware"] == "2025c0de0ace"
         assert "bcLighthouse4" in facts["decks"] and "bcFlow2" not in facts["decks"]
         assert one.commands == []
-
-
-FLIGHTS: list[Flight] = [
-    it_measures_what_the_fleet_file_names,
-    it_picks_and_releases_by_a_parameter,
-    what_it_has_not_it_says_before_it_flies,
-    without_a_grip_it_does_not_pretend,
-    its_camera_s_picture_is_kept_and_covers_ground,
-    a_camera_that_is_not_there_fails_the_action,
-    variables_are_read_and_parameters_set,
-    it_blinks_and_has_its_lights_back,
-    it_says_what_it_is,
-]
-
-test_action, test_no_thread_is_left = as_tests(FLIGHTS)

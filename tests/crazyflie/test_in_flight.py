@@ -1,7 +1,4 @@
-"""Flights of simulated Crazyflies through the unmodified cflib, over UDP and in real time.
-
-All of them fly at once, when the first is asked how its own went: each has a drone of its own.
-"""
+"""Flights of simulated Crazyflies through the unmodified cflib, over UDP and in real time."""
 
 from __future__ import annotations
 
@@ -12,22 +9,14 @@ from pathlib import Path
 import pytest
 
 from pluto_fleet.crtp.drone import Build
-from pluto_fleet.drones import (
-    BATTERY_LOW,
-    CRASHED,
-    LOCKED,
-    Crashed,
-    Locked,
-    NotReady,
-    OutsideArea,
-    Rejected,
-)
-from tests.crazyflie.hangar import FAST, Flight, as_tests, hangar
+from pluto_fleet.drones.errors import Crashed, Locked, NotReady, OutsideArea, Rejected
+from pluto_fleet.drones.protocol import BATTERY_LOW, CRASHED, LOCKED
+from tests.crazyflie.hangar import FAST, hangar
 
 pytest.importorskip("cflib")
 
 
-async def it_takes_off_flies_and_lands_where_it_says(folder: Path) -> None:
+async def test_it_takes_off_flies_and_lands_where_it_says(folder: Path) -> None:
     async with hangar(folder) as one:
         cf = one.navigation
         await cf.connect()
@@ -42,7 +31,7 @@ async def it_takes_off_flies_and_lands_where_it_says(folder: Path) -> None:
         assert not one.did("setpoint")
 
 
-async def closing_in_the_air_lands_first_and_cuts_nothing(folder: Path) -> None:
+async def test_closing_in_the_air_lands_first_and_cuts_nothing(folder: Path) -> None:
     async with hangar(folder) as one:
         cf = one.navigation
         await cf.connect()
@@ -52,7 +41,7 @@ async def closing_in_the_air_lands_first_and_cuts_nothing(folder: Path) -> None:
         assert one.did("land") and not one.did("setpoint") and not one.did("emergency stop")
 
 
-async def a_course_that_is_broken_off_ends_in_a_hover_nearby(folder: Path) -> None:
+async def test_a_course_that_is_broken_off_ends_in_a_hover_nearby(folder: Path) -> None:
     async with hangar(folder) as one:
         cf = one.navigation
         await cf.connect()
@@ -67,7 +56,7 @@ async def a_course_that_is_broken_off_ends_in_a_hover_nearby(folder: Path) -> No
         assert hypot(*one.drone.body.velocity) < 0.25
 
 
-async def hold_and_land_do_nothing_on_the_ground(folder: Path) -> None:
+async def test_hold_and_land_do_nothing_on_the_ground(folder: Path) -> None:
     async with hangar(folder) as one:
         await one.navigation.connect()
         await one.navigation.hold()
@@ -75,7 +64,7 @@ async def hold_and_land_do_nothing_on_the_ground(folder: Path) -> None:
         assert one.commands == []
 
 
-async def what_cannot_be_flown_is_refused_before_anything_moves(folder: Path) -> None:
+async def test_what_cannot_be_flown_is_refused_before_anything_moves(folder: Path) -> None:
     async with hangar(folder) as one:
         cf = one.navigation
         await cf.connect()
@@ -92,7 +81,7 @@ async def what_cannot_be_flown_is_refused_before_anything_moves(folder: Path) ->
         assert one.commands == []
 
 
-async def lost_packets_are_sent_again(folder: Path) -> None:
+async def test_lost_packets_are_sent_again(folder: Path) -> None:
     async with hangar(folder) as one:
         await one.let("loss", 0.05)
         cf = one.navigation
@@ -105,7 +94,7 @@ async def lost_packets_are_sent_again(folder: Path) -> None:
         assert not one.flies
 
 
-async def a_drone_that_is_busy_is_a_refusal_and_is_disarmed(folder: Path) -> None:
+async def test_a_drone_that_is_busy_is_a_refusal_and_is_disarmed(folder: Path) -> None:
     async with hangar(folder) as one:
         cf = one.navigation
         await cf.connect()
@@ -115,7 +104,7 @@ async def a_drone_that_is_busy_is_a_refusal_and_is_disarmed(folder: Path) -> Non
         assert not one.flies and not one.drone.supervisor.armed
 
 
-async def a_drone_that_tumbles_has_crashed(folder: Path) -> None:
+async def test_a_drone_that_tumbles_has_crashed(folder: Path) -> None:
     async with hangar(folder) as one:
         cf = one.navigation
         await cf.connect()
@@ -131,7 +120,7 @@ async def a_drone_that_tumbles_has_crashed(folder: Path) -> None:
             await cf.takeoff(0.5, FAST)
 
 
-async def a_drone_that_is_locked_says_so_and_what_to_do(folder: Path) -> None:
+async def test_a_drone_that_is_locked_says_so_and_what_to_do(folder: Path) -> None:
     async with hangar(folder) as one:
         cf = one.navigation
         await cf.connect()
@@ -142,7 +131,7 @@ async def a_drone_that_is_locked_says_so_and_what_to_do(folder: Path) -> None:
             await cf.takeoff(0.5, FAST)
 
 
-async def a_battery_that_is_low_for_three_seconds_is_told_once(folder: Path) -> None:
+async def test_a_battery_that_is_low_for_three_seconds_is_told_once(folder: Path) -> None:
     async with hangar(folder, {"least_voltage": 3.0}) as one:
         cf = one.navigation
         await cf.connect()
@@ -155,7 +144,7 @@ async def a_battery_that_is_low_for_three_seconds_is_told_once(folder: Path) -> 
         assert [event.kind for event in one.events] == [BATTERY_LOW]
 
 
-async def preflight_says_all_that_is_wrong(folder: Path) -> None:
+async def test_preflight_says_all_that_is_wrong(folder: Path) -> None:
     options = {"decks": ["bcLighthouse4", "bcLoco"]}
     build = Build(id="cf1", home=(1.0, 2.0, 0.0), level=0.05)
     async with hangar(folder, options, build) as one:
@@ -171,7 +160,7 @@ async def preflight_says_all_that_is_wrong(folder: Path) -> None:
         assert not one.did("arm")
 
 
-async def the_emergency_stop_stops_in_the_air(folder: Path) -> None:
+async def test_the_emergency_stop_stops_in_the_air(folder: Path) -> None:
     async with hangar(folder) as one:
         cf = one.navigation
         await cf.connect()
@@ -184,7 +173,7 @@ async def the_emergency_stop_stops_in_the_air(folder: Path) -> None:
             await flying
 
 
-async def a_drone_that_cannot_find_itself_flies_by_what_others_see(folder: Path) -> None:
+async def test_a_drone_that_cannot_find_itself_flies_by_what_others_see(folder: Path) -> None:
     build = Build(id="cf1", home=(1.0, 2.0, 0.0), knows_where=False)
     async with hangar(folder, build=build) as one:
         cf = one.navigation
@@ -200,22 +189,3 @@ async def a_drone_that_cannot_find_itself_flies_by_what_others_see(folder: Path)
         assert await cf.preflight() == []
         seeing.cancel()
         await asyncio.wait({seeing})
-
-
-FLIGHTS: list[Flight] = [
-    it_takes_off_flies_and_lands_where_it_says,
-    closing_in_the_air_lands_first_and_cuts_nothing,
-    a_course_that_is_broken_off_ends_in_a_hover_nearby,
-    hold_and_land_do_nothing_on_the_ground,
-    what_cannot_be_flown_is_refused_before_anything_moves,
-    lost_packets_are_sent_again,
-    a_drone_that_is_busy_is_a_refusal_and_is_disarmed,
-    a_drone_that_tumbles_has_crashed,
-    a_drone_that_is_locked_says_so_and_what_to_do,
-    a_battery_that_is_low_for_three_seconds_is_told_once,
-    preflight_says_all_that_is_wrong,
-    the_emergency_stop_stops_in_the_air,
-    a_drone_that_cannot_find_itself_flies_by_what_others_see,
-]
-
-test_in_flight, test_no_thread_is_left = as_tests(FLIGHTS)

@@ -1,7 +1,4 @@
-"""Simulated Crazyflies that need a person: crashed, with a deck that fails, with more cells than said.
-
-All of them fly at once, when the first is asked how its own went: each has a drone of its own.
-"""
+"""Simulated Crazyflies that need a person: crashed, with a deck that fails, with more cells than said."""
 
 from __future__ import annotations
 
@@ -10,8 +7,9 @@ from pathlib import Path
 import pytest
 
 from pluto_fleet.crtp.drone import Build
-from pluto_fleet.drones import BATTERY_LOW, LOCKED, Locked, NotReady
-from tests.crazyflie.hangar import FAST, Flight, as_tests, hangar
+from pluto_fleet.drones.errors import Locked, NotReady
+from pluto_fleet.drones.protocol import BATTERY_LOW, LOCKED
+from tests.crazyflie.hangar import FAST, hangar
 
 pytest.importorskip("cflib")
 
@@ -21,7 +19,7 @@ CRASHED = (
 )
 
 
-async def one_that_crashed_and_stands_flies_again_once_a_person_says_so(folder: Path) -> None:
+async def test_one_that_crashed_and_stands_flies_again_once_a_person_says_so(folder: Path) -> None:
     async with hangar(folder) as one:
         cf = one.navigation
         await cf.connect()
@@ -40,14 +38,14 @@ async def one_that_crashed_and_stands_flies_again_once_a_person_says_so(folder: 
         assert one.flies
 
 
-async def one_that_has_not_crashed_is_told_nothing(folder: Path) -> None:
+async def test_one_that_has_not_crashed_is_told_nothing(folder: Path) -> None:
     async with hangar(folder) as one:
         await one.navigation.connect()
         await one.navigation.looked_after()
         assert one.commands == []
 
 
-async def a_deck_that_fails_is_said_by_name(folder: Path) -> None:
+async def test_a_deck_that_fails_is_said_by_name(folder: Path) -> None:
     async with hangar(folder) as one:
         cf = one.navigation
         await cf.connect()
@@ -60,7 +58,7 @@ async def a_deck_that_fails_is_said_by_name(folder: Path) -> None:
         assert not one.did("arm")
 
 
-async def a_deck_that_fails_in_the_air_is_why_it_locked(folder: Path) -> None:
+async def test_a_deck_that_fails_in_the_air_is_why_it_locked(folder: Path) -> None:
     async with hangar(folder) as one:
         cf = one.navigation
         await cf.connect()
@@ -71,7 +69,7 @@ async def a_deck_that_fails_in_the_air_is_why_it_locked(folder: Path) -> None:
             await cf.hold()
 
 
-async def one_with_more_cells_than_the_fleet_file_says_does_not_fly(folder: Path) -> None:
+async def test_one_with_more_cells_than_the_fleet_file_says_does_not_fly(folder: Path) -> None:
     async with hangar(folder, build=TWO_CELLS) as one:
         cf = one.navigation
         await cf.connect()
@@ -84,7 +82,7 @@ async def one_with_more_cells_than_the_fleet_file_says_does_not_fly(folder: Path
             await cf.takeoff(0.5, FAST)
 
 
-async def how_many_cells_it_may_have_is_said_from_its_volts(folder: Path) -> None:
+async def test_how_many_cells_it_may_have_is_said_from_its_volts(folder: Path) -> None:
     build = Build(id="cf1", home=(1.0, 2.0, 0.0), cells=3)
     async with hangar(folder, {"cells": 2}, build) as one:
         cf = one.navigation
@@ -93,7 +91,7 @@ async def how_many_cells_it_may_have_is_said_from_its_volts(folder: Path) -> Non
         assert "has 12.60 V, more than 2 cells have" in reason and "such as cells = 3" in reason
 
 
-async def one_with_two_cells_is_as_full_as_each_of_them(folder: Path) -> None:
+async def test_one_with_two_cells_is_as_full_as_each_of_them(folder: Path) -> None:
     async with hangar(folder, {"cells": 2, "least_voltage": 3.0}, TWO_CELLS) as one:
         cf = one.navigation
         await cf.connect()
@@ -106,16 +104,3 @@ async def one_with_two_cells_is_as_full_as_each_of_them(folder: Path) -> None:
         assert (await one.hears(BATTERY_LOW)).reason.startswith("its battery is down to 6.")
         await cf.land(FAST)
         assert [event.kind for event in one.events] == [BATTERY_LOW]
-
-
-FLIGHTS: list[Flight] = [
-    one_that_crashed_and_stands_flies_again_once_a_person_says_so,
-    one_that_has_not_crashed_is_told_nothing,
-    a_deck_that_fails_is_said_by_name,
-    a_deck_that_fails_in_the_air_is_why_it_locked,
-    one_with_more_cells_than_the_fleet_file_says_does_not_fly,
-    how_many_cells_it_may_have_is_said_from_its_volts,
-    one_with_two_cells_is_as_full_as_each_of_them,
-]
-
-test_looked_after, test_no_thread_is_left = as_tests(FLIGHTS)

@@ -1,7 +1,4 @@
-"""How fast simulated Crazyflies are let fly, and that they are at rest where they have arrived.
-
-All of them fly at once, when the first is asked how its own went: each has a drone of its own.
-"""
+"""How fast simulated Crazyflies are let fly, and that they are at rest where they have arrived."""
 
 from __future__ import annotations
 
@@ -11,13 +8,15 @@ from pathlib import Path
 
 import pytest
 
-from pluto_fleet.drones import NotReady
-from tests.crazyflie.hangar import Flight, as_tests, hangar
+from pluto_fleet.drones.errors import NotReady
+from tests.crazyflie.hangar import hangar
 
 pytest.importorskip("cflib")
 
 
-async def one_that_is_to_fly_faster_than_its_controller_follows_is_not_ready(folder: Path) -> None:
+async def test_one_that_is_to_fly_faster_than_its_controller_follows_is_not_ready(
+    folder: Path,
+) -> None:
     async with hangar(folder, speed=2.0) as one:
         cf = one.navigation
         await cf.connect()
@@ -32,7 +31,7 @@ async def one_that_is_to_fly_faster_than_its_controller_follows_is_not_ready(fol
         assert not one.did("arm")
 
 
-async def one_whose_controller_was_set_to_follow_faster_is_ready(folder: Path) -> None:
+async def test_one_whose_controller_was_set_to_follow_faster_is_ready(folder: Path) -> None:
     async with hangar(folder, speed=2.0) as one:
         cf = one.navigation
         await cf.connect()
@@ -41,7 +40,7 @@ async def one_whose_controller_was_set_to_follow_faster_is_ready(folder: Path) -
         assert await cf.preflight() == []
 
 
-async def one_whose_controller_was_set_to_follow_slower_is_not_ready(folder: Path) -> None:
+async def test_one_whose_controller_was_set_to_follow_slower_is_not_ready(folder: Path) -> None:
     async with hangar(folder, speed=0.5) as one:
         cf = one.navigation
         await cf.connect()
@@ -50,7 +49,7 @@ async def one_whose_controller_was_set_to_follow_slower_is_not_ready(folder: Pat
         assert "at up to 0.5 m/s" in reason and "than 0.3 m/s (posCtlPid.zVelMax)" in reason
 
 
-async def one_that_is_still_telling_its_parameters_is_waited_for(folder: Path) -> None:
+async def test_one_that_is_still_telling_its_parameters_is_waited_for(folder: Path) -> None:
     """Over a busy radio they take longer than it takes to be sure where it is."""
     async with hangar(folder, speed=0.8) as one:
         cf = one.navigation
@@ -61,7 +60,7 @@ async def one_that_is_still_telling_its_parameters_is_waited_for(folder: Path) -
         assert "than 0.5 m/s (posCtlPid.yVelMax)" in reason
 
 
-async def parameters_of_one_that_is_silent_are_not_waited_for(folder: Path) -> None:
+async def test_parameters_of_one_that_is_silent_are_not_waited_for(folder: Path) -> None:
     async with hangar(folder) as one:
         cf = one.navigation
         await one.let("latency", 0.03)
@@ -71,7 +70,7 @@ async def parameters_of_one_that_is_silent_are_not_waited_for(folder: Path) -> N
         assert "stopped answering" in reason
 
 
-async def a_trajectory_is_as_slow_as_its_controller_at_any_speed(folder: Path) -> None:
+async def test_a_course_is_as_slow_as_its_controller_though_more_is_asked_for(folder: Path) -> None:
     """A drone that is met in the air must come home, however fast its category is."""
     async with hangar(folder) as one:
         cf = one.navigation
@@ -84,15 +83,3 @@ async def a_trajectory_is_as_slow_as_its_controller_at_any_speed(folder: Path) -
         went = one.did("go_to")[0].values
         assert went["duration"] >= 2.18 * 4.0
         assert not one.drone.supervisor.crashed
-
-
-FLIGHTS: list[Flight] = [
-    one_that_is_to_fly_faster_than_its_controller_follows_is_not_ready,
-    one_whose_controller_was_set_to_follow_faster_is_ready,
-    one_whose_controller_was_set_to_follow_slower_is_not_ready,
-    one_that_is_still_telling_its_parameters_is_waited_for,
-    parameters_of_one_that_is_silent_are_not_waited_for,
-    a_trajectory_is_as_slow_as_its_controller_at_any_speed,
-]
-
-test_pace, test_no_thread_is_left = as_tests(FLIGHTS)

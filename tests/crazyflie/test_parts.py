@@ -23,7 +23,8 @@ from pluto_fleet.crazyflie.trajectory import SpeedLimits
 from pluto_fleet.crazyflie.worker import Worker
 from pluto_fleet.crtp.body import AxisState as Start
 from pluto_fleet.crtp.body import Body, profile
-from pluto_fleet.drones import BATTERY_LOW, CRASHED, LOCKED, LinkLost
+from pluto_fleet.drones.errors import LinkLost
+from pluto_fleet.drones.protocol import BATTERY_LOW, CRASHED, LOCKED
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.model import Point
 
@@ -54,25 +55,21 @@ def state(
 # The worker
 
 
-def test_a_call_that_hangs_is_given_up_and_holds_up_no_other() -> None:
+async def test_a_call_that_hangs_is_given_up_and_the_next_one_is_not_held_up() -> None:
     released = Event()
-
-    async def use() -> None:
-        worker = Worker("cf1")
-        assert await worker.call(lambda: 5, 1.0) == 5
-        with pytest.raises(ZeroDivisionError):
-            await worker.call(lambda: 1 / 0, 1.0)
-        with pytest.raises(LinkLost, match=r"did not take a command for cf1 in 0\.05 s"):
-            await worker.call(released.wait, 0.05)
-        with pytest.raises(LinkLost):  # at once: the thread is not waited for again
-            await worker.call(lambda: 5, 1e9)
-        released.set()
-        worker.end()
-
-    asyncio.run(use())
+    worker = Worker("cf1")
+    assert await worker.call(lambda: 5, 1.0) == 5
+    with pytest.raises(ZeroDivisionError):
+        await worker.call(lambda: 1 / 0, 1.0)
+    with pytest.raises(LinkLost, match=r"did not take a command for cf1 in 0\.05 s"):
+        await worker.call(released.wait, 0.05)
+    with pytest.raises(LinkLost):  # at once: the thread is not waited for again
+        await worker.call(lambda: 5, 1e9)
+    released.set()
+    worker.end()
 
 
-def test_a_call_that_was_given_up_is_not_made() -> None:
+def test_a_call_that_is_not_waited_for_any_more_is_not_made() -> None:
     made: list[str] = []
 
     async def use() -> None:
@@ -124,7 +121,7 @@ def test_where_it_was_long_ago_says_nothing_of_its_speed() -> None:
 
 
 @given(sent=st.floats(0.0, 16777.0), passed=st.floats(0.0, 9.0), x=st.floats(-500.0, 500.0))
-def test_it_is_never_sent_far_to_stop_even_if_its_telemetry_is_wrong(
+def test_it_is_never_sent_far_to_stop_no_matter_what_its_telemetry_makes_believe(
     sent: float, passed: float, x: float
 ) -> None:
     target, seconds = trajectory.braking(state(0.0, sent=sent), state(0.1, x=x, sent=sent + passed))
@@ -283,7 +280,7 @@ def told(*variances: float, every: float = 0.25) -> PositionConfidence:
 
 
 @pytest.mark.parametrize("variance", [0.0004, 0.001, 0.003])
-def test_one_that_is_seen_by_lighthouse_camera_or_radio_beacons_is_sure_enough(
+def test_one_seen_by_lighthouse_camera_or_radio_beacons_is_sure_enough(
     variance: float,
 ) -> None:
     """What was measured of drones at rest: radio beacons are the worst of them."""
@@ -291,7 +288,7 @@ def test_one_that_is_seen_by_lighthouse_camera_or_radio_beacons_is_sure_enough(
     assert told(*[variance] * 5).sure(1.0, SURE_WITHIN)
 
 
-def test_one_that_was_not_sure_within_the_last_second_is_not_sure() -> None:
+def test_one_not_sure_within_the_last_second_is_not_sure() -> None:
     assert not told(*[1e-5] * 8, 0.5).sure(2.0, SURE_WITHIN)
     assert not told(*[1e-5] * 8, nan).sure(2.0, SURE_WITHIN)
     assert told(*[1e-5] * 8, 0.5).variance == 0.5

@@ -11,7 +11,8 @@ import pytest
 from pluto_fleet.crazyflie.navigation import Crazyflie
 from pluto_fleet.crtp.drone import Build
 from pluto_fleet.crtp.flight_log import MemoryLog
-from pluto_fleet.drones import LINK_LOST, DroneSetup, LinkLost
+from pluto_fleet.drones.errors import LinkLost
+from pluto_fleet.drones.protocol import LINK_LOST, DroneSetup
 from tests.crazyflie.hangar import PATIENCE
 from tests.crtp.radio import Ether, plugged_in
 from tests.kill.lives import eventually
@@ -73,7 +74,7 @@ def test_a_dongle_that_is_pulled_out_is_a_lost_link_and_back_it_is_used_again(
     assert left() == []
 
 
-def test_a_dongle_that_hangs_holds_up_no_other(tmp_path: Path) -> None:
+def test_a_dongle_that_hangs_holds_no_one_up(tmp_path: Path) -> None:
     air = ether()
 
     async def fly() -> None:

@@ -1,7 +1,4 @@
-"""Take-offs of simulated Crazyflies that have landed, that were disarmed, and that others have steered.
-
-All of them fly at once, when the first is asked how its own went: each has a drone of its own.
-"""
+"""Take-offs of simulated Crazyflies that have landed, that were disarmed, and that others have steered."""
 
 from __future__ import annotations
 
@@ -13,13 +10,13 @@ import pytest
 from pluto_fleet.crtp.drone import Build
 from pluto_fleet.crtp.packets import Port, unpacked
 from pluto_fleet.crtp.supervisor import Supervisor
-from pluto_fleet.drones import NotReady, Rejected
-from tests.crazyflie.hangar import FAST, Flight, Hangar, as_tests, hangar
+from pluto_fleet.drones.errors import NotReady, Rejected
+from tests.crazyflie.hangar import FAST, Hangar, hangar
 
 pytest.importorskip("cflib")
 
 
-async def one_that_has_landed_is_disarmed_and_armed_anew(folder: Path) -> None:
+async def test_one_that_has_landed_is_disarmed_and_armed_anew(folder: Path) -> None:
     """It would disarm itself some seconds after the landing, in the midst of a take-off."""
     async with hangar(folder) as one:
         cf = one.navigation
@@ -32,7 +29,7 @@ async def one_that_has_landed_is_disarmed_and_armed_anew(folder: Path) -> None:
         assert told[4:] == ["disarm", "arm", "takeoff", "land", "down"]
 
 
-async def one_that_arms_itself_is_waited_for_until_it_has(folder: Path) -> None:
+async def test_one_that_arms_itself_is_waited_for_until_it_has(folder: Path) -> None:
     async with hangar(folder, build=Build(id="cf1", home=(1.0, 2.0, 0.0), auto_arm=True)) as one:
         cf = one.navigation
         await cf.connect()
@@ -49,7 +46,7 @@ class OnRequest(Supervisor):
         return bits | 1 << 2
 
 
-async def one_that_says_that_it_arms_itself_and_does_not_is_asked_to(folder: Path) -> None:
+async def test_one_that_says_that_it_arms_itself_and_does_not_is_asked_to(folder: Path) -> None:
     async with hangar(folder) as one:
         one.drone.supervisor = OnRequest(armed=True)
         cf = one.navigation
@@ -65,7 +62,7 @@ class Slow(Supervisor):
     can_fly = False
 
 
-async def one_that_is_slow_to_arm_is_not_left_armed(folder: Path) -> None:
+async def test_one_that_is_slow_to_arm_is_not_left_armed(folder: Path) -> None:
     async with hangar(folder) as one:
         one.drone.supervisor = Slow()
         cf = one.navigation
@@ -76,7 +73,7 @@ async def one_that_is_slow_to_arm_is_not_left_armed(folder: Path) -> None:
         assert not one.drone.supervisor.armed and not one.did("takeoff")
 
 
-async def one_that_is_let_go_of_as_it_takes_off_is_landed_first(folder: Path) -> None:
+async def test_one_that_is_let_go_of_as_it_takes_off_is_landed_first(folder: Path) -> None:
     """What it tells in that moment is from before."""
     async with hangar(folder) as one:
         cf = one.navigation
@@ -90,7 +87,7 @@ async def one_that_is_let_go_of_as_it_takes_off_is_landed_first(folder: Path) ->
         assert one.did("land") and not one.flies
 
 
-async def one_that_is_down_is_not_told_to_land_again(folder: Path) -> None:
+async def test_one_that_is_down_is_not_told_to_land_again(folder: Path) -> None:
     """The answers are lost: on the ground, the command would start its motors once more."""
     async with hangar(folder) as one:
         cf = one.navigation
@@ -113,7 +110,7 @@ def _loses_answers(one: Hangar, port: Port) -> None:
     one.drone._send = without
 
 
-async def a_take_off_that_a_disarming_cancels_is_commanded_once_more(folder: Path) -> None:
+async def test_a_take_off_that_a_disarming_cancels_is_commanded_once_more(folder: Path) -> None:
     async with hangar(folder) as one:
         await one.navigation.connect()
         await asyncio.gather(one.navigation.takeoff(0.5, FAST), _disarmed_once(one, 1))
@@ -121,7 +118,7 @@ async def a_take_off_that_a_disarming_cancels_is_commanded_once_more(folder: Pat
         await one.navigation.land(FAST)
 
 
-async def twice_cancelled_it_is_a_refusal(folder: Path) -> None:
+async def test_twice_cancelled_it_is_a_refusal(folder: Path) -> None:
     async with hangar(folder) as one:
         await one.navigation.connect()
         disarming = asyncio.create_task(_disarmed_once(one, 2))
@@ -131,7 +128,7 @@ async def twice_cancelled_it_is_a_refusal(folder: Path) -> None:
         assert not one.flies and len(one.did("takeoff")) == 2
 
 
-async def nothing_is_above_its_commander_when_it_takes_off(folder: Path) -> None:
+async def test_nothing_is_above_its_commander_when_it_takes_off(folder: Path) -> None:
     """A set-point of a gamepad's, or of a script's that has ended, would stay above it for ever."""
     async with hangar(folder) as one:
         cf = one.navigation
@@ -144,7 +141,7 @@ async def nothing_is_above_its_commander_when_it_takes_off(folder: Path) -> None
         assert "setpoints end" in before and "setpoints end" not in after
 
 
-async def one_that_another_program_has_steered_takes_off(folder: Path) -> None:
+async def test_one_that_another_program_has_steered_takes_off(folder: Path) -> None:
     async with hangar(folder) as one:
         cf = one.navigation
         await cf.connect()
@@ -154,7 +151,7 @@ async def one_that_another_program_has_steered_takes_off(folder: Path) -> None:
         await cf.land(FAST)
 
 
-async def one_that_another_program_steers_while_it_is_armed_takes_off(folder: Path) -> None:
+async def test_one_that_another_program_steers_while_it_is_armed_takes_off(folder: Path) -> None:
     """Arming takes its time, some seconds after a landing."""
     async with hangar(folder) as one:
         cf = one.navigation
@@ -168,7 +165,7 @@ async def one_that_another_program_steers_while_it_is_armed_takes_off(folder: Pa
         await cf.land(FAST)
 
 
-async def one_that_disarms_itself_just_now_is_waited_for(folder: Path) -> None:
+async def test_one_that_disarms_itself_just_now_is_waited_for(folder: Path) -> None:
     """Some three seconds after a landing it is neither armed nor can be, for a tenth of a second."""
     async with hangar(folder) as one:
         cf = one.navigation
@@ -189,21 +186,3 @@ async def _disarmed_once(one: Hangar, times: int) -> None:
         while len(one.did("takeoff")) < number:
             await asyncio.sleep(0.01)
         one.drone.supervisor.armed = False
-
-
-FLIGHTS: list[Flight] = [
-    one_that_has_landed_is_disarmed_and_armed_anew,
-    one_that_arms_itself_is_waited_for_until_it_has,
-    one_that_says_that_it_arms_itself_and_does_not_is_asked_to,
-    one_that_is_slow_to_arm_is_not_left_armed,
-    one_that_is_let_go_of_as_it_takes_off_is_landed_first,
-    one_that_is_down_is_not_told_to_land_again,
-    a_take_off_that_a_disarming_cancels_is_commanded_once_more,
-    twice_cancelled_it_is_a_refusal,
-    nothing_is_above_its_commander_when_it_takes_off,
-    one_that_another_program_has_steered_takes_off,
-    one_that_another_program_steers_while_it_is_armed_takes_off,
-    one_that_disarms_itself_just_now_is_waited_for,
-]
-
-test_take_off, test_no_thread_is_left = as_tests(FLIGHTS)

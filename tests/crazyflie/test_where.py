@@ -1,7 +1,4 @@
-"""Simulated Crazyflies that do not know well where they are: before a take-off, and in the air.
-
-All of them fly at once, when the first is asked how its own went: each has a drone of its own.
-"""
+"""Simulated Crazyflies that do not know well where they are: before a take-off, and in the air."""
 
 from __future__ import annotations
 
@@ -11,13 +8,14 @@ from pathlib import Path
 import pytest
 
 from pluto_fleet.crtp.drone import Build
-from pluto_fleet.drones import POSITION_LOST, NotReady, PositionLost
-from tests.crazyflie.hangar import FAST, Flight, as_tests, hangar
+from pluto_fleet.drones.errors import NotReady, PositionLost
+from pluto_fleet.drones.protocol import POSITION_LOST
+from tests.crazyflie.hangar import FAST, hangar
 
 pytest.importorskip("cflib")
 
 
-async def one_that_is_unsure_for_a_moment_is_waited_for(folder: Path) -> None:
+async def test_one_that_is_unsure_for_a_moment_is_waited_for(folder: Path) -> None:
     """A person may just pass between it and its beacons."""
     async with hangar(folder) as one:
         cf = one.navigation
@@ -31,7 +29,7 @@ async def one_that_is_unsure_for_a_moment_is_waited_for(folder: Path) -> None:
         assert one.flies
 
 
-async def one_that_stays_unsure_does_not_fly_and_says_how_unsure_it_is(folder: Path) -> None:
+async def test_one_that_stays_unsure_does_not_fly_and_says_how_unsure_it_is(folder: Path) -> None:
     async with hangar(folder) as one:
         cf = one.navigation
         await cf.connect()
@@ -41,14 +39,14 @@ async def one_that_stays_unsure_does_not_fly_and_says_how_unsure_it_is(folder: P
         assert not one.did("arm")
 
 
-async def how_sure_it_must_be_is_said_by_the_fleet_file(folder: Path) -> None:
+async def test_how_sure_it_must_be_is_said_by_the_fleet_file(folder: Path) -> None:
     async with hangar(folder, {"sure_within": 0.8}) as one:
         await one.navigation.connect()
         await one.let("unsure")
         assert await one.navigation.preflight() == []
 
 
-async def one_that_loses_its_place_in_the_air_arrives_nowhere_and_does_nothing_there(
+async def test_one_that_loses_its_place_in_the_air_arrives_nowhere_and_does_nothing_there(
     folder: Path,
 ) -> None:
     async with hangar(folder, {"measure": {"temperature": "bme.temp"}}) as one:
@@ -66,7 +64,9 @@ async def one_that_loses_its_place_in_the_air_arrives_nowhere_and_does_nothing_t
         assert not one.flies and [event.kind for event in one.events] == [POSITION_LOST]
 
 
-async def one_that_doubts_its_place_for_a_moment_does_there_what_it_came_for(folder: Path) -> None:
+async def test_one_that_doubts_its_place_for_a_moment_does_there_what_it_came_for(
+    folder: Path,
+) -> None:
     options = {"measure": {"temperature": "bme.temp"}, "measure_seconds": 0.2}
     async with hangar(folder, options) as one:
         cf = one.navigation
@@ -84,7 +84,7 @@ async def one_that_doubts_its_place_for_a_moment_does_there_what_it_came_for(fol
         assert one.events == []
 
 
-async def one_that_goes_by_radio_beacons_is_sure_enough(folder: Path) -> None:
+async def test_one_that_goes_by_radio_beacons_is_sure_enough(folder: Path) -> None:
     build = Build(id="cf1", home=(1.0, 2.0, 0.0), noise=0.15)
     async with hangar(folder, build=build) as one:
         cf = one.navigation
@@ -96,7 +96,7 @@ async def one_that_goes_by_radio_beacons_is_sure_enough(folder: Path) -> None:
         assert one.events == []
 
 
-async def one_that_sees_its_beacons_no_more_on_its_way_does_not_arrive(folder: Path) -> None:
+async def test_one_that_sees_its_beacons_no_more_on_its_way_does_not_arrive(folder: Path) -> None:
     """Its firmware flies on, reports no fault, and would be there by its own word."""
     async with hangar(folder) as one:
         cf = one.navigation
@@ -114,7 +114,9 @@ async def one_that_sees_its_beacons_no_more_on_its_way_does_not_arrive(folder: P
         assert not one.flies
 
 
-async def one_that_goes_by_the_ground_alone_never_knows_its_place_and_flies(folder: Path) -> None:
+async def test_one_that_goes_by_the_ground_alone_never_knows_its_place_and_flies(
+    folder: Path,
+) -> None:
     build = Build(id="cf1", home=(0.1, 0.0, 0.0))
     async with hangar(folder, {"starts_at_home": True}, build) as one:
         cf = one.navigation
@@ -124,17 +126,3 @@ async def one_that_goes_by_the_ground_alone_never_knows_its_place_and_flies(fold
         await cf.go_to((0.4, 0.0, 0.5), FAST)
         await cf.land(FAST)
         assert one.events == []
-
-
-FLIGHTS: list[Flight] = [
-    one_that_is_unsure_for_a_moment_is_waited_for,
-    one_that_stays_unsure_does_not_fly_and_says_how_unsure_it_is,
-    how_sure_it_must_be_is_said_by_the_fleet_file,
-    one_that_loses_its_place_in_the_air_arrives_nowhere_and_does_nothing_there,
-    one_that_doubts_its_place_for_a_moment_does_there_what_it_came_for,
-    one_that_goes_by_radio_beacons_is_sure_enough,
-    one_that_sees_its_beacons_no_more_on_its_way_does_not_arrive,
-    one_that_goes_by_the_ground_alone_never_knows_its_place_and_flies,
-]
-
-test_where, test_no_thread_is_left = as_tests(FLIGHTS)

@@ -118,7 +118,7 @@ def test_a_persistent_parameter_says_so_and_outlives_a_restart() -> None:
 
 
 @given(st.integers(0, 15), st.integers(0, 3), st.binary(max_size=30))
-def test_no_packet_stops_it(port: int, channel: int, data: bytes) -> None:
+def test_it_lives_on_no_matter_what_it_is_sent(port: int, channel: int, data: bytes) -> None:
     bench = Bench()
     bench.drone.receive(packed(port, channel, data), bench.now)
     bench.passes(0.05)

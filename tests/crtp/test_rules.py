@@ -218,7 +218,7 @@ def test_two_that_touch_in_the_air_tumble_and_one_that_stands_there_does_not() -
     assert not standing.has(TUMBLED)
 
 
-def test_a_drone_hovers_on_without_packets() -> None:
+def test_silence_on_its_link_does_not_matter_to_a_drone_that_hovers() -> None:
     bench = Bench()
     bench.up()
     bench.passes(60.0)
@@ -349,7 +349,7 @@ def test_a_drone_that_is_busy_says_so_and_does_nothing() -> None:
     assert bench.x == pytest.approx(1.0, abs=0.03)
 
 
-def test_a_scan_for_drones_is_answered() -> None:
+def test_a_search_for_drones_is_answered() -> None:
     bench = Bench()
     bench.drone.receive(NULL, bench.now)
     assert bench.sent[-1].port == 15 and not bench.sent[-1].data

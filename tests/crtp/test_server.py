@@ -25,7 +25,7 @@ HOMES = {"cf1": (1.0, 2.0, 0.0), "cf2": (3.0, 2.0, 0.0)}
 
 
 class Talk(asyncio.DatagramProtocol):
-    """A client of one drone."""
+    """A client that talks to one drone."""
 
     def __init__(self) -> None:
         self.heard: asyncio.Queue[bytes] = asyncio.Queue()
@@ -34,7 +34,7 @@ class Talk(asyncio.DatagramProtocol):
         self.heard.put_nowait(data)
 
     def error_received(self, exc: Exception) -> None:
-        self.heard.put_nowait(b"closed")
+        self.heard.put_nowait(b"refused")
 
 
 async def answered(uri: str, said: bytes = ECHO) -> bytes | None:
@@ -63,7 +63,7 @@ async def faults_of(server: Server) -> None:
     await server.let("cf1", "latency", 0.02)
     assert await answered(uri) == ECHO
     await server.let("cf1", "gone", True)
-    assert await answered(uri) in (b"closed", None)
+    assert await answered(uri) in (b"refused", None)
     await server.let("cf1", "gone", False)
     assert await answered(uri) == ECHO
     await server.let("cf1", "loss", 1.0)
@@ -114,7 +114,7 @@ def test_a_process_refuses_what_cannot_be_asked(folder: Path) -> None:
         process.told(folder, "dance")
 
 
-def test_a_process_streams_pictures_from_a_camera(folder: Path) -> None:
+def test_a_process_streams_pictures_to_a_client_that_asks_for_a_camera(folder: Path) -> None:
     process.start(folder, HOMES, COMMAND)
     host, _, port = process.told(folder, "camera").rpartition(":")
     with socket.create_connection((host, int(port)), timeout=5) as line:

@@ -55,7 +55,7 @@ def test_a_restart_forgets_that_there_were_setpoints() -> None:
     assert bench.z > 0.9
 
 
-def test_setpoints_that_go_on_fly_it() -> None:
+def test_going_on_sending_setpoints_flies_it() -> None:
     bench = Bench()
     bench.arm()
     for _ in range(60):

@@ -1,9 +1,14 @@
-"""A simulated Crazyflie has what the fleet file names, or something of its own instead."""
+"""A simulated Crazyflie has what the fleet file names, or something instead, and stays while it is wanted."""
 
 from __future__ import annotations
 
+import os
+from pathlib import Path
+
 from pluto_fleet.crazyflie.options import options_of
 from pluto_fleet.crtp.equipment import fitted
+from pluto_fleet.crtp.process import is_flown
+from pluto_fleet.gateway.process import taken
 
 CAMERA = "127.0.0.1:5000"
 
@@ -30,7 +35,7 @@ def test_what_the_file_names_and_it_has_is_used() -> None:
 
 
 def test_what_the_file_names_and_it_lacks_it_has_otherwise() -> None:
-    """A deck of a user's own is no reason not to take off."""
+    """A deck of one's own is no reason not to take off."""
     options = options_of(
         fitted(
             {
@@ -50,3 +55,13 @@ def test_what_the_file_names_and_it_lacks_it_has_otherwise() -> None:
     assert (options.grip.parameter, options.grip.seconds) == ("gripper.closed", 3.0)
     assert options.variable_of("pm10") == "sim.measured"
     assert options.variable_of("temperature") == "bme.temp"
+
+
+def test_they_stay_while_a_gateway_runs_that_has_nothing_to_tell_them(tmp_path: Path) -> None:
+    """A mission may wait for hours, and its drones stand and are only listened to."""
+    assert not is_flown(tmp_path)
+    lock = taken(tmp_path)
+    assert lock is not None
+    assert is_flown(tmp_path)
+    os.close(lock)
+    assert not is_flown(tmp_path)

@@ -24,7 +24,7 @@ PATIENCE = 10.0
 
 
 class Client:
-    """A user of cflib, with what it was told."""
+    """A program that uses cflib, with what it was told."""
 
     def __init__(self, cache: Path) -> None:
         crtp = import_module("cflib.crtp")

@@ -6,7 +6,8 @@ import asyncio
 from collections.abc import AsyncIterator, Mapping, Sequence
 from math import dist, inf
 
-from pluto_fleet.drones import CRASHED, Crashed, DroneEvent, DroneTelemetry, LinkLost, Rejected
+from pluto_fleet.drones.errors import Crashed, LinkLost, Rejected
+from pluto_fleet.drones.protocol import CRASHED, DroneEvent, DroneTelemetry
 from plutoc_runtime.domain.actions import Plain
 from plutoc_runtime.domain.model import Item, Point
 from tests.drones.jumping import the_loop
@@ -20,7 +21,7 @@ class FakeDrone:
         self.told: list[str] = []
         """The commands that reached it."""
         self.attempts = 0
-        """How often a connection was tried."""
+        """How often a caller has tried to connect to it."""
         self.answers = True
         """Whether it can be reached, and tells where it is."""
         self.reasons: Sequence[str] = ()
@@ -34,7 +35,7 @@ class FakeDrone:
         """Whether it has not let go once."""
         self.raises: dict[str, BaseException] = {}
         self.blocks: dict[str, float] = {}
-        """The methods that hold up everybody, and for how many seconds."""
+        """The methods that hold up the whole loop, and for how many seconds."""
         self.slow: dict[str, float] = {}
         """The methods that take some seconds longer."""
         self.level = 1.0
@@ -57,7 +58,7 @@ class FakeDrone:
         self.events_told(DroneEvent(kind=kind, reason=reason))
 
     def events_told(self, event: DroneEvent) -> None:
-        """Let it tell this, sense or nonsense."""
+        """Let it tell this."""
         self._events.put_nowait(event)
 
     def falls(self, *, tells: bool = True) -> None:

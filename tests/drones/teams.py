@@ -13,7 +13,8 @@ import pytest
 
 from pluto_fleet.drones.localization import LocalizationFeed
 from pluto_fleet.drones.real_fleet import RequiredAction
-from pluto_fleet.drones.team import Team, TeamDrone
+from pluto_fleet.drones.team import Team
+from pluto_fleet.drones.vehicle import TeamDrone
 from pluto_fleet.process.realtime import RealTime
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.errors import FlightFailed

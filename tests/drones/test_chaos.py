@@ -1,4 +1,4 @@
-"""However much goes wrong, and whenever: every flight and every rescue ends, and what can land has landed."""
+"""No matter what goes wrong, and when: every flight and rescue ends, and what can land has landed."""
 
 from __future__ import annotations
 
@@ -9,11 +9,12 @@ from random import Random
 
 import pytest
 
-from pluto_fleet.drones import BATTERY_LOW, LINK_LOST, LOCKED, NavigationError
+from pluto_fleet.drones.errors import NavigationError
+from pluto_fleet.drones.protocol import BATTERY_LOW, LINK_LOST, LOCKED
 from pluto_fleet.gateway.gateway import Gateway
 from pluto_fleet.jobs.reports import Down
 from tests.drones.fakes import FakeDrone
-from tests.drones.jumping import run, the_loop
+from tests.drones.jumping import the_loop
 from tests.drones.teams import Flown
 from tests.drones.test_under_a_gateway import commanded, measuring
 
@@ -90,7 +91,7 @@ FAULTS: tuple[Callable[[FakeDrone, Random], None], ...] = (
 
 
 async def trouble(flown: Flown, gateway: Gateway, chance: Random) -> None:
-    """Let something go wrong every now and then, and a person look after what lies about."""
+    """Let something go wrong now and then, and a person look after what lies about."""
     while True:
         await asyncio.sleep(chance.expovariate(1 / 15))
         drone = chance.choice(list(flown.drones.values()))
@@ -128,28 +129,24 @@ async def flights(flown: Flown, gateway: Gateway, drone: str, chance: Random) ->
 
 
 @pytest.mark.parametrize("seed", range(SEEDS))
-def test_everything_ends_and_all_that_can_land_has_landed(tmp_path: Path, seed: int) -> None:
+async def test_everything_ends_and_all_that_can_land_has_landed(tmp_path: Path, seed: int) -> None:
     """Three flights of each of four drones, with something going wrong every fifteen seconds."""
     chance = Random(f"chaos/{seed}")
-
-    async def flight() -> None:
-        async with commanded(tmp_path, COUNT) as (flown, gateway):
-            await flown.do(gateway.link(1).call())
-            worse = asyncio.ensure_future(trouble(flown, gateway, chance))
-            async with asyncio.timeout(3 * LONG):
-                await asyncio.gather(
-                    *(flights(flown, gateway, drone, chance) for drone in flown.drones)
-                )
-            if chance.random() < 0.5:
-                how = chance.choice(list(Down))
-                down = flown.begin(gateway.link(2).bring_down(how))
-                await flown.until(lambda: down.is_set, LONG)
-            worse.cancel()
-            await asyncio.wait((worse,))
-            for drone in flown.drones.values():
-                for kept in (drone.hangs, drone.clings, drone.raises, drone.blocks):
-                    kept.clear()
-                drone.answers = True
-        assert [drone.id for drone in flown.drones.values() if drone.motors] == []
-
-    run(flight())
+    async with commanded(tmp_path, COUNT) as (flown, gateway):
+        await flown.do(gateway.link(1).call())
+        worse = asyncio.ensure_future(trouble(flown, gateway, chance))
+        async with asyncio.timeout(3 * LONG):
+            await asyncio.gather(
+                *(flights(flown, gateway, drone, chance) for drone in flown.drones)
+            )
+        if chance.random() < 0.5:
+            how = chance.choice(list(Down))
+            down = flown.begin(gateway.link(2).bring_down(how))
+            await flown.until(lambda: down.is_set, LONG)
+        worse.cancel()
+        await asyncio.wait((worse,))
+        for drone in flown.drones.values():
+            for kept in (drone.hangs, drone.clings, drone.raises, drone.blocks):
+                kept.clear()
+            drone.answers = True
+    assert [drone.id for drone in flown.drones.values() if drone.motors] == []

@@ -10,7 +10,8 @@ import pytest
 
 from pluto_fleet.drones.localization import LocalizationFeed
 from pluto_fleet.drones.real_fleet import RealDrone, RealFleet
-from pluto_fleet.drones.team import TeamDrone, make_team
+from pluto_fleet.drones.team import make_team
+from pluto_fleet.drones.vehicle import TeamDrone
 from pluto_fleet.process.realtime import RealTime
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.errors import BadInput, Failure
@@ -41,7 +42,7 @@ class Camera:
             await asyncio.sleep(0.1)
 
 
-def test_a_drone_that_is_not_seen_lands_and_does_not_take_off(tmp_path: Path) -> None:
+async def test_a_drone_that_is_not_seen_lands_and_does_not_take_off(tmp_path: Path) -> None:
     """It does not know where it is."""
 
     async def flight() -> None:

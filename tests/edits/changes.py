@@ -1,4 +1,4 @@
-"""What an edit changes in a generated package, as whoever reviews it sees it."""
+"""What an edit changes in a generated package, as its reviewer sees it."""
 
 from __future__ import annotations
 

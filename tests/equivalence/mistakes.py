@@ -25,8 +25,8 @@ from plutoc.plan.passes.watch import watch as watch_pass
 from plutoc.plan.rewrite import rewritten
 from plutoc_blocks.gate_fifo.step import pass_first
 from plutoc_blocks.timer_monitor.step import timer_limit
+from plutoc_runtime.flow.run import watch
 from plutoc_runtime.time.future import Future
-from plutoc_runtime.trips.deadlines import watch
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.status import Status
@@ -117,7 +117,7 @@ def spare_the_first_arrow(plan: Plan) -> Plan:
 
 
 def spare_every_arrow(plan: Plan) -> Plan:
-    """Spare every bare arrow to a gate that waits for all, whatever the others bring."""
+    """Spare every bare arrow to a gate that waits for all, no matter what the others bring."""
     return _spared(plan, Gate.ALL)
 
 
@@ -137,7 +137,7 @@ def _spared(plan: Plan, kind: Gate) -> Plan:
 
 
 def leave_out_what_has_a_default(plan: Plan) -> Plan:
-    """Leave a parameter out that has a default, whatever its value is."""
+    """Leave a parameter out that has a default, of any value."""
     left_out = [
         (node.name, name)
         for node in plan.checked.graph.nodes
@@ -182,9 +182,9 @@ async def wait_for_any(run: Run[Any], status: Status, *branches: Branch[Any]) ->
 
 def watch_and_never_let_go(run: Run[Any], *limits: Limit | None) -> Flight:
     """A wait whose limits go on when it is called off."""
-    nobody = copy(run)
-    nobody.task = None
-    return watch(nobody, *limits)
+    taskless = copy(run)
+    taskless.task = None
+    return watch(taskless, *limits)
 
 
 def limit_by_default(

@@ -38,7 +38,7 @@ def time(event: Event) -> float:
 
 
 def test_keys_are_found_and_brought_once(apps: Mapping[str, Example]) -> None:
-    """Whatever the photos are like, what was seen comes home, and nobody else goes for it."""
+    """With photos of all kinds, what was seen comes home, and no other drone goes for it."""
     for seed in SEEDS:
         flown = apps["object_finder"].fly(seed)
         log = flown.outcome.log
@@ -132,7 +132,7 @@ def test_gradients_are_followed_and_bounded(apps: Mapping[str, Example]) -> None
         added = [sum(t.added for t in m.completed_trips) for m in flown.outcome.missions]
         assert sum(added) > 0 and max(added) <= 4
         places = [t.target for m in flown.outcome.missions for t in m.completed_trips if t.added]
-        # The clouds stand around (12, 8) and (5.5, 3.5): nobody looks closely anywhere else.
+        # The clouds stand around (12, 8) and (5.5, 3.5): no drone looks closely anywhere else.
         assert all(min(off(p, (12, 8)), off(p, (5.5, 3.5))) < 3.5 for p in places)
 
 

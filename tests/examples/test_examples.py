@@ -1,4 +1,4 @@
-"""The examples compile, fly to their end, and keep the invariants whatever goes wrong."""
+"""The examples compile, fly to their end, and keep the invariants no matter what goes wrong."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ def test_folders_are_whole(name: str) -> None:
 
 @pytest.mark.parametrize("name", NAMES)
 def test_floor_plan_is_as_large_as_the_map(name: str) -> None:
-    """A metre is a unit of the picture, so that whoever draws on it need not scale."""
+    """A metre is a unit of the picture, so that drawing on it needs no scale."""
     folder = EXAMPLES / name
     fleet = tomllib.loads((folder / "fleet.toml").read_text(encoding="utf-8"))
     picture = ElementTree.parse(folder / "map.svg").getroot()
@@ -109,7 +109,7 @@ def test_examples_complete_when_nothing_goes_wrong(example: Example) -> None:
         assert not any(event["event"] == "drone.charging" for event in flown.trace), f"seed {seed}"
 
 
-def test_examples_end_whatever_goes_wrong(example: Example) -> None:
+def test_examples_end_no_matter_what_goes_wrong(example: Example) -> None:
     """With crashes, lost links and failed actions every mission still ends, and says why."""
     for seed in BAD_SEEDS:
         flown = example.fly(seed, MISHAPS)

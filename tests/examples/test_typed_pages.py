@@ -79,14 +79,14 @@ def test_a_reader_of_the_readme_can_type_it_all_in_an_empty_folder(tmp_path: Pat
 def test_the_readmes_first_command_greets_without_a_warning(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    """Whoever sees Pluto for the first time has done nothing wrong yet."""
+    """A person who sees Pluto for the first time has done nothing wrong yet."""
     (app,) = re.findall(r"plutoc run (examples/\S+\.pluto)", README)
     assert main(["check", str(ROOT / app)]) == 0
     assert "warning" not in capsys.readouterr().err
 
 
 def test_the_readme_counts_its_lines_of_pluto() -> None:
-    """As anybody does who reads that there are so few."""
+    """As a reader does who learns that there are so few."""
     (source,) = re.findall(r"^```\n(pluto 1\n.*?)^```$", README, re.MULTILINE | re.DOTALL)
     words = ["Ten", "Eleven", "Twelve", "Thirteen", "Fourteen", "Fifteen"]
     count = sum(bool(line.strip()) for line in source.splitlines())

@@ -19,7 +19,7 @@ from plutoc.explain.pages import page
 ROOT = Path(__file__).parents[2]
 CODE = re.compile(r"\bP\d{4}\b")
 WITHOUT_EXAMPLES = ("P2026", "P9001")
-"""An app with so many states has more blocks than a page has lines; and nobody can write one that
+"""An app with so many states has more blocks than a page has lines; and no one can write one that
 makes the compiler break: else it would be mended."""
 
 _FENCED = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)

@@ -24,7 +24,8 @@ from pluto_fleet.crazyflie.navigation import Crazyflie
 from pluto_fleet.crtp.drone import Build
 from pluto_fleet.crtp.flight_log import MemoryLog
 from pluto_fleet.crtp.server import Server
-from pluto_fleet.drones import DroneSetup, NavigationError
+from pluto_fleet.drones.errors import NavigationError
+from pluto_fleet.drones.protocol import DroneSetup
 from tests.flights_crazyflie.judge import dropped
 
 FIRST, LAST, STEP, DRONES = 0.0, 6.0, 0.02, 24

@@ -149,7 +149,7 @@ LOST_PLACE = r"does not know where it is"
 SCENARIOS = (
     Scenario(name="nothing", during=nothing),
     Scenario(name="silent at connect", before=at_once("silent")),
-    Scenario(name="its port is closed", before=at_once("gone")),
+    Scenario(name="nothing at its port", before=at_once("gone")),
     Scenario(
         name="silent in flight, for good",
         during=silent_until_empty,

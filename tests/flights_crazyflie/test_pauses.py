@@ -17,7 +17,9 @@ AROUND = pauses(2.9, 3.2, 0.05)
 """Seconds: a few pauses around the disarming."""
 
 
-def test_after_any_pause_since_a_landing_the_next_take_off_is_flown(tmp_path: Path) -> None:
+def test_however_long_the_pause_after_a_landing_is_the_next_take_off_is_flown(
+    tmp_path: Path,
+) -> None:
     """By drones that arm on request, and by those that arm by themselves, all at once."""
 
     async def both() -> Sequence[Sequence[Outcome]]:

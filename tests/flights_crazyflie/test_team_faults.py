@@ -1,4 +1,4 @@
-"""Each fault, on Crazyflies behind one gateway: what it becomes, and that no other drone suffers.
+"""Each fault, on Crazyflies behind one gateway: what it becomes, and that no other suffers.
 
 All drones of a test fly at once, in real time, through the unmodified cflib over UDP.
 """
@@ -93,7 +93,7 @@ async def silent_in_flight(hall: Hall) -> None:
 
 
 async def switched_off_in_flight(hall: Hall) -> None:
-    """Its port is closed: at once it is known that it is not there."""
+    """Its port is closed: at once it is known that no drone is there."""
     began = asyncio.ensure_future(hall.let("gone", "gone"))
     failed = await hall.flown.fails("gone", hall.there("gone"))
     assert failed.failure is Failure.LINK

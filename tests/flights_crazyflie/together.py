@@ -124,7 +124,7 @@ def _all_there(flight: Flight) -> bool:
 
 
 def _alone(where: Point, home: Point | None, speed: float, courses: int) -> float:
-    """Return the seconds that a drone takes to come down alone in the air."""
+    """Return the seconds that a drone takes to come down with no other in the air."""
     x, y, z = where
     way = 0.0 if home is None else shortest_duration(dist((x, y), home[:2]), speed)
     return SHORTEST + way + DEFAULT_LIMITS.seconds_down(z, CLIMB_LIMIT) + _SETTLES * courses

@@ -26,7 +26,7 @@ SAYINGS = (
     "# name = Kind(",
     "# → ünïcödé 日本",
     "# with\ta tab",
-    "# a longer one, that says what everybody sees anyway, and goes on behind the last column of all",
+    "# a longer one, that says what is seen there anyway, and goes on behind the last column of all",
     "## twice # over",
     "# blanks behind   ",
     "# no blank that we know \u00a0",

@@ -1,4 +1,4 @@
-"""A mistake of the formatter does no harm: it is noticed before anybody gets its text."""
+"""A mistake of the formatter does no harm: it is noticed before its text is used."""
 
 from __future__ import annotations
 
@@ -7,8 +7,7 @@ from collections.abc import Callable
 import pytest
 
 from plutoc.format import run
-from plutoc.format.faithful import same_writing
-from plutoc.format.run import Outgrown, Unfaithful
+from plutoc.format.run import Outgrown, Unfaithful, same_writing
 from plutoc.syntax.parse import LARGEST
 from tests.format.promises import formatted
 
@@ -32,7 +31,7 @@ TEXT = 'pluto 1\n\napp a "T" {\n  # why\n  b = K(x: 5 min)  # what\n  b -> c\n}\
 def test_a_text_that_does_not_say_the_same_is_never_returned(
     monkeypatch: pytest.MonkeyPatch, mistake: Callable[[str], str]
 ) -> None:
-    """Whatever was lost, changed or moved."""
+    """No matter what was lost, changed or moved."""
     monkeypatch.setattr(run, "canonical", mistake)
     with pytest.raises(Unfaithful):
         formatted(TEXT)

@@ -1,4 +1,4 @@
-"""One input through the whole compiler, and what must hold of whatever comes out."""
+"""One input through the whole compiler, and what must hold of all that comes out."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from plutoc.compile import Compiled, check_hooks, compile_source
 from plutoc.diagnostic import Diagnostic, Rejected
 from plutoc.emit.errors import place_of
 from plutoc.emit.lock import NAME as LOCK
+from plutoc.emit.lock import read_lock
 from plutoc.emit.package import Package
-from plutoc.emit.recorded import read_lock
 from plutoc.emit.write import compare, write
 from plutoc.hooks.add import with_stubs
 from plutoc.report import github
-from plutoc.report.graph import dot, json, mermaid
 from plutoc.report.json import render_line
+from plutoc.report.pictures import dot, json, mermaid
 from plutoc.report.text import render
 from plutoc.source import Source
 from tests.fuzz.apps import grown
@@ -57,7 +57,7 @@ def source_of(random: Random) -> tuple[str, bytes]:
 
 
 def trial(random: Random, *, on_disk: bool = False) -> Outcome:
-    """Make an input and compile it; whatever is raised, `Rejected` aside, is a bug of ours."""
+    """Make an input and compile it; all that is raised, `Rejected` aside, is a bug of ours."""
     way, data = source_of(random)
     try:
         source = Source("fuzz.pluto", data.decode())

@@ -30,7 +30,7 @@ def test_a_drone_in_another_process_keeps_what_it_is_set_to(tmp_path: Path) -> N
     played(tmp_path, play)
 
 
-def test_nobody_who_is_cut_off_hears_an_answer() -> None:
+def test_a_client_that_is_cut_off_hears_no_answer() -> None:
     """Neither what it is nor that it failed: silence is all that a lost link gives."""
     field = Field()
     old = field.gateway.link(1)

@@ -1,4 +1,4 @@
-"""Any sequence of crashes, mishaps and Stops: nothing is done twice, and nobody is told two things."""
+"""Any sequence of crashes, mishaps and Stops: nothing is done twice, or told in two ways."""
 
 from __future__ import annotations
 
@@ -9,9 +9,8 @@ from tempfile import TemporaryDirectory
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pluto_fleet.gateway.file_ledger import FileLedger
-from pluto_fleet.gateway.gateway import Gateway
-from pluto_fleet.gateway.link import Link
+from pluto_fleet.gateway.gateway import Gateway, Link
+from pluto_fleet.gateway.ledger import FileLedger
 from pluto_fleet.gateway.lossy_line import LOST, Line
 from pluto_fleet.jobs.reports import Down, JobState
 from pluto_fleet.simulation.drones import Deed
@@ -56,7 +55,7 @@ class World(Field):
         self.epoch = 0
         self.line_breaks = False
         self.cut_after: float | None = None
-        """How far cf1 had flown when its motors were cut; nobody has looked after it since."""
+        """How far cf1 had flown when its motors were cut; it was not looked after since."""
 
     def another(self) -> Gateway:
         """Begin another gateway, over a radio that may be slow and a line that may break."""
@@ -83,7 +82,7 @@ class World(Field):
                 self.another()
             case "reboot":
                 self.navigation.reboot("cf1")
-                if self.cut_after is not None:  # somebody has it in its dock, and does not say so
+                if self.cut_after is not None:  # it was put into its dock, and does not say so
                     self.navigation.mended("cf1")
             case "link":
                 self.navigation.strike("cf1", Failure.LINK)
@@ -117,7 +116,7 @@ class World(Field):
         errands.cancel()
 
     async def do(self, link: Link) -> None:
-        """Call the roll; attach to what flies or is done, fly what was not; ask nobody else."""
+        """Call the roll; attach to what flies or is done, fly what was not; ask no other."""
         roll = await link.call()
         for job in self.jobs:
             known = roll.jobs.get(job.id)
@@ -148,9 +147,9 @@ class World(Field):
 def test_no_sequence_of_crashes_does_anything_twice(
     crashes: list[tuple[str, int]], in_a_file: bool, slow: float
 ) -> None:
-    """What nobody knows is left to a person, who is not asked here: it is not flown again.
+    """What is not known is left to a person, who is not asked here: it is not flown again.
 
-    Nor is a drone whose motors were cut, before somebody has looked after it.
+    Nor is a drone whose motors were cut, before a person has looked after it.
     """
     with TemporaryDirectory() as folder:
         world = World(Path(folder) if in_a_file else None, slow)

@@ -1,4 +1,4 @@
-"""Motors are cut by a command of its own, past the brain, and turn for nobody before they may."""
+"""Motors are cut by a command of its own, past the brain, and do not turn before they may."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from pluto_fleet.gateway.file_ledger import FileLedger
+from pluto_fleet.gateway.ledger import FileLedger
 from pluto_fleet.gateway.process import LEDGER
 from pluto_fleet.gateway.starting import cut_directly
 from pluto_fleet.jobs.reports import Down
@@ -59,7 +59,7 @@ def test_what_hovers_for_an_action_fails_as_well() -> None:
     assert str(hover.error) == "cf1's motors were cut"
 
 
-def test_nothing_turns_its_motors_on_before_somebody_has_looked_after_it() -> None:
+def test_nothing_turns_its_motors_on_before_a_person_has_looked_after_it() -> None:
     """Neither a flight nor a command, nor a Stop that brings all home; then it flies again."""
     field, heard = Field(), list[object]()
     link = field.gateway.link(1)
@@ -82,7 +82,7 @@ def test_nothing_turns_its_motors_on_before_somebody_has_looked_after_it() -> No
 
 
 def test_one_whose_motors_are_cut_on_its_way_home_is_lost_at_once() -> None:
-    """Nobody waits until it was carried home: it is for a person to say that it is well."""
+    """It is not waited for until it was carried home: it is for a person to say that it is well."""
     field = Field()
     link = field.gateway.link(1)
     link.fly(Task(action=None), lambda _: None)
@@ -115,7 +115,7 @@ class Kept(Field):
         super().__init__(ledger=FileLedger(self.file))
 
     def is_killed(self) -> None:
-        """Kill the gateway and begin another, while somebody switches cf1 off and on again."""
+        """Kill the gateway and begin another, while cf1 is switched off and on again."""
         self.gateway.crash()
         assert isinstance(self.ledger, FileLedger)
         self.ledger.close()
@@ -129,7 +129,7 @@ class Kept(Field):
 
 
 def test_another_gateway_knows_whose_motors_were_cut(tmp_path: Path) -> None:
-    """The drone itself may have forgotten it: whoever looks after it says so, once and for all."""
+    """The drone itself may have forgotten it: who looks after it says so, once and for all."""
     field, heard = Kept(tmp_path), list[object]()
     cut(field)
     field.is_killed()
@@ -150,7 +150,7 @@ def test_another_gateway_knows_whose_motors_were_cut(tmp_path: Path) -> None:
 
 
 def test_it_is_on_record_before_it_is_done(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Nobody knows when a process is killed; what then flies on is landed, and stays down."""
+    """A process may be killed at any time; what then flies on is landed, and stays down."""
     field = Kept(tmp_path)
     on_record: list[list[str]] = []
 
@@ -213,7 +213,7 @@ def test_a_full_disk_keeps_no_motors_on(monkeypatch: pytest.MonkeyPatch) -> None
 
 
 def test_a_gateway_that_is_killed_right_after_a_cut_comes_back_knowing_it(tmp_path: Path) -> None:
-    """So does the one after somebody has brought the drone back: that it is well again."""
+    """So does the one after the drone was brought back: that it is well again."""
 
     async def killed(brain: Brain) -> None:
         number = pid(tmp_path)
@@ -254,7 +254,7 @@ def test_a_simulated_drone_that_has_lost_its_link_cannot_be_told() -> None:
 
 
 def test_motors_are_cut_while_the_brain_hangs(tmp_path: Path) -> None:
-    """Whoever may open the socket may do that; a brain that comes back hears of it."""
+    """Every program that may open the socket may do that; a brain that comes back hears of it."""
 
     async def play(brain: Brain) -> None:
         link, heard = await brain.linked(), list[object]()

@@ -1,4 +1,4 @@
-"""All drones come down at once, whatever they were doing, and keep apart."""
+"""All drones come down at once, in the middle of anything, and keep apart."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def all_landed(field: Field) -> bool:
     return all(field.navigation.telemetry[drone.id].landed for drone in field.drones)
 
 
-def test_landing_breaks_off_whatever_flies() -> None:
+def test_landing_breaks_off_every_flight() -> None:
     """Jobs whose action has not begun may be flown again; nothing is reported of them."""
     field, heard = Field(), list[object]()
     link = field.gateway.link(1)
@@ -102,7 +102,7 @@ def test_who_stands_elsewhere_goes_home_too_if_it_can() -> None:
 
 
 def test_landing_is_more_urgent_than_going_home() -> None:
-    """Whoever asks for it while the drones fly home gets it; the other way round, nothing changes."""
+    """Asked for while the drones fly home, it is done; the other way round, nothing changes."""
     field = Field()
     link = field.gateway.link(1)
     link.fly(Task(stops=((15, 10, 1.2),)), lambda _: None)
@@ -143,7 +143,7 @@ def test_one_that_cannot_follow_keeps_no_other_up() -> None:
     assert all_landed(field)
 
 
-def test_nobody_lands_on_another_or_where_it_may_not() -> None:
+def test_no_drone_lands_on_another_or_where_it_may_not() -> None:
     """Of two above one another the higher moves aside; one over a no-fly area leaves it."""
     field = Field(airspace=Airspace(no_fly=(((9, 9), (11, 9), (11, 11), (9, 11)),)))
     link = field.gateway.link(1)

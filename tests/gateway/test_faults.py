@@ -72,7 +72,7 @@ def test_single_commands_are_late_too_and_can_be_broken_off() -> None:
     assert field.navigation.telemetry["cf1"].landed
 
 
-def test_a_report_that_is_lost_breaks_the_line_and_is_told_to_whoever_attaches() -> None:
+def test_a_report_that_is_lost_breaks_the_line_and_is_told_to_the_next_who_attaches() -> None:
     """The brain notices that the line is broken, and asks."""
     field, lost, heard = Field(), list[str](), list[object]()
     fates = iter([LOST, 0.0])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from pluto_fleet.gateway.link import Busy
+from pluto_fleet.gateway.gateway import Busy
 from pluto_fleet.jobs.reports import Down, FleetReport, JobState
 from plutoc_runtime.alone.faults import Faults
 from plutoc_runtime.domain.errors import BadInput, Failure, FlightFailed
@@ -37,7 +37,7 @@ def test_a_job_is_flown_and_reported_once() -> None:
 
 
 def test_what_was_done_is_not_done_again_but_reported_again() -> None:
-    """Whoever gives the same job hears what came of it then; never from within the call."""
+    """A brain that gives the same job hears what came of it then; never from within the call."""
     field, heard = Field(), list[object]()
     link = field.gateway.link(1)
     link.fly(Task(action="measure", item=None), heard.append)
@@ -65,7 +65,7 @@ def test_a_job_under_way_outlives_the_brain_that_gave_it() -> None:
     assert (old, new) == ([], [None])
 
 
-def test_an_end_that_nobody_heard_is_told_to_whoever_attaches() -> None:
+def test_an_end_that_was_not_heard_is_told_to_the_next_who_attaches() -> None:
     """Failures too, with their reason."""
     field, heard = Field(faults=Faults(action=1)), list[object]()
     field.gateway.link(1).fly(Task(), lambda _: None)
@@ -148,7 +148,7 @@ def test_a_gateway_that_crashes_leaves_the_drones_hovering_and_the_ledger() -> N
     ("rebooted", "state"), [(False, JobState.BROKEN_OFF), (True, JobState.BEGUN)]
 )
 def test_an_action_that_had_begun_is_settled_by_its_drone(rebooted: bool, state: JobState) -> None:
-    """If it remembers all since then, it was not done; if it was switched off, nobody knows."""
+    """If it remembers all since then, it was not done; if it was switched off, that is not known."""
     field, heard = Field(), list[object]()
     field.gateway.link(1).fly(Task(), heard.append)
     field.advance(15)
@@ -218,7 +218,7 @@ def test_a_job_broken_off_before_its_action_may_fly_again() -> None:
 def test_no_drone_is_sent_where_it_may_not_be(
     stop: tuple[float, float, float], reason: str
 ) -> None:
-    """Whatever the brain believes; and it does not move."""
+    """Against what the brain believes; and it does not move."""
     field, heard = Field(), list[object]()
     assert isinstance(field.kernel, VirtualTime)
     link = field.gateway.link(1)
@@ -233,7 +233,7 @@ def test_no_drone_is_sent_where_it_may_not_be(
 
 
 def test_a_drone_that_flies_gets_no_second_job() -> None:
-    """Whoever gives it is told for whom it flies."""
+    """Its brain is told for whom it flies."""
     field, heard = Field(), list[object]()
     link = field.gateway.link(1)
     link.fly(Task(), lambda _: None)

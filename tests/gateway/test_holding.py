@@ -1,4 +1,4 @@
-"""No two processes command one drone, whatever became of the folders of their journals."""
+"""No two processes command one drone, wherever the folders of their journals are are."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ RADIO = "radio://0/80/2M/E7E7E7E7E7"
 
 
 def test_a_second_process_is_refused_and_told_who_holds_the_drone(tmp_path: Path) -> None:
-    """The first one's number is what somebody needs to end it."""
+    """The first one's number is what it takes to end it."""
     said = "is commanded by process {} already"
     with _holder(tmp_path, RADIO) as first, pytest.raises(Held, match=said.format(first.pid)):
         _hold(tmp_path, cf1=RADIO)
 
 
-def test_whoever_is_just_leaving_is_waited_for(tmp_path: Path) -> None:
+def test_a_process_that_is_just_leaving_is_waited_for(tmp_path: Path) -> None:
     """A gateway whose drones are down closes its links, and then lets go."""
     with _holder(tmp_path, RADIO) as first:
         assert first.stdin is not None
@@ -34,8 +34,8 @@ def test_whoever_is_just_leaving_is_waited_for(tmp_path: Path) -> None:
             assert first.wait() == 0
 
 
-def test_whoever_is_killed_holds_nothing_any_more(tmp_path: Path) -> None:
-    """The lock ends with its process: nobody has to clear anything away."""
+def test_a_killed_process_holds_nothing_any_more(tmp_path: Path) -> None:
+    """The lock ends with its process: there is nothing to clear away."""
     with _holder(tmp_path, RADIO) as first:
         first.kill()
     _hold(tmp_path, cf1=RADIO)
@@ -74,7 +74,7 @@ def test_two_drones_of_one_fleet_cannot_be_the_same(tmp_path: Path) -> None:
 def test_the_locks_stand_in_the_users_runtime_folder(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """All processes of a user look there, and nobody else may."""
+    """All processes of a user look there, and other users may not."""
     monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
     with holding({"cf1": RADIO}):
         (folder,) = tmp_path.iterdir()
@@ -86,7 +86,7 @@ def test_the_locks_stand_in_the_users_runtime_folder(
 def test_a_folder_that_others_may_enter_is_refused(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Somebody else could say there who commands what."""
+    """Someone else could say there who commands what."""
     monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
     folder = tmp_path / f"pluto-drones-{os.geteuid()}"
     folder.mkdir()

@@ -1,4 +1,4 @@
-"""The simulated world on the disk: whoever reads it back finds it where it has come to meanwhile."""
+"""The simulated world on the disk: read back, it is where it has come to meanwhile."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class Kept(Field):
         return Kept(folder, self.wall() + seconds, faults)
 
 
-def test_a_drone_flies_on_while_nobody_looks(tmp_path: Path) -> None:
+def test_a_drone_flies_on_while_it_is_not_looked_at(tmp_path: Path) -> None:
     """To the end of its leg, and its battery drains; there it hovers, and can be flown on."""
     field = Kept(tmp_path)
     field.gateway.link(1).fly(Task(), lambda _: None)
@@ -131,7 +131,7 @@ def test_what_cannot_be_written_down_is_not_done(tmp_path: Path) -> None:
 
 
 def test_a_landing_is_seen_through(tmp_path: Path) -> None:
-    """Whoever sinks when its gateway dies touches down."""
+    """A drone that sinks when its gateway dies touches down."""
     field = Kept(tmp_path)
     fly(field.virtual, field.navigation.takeoff("cf1", 1.2))
     field.kernel.spawn(field.navigation.land("cf1"), FLEET, "land")
@@ -159,7 +159,7 @@ def test_mishaps_stay_what_they_were(tmp_path: Path, what: Failure) -> None:
 
 
 def test_what_was_drawn_to_go_wrong_goes_wrong_all_the_same(tmp_path: Path) -> None:
-    """Whether anybody looks or not, at its own moment."""
+    """Looked at or not, at its own moment."""
     field = Kept(tmp_path, faults=Faults(crash=1))
     field.gateway.link(1).fly(Task(), lambda _: None)
     field.advance(0)

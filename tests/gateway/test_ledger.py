@@ -1,4 +1,4 @@
-"""The ledger: whatever is torn, lost or killed, nothing that was done is flown again."""
+"""The ledger: with rows torn or lost and processes killed, nothing that was done is flown again."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from pluto_fleet.gateway.file_ledger import FileLedger
+from pluto_fleet.gateway.ledger import FileLedger
 from pluto_fleet.jobs.reports import Entry, JobState
 from plutoc_runtime.domain.errors import Failure, FlightFailed
 from plutoc_runtime.domain.model import Photo
@@ -62,7 +62,7 @@ def test_a_line_that_was_never_finished_is_no_line(tmp_path: Path) -> None:
 
 
 def test_a_damaged_line_is_not_believed(tmp_path: Path) -> None:
-    """Whichever byte it is; the ledger knows that something is missing."""
+    """For every byte; the ledger knows that something is missing."""
     path = tmp_path / "ledger"
     ledger = FileLedger(path)
     for id in "abc":
@@ -93,7 +93,7 @@ def test_where_the_ledger_was_damaged_drones_are_believed() -> None:
     assert (heard, job.begun) == ([None, None], 0)
 
 
-def test_what_a_drone_remembers_is_not_done_again_though_nobody_else_knows_of_it() -> None:
+def test_what_a_drone_remembers_is_not_done_again_though_the_ledger_does_not_have_it() -> None:
     """The ledger may be lost, or have forgotten what a damaged journal does not say any more."""
     field, heard = Field(), list[object]()
     field.gateway.link(1).fly(Task(), heard.append)
@@ -160,7 +160,7 @@ class PowerCut(BaseException):
 
 
 @pytest.mark.parametrize("at", range(8))
-def test_whatever_dies_while_the_file_is_written_anew_nothing_is_lost(
+def test_a_death_at_any_write_of_the_new_file_loses_nothing(
     at: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Cut off at each of its calls to the system, before it and after it."""

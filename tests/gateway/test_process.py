@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from pluto_fleet.gateway import remote, starting
-from pluto_fleet.gateway.process import LOG
+from pluto_fleet.gateway.process import LOG, main
 from pluto_fleet.gateway.starting import connect, let_end, speed_in, still_runs, stop_directly
 from pluto_fleet.jobs.reports import Down, JobState
 from pluto_fleet.process.realtime import RealTime
@@ -136,7 +136,7 @@ def test_a_gateway_that_is_killed_comes_back_to_the_same_world(tmp_path: Path) -
 
 
 def test_all_can_be_brought_down_by_the_brain_and_without_it(tmp_path: Path) -> None:
-    """Home at the brain's word; where they are at anybody's who may open the socket."""
+    """Home at the brain's word; where they are at that of any program on the socket."""
 
     async def play(brain: Brain) -> None:
         link = await brain.linked()
@@ -159,7 +159,7 @@ def test_all_can_be_brought_down_by_the_brain_and_without_it(tmp_path: Path) -> 
     played(tmp_path, play)
 
 
-def test_a_gateway_to_which_nobody_comes_back_lands_its_drones_and_ends(tmp_path: Path) -> None:
+def test_a_gateway_to_which_no_brain_comes_back_lands_its_drones_and_ends(tmp_path: Path) -> None:
     """At once, not after the time in which another brain might come; until then it can be seen."""
 
     async def play(brain: Brain) -> None:
@@ -170,7 +170,7 @@ def test_a_gateway_to_which_nobody_comes_back_lands_its_drones_and_ends(tmp_path
         await link.close()
         let_end(tmp_path)
         await brain.until(lambda: still_runs(tmp_path) is None)
-        let_end(tmp_path)  # whom nobody hears any more
+        let_end(tmp_path)  # who is not heard any more
         assert "all drones are down" in (tmp_path / LOG).read_text()
 
     played(tmp_path, play, idle=1000.0)
@@ -205,7 +205,7 @@ def test_a_gateway_that_cannot_begin_says_why(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("code", [0, 9])
-def test_a_gateway_that_says_nothing_sends_nobody_to_its_log(tmp_path: Path, code: int) -> None:
+def test_a_gateway_that_says_nothing_does_not_refer_to_its_log(tmp_path: Path, code: int) -> None:
     """It says how it ended instead; and it is not started again and again."""
 
     async def play(_: Brain) -> None:
@@ -219,7 +219,7 @@ def test_a_gateway_that_says_nothing_sends_nobody_to_its_log(tmp_path: Path, cod
 def test_a_gateway_that_hangs_before_it_is_ready_keeps_out_no_other(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """It is ended when nobody waits for it any more."""
+    """It is ended when no brain waits for it any more."""
     hangs = (sys.executable, "-c", "import time; time.sleep(1000)")
 
     async def play(brain: Brain) -> None:
@@ -234,12 +234,12 @@ def test_a_gateway_that_hangs_before_it_is_ready_keeps_out_no_other(
 
 
 def test_a_disk_without_room_for_a_gateway_is_said_to_be_full(tmp_path: Path) -> None:
-    """Whatever there is still room for: not even its log can say so."""
+    """Some rows still have room: not even its log can say so."""
     disk = tmp_path / "disk"
     disk.mkdir()
     mount = ["mount", "-t", "tmpfs", "-o", "size=100k", "tmpfs", str(disk)]
     if subprocess.run(mount, capture_output=True, check=False).returncode != 0:
-        pytest.skip("a file system can be mounted here by nobody but root")
+        pytest.skip("a file system can be mounted here by root alone")
     said: list[str] = []
 
     async def play(brain: Brain) -> None:
@@ -291,3 +291,18 @@ def test_a_folder_that_cannot_be_written_is_said_so(tmp_path: Path) -> None:
             await brain.linked()
 
     played(tmp_path, play)
+
+
+@pytest.mark.parametrize("arguments", [[], ["--help"], ["a", "b"]])
+def test_starting_it_by_hand_is_answered_that_apps_do(
+    arguments: list[str],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    """And nothing is left in the folder."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "--help").mkdir()
+    assert main(arguments) == 2
+    assert "an app starts this by itself" in capsys.readouterr().err
+    assert not list((tmp_path / "--help").iterdir())

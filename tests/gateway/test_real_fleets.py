@@ -13,7 +13,8 @@ import pytest
 from pluto_fleet.cli.flights import Flight, aloft, may_hover
 from pluto_fleet.cli.stand_ins import who_is_missing, with_stand_ins
 from pluto_fleet.drones.real_fleet import RealDrone, RequiredAction, real_data, real_fleet, real_of
-from pluto_fleet.files.fleet import DroneEntry, FleetFile
+from pluto_fleet.files.drones import DroneEntry
+from pluto_fleet.files.fleet import FleetFile
 from pluto_fleet.jobs.reports import DroneReport
 from pluto_fleet.simulation.drones import SimulatedNavigation
 from plutoc_runtime.alone.faults import Faults
@@ -88,7 +89,7 @@ def test_a_real_fleet_is_read_as_it_was_written() -> None:
     assert real_of(json.loads(json.dumps(real_data(whole)))) == whole
 
 
-def test_stand_ins_are_crazyflies_whatever_the_file_says() -> None:
+def test_stand_ins_are_crazyflies_under_any_class_in_the_file() -> None:
     """So many as were asked for, reached where they are."""
     one = with_stand_ins(FLEET, 1)
     assert [drone.id for drone in one.drones] == ["a"]
@@ -102,7 +103,7 @@ def test_stand_ins_are_crazyflies_whatever_the_file_says() -> None:
 
 
 def test_no_two_stand_ins_stand_at_one_place() -> None:
-    """Where the map has no more room, nobody flies."""
+    """Where the map has no more room, none flies."""
     small = replace(FLEET, airspace=Airspace(size=(3.0, 3.0)))
     homes = [one.home for one in with_stand_ins(small, 12).drones]
     assert min(dist(*pair) for pair in combinations(homes, 2)) >= 0.7
@@ -110,7 +111,7 @@ def test_no_two_stand_ins_stand_at_one_place() -> None:
         with_stand_ins(small, 50)
 
 
-def test_whoever_leaves_out_a_whole_category_is_told_so() -> None:
+def test_leaving_out_a_whole_category_is_told() -> None:
     """Hooks may ask for its drones when all others are in the air."""
     carrier = replace(FLEET.drones[1], id="c", category="carrier")
     fleet = replace(FLEET, drones=(*FLEET.drones, carrier))
@@ -122,7 +123,7 @@ def test_whoever_leaves_out_a_whole_category_is_told_so() -> None:
 
 
 class Unready:
-    """Drones that answer, and may not fly until somebody has mended them."""
+    """Drones that answer, and may not fly until they have been mended."""
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch, *drones: str) -> None:
         self.unready = {*drones}
@@ -147,7 +148,7 @@ class Unready:
 def test_a_fleet_of_which_no_drone_is_ready_does_not_set_out(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """Everybody's reasons are told, and the journal stays as it was."""
+    """The reasons of all are told, and the journal stays as it was."""
     Unready(monkeypatch, "cf1")
     living = Living(enterable(), apps.mission("North", apps.trip("A", 1.0)))
     whole = living.life.control.whole
@@ -182,7 +183,7 @@ class Heard:
 
 
 def test_of_a_drone_that_is_silent_in_the_air_people_are_warned(tmp_path: Path) -> None:
-    """A simulated one hurts nobody."""
+    """A simulated one does no harm."""
     scout = apps.app(apps.flow()).categories[0]
     one, two = (
         Drone(

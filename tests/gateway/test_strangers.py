@@ -1,4 +1,4 @@
-"""Whoever may open the gateway's socket can say what they like: nothing breaks."""
+"""A program that may open the gateway's socket can say what it likes: nothing breaks."""
 
 from __future__ import annotations
 
@@ -92,7 +92,7 @@ def test_its_socket_is_where_only_its_owner_goes(folder: Path) -> None:
 def test_what_makes_no_sense_is_refused_and_logged(
     folder: Path, lines: tuple[bytes, ...], why: str
 ) -> None:
-    """In words; whoever said it may go on, but for lines without an end."""
+    """In words; the client may go on, but for lines without an end."""
     refusal = said(folder, *lines)[-1]
     assert refusal["ok"] is False
     assert why in refusal["said"]
@@ -148,10 +148,10 @@ facts = st.fixed_dictionaries(
 
 @settings(max_examples=100)
 @given(st.lists(facts | st.dictionaries(st.text(max_size=5), anything), max_size=6))
-def test_whatever_is_said_the_gateway_goes_on(
+def test_after_any_message_the_gateway_goes_on(
     folder: Path, messages: list[dict[str, object]]
 ) -> None:
-    """Any messages, from somebody who has linked."""
+    """Any messages, from a client that has linked."""
     said(folder, LINK, *(json.dumps(one).encode() + b"\n" for one in messages))
     assert pid(folder) is not None
     assert said(folder, LINK)[0].keys() == {"linked"}

@@ -20,9 +20,9 @@ from pluto_fleet.jobs.reports import DroneReport, Entry, FleetReport, JobState
 from pluto_fleet.process.ipc import line, message_in
 from pluto_fleet.simulation.body import SimulatedDrone
 from plutoc_runtime.alone.faults import Faults
-from plutoc_runtime.alone.world import Feature, Source, WorldData
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.errors import Failure, FlightFailed
+from plutoc_runtime.domain.fleet_data import Feature, Source, WorldData
 from plutoc_runtime.domain.model import Category, Photo
 from tests.gateway.flights import Task
 from tests.gateway.processes import settings

@@ -50,7 +50,7 @@ def test_bad_declaration_declares_its_name(bad: str) -> None:
 
 @pytest.mark.parametrize("spoilt", ["Wait = Pass", "wäit = Pass", "wait = Psas", "wait -> Pass"])
 def test_wrong_declaration_declares_its_name(spoilt: str) -> None:
-    """Whatever is wrong with the name itself, or with its kind."""
+    """For all mistakes in the name itself, or in its kind."""
     assert len(codes(f"{spoilt}\nstart -> wait -> end")) == 1
 
 

@@ -61,7 +61,7 @@ def test_unguarded_edge_to_end_is_otherwise() -> None:
 
 
 def test_edge_twice_is_refused() -> None:
-    """The same pair with the same guard, in whatever order it names statuses."""
+    """The same pair with the same guard, in any order of its statuses."""
     assert codes(ABCD + "a -> b\na -> b") == ["P1035 a -> b"]
     twice = "a -> b when FAILED, STANDBY\na -> b when STANDBY, FAILED"
     assert codes(ABCD + twice) == ["P1035 a -> b"]

@@ -198,7 +198,7 @@ def test_what_only_the_bytecode_shows_is_no_python_either(crop: Checked) -> None
         assert one.source.position(one.span.start)[0] > len(HOOKS)
 
 
-def test_fresh_stubs_are_right_whatever_names_the_app_has(crop: Checked) -> None:
+def test_fresh_stubs_are_right_for_all_names_of_an_app(crop: Checked) -> None:
     """Also where an action is called like a type of Python's."""
     for checked in (crop, analyse(Source("odd.pluto", ODD_NAMES))[0]):
         assert found(checked, hooks_file(checked)) == []

@@ -48,7 +48,7 @@ def test_an_odd_file_is_read_or_refused(
 
 
 def test_what_is_no_file_is_refused(plutoc: Call, here: Path) -> None:
-    """A folder, a device that never ends, a pipe into which nobody writes, links in a circle."""
+    """A folder, a device that never ends, a pipe into which nothing is written, links in a circle."""
     Path("folder.pluto").mkdir()
     os.mkfifo("pipe.pluto")
     Path("zero.pluto").symlink_to("/dev/zero")
@@ -72,7 +72,7 @@ def test_what_is_no_file_is_refused(plutoc: Call, here: Path) -> None:
             assert (done.code, words in done.err) == (code, True), (name, command, done)
 
 
-def test_a_pipe_into_which_somebody_writes_is_read(plutoc: Call, here: Path) -> None:
+def test_a_pipe_into_which_something_is_written_is_read(plutoc: Call, here: Path) -> None:
     """As a shell hands it on: `plutoc check <(make-an-app)`."""
     reading, writing = os.pipe()
     os.write(writing, APP.encode())
@@ -99,7 +99,7 @@ def test_a_pipe_into_which_somebody_writes_is_read(plutoc: Call, here: Path) -> 
         ("pluto 1\napp a {\n" + "x = = y\n" * 10_000 + "}\n", "P0001"),
         ("pluto 1\napp a {\n" + "".join(f"x{i} = Nope\n" for i in range(10_000)) + "}\n", "P1012"),
         ("pluto 1\napp a {\n" + "x = Clock\n" * 10_000 + "}\n", "P1005"),
-        ("pluto 1\n" + "use nobody\n" * 10_000 + "app a {\n}\n", "P1008"),
+        ("pluto 1\n" + "use nothing\n" * 10_000 + "app a {\n}\n", "P1008"),
         (";" * 300_000, "P0"),
         ("pluto 1\napp a {" + "\t" * 500_000 + "}", "P2001"),
         ("pluto 1\napp a {\n" + "}\n" * 60_000, "P0017"),

@@ -121,7 +121,7 @@ def package(texts: dict[str, str]) -> Package:
 
 @pytest.mark.parametrize("swapped", ["src", "src/a", "src/a/flow.py", ""])
 def test_a_link_that_is_swapped_in_stops_the_writing(tmp_path: Path, swapped: str) -> None:
-    """Between looking and writing somebody puts a link to another folder where one of ours was."""
+    """Between looking and writing an attacker puts a link to another folder where one of ours was."""
     folder, outside = tmp_path / "a", tmp_path / "outside"
     write(compare(package({"src/a/flow.py": "old\n", "README.md": "old\n"}), folder, PLACE))
     changes = compare(package({"src/a/flow.py": "new\n", "README.md": "new\n"}), folder, PLACE)

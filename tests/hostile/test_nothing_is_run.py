@@ -210,7 +210,7 @@ def test_the_trap_works(tmp_path: Path, broken: Path) -> None:
 
 @pytest.mark.skipif(not hasattr(os, "getuid") or os.getuid() != 0, reason="only root can give away")
 @pytest.mark.parametrize("what", ["folder", "file"])
-def test_what_belongs_to_somebody_else_is_not_used(
+def test_what_belongs_to_another_user_is_not_used(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, what: str
 ) -> None:
     """Even if its mode is right."""

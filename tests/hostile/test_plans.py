@@ -127,7 +127,7 @@ def test_any_value_in_any_place_is_taken_or_refused(
     ],
     ids=range(17),
 )
-def test_a_file_that_nobody_wrote_is_refused(
+def test_a_file_that_no_compiler_wrote_is_refused(
     tmp_path: Path, capfd: pytest.CaptureFixture[str], text: str
 ) -> None:
     """Deep, long, large: as missions and as a fleet."""
@@ -159,7 +159,7 @@ def test_odd_bytes_are_read_or_refused(
 
 
 def test_what_is_no_file_is_refused(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
-    """A pipe into which nobody writes, a device, a folder, a link in a circle."""
+    """A pipe into which nothing is written, a device, a folder, a link in a circle."""
     os.mkfifo(tmp_path / "pipe")
     (tmp_path / "loop").symlink_to("loop")
     (tmp_path / "good.toml").write_text(MISSIONS)

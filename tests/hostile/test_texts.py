@@ -17,9 +17,9 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from plutoc.emit.package import Package
-from plutoc.report.graph import dot, dot_to_svg, mermaid
-from plutoc.report.graph import json as as_json
-from plutoc.syntax.hidden import HIDDEN
+from plutoc.report.pictures import dot, dot_to_svg, mermaid
+from plutoc.report.pictures import json as as_json
+from plutoc.syntax.characters import HIDDEN
 from tests.fuzz.texts import HOSTILE
 from tests.hostile.apps import checked, package
 
@@ -148,7 +148,7 @@ def unmarked(line: str) -> str:
 @given(TEXTS)
 @example("".join(ALWAYS))
 def test_a_title_is_one_plain_line_of_the_readme(text: str) -> None:
-    """No link, no picture, no HTML, no heading, no code, no formula, no mention of anybody."""
+    """No link, no picture, no HTML, no heading, no code, no formula, no mention of a person."""
     from plutoc.emit.readme_file import readme
 
     written = readme(checked(text).graph, "crop.pluto", "flowchart TD\n").splitlines()

@@ -29,7 +29,7 @@ def say(word: object) -> None:
 
 
 def main(path: Path, room: int | None) -> None:
-    """Append until somebody or something ends it."""
+    """Append until it is ended."""
     failures: list[JournalError] = []
     try:
         store = Store.open(path) if path.exists() else Store.create(path, {"event": "header"})

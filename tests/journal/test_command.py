@@ -186,7 +186,7 @@ def follow(path: Path) -> subprocess.Popen[str]:
     )
 
 
-def test_what_comes_is_printed_as_it_comes_until_somebody_interrupts(path: Path) -> None:
+def test_what_comes_is_printed_as_it_comes_until_it_is_interrupted(path: Path) -> None:
     following = follow(path)
     assert following.stdout is not None
     for _ in range(1 + len(EVENTS)):
@@ -201,7 +201,7 @@ def test_what_comes_is_printed_as_it_comes_until_somebody_interrupts(path: Path)
     assert (following.returncode, out, err) == (0, "", "")
 
 
-def test_it_ends_when_nobody_reads_it_any_more_though_nothing_happens(path: Path) -> None:
+def test_it_ends_when_it_is_not_read_any_more_though_nothing_happens(path: Path) -> None:
     following = follow(path)
     assert following.stdout is not None
     following.stdout.readline()

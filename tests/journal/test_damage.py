@@ -1,4 +1,4 @@
-"""Whatever happens to the file: never a wrong event, never a traceback, and what is sound is read."""
+"""For all damage to the file: never a wrong event, never a traceback, and what is sound is read."""
 
 from __future__ import annotations
 

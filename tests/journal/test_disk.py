@@ -32,7 +32,7 @@ def appender(*arguments: object) -> subprocess.Popen[str]:
 def rows_of(path: Path, *, torn: bool = False) -> list[str]:
     """Return all rows but the header, and assert that nothing is damaged.
 
-    Where rows had no room, what nobody was told of may still lie there: then they are torn.
+    Where rows had no room, what was not told to a reader may still lie there: then they are torn.
     """
     reader = Reader(path)
     rows = [row.text for row in reader.rows()][1:]
@@ -51,7 +51,7 @@ def small_disk(tmp_path: Path) -> Iterator[Path]:
         ["mount", "-t", "tmpfs", "-o", "size=2m", "tmpfs", disk], capture_output=True, check=False
     )
     if mounted.returncode != 0:
-        pytest.skip("a file system can be mounted here by nobody but root")
+        pytest.skip("a file system can be mounted here by root alone")
     yield disk
     subprocess.run(["umount", disk], check=True)
 

@@ -80,7 +80,7 @@ def test_without_a_header_it_stays_as_it_is(tmp_path: Path) -> None:
     assert path.read_bytes() == content
 
 
-def test_nobody_mends_what_is_being_written(tmp_path: Path) -> None:
+def test_what_is_being_written_is_not_mended(tmp_path: Path) -> None:
     store = Store.create(tmp_path / "J", HEADER)
     with pytest.raises(JournalError, match="is writing this journal"):
         mend(tmp_path / "J")

@@ -1,4 +1,4 @@
-"""A journal has a place even when nobody names one."""
+"""A journal has a place even when none is named."""
 
 from __future__ import annotations
 
@@ -20,7 +20,9 @@ def state(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path / "state"
 
 
-def test_journals_of_an_app_lie_in_a_folder_of_its_own_that_nobody_else_reads(state: Path) -> None:
+def test_journals_of_an_app_lie_in_a_folder_of_its_own_that_no_other_user_reads(
+    state: Path,
+) -> None:
     path = place.new("alfalfa", NOON)
     assert path.parent == state / "pluto" / "alfalfa"
     assert path.name.startswith("2027-01-1")

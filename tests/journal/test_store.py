@@ -130,7 +130,7 @@ def test_records_are_what_a_snapshot_and_the_events_since_come_to(store: Store) 
     assert gc.isenabled()
 
 
-def test_a_reader_that_stops_in_the_middle_keeps_nobody_from_tidying_up(
+def test_a_reader_that_stops_in_the_middle_keeps_no_one_from_tidying_up(
     store: Store, place: Path
 ) -> None:
     store.append([row(number) for number in range(3_000)])

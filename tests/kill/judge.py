@@ -1,4 +1,4 @@
-"""What must hold of a flight whose processes were killed, whatever moment it was.
+"""What must hold of a flight whose processes were killed, at any moment.
 
 What was done is counted in the recorder of the simulated world, which only the world writes.
 """
@@ -107,7 +107,7 @@ def wrong(journal: Path, rows: Sequence[str]) -> Iterator[str]:
             yield f"{action} of {trip} was done {times} times"
     for name, record in folded(rows).missions.items():
         if record["question"] is not None:
-            continue  # nobody knows: a person decides
+            continue  # that is not known: a person decides
         if not record["ended"]:
             yield f"{name} has not ended: {record['status']}"
         elif record["status"] not in ENDS:

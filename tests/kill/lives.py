@@ -110,7 +110,7 @@ class Flight:
         return code
 
     def see_through(self) -> int:
-        """Return the exit code of a life that nobody kills."""
+        """Return the exit code of a life that is not killed."""
         code = self.wait(PATIENCE)
         if code is None:
             self.kill()

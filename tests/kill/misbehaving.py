@@ -25,7 +25,7 @@ from tests.kill.misfits import RAISED, VALUES, misfits_in, plan_of
 from tests.kill.trial import end_gateway, gateway_of
 
 LONGEST_OUTPUT = 400_000
-"""Bytes that a flight may print, whatever its hooks say."""
+"""Bytes that a flight may print, no matter what its hooks say."""
 
 Trips = Sequence[tuple[str, str]]
 Look = Callable[[Flight], Iterator[str]]

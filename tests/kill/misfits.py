@@ -112,7 +112,7 @@ async def ends_its_task():
 
 
 async def holds_on():
-    """Wait for ever, whoever cancels it."""
+    """Wait for ever, cancelled or not."""
     while True:
         try:
             await asyncio.sleep(1)

@@ -1,4 +1,4 @@
-"""An app with an action of its own that may not be repeated: nobody sees whether it was done."""
+"""An app with an action of its own that may not be repeated: it is not seen whether it was done."""
 
 from __future__ import annotations
 

@@ -21,7 +21,7 @@ def statuses(flight: Flight) -> list[str]:
 
 
 def cut_short(flight: Flight) -> None:
-    """Kill the app while it does its first action, and let it find out that nobody can tell."""
+    """Kill the app while it does its first action, and let it find out that it cannot be told."""
     begun = flight.folder / "begun"
     flight.start()
     assert eventually(begun.exists)
@@ -39,7 +39,7 @@ def cut_short(flight: Flight) -> None:
         ("cancel", 1, []),
     ],
 )
-def test_what_nobody_saw_a_person_decides(
+def test_what_was_not_seen_a_person_decides(
     answer: str, code: int, expected: list[str], painting: Flight
 ) -> None:
     """And it is done once, or once more, or never."""

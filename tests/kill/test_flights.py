@@ -1,4 +1,4 @@
-"""Real flights are stopped, told things, supervised, and go on."""
+"""Flights whose processes are killed, stopped and waited for: nothing is lost."""
 
 from __future__ import annotations
 
@@ -7,12 +7,14 @@ import os
 import signal
 import time
 from contextlib import closing
+from pathlib import Path
 from typing import Any
 
 import pytest
 
 from pluto_fleet.journal.place import gateway_folder
 from pluto_fleet.journal.reader import Reader
+from tests.kill.campaign import campaign
 from tests.kill.conftest import NewFlight
 from tests.kill.judge import done_by_the_world, events_of, folded
 from tests.kill.lives import Flight, alive, eventually
@@ -63,7 +65,7 @@ def test_a_flight_stopped_on_its_way_home_goes_on_where_it_was(new_flight: NewFl
 
 
 def test_a_delay_keeps_its_rest_over_a_stop(new_flight: NewFlight) -> None:
-    """Whoever has waited for a part of it waits for the rest."""
+    """A person who has waited for a part of it waits for the rest."""
     flight = new_flight(20.0)
     plan = flight.folder / "missions.toml"
     plan.write_text(plan.read_text().replace('delay = "4 s"', 'delay = "60 s"'))
@@ -84,7 +86,7 @@ def test_a_delay_keeps_its_rest_over_a_stop(new_flight: NewFlight) -> None:
 
 
 @pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
-def test_whoever_interrupts_it_waits_for_the_landing(
+def test_an_interrupt_waits_for_the_landing(
     number: signal.Signals, code: int, new_flight: NewFlight
 ) -> None:
     flight = new_flight(20.0)
@@ -202,3 +204,11 @@ def test_a_journal_that_is_deleted_in_flight_ends_it(new_flight: NewFlight) -> N
     assert "resume" not in flight.lives[0]
     assert all(z == 0.0 for _, _, z in drones_are_at(flight))
     assert no_process_is_left(flight)
+
+
+def test_ten_kills_lose_nothing_and_let_nothing_be_done_twice(tmp_path: Path) -> None:
+    """Eight brains and two gateways, at random moments."""
+    tally = campaign(tmp_path, brains=8, gateways=2, seed=3, tell=lambda _: None)
+    assert tally.problems == []
+    assert (tally.brains.total(), tally.gateways.total()) == (8, 2)
+    assert tally.actions > 0

@@ -36,7 +36,7 @@ def test_all_other_missions_fly_on(trial: Trial, misfits: Path, tmp_path: Path) 
 def test_a_hook_that_ends_the_process_ends_no_flight_as_if_it_were_over(
     misfits: Path, tmp_path: Path
 ) -> None:
-    """Nobody supervises it: the exit code is that of a crash. In a simulation one mission fails."""
+    """It is not supervised: the exit code is that of a crash. In a simulation one mission fails."""
     files = plan_of(("leaves", [("leaves0", "act")])).write(tmp_path)
     flight = Flight(app="misfits", source=misfits, folder=tmp_path, speed=20.0)
     try:

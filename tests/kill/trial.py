@@ -89,7 +89,7 @@ class Trial:
                 tally.reasons[record["reason"]] += 1
 
     def _decide(self, code: int) -> int:
-        """Say of every action that nobody knows of what the world has on record, and go on."""
+        """Say of every unknown action what the world has on record, and go on."""
         while code == 4:
             for name, record in folded(self._rows()).missions.items():
                 if record["question"] is None:

@@ -14,12 +14,13 @@ from pluto_fleet.crazyflie.navigation import Crazyflie
 from pluto_fleet.crtp.drone import Build, SimulatedCrazyflie
 from pluto_fleet.crtp.flight_log import MemoryLog
 from pluto_fleet.crtp.server import Server
-from pluto_fleet.drones import DroneNavigation, DroneSetup
-from pluto_fleet.drones.conformance import NavigationContract, Truth
+from pluto_fleet.drones.conformance.contract import NavigationContract
+from pluto_fleet.drones.conformance.recording import Truth
+from pluto_fleet.drones.protocol import DroneNavigation, DroneSetup
 
 pytest.importorskip("cflib")
 
-CLOSED_PORT = "udp://127.0.0.1:9"
+NO_DRONE = "udp://127.0.0.1:9"
 
 
 class Hangar:
@@ -70,7 +71,7 @@ class TestCrazyflie(NavigationContract):
         return self.hangar.take()
 
     def make_unreachable(self) -> DroneNavigation:
-        return self.hangar.take(CLOSED_PORT)
+        return self.hangar.take(NO_DRONE)
 
     def silence(self, navigation: DroneNavigation) -> None:
         self.hangar.let(navigation, "silent")

@@ -1,4 +1,4 @@
-"""What a localization sees is fed to the drones, also where it fails."""
+"""What a localization sees is fed to the drones, no matter what it does."""
 
 from __future__ import annotations
 
@@ -128,7 +128,7 @@ def test_nonsense_is_told_once_and_not_fed(what: object, said: str) -> None:
     played(play)
 
 
-def test_a_drone_that_takes_long_to_hear_delays_no_other_and_hears_the_latest() -> None:
+def test_a_drone_that_takes_long_to_hear_keeps_no_other_and_hears_the_latest() -> None:
     async def play(scene: Scene) -> None:
         scene.cf1.free.clear()
         await scene.sees(*[("cf1", (float(i), 0.0, 0.0)) for i in range(5)])

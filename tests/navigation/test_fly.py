@@ -1,4 +1,4 @@
-"""An app flies drones of a user's own class, named in the fleet file, in processes of its own."""
+"""An app flies drones of a class of one's own, named in the fleet file, in processes of its own."""
 
 from __future__ import annotations
 
@@ -101,7 +101,7 @@ def test_a_drone_that_cannot_be_made_is_refused_before_anything_is_written(tmp_p
     assert "Traceback" not in done.stderr
 
 
-def test_a_module_that_ends_its_importer_does_not_end_the_app(tmp_path: Path) -> None:
+def test_a_module_that_ends_its_importing_process_does_not_end_the_app(tmp_path: Path) -> None:
     """Not with an exit code that says that all was flown."""
     (tmp_path / "leaving.py").write_text(
         "import os; os._exit(0)\nclass Wren:\n    async def connect(self): ..."

@@ -71,7 +71,7 @@ def test_of_two_packages_that_offer_one_name_neither_is_chosen(
     )
 
 
-def test_a_name_that_is_not_offered_is_told_with_those_that_are(
+def test_a_name_that_no_package_offers_is_told_with_those_that_are(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     offered(tmp_path, "pluto-wren", "plutoc.navigations", f"parakeet = {HERE}:Good")

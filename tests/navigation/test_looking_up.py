@@ -28,7 +28,7 @@ def mark(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     yield tmp_path / "run"
     loading._loaded.cache_clear()
     for name in {*sys.modules} - before:
-        if name.partition(".")[0] in ("theirs", "elsewhere"):
+        if name.partition(".")[0] in ("author", "elsewhere"):
             del sys.modules[name]
 
 
@@ -53,7 +53,7 @@ def write(mark: Path, **modules: str) -> None:
         ("from elsewhere import Drone", "Drone", 'no class "Drone"'),
         ("from elsewhere import *", "Drone", 'no class "Drone"'),
         ("from gone import Drone", "Drone", 'needs "gone"'),
-        ("from theirs import Drone", "Drone", 'no class "Drone"'),
+        ("from author import Drone", "Drone", 'no class "Drone"'),
         ("from ... import Drone", "Drone", 'no class "Drone"'),
         ("def __getattr__(name): return OTHERS[name]", "Drone", 'no class "Drone"'),
         ("1 +", "Drone", "cannot be imported: SyntaxError"),
@@ -63,11 +63,11 @@ def write(mark: Path, **modules: str) -> None:
 def test_a_module_without_the_class_is_not_run(
     mark: Path, text: str, named: str, why: str, load: Callable[[str], object]
 ) -> None:
-    """Without being imported: a fleet file from elsewhere may name anything."""
-    write(mark, theirs=text, elsewhere="")
+    """For all else that it does as it is imported: a fleet file from elsewhere may name anything."""
+    write(mark, author=text, elsewhere="")
     why = why if load is load_navigation else why.replace("connect; it has no method preflight", "")
     with pytest.raises(BadInput) as refused:
-        load(f"theirs:{named}")
+        load(f"author:{named}")
     assert why in str(refused.value)
     assert not mark.exists()
 
@@ -77,15 +77,15 @@ def test_a_module_without_the_class_is_not_run(
     [
         ("antigravity:Drone", '"antigravity" is a module of Python\'s own'),
         ("idlelib.pyshell:PyShell", '"idlelib.pyshell" is a module of Python\'s own'),
-        ("theirs.gone:Drone", 'there is no "theirs.gone"'),
-        ("theirs.gone.far:Drone", 'there is no "theirs.gone"'),
-        ("theirs.inner:Drone", 'no class "Drone"'),
-        ("theirs.inner.far:Drone", 'there is no "theirs.inner.far"'),
+        ("author.gone:Drone", 'there is no "author.gone"'),
+        ("author.gone.far:Drone", 'there is no "author.gone"'),
+        ("author.inner:Drone", 'no class "Drone"'),
+        ("author.inner.far:Drone", 'there is no "author.inner.far"'),
     ],
 )
 def test_nor_is_what_a_module_stands_in(mark: Path, name: str, why: str) -> None:
     """The packages above it are run by an import, too."""
-    write(mark, theirs____init__="", theirs__inner="")
+    write(mark, author____init__="", author__inner="")
     with pytest.raises(BadInput) as refused:
         load_navigation(name)
     assert why in str(refused.value)
@@ -96,27 +96,27 @@ def test_nor_is_what_a_module_stands_in(mark: Path, name: str, why: str) -> None
 @pytest.mark.parametrize(
     ("modules", "name"),
     [
-        ({"theirs": GOOD}, "theirs:Good"),
-        ({"theirs": f"{GOOD} as Drone"}, "theirs:Drone"),
-        ({"theirs": f"{GOOD}\nclass Drone(Good): ..."}, "theirs:Drone"),
-        ({"theirs": f"{GOOD}\nDrone = Good"}, "theirs:Drone"),
-        ({"theirs": f"try:\n    {GOOD}\nexcept ImportError:\n    pass"}, "theirs:Good"),
-        ({"theirs": f"{GOOD}\nclass Kit:\n    Drone = Good"}, "theirs:Kit.Drone"),
-        ({"theirs": "from elsewhere import *", "elsewhere": GOOD}, "theirs:Good"),
+        ({"author": GOOD}, "author:Good"),
+        ({"author": f"{GOOD} as Drone"}, "author:Drone"),
+        ({"author": f"{GOOD}\nclass Drone(Good): ..."}, "author:Drone"),
+        ({"author": f"{GOOD}\nDrone = Good"}, "author:Drone"),
+        ({"author": f"try:\n    {GOOD}\nexcept ImportError:\n    pass"}, "author:Good"),
+        ({"author": f"{GOOD}\nclass Kit:\n    Drone = Good"}, "author:Kit.Drone"),
+        ({"author": "from elsewhere import *", "elsewhere": GOOD}, "author:Good"),
         (
             {
-                "theirs____init__": "from .inner import Drone",
-                "theirs__inner": f"{GOOD} as Drone",
+                "author____init__": "from .inner import Drone",
+                "author__inner": f"{GOOD} as Drone",
             },
-            "theirs:Drone",
+            "author:Drone",
         ),
         (
-            {"theirs____init__": "from . import inner", "theirs__inner": GOOD},
-            "theirs:inner.Good",
+            {"author____init__": "from . import inner", "author__inner": GOOD},
+            "author:inner.Good",
         ),
         (
-            {"theirs": f"{GOOD}\ndef __getattr__(name): return {{'Drone': Good}}[name]"},
-            "theirs:Drone",
+            {"author": f"{GOOD}\ndef __getattr__(name): return {{'Drone': Good}}[name]"},
+            "author:Drone",
         ),
     ],
 )

@@ -1,4 +1,4 @@
-"""What an action gave is what the app knows, whichever copy of the runtime its navigation has."""
+"""What an action gave is what the app knows, with either copy of the runtime in its navigation."""
 
 from __future__ import annotations
 

@@ -12,7 +12,7 @@ import pytest
 
 import plutoc_runtime
 from pluto_fleet.drones import errors, plugins
-from pluto_fleet.drones.conformance import NavigationContract
+from pluto_fleet.drones.conformance.contract import NavigationContract
 
 DOCS = Path(__file__).parents[2] / "docs"
 PAGE = (DOCS / "navigation.md").read_text()

@@ -2,28 +2,22 @@
 
 from __future__ import annotations
 
-import pkgutil
-from importlib import import_module
 from unittest import SkipTest
 
 import pytest
 
-from pluto_fleet.drones import DroneNavigation
-from pluto_fleet.drones.conformance import NavigationContract
-from tests.navigation import wrong
+from pluto_fleet.drones.conformance.contract import NavigationContract
+from pluto_fleet.drones.protocol import DroneNavigation
 from tests.navigation.simulated import SPEED, Simulated, SimulatedContract, setup
+from tests.navigation.wrong import Wrong
 
-NAMES = [module.name for module in pkgutil.iter_modules(wrong.__path__)]
 
-
-@pytest.mark.parametrize("name", NAMES)
-def test_a_wrong_navigation_is_found_by_the_check_that_names_it(name: str) -> None:
-    module = import_module(f"{wrong.__name__}.{name}")
-    made: type[Simulated] = module.Wrong
-    contract = type("Contract", (SimulatedContract,), {"navigation": made, "away": 4.0})()
+@pytest.mark.parametrize("wrong", Wrong.__subclasses__(), ids=lambda wrong: wrong.__name__)
+def test_a_wrong_navigation_is_found_by_the_check_that_it_names(wrong: type[Wrong]) -> None:
+    contract = type("Contract", (SimulatedContract,), {"navigation": wrong, "away": 4.0})()
     with pytest.raises(AssertionError) as found:
-        getattr(contract, module.FOUND_BY)()
-    assert module.SAYS in str(found.value)
+        getattr(contract, wrong.found_by)()
+    assert wrong.says in str(found.value)
 
 
 class Bare(NavigationContract):

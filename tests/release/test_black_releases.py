@@ -16,7 +16,7 @@ from tests.emit.texts import written
 from tests.release.environments import ROOT, succeed
 
 RELEASES = ("22.12.0", "24.10.0", "")
-"""The last: whichever is the newest."""
+"""The last: the newest."""
 GOLDEN = sorted(ROOT.glob("tests/cases/*/expected/**/*.py"))
 OWN = "# fmt: off\n"
 """Below it, Black would look at nothing."""

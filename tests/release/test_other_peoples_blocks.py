@@ -1,4 +1,4 @@
-"""A block package of somebody else's, installed by pip, is as good as ours."""
+"""A block package of another author's, installed by pip, is as good as ours."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Pictures of graphs: complete, valid, and safe whatever the title says."""
+"""Pictures of graphs: complete, valid, and safe for every title."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from plutoc.check.run import check
-from plutoc.report.graph import NoGraphviz, dot, dot_to_svg, json, mermaid
+from plutoc.report.pictures import NoGraphviz, dot, dot_to_svg, json, mermaid
 from tests.check.graphs import BASIC, GATED, build
 
 APP = f"""{GATED}

@@ -83,7 +83,7 @@ def finding(path: str = "app.pluto") -> Diagnostic:
 
 
 def test_the_schema_is_the_standards_own() -> None:
-    """Nobody has changed it, and it is the one that documents name."""
+    """It was not changed, and it is the one that documents name."""
     assert sha256(TEXT).hexdigest() == (
         "c3b4bb2d6093897483348925aaa73af03b3e3f4bd4ca38cef26dcb4212a2682e"
     )

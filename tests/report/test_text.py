@@ -127,7 +127,7 @@ def test_places_in_one_line_share_a_window() -> None:
 
 
 def test_places_that_overlap_stand_below_each_other() -> None:
-    """Else nobody could tell where each begins and ends."""
+    """Else no reader could tell where each begins and ends."""
     assert window(render([with_related("one two\n", "one", "one two")], colour=False)) == [
         "1 | one two",
         "  | ^^^ main",

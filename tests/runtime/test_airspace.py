@@ -102,7 +102,7 @@ def test_a_wall_is_walked_around_at_its_shorter_side() -> None:
 
 
 def test_a_wall_at_the_edge_of_the_map_is_passed_on_its_other_side() -> None:
-    """Nobody leaves the map to get around."""
+    """No drone leaves the map to get around."""
     wall = ((8.0, 0.0), (9.0, 0.0), (9.0, 5.0), (8.0, 5.0))
     way = Airspace(size=(20, 12), no_fly=(wall,)).route((6, 1, 1), (11, 1, 1))
     assert way is not None
@@ -131,7 +131,7 @@ def test_there_may_be_no_way() -> None:
     assert Airspace(no_fly=(lower, upper)).route((1, 1, 1), (15, 1, 1)) is None
 
 
-def test_no_way_leads_to_where_nobody_may_be() -> None:
+def test_no_way_leads_to_where_no_drone_may_be() -> None:
     """The inside of an area, and what is off the map, cannot be reached or left."""
     airspace = Airspace(no_fly=(WALL,))
     for bad in ((8.5, 3.0, 1.0), (30.0, 3.0, 1.0), (1.0, 1.0, 99.0)):

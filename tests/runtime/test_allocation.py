@@ -235,7 +235,7 @@ def test_a_drone_that_was_not_given_is_offered_again() -> None:
     assert asked[:3] == [["cf1", "cf2", "cf3"], ["cf2", "cf3"], ["cf2", "cf3"]]
 
 
-def test_candidates_come_in_the_fleets_order_whenever_they_came_free() -> None:
+def test_candidates_come_in_the_fleets_order_in_any_order_of_coming_free() -> None:
     asked: list[list[str]] = []
 
     def last(trip: Trip, candidates: Sequence[Drone]) -> Drone:

@@ -23,7 +23,7 @@ from tests.runtime import apps
 
 
 def fly(step: Callable[..., Any], hook: Callable[..., Any], policy: Policy = nearest) -> Outcome:
-    """Fly one trip, with a block of somebody's and a modifier in a fork behind it."""
+    """Fly one trip, with a block of another author's and a modifier in a fork behind it."""
 
     async def flow(run: Run[apps.Mission]) -> Status:
         # create = MissionCreator
@@ -69,7 +69,7 @@ def log_of(outcome: Outcome) -> str:
     return "\n".join(outcome.log)
 
 
-def test_an_error_that_nobody_expected_names_the_block() -> None:
+def test_an_unexpected_error_names_the_block() -> None:
     """A block's step in a branch of a fork fails: that is a mistake of ours or of its maker."""
     with pytest.raises(ZeroDivisionError) as raised:
         fly(broken, nothing)

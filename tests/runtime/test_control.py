@@ -10,9 +10,9 @@ import pytest
 from pluto_fleet.flight.live_engine import live_engine
 from pluto_fleet.jobs.reports import Down
 from pluto_fleet.trials.invariants import violations
-from plutoc_runtime.domain.actions import Action
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.model import Drone, Trip
+from plutoc_runtime.flow.own_action import OwnAction
 from plutoc_runtime.hooks.context import Context
 
 from . import apps
@@ -138,7 +138,7 @@ def test_a_cancelled_mission_stays_so_when_the_app_dies() -> None:
     assert living.run() == ["CANCELLED", "COMPLETED"]
 
 
-def test_nobody_is_told_what_does_not_fit() -> None:
+def test_what_does_not_fit_is_told_to_no_mission() -> None:
     living = Living(enterable(), two_trips())
     living.run(1.0)
     control = living.life.control
@@ -159,7 +159,7 @@ async def _spray(drone: Drone, trip: Trip, context: Context) -> None:
 
 
 def spraying(repeat: str, *others: apps.Mission) -> Living:
-    spray = Action(name="spray", repeat=repeat, hook=_spray)
+    spray = OwnAction(name="spray", repeat=repeat, hook=_spray)
     mission = apps.mission("a", apps.trip("1", 3, action="spray"), apps.trip("2", 3))
     homes = ((0.5, 0.5, 0.0), (1.5, 0.5, 0.0))
     return Living(enterable(actions=(spray,)), mission, *others, on=apps.fleet(*homes))
@@ -196,7 +196,7 @@ def test_a_person_decides_while_the_app_is_at_rest(answer: str, flights: list[st
     assert names(living.named("trip.launched"), "trip") == flights
 
 
-def test_where_somebody_watches_the_app_lives_until_they_have_decided() -> None:
+def test_where_a_person_watches_the_app_lives_until_they_have_decided() -> None:
     living = spraying("once")
 
     def watched_life() -> None:
@@ -236,7 +236,7 @@ def test_after_a_stop_nothing_else_is_done() -> None:
     assert living.kernel.run(living.life.control.stopped)
 
 
-def test_an_app_lives_on_when_somebody_decides_while_the_last_drone_comes_home() -> None:
+def test_an_app_lives_on_when_a_person_decides_while_the_last_drone_comes_home() -> None:
     living = spraying("once", apps.mission("b", apps.trip("long", 15, 15)))
     living.crash(10.0)
     living.at(60.0, lambda: living.life.control.decide("a", "not-done"))

@@ -1,4 +1,4 @@
-"""What whoever watches the fleet may change while it flies: priorities, drones, more missions."""
+"""What may be changed of a fleet while it flies: priorities, drones, more missions."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def test_only_trips_that_are_still_to_do_have_a_priority_to_change() -> None:
         living.life.control.prioritise("a", "9", 1)
 
 
-def test_a_retired_drone_flies_its_trip_to_the_end_and_then_nobody_gets_it() -> None:
+def test_a_retired_drone_flies_its_trip_to_the_end_and_is_then_given_to_no_mission() -> None:
     living = Living(enterable(), *missions("a", "b", "c", "d"), on=TWO_DRONES)
     living.at(2.0, lambda: living.life.control.retire("cf1"))
     assert living.run() == ["COMPLETED"] * 4

@@ -40,7 +40,7 @@ def test_a_last_point_on_the_ground_is_landed_on() -> None:
 
 
 def test_no_points_is_no_flight() -> None:
-    """Whoever goes nowhere needs the action's time alone."""
+    """A drone that goes nowhere needs the action's time alone."""
     assert flight_seconds(SCOUT, PLAIN, (1, 1, 0), [], 7) == 7
 
 
@@ -51,7 +51,7 @@ def test_where_no_way_leads_takes_for_ever() -> None:
 
 
 def test_the_whole_trip_is_needed() -> None:
-    """There, each action, back, and down; the reserve is somebody else's."""
+    """There, each action, back, and down; the reserve is added elsewhere."""
     stops = [((4.0, 5.0, 1.2), 2.0), ((4.0, 7.0, 1.2), 3.0)]
     seconds = CLIMB + 10 + 2 + 4 + 3 + 2 * (3**2 + 6**2) ** 0.5 + CLIMB
     assert needed(SCOUT, PLAIN, (1, 1, 0), stops, (1, 1, 0)) == pytest.approx(seconds / 420)
@@ -63,7 +63,7 @@ def test_a_share_is_of_the_flight_time() -> None:
 
 
 def test_a_dock_charges_who_lands_near_enough() -> None:
-    """Twenty centimetres are near enough, whatever the height that home was written with."""
+    """Twenty centimetres are near enough, at any height that home was written with."""
     assert docked((1.1, 1.1, 0), (1, 1, 0.5))
     assert not docked((1.2, 1.1, 0), (1, 1, 0))
 

@@ -9,7 +9,7 @@ import pytest
 
 from pluto_fleet.process.signal_guard import guard_hooks, interrupted_by_a_person
 from plutoc_runtime.domain import guard
-from plutoc_runtime.time.kernel import Cancelled
+from plutoc_runtime.domain.errors import Cancelled
 
 
 @pytest.fixture(autouse=True)

@@ -8,12 +8,13 @@ from functools import partial
 import pytest
 
 from pluto_fleet.process.realtime import RealTime
+from plutoc_runtime.domain.errors import Cancelled
 from plutoc_runtime.time.future import Future
-from plutoc_runtime.time.kernel import Cancelled, Kind
+from plutoc_runtime.time.kernel import Kind
 from plutoc_runtime.time.virtual import Stuck, VirtualTime
 
 
-def test_events_of_one_instant_come_by_kind_then_key_whatever_the_order_of_entry() -> None:
+def test_events_of_one_instant_come_by_kind_then_key_in_any_order_of_entry() -> None:
     kernel, seen = VirtualTime(), list[str]()
     done: Future[None] = Future()
     entries = [(Kind.ALLOCATE, 0), (Kind.TIMER, 0), (Kind.FLIGHT, 1), (Kind.FLIGHT, 0)]
@@ -99,7 +100,7 @@ def test_a_coroutine_that_is_cancelled_in_its_turn_may_still_wait_to_clean_up() 
     assert seen == [5.0]
 
 
-def test_an_error_that_nobody_awaits_stops_the_run() -> None:
+def test_an_error_that_is_not_awaited_stops_the_run() -> None:
     kernel = VirtualTime()
 
     async def broken() -> None:
@@ -110,7 +111,7 @@ def test_an_error_that_nobody_awaits_stops_the_run() -> None:
         kernel.run(Future[None]())
 
 
-def test_an_error_reaches_whoever_awaits() -> None:
+def test_an_error_reaches_the_awaiting_task() -> None:
     kernel = VirtualTime()
 
     async def broken() -> None:

@@ -14,9 +14,8 @@ import pytest
 
 from pluto_fleet.flight.config import End, Lived, Setting, Stops
 from pluto_fleet.flight.fly import live
-from pluto_fleet.gateway.gateway import Gateway
+from pluto_fleet.gateway.gateway import Gateway, Link
 from pluto_fleet.gateway.ledger import MemoryLedger
-from pluto_fleet.gateway.link import Link
 from pluto_fleet.jobs.reports import Down
 from pluto_fleet.journal import header
 from pluto_fleet.journal.errors import JournalError
@@ -24,7 +23,8 @@ from pluto_fleet.journal.place import commands_note
 from pluto_fleet.journal.store import Store
 from pluto_fleet.process.ipc import NotRunning, ask
 from pluto_fleet.process.realtime import RealTime
-from pluto_fleet.simulation.drones import SimulatedDrone, SimulatedNavigation
+from pluto_fleet.simulation.body import SimulatedDrone
+from pluto_fleet.simulation.drones import SimulatedNavigation
 from plutoc_runtime.alone.faults import Faults
 from plutoc_runtime.alone.world import World
 from plutoc_runtime.domain.airspace import Airspace
@@ -42,10 +42,10 @@ class Near(Link):
     """A link to a gateway in this process, which ends with it."""
 
     def when_seen(self, watcher: Callable[[], object]) -> None:
-        """Nobody watches."""
+        """It is not watched."""
 
     async def goodbye(self) -> None:
-        """Nobody need be told."""
+        """There is no one to tell."""
 
     async def close(self) -> None:
         """Nothing is open."""
@@ -158,7 +158,7 @@ def durable(monkeypatch: pytest.MonkeyPatch) -> list[str]:
 
 
 def test_nothing_is_told_before_it_is_on_record(tried: Tried, durable: list[str]) -> None:
-    """So what somebody has read on a screen is there after a crash."""
+    """So what was read on a screen is there after a crash."""
 
     def watch(event: Event) -> None:
         assert len(tried.told) <= len(durable)
@@ -183,7 +183,7 @@ def test_a_stopped_app_goes_on_where_it_was(how: Down, tried: Tried) -> None:
 
 
 def test_a_stop_before_the_app_lives_stops_it(tried: Tried) -> None:
-    """Whoever presses Ctrl-C at once means it."""
+    """Ctrl-C pressed at once is meant."""
     stops = Stops()
     stops.stop(Down.LAND)
     assert asyncio.run(tried.live(stops)).end is End.STOPPED
@@ -239,7 +239,7 @@ def test_commands_reach_a_living_app(tried: Tried) -> None:
 
 
 def test_what_an_app_has_answered_is_on_record(tried: Tried, durable: list[str]) -> None:
-    """Nothing that somebody was told is lost by whatever happens a moment later."""
+    """Nothing that was told is lost by what happens a moment later."""
 
     async def client() -> None:
         request = {"command": "cancel", "mission": "m"}

@@ -1,11 +1,11 @@
-"""Names that look alike are told, for whoever reads them would take one for the other."""
+"""Names that look alike are told: a reader would take one for the other."""
 
 from __future__ import annotations
 
 import pytest
 
 from pluto_fleet.files.drones import DroneEntry
-from pluto_fleet.files.look_alikes import look_alikes
+from pluto_fleet.files.plan_check import look_alikes
 from tests.runtime import apps
 
 

@@ -58,8 +58,8 @@ def crashes(living: Living, when: float) -> None:
     living.at(when, lambda: living.navigation.strike("cf1", Failure.CRASH))
 
 
-def test_a_lost_drone_flies_again_when_somebody_has_looked_after_it() -> None:
-    """It is RECOVERING until it says that it is well; before, nobody gets it."""
+def test_a_lost_drone_flies_again_when_a_person_has_looked_after_it() -> None:
+    """It is RECOVERING until it says that it is well; before, no mission gets it."""
     fleet = living(*"abcdefgh")
     said: list[object] = []
     crashes(fleet, 5.0)
@@ -77,7 +77,7 @@ def test_a_lost_drone_flies_again_when_somebody_has_looked_after_it() -> None:
 
 
 def test_one_that_is_as_lost_as_before_stays_so(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Nobody had looked after it: it is asked, and it is LOST again, with the reason."""
+    """It was not looked after: it is asked, and it is LOST again, with the reason."""
 
     async def roll_call(drone: str) -> DroneReport:
         return replace(fleet.navigation.bodies[drone].standing, problems=("it lies on its back",))
@@ -115,8 +115,8 @@ def test_what_a_person_has_said_of_a_lost_drone_outlives_the_app() -> None:
     assert fleet.life.recorder.records.mended == []
 
 
-def test_a_lost_drone_stays_lost_in_the_next_life_whatever_it_says_of_itself() -> None:
-    """The app dies; the drone is put home and is well, but nobody has said that they saw to it."""
+def test_a_lost_drone_stays_lost_in_the_next_life_though_it_calls_itself_well() -> None:
+    """The app dies; the drone is put home and is well, but no person has said that they saw to it."""
     fleet = living(*"abcdefgh")
     crashes(fleet, 5.0)
     fleet.at(19.0, lambda: fleet.navigation.mended("cf1"))
@@ -135,7 +135,7 @@ def test_a_lost_drone_stays_lost_in_the_next_life_whatever_it_says_of_itself() -
 
 
 def test_a_lost_drone_that_hovers_when_the_app_goes_on_is_brought_down_and_stays_lost() -> None:
-    """It could not be reached when its action failed; it can now, but nobody has looked after it."""
+    """It could not be reached when its action failed; it can now, but was not looked after."""
     action_fails = replace(apps.NO_FAULTS, action=1.0)
     fleet = Living(
         enterable(attempts=1), apps.mission("a", apps.trip("1", 4.0)), faults=action_fails
@@ -190,7 +190,7 @@ def test_where_every_drone_is_lost_nothing_begins() -> None:
         fleet.life.control.whole.result()
 
 
-def test_where_one_was_brought_back_it_is_told_so_before_anybody_is_refused() -> None:
+def test_where_one_was_brought_back_it_is_told_so_before_another_is_refused() -> None:
     """It crashed in an earlier flight, and remembers that until it has heard."""
     fleet = living("a", homes=1)
     fleet.die()
@@ -244,7 +244,7 @@ def test_a_battery_that_charges_slowly_is_waited_for() -> None:
     assert drone(fleet).status is DroneStatus.FREE
 
 
-def test_who_is_not_ready_is_named_and_nobody_waits_for_it_in_the_end(
+def test_who_is_not_ready_is_named_and_in_the_end_not_waited_for(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """The others fly; what a drone says of itself commands no terminal, and is not endless."""
@@ -276,7 +276,7 @@ def test_who_is_not_ready_is_named_and_nobody_waits_for_it_in_the_end(
 
 
 def test_who_flies_home_after_a_failure_is_waited_for() -> None:
-    """It needs nobody."""
+    """It needs no person."""
     fleet = living("a", homes=1)
     live_fleet(fleet.life.session.core).somebody_comes = False
     fleet.at(8.0, lambda: fleet.life.control.cancel("a"))

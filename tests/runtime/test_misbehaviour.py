@@ -16,15 +16,14 @@ from plutoc_blocks.mission_creator.step import create_mission
 from plutoc_blocks.mission_evaluator.step import evaluate_mission
 from plutoc_blocks.mission_modifier.step import modify_mission
 from plutoc_blocks.priority_manager.step import raise_priority
-from plutoc_runtime.domain.actions import Action
-from plutoc_runtime.domain.errors import ActionFailed
+from plutoc_runtime.domain.errors import ActionFailed, Cancelled
 from plutoc_runtime.domain.model import Mission
 from plutoc_runtime.domain.status import Status
 from plutoc_runtime.flow import mission as state
+from plutoc_runtime.flow.own_action import OwnAction
 from plutoc_runtime.flow.run import Run
 from plutoc_runtime.flow.verdict import Verdict
 from plutoc_runtime.hooks.context import Context
-from plutoc_runtime.time.kernel import Cancelled
 from tests.runtime import apps
 
 Hook = Callable[..., object]
@@ -67,9 +66,7 @@ class Speechless(Exception):
         (Speechless(), "raised Speechless"),
     ],
 )
-def test_whatever_a_hook_raises_is_its_missions_fault_alone(
-    error: BaseException, says: str
-) -> None:
+def test_any_error_of_a_hook_is_its_missions_fault_alone(error: BaseException, says: str) -> None:
     def at_once(mission: Mission[apps.Trip], context: Context) -> None:
         raise error
 
@@ -273,7 +270,7 @@ def test_a_failure_after_another_trips_end_is_charged_to_no_trip(max_attempts: i
     assert [(event["trip"], event["attempt"]) for event in launched] == [("A", 1), ("B", 1)]
 
 
-def test_a_trip_that_flew_and_failed_is_charged_once_whatever_hooks_say_then() -> None:
+def test_a_trip_that_flew_and_failed_is_charged_once_though_hooks_say_otherwise_then() -> None:
     """It failed in flight, was put back, and a hook failed the mission again before it flew."""
     said: list[int] = []
 
@@ -382,7 +379,8 @@ class Thing:
 def test_what_an_action_gives_stands_in_the_trace_the_same_in_every_run() -> None:
     values = iter((Thing(), {"b", "a"}, [Thing()]))
     tested = apps.app(
-        apps.flow(), actions=[Action(name="look", hook=lambda drone, trip, context: next(values))]
+        apps.flow(),
+        actions=[OwnAction(name="look", hook=lambda drone, trip, context: next(values))],
     )
     trips = [apps.trip(name, 2.0, action="look") for name in "ABC"]
     outcome = apps.fly(tested, apps.mission("m", *trips))

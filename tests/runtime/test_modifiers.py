@@ -188,7 +188,7 @@ def more_alike(mission: Mission[apps.Trip], context: Context) -> Status:
 
 
 def forget(mission: Mission[apps.Trip], context: Context) -> Status:
-    """Let nobody repeat what was done first."""
+    """Let no life repeat what was done first."""
     if mission.round == 0 and mission.status is Status.COMPLETED:
         del mission.completed_trips[0]
     return mission.status

@@ -13,11 +13,11 @@ from hypothesis import strategies as st
 
 from pluto_fleet.journal.fold import Records
 from pluto_fleet.journal.values import value_data, value_of
-from plutoc_runtime.domain.actions import Action
 from plutoc_runtime.domain.errors import ActionFailed
 from plutoc_runtime.domain.model import Mission, Photo
 from plutoc_runtime.domain.status import Status
 from plutoc_runtime.domain.text import LONGEST_VALUE, shown
+from plutoc_runtime.flow.own_action import OwnAction
 from plutoc_runtime.flow.verdict import Verdict
 from plutoc_runtime.hooks.context import Context
 from plutoc_runtime.hooks.keepable import keepable
@@ -168,7 +168,7 @@ def lived(hook: Callable[..., object]) -> Mission[Any]:
     def act(drone: Any, trip: Any, context: Context) -> object:
         return hook(trip) if trip.name == "odd" else 1
 
-    tested = enterable(actions=[Action(name="look", hook=act)])
+    tested = enterable(actions=[OwnAction(name="look", hook=act)])
     living = Living(
         tested,
         apps.mission("odd", apps.trip("odd", 3.0, action="look"), apps.trip("B", 4.0)),
@@ -194,7 +194,7 @@ def test_what_an_action_gives_is_kept_as_far_as_it_can_be(make: Callable[[], obj
 
 
 @pytest.mark.parametrize("make", ODD.values(), ids=ODD)
-def test_whatever_fails_an_action_is_a_reason_of_some_length(make: Callable[[], object]) -> None:
+def test_any_failure_of_an_action_is_a_reason_of_some_length(make: Callable[[], object]) -> None:
     def fails(trip: Any) -> None:
         raise ActionFailed(make())
 

@@ -1,4 +1,4 @@
-"""A running app hears commands, from its owner and from nobody else."""
+"""A running app hears commands, from its owner alone."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ class Told:
 def talk(
     note: Path, answer: Callable[[Mapping[str, object]], str], client: Callable[[], object]
 ) -> object:
-    """Let an app listen while somebody else talks to it."""
+    """Let an app listen while a client talks to it."""
 
     async def answered(request: Mapping[str, object]) -> str:
         return answer(request)
@@ -164,7 +164,7 @@ def test_the_words_of_a_refusal_arrive(note: Path) -> None:
     ],
     ids=lambda line: repr(line[:8]),
 )
-def test_a_strangers_line_is_answered_and_harms_nobody(line: bytes, note: Path) -> None:
+def test_a_strangers_line_is_answered_and_does_no_harm(line: bytes, note: Path) -> None:
     """The next one is heard as well."""
     told = Told()
 
@@ -184,7 +184,7 @@ def test_a_strangers_line_is_answered_and_harms_nobody(line: bytes, note: Path) 
     assert talk(note, lambda asked: perform(told, asked), client) == "did pause"
 
 
-def test_who_hangs_up_early_harms_nobody(note: Path) -> None:
+def test_who_hangs_up_early_does_no_harm(note: Path) -> None:
     told = Told()
 
     def client() -> str:
@@ -197,7 +197,7 @@ def test_who_hangs_up_early_harms_nobody(note: Path) -> None:
     assert talk(note, lambda asked: perform(told, asked), client) == "did pause"
 
 
-def test_without_an_app_there_is_nobody(note: Path) -> None:
+def test_without_an_app_it_is_said_that_none_is_there(note: Path) -> None:
     """Nor after it has ended."""
     with pytest.raises(NotRunning):
         ask(note, {}, 5)
@@ -278,7 +278,9 @@ def test_an_app_that_ends_first_leaves_one_in_doubt(note: Path) -> None:
     asyncio.run(scenario())
 
 
-def test_nothing_flies_that_nobody_could_stop(note: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_nothing_flies_that_could_not_be_stopped(
+    note: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """Where there is no room to say where commands are heard; nothing of the attempt is left."""
 
     def full(part: Path, *_: object, **__: object) -> int:
@@ -325,7 +327,7 @@ def test_who_is_killed_again_and_again_leaves_one_folder(note: Path) -> None:
     assert not first.parent.exists()
 
 
-def test_a_folder_that_somebody_else_has_made_is_not_used(note: Path) -> None:
+def test_a_folder_that_another_user_has_made_is_not_used(note: Path) -> None:
     first = new_address(note)
     first.parent.chmod(0o755)
     second = new_address(note)

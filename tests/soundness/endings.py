@@ -1,4 +1,4 @@
-"""Flies accepted apps with hooks that never change their mind: whatever is accepted must end.
+"""Flies accepted apps with hooks that never change their mind: all that is accepted must end.
 
 A modifier always says the same, an evaluator says the same until something is flown. So a loop that
 should not have been accepted is gone round for ever; that nothing does but what a hook chose.
@@ -15,7 +15,8 @@ from random import Random
 from types import SimpleNamespace
 from typing import Any
 
-from pluto_fleet.files.fleet import DroneEntry, FleetFile
+from pluto_fleet.files.drones import DroneEntry
+from pluto_fleet.files.fleet import FleetFile
 from pluto_fleet.flight.simulate import Simulation, simulate
 from pluto_fleet.process.realtime import RealTime
 from plutoc.block import HookKind

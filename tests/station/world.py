@@ -1,4 +1,4 @@
-"""The simulated world of a station's newest flight, read behind everybody's back."""
+"""The simulated world of a station's newest flight, read without any process that flies it."""
 
 from __future__ import annotations
 

@@ -49,7 +49,7 @@ HEADER = ("example", "runs", "rows", "lives", "completed", "failed", "cancelled"
 CHANCES = 20
 """Cases by chance for each seed."""
 ENOUGH = 5
-"""After so many findings in an example nobody looks for more."""
+"""After so many findings in an example no more are looked for."""
 
 _VIOLATIONS = attrgetter("violations")
 """What is looked for: an evaluator may well ask too much of half a fleet."""

@@ -14,9 +14,8 @@ from pluto_fleet.flight import restore as rebuilding
 from pluto_fleet.flight.live_engine import LiveEngine
 from pluto_fleet.flight.live_fleet import LiveFleet
 from pluto_fleet.flight.reconcile import Fate
-from pluto_fleet.gateway.gateway import Gateway
-from pluto_fleet.gateway.job import Given
-from pluto_fleet.gateway.link import Link
+from pluto_fleet.gateway.gateway import Gateway, Link
+from pluto_fleet.gateway.jobs import Given
 from pluto_fleet.jobs.reports import JobState
 from pluto_fleet.journal import values
 from pluto_fleet.journal.durable_link import Careful
@@ -113,7 +112,7 @@ def old_brains_are_heard(patch: pytest.MonkeyPatch) -> None:
     patch.setattr(Link, "cut", lambda self: None)
 
 
-def nobody_is_asked(patch: pytest.MonkeyPatch) -> None:
+def no_drone_is_asked(patch: pytest.MonkeyPatch) -> None:
     """Every drone is taken for free before it has answered."""
 
     def take_up(self: LiveFleet, drone: Any, _: object) -> None:
@@ -151,12 +150,12 @@ def results_are_lost(patch: pytest.MonkeyPatch) -> None:
 
 
 def carriers_are_given_away(patch: pytest.MonkeyPatch) -> None:
-    """A drone with an item aboard is anybody's after a Stop."""
+    """A drone with an item aboard is free for all after a Stop."""
     patch.setattr(recovery._Revival, "_check_carrier", lambda *_: None)
 
 
 def flies_before_it_is_on_record(patch: pytest.MonkeyPatch) -> None:
-    """A drone leaves before anybody could know of it."""
+    """A drone leaves before that could be known."""
     patch.setattr(Careful, "fly", lambda self, job, report: self._link.fly(job, report))
 
 
@@ -207,7 +206,7 @@ MUTANTS: Mapping[str, Mutant] = {
         plant=old_brains_are_heard, says="was told to .* while told to"
     ),
     "drones count as free before they answer": Mutant(
-        plant=nobody_is_asked, says="before it was asked"
+        plant=no_drone_is_asked, says="before it was asked"
     ),
     "what may have been done is done again": Mutant(
         plant=doubt_is_flown_again, says="was done 2 times", example="alfalfa"

@@ -1,6 +1,6 @@
 """Random apps for `plutoc test`: two categories, actions of their own, and fleets to match.
 
-Each is an app that a person could have written, with hooks that do what they are asked to: whatever
+Each is an app that a person could have written, with hooks that do what they are asked to: all that
 is found in one of them is a mistake of ours.
 """
 

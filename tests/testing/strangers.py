@@ -1,4 +1,4 @@
-"""Tries random apps that nobody has seen, as `plutoc test` does, in all weathers.
+"""Tries random apps that are new each time, as `plutoc test` does, in all weathers.
 
     python -m tests.testing.strangers --apps 200
 

@@ -42,7 +42,7 @@ def test_after_these_the_app_lives_again(kind: Kind) -> None:
 
 @pytest.mark.parametrize("kind", [*BY_HAND, Kind.REBOOT, Kind.FALL])
 def test_these_the_app_outlives(kind: Kind) -> None:
-    """Nobody need start it again."""
+    """It need not be started again."""
     assert struck(kind).lives == 1
 
 

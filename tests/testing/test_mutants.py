@@ -46,7 +46,7 @@ def test_every_mutant_is_found(name: str, monkeypatch: pytest.MonkeyPatch) -> No
         said.update(dict.fromkeys(sentences[:1]))
         if any(re.search(mutant.says, sentence) for sentence in sentences):
             return
-    pytest.fail(f"nobody found that {name}; what was said: {list(said)}")
+    pytest.fail(f"it was not found that {name}; what was said: {list(said)}")
 
 
 def test_there_are_twelve_at_least() -> None:

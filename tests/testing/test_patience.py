@@ -23,7 +23,7 @@ class Clock:
 
 
 def test_without_a_terminal_a_line_comes_now_and_then() -> None:
-    """One in ten seconds, with how far it is: nobody waits in silence, and no log is flooded."""
+    """One in ten seconds, with how far it is: there is no long silence, and no log is flooded."""
     clock, said = Clock(), list[str]()
     patience = Patience(Progress(StringIO(), clock, shown=False), clock, said.append)
     for second in range(35):

@@ -20,7 +20,7 @@ from pluto_fleet.trials.explore import Tally, small_case
 from pluto_fleet.trials.options import Options
 from pluto_fleet.trials.report import report
 from pluto_fleet.trials.rule import Say, at
-from plutoc_runtime.alone import bound as enough
+from plutoc_runtime.alone import simulate as enough
 from plutoc_runtime.domain.app import App
 from plutoc_runtime.domain.model import Drone
 from plutoc_runtime.domain.trace import Event
@@ -73,7 +73,7 @@ def test_the_smallest_case_shows_what_was_found_first(
 
 
 def test_two_sentences_are_of_one_kind_if_only_names_and_numbers_differ() -> None:
-    """Whoever it was, whenever, however much: it is the same rule, broken in the same way."""
+    """For any drone, at any time, of any size: it is the same rule, broken in the same way."""
     app = random_app(Random("0/app"))
     alike = Alike(small_case(app, default_fleet(app), 0))
     assert alike.kind("1.5 s: cf1 is free in the air") == alike.kind(
@@ -176,7 +176,7 @@ def test_what_does_not_show_again_is_told_as_that(capfd: Said) -> None:
 
 
 def test_actions_that_no_drone_can_do_are_told(capfd: Said, tmp_path: Path) -> None:
-    """They are not tried, and nobody shall take them for sound."""
+    """They are not tried, and they must not be taken for sound."""
     fleet = tmp_path / "fleet.toml"
     fleet.write_text('[[drone]]\nid = "w"\ncategory = "watcher"\nhome = [1, 1]\n')
     app = random_app(Random("0/app"))
@@ -187,7 +187,7 @@ def test_actions_that_no_drone_can_do_are_told(capfd: Said, tmp_path: Path) -> N
     assert "warning" not in capfd.readouterr().err
 
 
-def test_what_was_found_is_told_when_somebody_interrupts(
+def test_what_was_found_is_told_when_it_is_interrupted(
     capfd: Said, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Who has waited for minutes does not lose it by not waiting any longer."""

@@ -22,14 +22,14 @@ from ..drones.localization import LocalizationFeed
 from ..drones.protocol import Identifiable, Locatable, Scannable
 from ..drones.real_fleet import RealDrone
 from ..drones.team import make_one
-from ..files.behaviour import OWN
+from ..files.fleet import OWN
 from ..gateway.drone_lock import Held, holding
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Point
 
     from ..drones.protocol import DroneNavigation, DroneTelemetry
-    from ..files.free_tables import Options
+    from ..files.options import Options
 
 CONNECT, ANSWER, CLOSE, SCAN = 15.0, 12.0, 10.0, 90.0
 """Seconds that each may take."""

@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from ..files.toml_text import text, value
+import tomlkit
+
 from ..jobs.controls import Before
 
 if TYPE_CHECKING:
@@ -85,8 +86,8 @@ class Given(Before):
         job: str | None,
     ) -> object:
         """Do one of the built-in actions here, and return what came of it."""
-        given = [f"{name} = {value(one)}" for name, one in parameters.items()]
-        what = [*([text(item.name)] if item is not None else []), *given]
+        given = [f"{name} = {tomlkit.item(one).as_string()}" for name, one in parameters.items()]
+        what = [*([tomlkit.item(item.name).as_string()] if item is not None else []), *given]
         self._note(drone, f"{action}, {', '.join(what)}" if what else action)
         return await self._controls.act(drone, action, parameters, item, job)
 

@@ -11,8 +11,8 @@ from collections.abc import Coroutine
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
 from plutoc_runtime import output
+from plutoc_runtime.domain.errors import ANY_ERROR
 from plutoc_runtime.hooks.calls import said
-from plutoc_runtime.time.kernel import WHATEVER
 
 from ..process.hard_exit import leave
 from ..process.signal_guard import by_a_person
@@ -56,7 +56,7 @@ def _through(loop: asyncio.AbstractEventLoop, main: Coroutine[Any, Any, T]) -> T
     while not task.done():
         try:
             loop.run_until_complete(task)
-        except WHATEVER as error:
+        except ANY_ERROR as error:
             if task.done() or by_a_person(error):
                 raise
             output.tell(f"a task that a hook has made ends: {said(error)}")

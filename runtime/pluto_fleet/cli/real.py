@@ -13,9 +13,8 @@ from ..drones import plugins
 from ..drones.loading import hears, load_localization, load_navigation
 from ..drones.real_fleet import real_fleet
 from ..drones.team import make_one, top_speed
-from ..files.behaviour import CRAZYFLIE, OWN
+from ..files.fleet import CRAZYFLIE, OWN, navigation_of, not_real
 from ..files.reading import shortened
-from ..files.real import navigation_of, not_real
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App

@@ -14,7 +14,7 @@ from queue import SimpleQueue
 from threading import Thread
 from typing import Generic, TypeVar
 
-from plutoc_runtime.time.kernel import WHATEVER
+from plutoc_runtime.domain.errors import ANY_ERROR
 
 from ..drones.errors import LinkLost
 from . import messages
@@ -37,7 +37,7 @@ class _Call(Generic[T]):
             return
         try:
             value = self.call()
-        except WHATEVER as error:
+        except ANY_ERROR as error:
             self._tell(self._fail, error)
         else:
             self._tell(self._give, value)

@@ -18,8 +18,7 @@ from functools import cache
 from importlib import import_module
 from typing import TYPE_CHECKING, TypeVar, cast
 
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.time.kernel import WHATEVER
+from plutoc_runtime.domain.errors import ANY_ERROR, BadInput
 
 from . import plugins
 from .inspection import look_up, problems, try_import
@@ -82,7 +81,7 @@ def _made(kind: PluginKind, name: str, of: Callable[[S], T], argument: S, whose:
         return of(argument)
     except KeyboardInterrupt:
         raise
-    except WHATEVER as error:  # an option that it cannot use, mostly
+    except ANY_ERROR as error:  # an option that it cannot use, mostly
         raise plugins.not_made(kind, name, whose, _said(error)) from error
 
 
@@ -140,7 +139,7 @@ def _imported(kind: PluginKind, name: str, module: str, path: str) -> object:
         raise plugins.needs(kind, name, missing) from error
     except KeyboardInterrupt:
         raise
-    except WHATEVER as error:
+    except ANY_ERROR as error:
         raise plugins.not_imported(kind, name, _said(error)) from error
     for part in path.split("."):
         classes = [word for word, value in vars(found).items() if inspect.isclass(value)]

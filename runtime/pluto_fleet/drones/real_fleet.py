@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.domain.actions import BUILT_IN, Plain
 
-from ..files.real import navigation_of, options_of
+from ..files.fleet import navigation_of, options_of
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Mission

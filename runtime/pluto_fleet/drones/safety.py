@@ -12,12 +12,11 @@ from functools import partial
 from math import inf
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.domain.errors import Failure, FlightFailed
+from plutoc_runtime.domain.errors import ANY_ERROR, Failure, FlightFailed
 from plutoc_runtime.domain.geometry import Polygon, distance, inside, tidy
 from plutoc_runtime.domain.text import duration, number, percent, place
-from plutoc_runtime.fleet.landing_sites import free_spot
-from plutoc_runtime.time.kernel import WHATEVER
 
+from ..jobs.landing_sites import free_spot
 from .commands import descend, fly
 from .protocol import BATTERY_LOW, CRASHED, LINK_LOST, LOCKED, POSITION_LOST
 from .timeouts import shortened
@@ -116,7 +115,7 @@ async def follow_events(vehicle: Vehicle) -> None:
         pass
     except (asyncio.CancelledError, KeyboardInterrupt):
         raise
-    except WHATEVER as error:
+    except ANY_ERROR as error:
         calls.mistake("events", error)
 
 

@@ -13,7 +13,7 @@ from functools import partial
 from typing import TYPE_CHECKING, NoReturn, Protocol
 
 from plutoc_runtime.domain.actions import BUILT_IN, Plain
-from plutoc_runtime.time.kernel import WHATEVER
+from plutoc_runtime.domain.errors import ANY_ERROR
 
 from ..jobs.reports import DroneReport
 from ..jobs.telemetry import Publisher
@@ -91,7 +91,7 @@ class Team:
         """Let the monitor look; without it no drone may fly: if it breaks, all ends, and all land."""
         try:
             self._monitor.hear(late)
-        except WHATEVER as error:
+        except ANY_ERROR as error:
             if self._monitoring is not None:
                 self._monitoring.cancel()
             self._kernel.post(_raise, error)

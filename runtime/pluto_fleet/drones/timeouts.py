@@ -9,9 +9,8 @@ from contextlib import suppress
 from functools import partial
 from typing import Any, Generic, NoReturn, TypeVar
 
-from plutoc_runtime.domain.errors import Failure, FlightFailed
+from plutoc_runtime.domain.errors import ANY_ERROR, Failure, FlightFailed
 from plutoc_runtime.domain.text import duration, printable
-from plutoc_runtime.time.kernel import WHATEVER
 
 T = TypeVar("T")
 
@@ -39,7 +38,7 @@ class _Timed(Generic[T]):
             thrown = None
             try:
                 yield waits_for
-            except WHATEVER as error:
+            except ANY_ERROR as error:
                 thrown = error
 
 
@@ -97,7 +96,7 @@ class NavigationCalls:
             return question()
         except KeyboardInterrupt:
             raise
-        except WHATEVER as error:
+        except ANY_ERROR as error:
             self.mistake(what, error)
             return otherwise
         finally:
@@ -140,7 +139,7 @@ class NavigationCalls:
             value = await self.timed(method())
         except (asyncio.CancelledError, KeyboardInterrupt):
             raise
-        except WHATEVER as error:  # even SystemExit: it would end the flights of all others
+        except ANY_ERROR as error:  # even SystemExit: it would end the flights of all others
             return partial(_raise, self._failure(what, error))
         return lambda: value
 

@@ -8,13 +8,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from plutoc_runtime.time.kernel import mission_key
-from plutoc_runtime.trips.flight import Flight, fail
+from plutoc_runtime.trips.flight import Flight
 
 from .live_engine import LiveEngine
 from .reconcile import Fate, doubt, fate, hear_end
 
 if TYPE_CHECKING:
-    from plutoc_runtime.flow.mission import State
+    from plutoc_runtime.flow.mission import MissionState
 
     from ..jobs.job import Commanding
 
@@ -25,7 +25,7 @@ class CallingOff:
     def __init__(self, link: Commanding) -> None:
         self._link = link
 
-    def __call__(self, state: State, flight: Flight, reason: str) -> None:
+    def __call__(self, state: MissionState, flight: Flight, reason: str) -> None:
         """Fail the trip of a flight that was broken off, unless its action was done, or may have been."""
         state.core.kernel.spawn(
             self._fail_unless_done(state, flight, reason),
@@ -33,17 +33,17 @@ class CallingOff:
             f"{flight.id} is called off",
         )
 
-    async def _fail_unless_done(self, state: State, flight: Flight, reason: str) -> None:
+    async def _fail_unless_done(self, state: MissionState, flight: Flight, reason: str) -> None:
         roll = await self._link.call()
         if state.in_flight is not flight or state.task is None:
             return  # it has ended, or its mission was taken out of its graph
         entry = roll.jobs.get(flight.id)
         what = fate(entry, state.core.app.actions[flight.trip.action], begun=False)
         if what is Fate.UNKNOWN:
-            assert isinstance(state.engine, LiveEngine)
-            state.engine.waits(state)
+            assert isinstance(state.supervisor, LiveEngine)
+            state.supervisor.waits(state)
             doubt(state, flight)
         elif what is Fate.FLIES_ON and entry is not None:
             hear_end(flight, self._link, entry)
         else:
-            fail(state, flight, reason)
+            state.fail(flight, reason)

@@ -15,7 +15,6 @@ from plutoc_runtime.domain.status import DroneStatus, Status
 from plutoc_runtime.domain.text import counted, quoted
 from plutoc_runtime.time.future import Future
 from plutoc_runtime.time.kernel import FLEET, Task, mission_key
-from plutoc_runtime.trips.flight import keep_carrier
 
 from ..jobs.reports import Down
 from ..journal.recorder import Recorder
@@ -35,14 +34,14 @@ from .reconcile import (
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Drone, Trip
-    from plutoc_runtime.flow.mission import State
+    from plutoc_runtime.flow.mission import MissionState
     from plutoc_runtime.flow.session import Session
     from plutoc_runtime.trips.flight import Flight
 
     from ..jobs.job import Commanding
     from ..journal.fold import Record
 
-    Then = Callable[[State], None]
+    Then = Callable[[MissionState], None]
 
 CANCELLED = "cancelled by hand"
 
@@ -183,7 +182,7 @@ class Control:
 
     # One mission leaves its graph, or comes back
 
-    def _step_out(self, state: State, then: Then) -> None:
+    def _step_out(self, state: MissionState, then: Then) -> None:
         """Take a mission out of its graph; go on when it is known what became of its flight."""
         mission, flight = state.mission, state.in_flight
         self._refuse_while_it_steps_out(state)
@@ -195,14 +194,14 @@ class Control:
             return
         self._engine.set_aside(state)
         mission.status = Status.PAUSED
-        flight.break_off()
+        state.break_off(flight)
         self._steps_out[mission.name] = self._core.kernel.spawn(
             self._broken_off(state, flight, then),
             mission_key(mission.index),
             f"{mission.name} is interrupted",
         )
 
-    def _refuse_while_it_steps_out(self, state: State) -> None:
+    def _refuse_while_it_steps_out(self, state: MissionState) -> None:
         name = state.mission.name
         if name in self._steps_out:
             raise BadInput(
@@ -210,7 +209,7 @@ class Control:
                 "done; try again in a moment"
             )
 
-    async def _broken_off(self, state: State, flight: Flight, then: Then) -> None:
+    async def _broken_off(self, state: MissionState, flight: Flight, then: Then) -> None:
         """Ask the ledger what became of a flight, and its drone."""
         roll = await self._link.call()
         entry = roll.jobs.get(flight.id)
@@ -239,15 +238,15 @@ class Control:
             else:
                 fly_again(state, flight, self._link)
             if flight.flier is state.carrier:
-                keep_carrier(state, flight.flier)
+                state.keep_carrier(flight.flier)
             else:
                 self._core.fleet.recover(flight.flier)
         then(state)
 
-    def _paused(self, state: State) -> None:
+    def _paused(self, state: MissionState) -> None:
         interventions.pause(self._core, state.mission)
 
-    def _resume(self, state: State) -> None:
+    def _resume(self, state: MissionState) -> None:
         flight = state.flight if state.goes_on else None
         status = standing(state) if flight is None else flight.result()
         interventions.resume(self._core, state.mission, status)
@@ -256,7 +255,7 @@ class Control:
             state.delay = state.delay[0], delay[1], delay[2]  # it has not waited meanwhile
         self._engine.resume(state, standing(state))
 
-    def _skip(self, unwanted: Trip, state: State) -> None:
+    def _skip(self, unwanted: Trip, state: MissionState) -> None:
         mission = state.mission
         was_paused = self._record(state)["paused"] is not None
         if unwanted in mission.trips:
@@ -267,7 +266,7 @@ class Control:
         elif not was_paused:
             self._resume(state)
 
-    def _cancel(self, state: State) -> None:
+    def _cancel(self, state: MissionState) -> None:
         work = self._steps_out.pop(state.mission.name, None)
         if work is not None:
             work.cancel()
@@ -290,12 +289,12 @@ class Control:
         names = ", ".join(quoted(drone.id) for drone in self._core.fleet.drones)
         raise BadInput(f"no drone {quoted(id)} is in the fleet; there are: {names}")
 
-    def _record(self, state: State) -> Record:
+    def _record(self, state: MissionState) -> Record:
         recorder = self._core.recorder
         assert isinstance(recorder, Recorder)
         return recorder.records.missions[state.mission.name]
 
-    def _state(self, mission: str) -> State:
+    def _state(self, mission: str) -> MissionState:
         self._refuse_after_stop()
         for state in self._engine.states:
             if state.mission.name == mission:
@@ -309,7 +308,7 @@ class Control:
 
     def _those(
         self, mission: str | None, fits: Callable[[Status], bool], what: str
-    ) -> Sequence[State]:
+    ) -> Sequence[MissionState]:
         self._refuse_after_stop()
         if mission is not None:
             state = self._state(mission)
@@ -322,7 +321,7 @@ class Control:
         return states
 
 
-def _trip_to_skip(state: State, name: str | None) -> Trip:
+def _trip_to_skip(state: MissionState, name: str | None) -> Trip:
     """Return the trip that is meant; raise `BadInput` where it cannot be skipped."""
     mission = state.mission
     who = f"mission {quoted(mission.name)}"
@@ -337,7 +336,7 @@ def _trip_to_skip(state: State, name: str | None) -> Trip:
     return unwanted
 
 
-def _trip_to_do(state: State, name: str) -> Trip:
+def _trip_to_do(state: MissionState, name: str) -> Trip:
     trips: dict[str, Trip] = {trip.name: trip for trip in state.mission.trips}
     if name not in trips:
         left = ", ".join(quoted(one) for one in trips) or "none"
@@ -347,7 +346,7 @@ def _trip_to_do(state: State, name: str) -> Trip:
     return trips[name]
 
 
-def _named(states: Sequence[State]) -> str:
+def _named(states: Sequence[MissionState]) -> str:
     if len(states) == 1:
         return f"mission {quoted(states[0].mission.name)}"
     return counted(len(states), "mission")

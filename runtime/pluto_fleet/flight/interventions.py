@@ -8,7 +8,7 @@ from plutoc_runtime.domain.status import Status, TripStatus
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Mission, Trip
-    from plutoc_runtime.flow.core import Core
+    from plutoc_runtime.flow.mission import Core
 
 PRIORITY = "priority"
 """The field of trips that decides who gets a drone first, in apps whose graph has one."""

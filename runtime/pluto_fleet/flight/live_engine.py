@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.domain.status import FAILED, Status
 from plutoc_runtime.flow.engine import Engine
-from plutoc_runtime.flow.mission import State
+from plutoc_runtime.flow.mission import MissionState
 from plutoc_runtime.time.future import Future
 from plutoc_runtime.time.kernel import Task, mission_key
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Mission
-    from plutoc_runtime.flow.core import Core
+    from plutoc_runtime.flow.mission import Core
     from plutoc_runtime.flow.session import Session
 
 
@@ -22,24 +22,24 @@ class LiveEngine(Engine):
 
     def __init__(self, core: Core) -> None:
         super().__init__(core)
-        self._aside: dict[str, State] = {}
+        self._aside: dict[str, MissionState] = {}
         """The missions that wait for a person."""
-        self._halted: tuple[State, ...] | None = None
+        self._halted: tuple[MissionState, ...] | None = None
         """Who was in a graph when all were taken out."""
         self.patient = False
         """Whether missions that wait for a person's decision keep it from being over."""
 
     @property
-    def states(self) -> Iterator[State]:
+    def states(self) -> Iterator[MissionState]:
         """Every mission that has not ended."""
         yield from self._in_their_graphs()
         yield from self._aside.values()
 
-    def _in_their_graphs(self) -> tuple[State, ...]:
+    def _in_their_graphs(self) -> tuple[MissionState, ...]:
         if self._halted is not None:
             return self._halted
         tasks = self._core.kernel.under_way()
-        return tuple(task.over for task in tasks if isinstance(task.over, State))
+        return tuple(task.over for task in tasks if isinstance(task.over, MissionState))
 
     def add(self, missions: Sequence[Mission[Any]]) -> None:
         """Set more missions on their way, while others fly or after all have ended."""
@@ -47,14 +47,14 @@ class LiveEngine(Engine):
             self.done = Future()
         self.start(missions)
 
-    def resume(self, state: State, status: Status) -> None:
+    def resume(self, state: MissionState, status: Status) -> None:
         """Let a mission that was interrupted go on at the block where it can, with this status."""
         if self.done.is_set:
             self.done = Future()
         self._aside.pop(state.mission.name, None)
         self._enter(state, status)
 
-    def set_aside(self, state: State) -> None:
+    def set_aside(self, state: MissionState) -> None:
         """Take a mission out of its graph, if it is in it, until a person says how it goes on."""
         self._aside[state.mission.name] = state
         task, state.task = state.task, None
@@ -67,11 +67,11 @@ class LiveEngine(Engine):
                 self._core.fleet.never_flew(state.allocated)
             state.allocated = None
 
-    def is_aside(self, state: State) -> bool:
+    def is_aside(self, state: MissionState) -> bool:
         """Say whether a mission waits for a person."""
         return self._aside.get(state.mission.name) is state
 
-    def waits(self, state: State) -> None:
+    def waits(self, state: MissionState) -> None:
         """Take a mission out of its graph: only a person's decision lets it go on."""
         self.set_aside(state)
         self._core.kernel.spawn(
@@ -81,7 +81,7 @@ class LiveEngine(Engine):
     async def _look(self) -> None:
         self.look_for_the_end()
 
-    def end(self, state: State, status: Status, reason: str) -> None:
+    def end(self, state: MissionState, status: Status, reason: str) -> None:
         """End a mission that waits for a person."""
         self._aside.pop(state.mission.name, None)
         self._end(state, status, reason)
@@ -99,18 +99,18 @@ class LiveEngine(Engine):
         for state in self._halted:
             flight = state.in_flight
             if flight is not None:
-                flight.break_off()
+                state.break_off(flight)
             state.flight = None  # what is still reported of it is read from the ledger
             if state.task is not None:
                 state.task.cancel()
 
-    async def _call_off(self, state: State) -> None:
+    async def _call_off(self, state: MissionState) -> None:
         if state.task is None and self.is_aside(state):
             self.end(state, FAILED, state.doom or "it was called off")
         else:
             await super()._call_off(state)
 
-    def ended(self, state: State, task: Task[Status]) -> None:
+    def ended(self, state: MissionState, task: Task[Status]) -> None:
         """A mission's coroutine is over: see how it ended, unless all were taken out."""
         if self._halted is None:
             super().ended(state, task)

@@ -12,7 +12,7 @@ from plutoc_runtime.fleet.fleet import LONGEST, Fleet
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Drone
-    from plutoc_runtime.flow.core import Core
+    from plutoc_runtime.flow.mission import Core
 
     from ..jobs.job import Commanding
     from ..jobs.reports import DroneReport

@@ -13,9 +13,9 @@ from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.errors import BadInput, Cancelled
 from plutoc_runtime.time.future import Future
-from plutoc_runtime.time.kernel import FLEET, Cancelled
+from plutoc_runtime.time.kernel import FLEET
 
 from ..jobs.reports import Down
 from ..journal.errors import JournalError

@@ -12,10 +12,10 @@ from enum import Enum
 from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.domain.actions import PICK, RELEASE
+from plutoc_runtime.domain.errors import ANY_ERROR, Cancelled
 from plutoc_runtime.domain.status import STANDBY, UNEXECUTED, Status
 from plutoc_runtime.hooks.calls import trace_of
-from plutoc_runtime.time.kernel import WHATEVER, Cancelled
-from plutoc_runtime.trips.flight import Flight, keep_carrier, record_done
+from plutoc_runtime.trips.flight import Flight
 
 from ..jobs.reports import Entry, JobState, outcome
 from . import interventions
@@ -24,8 +24,7 @@ from .live_fleet import live_fleet
 if TYPE_CHECKING:
     from plutoc_runtime.domain.actions import Action
     from plutoc_runtime.domain.app import App
-    from plutoc_runtime.flow.core import Core
-    from plutoc_runtime.flow.mission import State
+    from plutoc_runtime.flow.mission import Core, MissionState
 
     from ..jobs.job import Commanding
     from .live_engine import LiveEngine
@@ -65,8 +64,8 @@ async def what_became(core: Core, flight: Flight, entry: Entry | None, begun: bo
         answer = await core.kernel.call_hook(probe, flight.flier, flight.trip)
     except (Cancelled, GeneratorExit, KeyboardInterrupt):
         raise
-    except WHATEVER as error:  # then it cannot tell: a person must
-        core.log(trace_of(error), flight.state.mission.name)
+    except ANY_ERROR as error:  # then it cannot tell: a person must
+        core.log(trace_of(error), flight.mission.name)
         return what
     return _PROBED[answer] if type(answer) is bool else what
 
@@ -82,7 +81,7 @@ def probe_of(app: App, action: Action) -> Callable[..., Any] | None:
     return getattr(sys.modules.get(hook.__module__), name, None)
 
 
-def fly_on(state: State, flight: Flight, link: Commanding, entry: Entry) -> None:
+def fly_on(state: MissionState, flight: Flight, link: Commanding, entry: Entry) -> None:
     """Hear of a flight that was not interrupted after all; of one that has ended, hear now."""
     state.goes_on = True
     state.mission.status = Status.RUNNING
@@ -98,21 +97,21 @@ def hear_end(flight: Flight, link: Commanding, entry: Entry) -> None:
         flight.report(outcome(entry))
 
 
-def fly_again(state: State, flight: Flight, link: Commanding) -> None:
+def fly_again(state: MissionState, flight: Flight, link: Commanding) -> None:
     """Put an interrupted trip back: it has not been flown."""
     link.forget(flight.id)  # it shall be flown, whatever was known of it
     state.flight, state.goes_on, state.interrupted = None, False, True
     interventions.interrupt(state.core, state.mission, flight.trip)
 
 
-def was_done(state: State, flight: Flight) -> None:
+def was_done(state: MissionState, flight: Flight) -> None:
     """An interrupted trip's action was done after all; what it gave is unknown."""
-    record_done(state, flight, None)
+    state.record_done(flight, None)
     flight.set(state.mission.status)
     state.goes_on = True
 
 
-def doubt(state: State, flight: Flight) -> None:
+def doubt(state: MissionState, flight: Flight) -> None:
     """Whether the action was done is unknown: a drone that may have the item waits, too."""
     trip, drone = flight.trip, flight.flier
     interventions.doubt(
@@ -123,10 +122,10 @@ def doubt(state: State, flight: Flight) -> None:
         f"was {trip.action} of trip {trip.name} done by {drone.id}? Nobody could see it",
     )
     if trip.action in (PICK, RELEASE):
-        keep_carrier(state, drone)
+        state.keep_carrier(drone)
 
 
-def settle_doubt(state: State, engine: LiveEngine, link: Commanding, done: bool) -> None:
+def settle_doubt(state: MissionState, engine: LiveEngine, link: Commanding, done: bool) -> None:
     """A person has said whether the action was done: the mission goes on accordingly."""
     flight = state.flight
     if flight is None:
@@ -141,6 +140,6 @@ def settle_doubt(state: State, engine: LiveEngine, link: Commanding, done: bool)
     engine.resume(state, standing(state))
 
 
-def standing(state: State) -> Status:
+def standing(state: MissionState) -> Status:
     """Return the status with which a mission goes on where it was interrupted."""
     return STANDBY if state.mission.attempts or state.interrupted else UNEXECUTED

@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.domain.status import Status
-from plutoc_runtime.trips.flight import Flight, keep_carrier
+from plutoc_runtime.trips.flight import Flight
 
 from . import interventions
 from .control import CANCELLED
@@ -26,8 +26,7 @@ from .restore import Rebuilt, last_flight, rebuilt, remember, restore_results
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Drone, Mission
-    from plutoc_runtime.flow.core import Core
-    from plutoc_runtime.flow.mission import State
+    from plutoc_runtime.flow.mission import Core, MissionState
 
     from ..jobs.job import Commanding
     from ..jobs.reports import FleetReport
@@ -81,7 +80,7 @@ class _Revival:
     ) -> None:
         self._core, self._engine, self._link, self._roll = core, engine, link, roll
         self._mission, self._record, self._unfit = one.mission, one.record, one.unfit
-        self._state: State = engine.new_state(one.mission)
+        self._state: MissionState = engine.new_state(one.mission)
         remember(self._state, one.record, drones)
         self._flight: Flight | None = last_flight(self._state, one, drones)
         self._fate: Fate | None = None
@@ -142,7 +141,7 @@ class _Revival:
             fly_again(state, flight, link)
         if state.carrier is not None:
             engaged.add(state.carrier)
-            keep_carrier(state, state.carrier)
+            state.keep_carrier(state.carrier)
         self._resume()
 
     def _resume(self) -> None:
@@ -170,7 +169,7 @@ class _Revival:
             state.end(f"{item.name} is not aboard {drone.id} any more")
         else:
             engaged.add(drone)
-            keep_carrier(state, drone)
+            state.keep_carrier(drone)
 
     def _why_held(self) -> str | None:
         if self._unfit is not None:

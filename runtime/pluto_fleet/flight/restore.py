@@ -14,8 +14,7 @@ from ..journal.values import item_of, trip_of, value_of
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
     from plutoc_runtime.domain.model import Drone, Mission, Trip
-    from plutoc_runtime.flow.core import Core
-    from plutoc_runtime.flow.mission import State
+    from plutoc_runtime.flow.mission import Core, MissionState
 
     from ..journal.fold import Record, Records
 
@@ -56,7 +55,7 @@ def rebuilt(core: Core, name: str, record: Record) -> Rebuilt:
     return one
 
 
-def remember(state: State, record: Record, drones: Mapping[str, Drone]) -> None:
+def remember(state: MissionState, record: Record, drones: Mapping[str, Drone]) -> None:
     """Let a mission's state be what was remembered of it."""
     state.at, state.interrupted = record["at"], record["interrupted"]
     state.first_start = record["first_start"]
@@ -69,14 +68,14 @@ def remember(state: State, record: Record, drones: Mapping[str, Drone]) -> None:
         state.carrier, state.carries = drones[record["carrier"]], item_of(record["carries"])
 
 
-def last_flight(state: State, one: Rebuilt, drones: Mapping[str, Drone]) -> Flight | None:
+def last_flight(state: MissionState, one: Rebuilt, drones: Mapping[str, Drone]) -> Flight | None:
     """Return the mission's last flight, if it still matters; it is the state's from now on."""
     known = one.record["flight"]
     trip = None if known is None else one.trips.get(known["trip"])
     if trip is None or (known["outcome"] is None and known["heard"]):
         return None
     trip.drone = drone = drones[known["drone"]]
-    state.flight = flight = Flight(state, trip, drone, known["retry"])
+    state.flight = flight = state.new_flight(trip, drone, known["retry"])
     flight.launched_at = known["since"]
     if known["outcome"] is not None:
         flight.set(Status(known["outcome"]))

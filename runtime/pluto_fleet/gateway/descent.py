@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Coroutine, Sequence
 from functools import partial
 from itertools import islice
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.domain.errors import FlightFailed
 from plutoc_runtime.fleet.energy import docked
@@ -18,15 +18,15 @@ from ..jobs.reports import Down
 from .traffic.choosing import Goer
 from .traffic.courses import Course, course
 from .traffic.timetable import Timetable, timetable
-from .traffic.ways_home import ways_home
+from .traffic.ways import ways_home
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.airspace import Airspace
-    from plutoc_runtime.domain.model import Category, Point
 
+    from ..jobs.controls import Craft
     from .executor import Pilots
-    from .traffic.detours import Section
     from .traffic.traffic import Traffic
+    from .traffic.ways import Section
 
 _LOOK = 0.1
 """Seconds between two looks at those who are to pass first."""
@@ -34,30 +34,6 @@ _NEAR = 60
 """How many ways to the ground are looked at, where it is not straight below."""
 
 _Command = Callable[[], Coroutine[Any, Any, None]]
-
-
-class Craft(Protocol):
-    """What must be known of a drone."""
-
-    @property
-    def id(self) -> str:
-        """Its name in the fleet."""
-        ...
-
-    @property
-    def category(self) -> Category:
-        """How fast it flies, and for how long."""
-        ...
-
-    @property
-    def home(self) -> Point:
-        """Where its dock is."""
-        ...
-
-    @property
-    def index(self) -> int:
-        """Its place in the fleet file."""
-        ...
 
 
 class Descent:

@@ -8,23 +8,22 @@ from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from plutoc_runtime.domain.errors import Failure, FlightFailed
+from plutoc_runtime.domain.errors import ANY_ERROR, Cancelled, Failure, FlightFailed
 from plutoc_runtime.fleet.energy import docked, flight_seconds
-from plutoc_runtime.time.kernel import FLEET, WHATEVER, Cancelled, Kernel, Task
+from plutoc_runtime.time.kernel import FLEET, Kernel, Task
 
 from ..jobs.job import motors_cut
 from .envelope import Envelope
-from .motor_stop import CutMotors
-from .traffic.detours import Section
+from .ledger import CutMotors
+from .traffic.ways import Section
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.airspace import Airspace
     from plutoc_runtime.domain.model import Point, Telemetry
 
-    from ..jobs.controls import Controls
+    from ..jobs.controls import Controls, Craft
     from ..jobs.job import Job
     from ..jobs.reports import DroneReport
-    from .descent import Craft
     from .ledger import Ledger
     from .traffic.traffic import Traffic, Ways
 
@@ -292,7 +291,7 @@ class Pilots:
         except FlightFailed as error:
             traffic.stopped(drone, fails=error.failure is not Failure.REFUSED)
             raise
-        except WHATEVER:
+        except ANY_ERROR:
             traffic.stopped(drone, fails=False)
             raise
 

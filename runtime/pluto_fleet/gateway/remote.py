@@ -21,9 +21,8 @@ if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Point, Telemetry
     from plutoc_runtime.time.kernel import Kernel
 
-    from ..jobs.job import Job
+    from ..jobs.job import Job, Report
     from ..jobs.reports import Down, DroneReport, FleetReport
-    from .job import Report
 
 SILENCE = 5.0
 """Seconds on the wall without a word from the gateway after which it is lost."""

@@ -11,21 +11,20 @@ from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.domain.errors import BadInput, FlightFailed
+from plutoc_runtime.domain.errors import BadInput, Cancelled, FlightFailed
 from plutoc_runtime.domain.text import quoted, shown
-from plutoc_runtime.time.kernel import FLEET, Cancelled, Task
+from plutoc_runtime.time.kernel import FLEET, Task
 
 from ..jobs.reports import Down
 from ..process.ipc import Message, line, message_in
-from .link import Busy
+from .gateway import Busy
 from .wire import MAX_COMMAND, job_of, result_data, roll_data, seen, standing_data
 
 if TYPE_CHECKING:
     from asyncio import StreamReader, StreamWriter
 
     from ..jobs.telemetry import Publisher, Subscription
-    from .gateway import Gateway
-    from .link import Link
+    from .gateway import Gateway, Link
 
 _PENDING = 10_000
 """Commands of one brain that may be under way."""

@@ -7,8 +7,8 @@ from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.alone.faults import Faults
-from plutoc_runtime.alone.world import Feature, Source, WorldData
 from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.domain.fleet_data import Feature, Source, WorldData
 from plutoc_runtime.domain.model import Category
 
 from ..drones.real_fleet import RealFleet, real_data, real_of

@@ -143,7 +143,7 @@ async def listening(
                 turned_away()
             writer.transport.abort()
             return
-        task = asyncio.ensure_future(serve(reader, writer))
+        task = asyncio.ensure_future(_served(serve, reader, writer))
         served.add(task)
         task.add_done_callback(served.discard)
 
@@ -163,23 +163,27 @@ async def listening(
             await asyncio.gather(*open_still, return_exceptions=True)
 
 
+async def _served(serve: Serve, reader: StreamReader, writer: StreamWriter) -> None:
+    try:
+        await serve(reader, writer)
+    finally:
+        with suppress(OSError):
+            writer.close()
+
+
 def answering(answer: Answer) -> Serve:
     """Serve one request a connection; `answer` says what was done, or raises `BadInput`."""
 
     async def serve(reader: StreamReader, writer: StreamWriter) -> None:
-        try:
-            with suppress(OSError):  # it has hung up, or a time-out, which is one, too
-                async with asyncio.timeout(_CLIENT_TIMEOUT):
-                    try:
-                        told = await reader.readline()
-                    except ValueError:  # it is too long
-                        told = b""
-                writer.write(line(await _answered(told, answer)))
-                async with asyncio.timeout(_CLIENT_TIMEOUT):
-                    await writer.drain()
-        finally:
-            with suppress(OSError):
-                writer.close()
+        with suppress(OSError):  # it has hung up, or a time-out, which is one, too
+            async with asyncio.timeout(_CLIENT_TIMEOUT):
+                try:
+                    told = await reader.readline()
+                except ValueError:  # it is too long
+                    told = b""
+            writer.write(line(await _answered(told, answer)))
+            async with asyncio.timeout(_CLIENT_TIMEOUT):
+                await writer.drain()
 
     return serve
 

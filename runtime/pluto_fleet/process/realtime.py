@@ -14,13 +14,13 @@ from threading import Thread
 from types import CoroutineType, coroutine
 from typing import Any, NoReturn, TypeVar, cast
 
+from plutoc_runtime.domain.errors import ANY_ERROR
 from plutoc_runtime.domain.guard import as_a_fault, guarded
 from plutoc_runtime.time.future import Future
-from plutoc_runtime.time.kernel import WHATEVER, Call, Kernel, Key, Kind
+from plutoc_runtime.time.kernel import Call, Kernel, Key, Kind
 
 from .forked import end_if_forked
 from .signal_guard import by_a_person, guard_hooks
-from .straight import never_waits
 
 T = TypeVar("T")
 
@@ -77,7 +77,7 @@ class RealTime(Kernel):
             self.drain()
             if self.settled is not None:
                 self.settled()
-        except WHATEVER as error:  # it must not leave everybody waiting for ever
+        except ANY_ERROR as error:  # it must not leave everybody waiting for ever
             if by_a_person(error):
                 raise
             self.crash(error)
@@ -123,12 +123,7 @@ class RealTime(Kernel):
     async def call_hook(
         self, hook: Callable[..., object], /, *args: object, **named: object
     ) -> object:
-        """Run a hook beside the missions: `async def` as a task, `def` in a thread.
-
-        One that never waits needs no task: it is over as soon as it is called, as in virtual time.
-        """
-        if never_waits(hook):
-            return await _alone(cast("Coroutine[Any, Any, object]", hook(*args, **named)))
+        """Run a hook beside the missions: `async def` as a task, `def` in a thread."""
         result: Future[object] = Future()
         running = asyncio.ensure_future(self._answer(hook, partial(hook, *args, **named), result))
         try:
@@ -144,7 +139,7 @@ class RealTime(Kernel):
             returned = call() if iscoroutinefunction(hook) else await self._in_thread(call)
             if issubclass(type(returned), CoroutineType):  # it may be anything
                 returned = await _alone(cast("Coroutine[Any, Any, object]", returned))
-        except WHATEVER as error:
+        except ANY_ERROR as error:
             if by_a_person(error):
                 raise
             self.post(result.fail, as_a_fault(error))
@@ -168,7 +163,7 @@ class RealTime(Kernel):
         def work() -> None:
             try:
                 returned = call()
-            except WHATEVER as error:
+            except ANY_ERROR as error:
                 end_if_forked(parent, error)
                 tell(partial(_raise, error))
             else:
@@ -178,19 +173,19 @@ class RealTime(Kernel):
         Thread(target=work, name="hook", daemon=True).start()
         return (await ended)()
 
-    async def offer(self, signal: Future[T]) -> T:
-        """Return what a hook, an asyncio task here, may await for this signal."""
+    async def offer(self, future: Future[T]) -> T:
+        """Return what a hook, an asyncio task here, may await for this future."""
         happened = asyncio.Event()
 
         def tell(_: object) -> None:
             happened.set()
 
-        signal.watch(tell)
+        future.watch(tell)
         try:
             await happened.wait()
         finally:
-            signal.unwatch(tell)
-        return signal.result()
+            future.unwatch(tell)
+        return future.result()
 
 
 def _nothing() -> None:
@@ -213,5 +208,5 @@ def _alone(hook: Coroutine[Any, Any, T]) -> Generator[Any, Any, T]:
             return returned
         try:
             step = partial(hook.send, (yield waits_for))
-        except WHATEVER as error:  # the hook hears of it
+        except ANY_ERROR as error:  # the hook hears of it
             step = partial(hook.throw, error)

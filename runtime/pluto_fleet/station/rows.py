@@ -19,7 +19,7 @@ from .whereabouts import END, ENDED, blocks_of
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
     from plutoc_runtime.domain.model import Drone, Mission, Point, Trip
-    from plutoc_runtime.flow.mission import State
+    from plutoc_runtime.flow.mission import MissionState
 
     from ..gateway.sightings import Sighting
     from ..journal.fold import Record
@@ -33,7 +33,7 @@ WHY = 200
 def mission_row(
     app: App,
     mission: Mission[Any],
-    state: State | None,
+    state: MissionState | None,
     now: float,
     fleet: Callable[[Trip], str],
 ) -> Row:
@@ -132,7 +132,7 @@ def drone_at(
     return _drone_row(id, status, seen.at, battery, None, trips, retired, why, seen.when)
 
 
-def mission_of_each(states: Iterable[State]) -> dict[str, str]:
+def mission_of_each(states: Iterable[MissionState]) -> dict[str, str]:
     """Return for which mission each drone works, by their names."""
     drones = ((_drone_of(state.mission, state), state.mission.name) for state in states)
     return {drone.id: name for drone, name in drones if drone is not None}
@@ -180,14 +180,14 @@ def _recorded_trip(data: Record, status: str) -> list[object]:
     return [data["name"], stands, round(x, 3), round(y, 3), priority, data["action"]]
 
 
-def _drone_of(mission: Mission[Any], state: State | None) -> Drone | None:
+def _drone_of(mission: Mission[Any], state: MissionState | None) -> Drone | None:
     if state is None:
         return None
     flight = state.in_flight
     return state.allocated or (flight.flier if flight is not None else state.carrier)
 
 
-def _until(state: State | None, now: float) -> float | None:
+def _until(state: MissionState | None, now: float) -> float | None:
     if state is None or state.delay is None:
         return None
     until = max(state.delay[1:])
@@ -196,7 +196,7 @@ def _until(state: State | None, now: float) -> float | None:
 
 def _why_it_waits(
     app: App,
-    state: State,
+    state: MissionState,
     at: Sequence[str],
     until: float | None,
     fleet: Callable[[Trip], str],

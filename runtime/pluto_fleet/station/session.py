@@ -14,8 +14,7 @@ from typing import TYPE_CHECKING
 
 from plutoc_runtime import output
 from plutoc_runtime.alone.world import UNITS
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.time.kernel import WHATEVER
+from plutoc_runtime.domain.errors import ANY_ERROR, BadInput
 
 from ..cli.flights import Flight, Watcher, lives
 from ..cli.flown import records_in
@@ -140,7 +139,7 @@ class Outing:
             self.trouble = str(error)
         except (asyncio.CancelledError, KeyboardInterrupt, SystemExit):
             raise
-        except WHATEVER as error:  # a mistake of ours: the drones land, and the page must say so
+        except ANY_ERROR as error:  # a mistake of ours: the drones land, and the page must say so
             output.tell("".join(traceback.format_exception(error)).rstrip())
             notes = " ".join(getattr(error, "__notes__", ()))
             self.trouble = f"internal error: {type(error).__name__}: {error} {notes}".strip()

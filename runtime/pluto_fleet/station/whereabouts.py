@@ -12,7 +12,7 @@ from plutoc_runtime.domain.status import Status
 from plutoc_runtime.flow.location import declaration_above
 
 if TYPE_CHECKING:
-    from plutoc_runtime.flow.mission import State
+    from plutoc_runtime.flow.mission import MissionState
 
 END = "end"
 """Where missions are that have ended."""
@@ -23,7 +23,7 @@ _BRANCHES = re.compile(r"\[(.*)\]")
 _WORD = re.compile(r"\w+")
 
 
-def blocks_of(state: State, flow: Callable[..., Any]) -> tuple[str, ...]:
+def blocks_of(state: MissionState, flow: Callable[..., Any]) -> tuple[str, ...]:
     """Return the blocks at which a living mission waits: several within a fork.
 
     They are read off its coroutine, which waits below a comment that quotes the block's declaration:

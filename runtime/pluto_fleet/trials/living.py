@@ -7,8 +7,7 @@ from collections import deque
 from functools import partial
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.domain.errors import BadInput, Failure
-from plutoc_runtime.time.kernel import Cancelled
+from plutoc_runtime.domain.errors import BadInput, Cancelled, Failure
 
 from ..flight.recorded_flight import Life
 from ..jobs.reports import Down

@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING
 
 from plutoc_runtime.alone.faults import Faults
 from plutoc_runtime.alone.world import World
-from plutoc_runtime.time.kernel import FLEET, WHATEVER
+from plutoc_runtime.domain.errors import ANY_ERROR
+from plutoc_runtime.time.kernel import FLEET
 from plutoc_runtime.time.kernel import Kind as When
 from plutoc_runtime.time.virtual import VirtualTime
 
@@ -21,7 +22,8 @@ from ..gateway.ledger import MemoryLedger
 from ..gateway.lossy_line import LOST, Line
 from ..jobs.reports import Down
 from ..process.signal_guard import by_a_person
-from ..simulation.drones import SimulatedDrone, SimulatedNavigation
+from ..simulation.body import SimulatedDrone
+from ..simulation.drones import SimulatedNavigation
 from ..simulation.radio import Radio
 from .blows import Blow, Kind
 from .book import Book, Trial
@@ -122,7 +124,7 @@ class Rig:
             while not self.over:
                 if not self.turn():
                     break
-        except WHATEVER as error:  # in what no task has called, such as the end of a flight
+        except ANY_ERROR as error:  # in what no task has called, such as the end of a flight
             if by_a_person(error):
                 raise
             self.blame(error)

@@ -10,10 +10,11 @@ from functools import partial
 from math import dist, inf
 from typing import TYPE_CHECKING
 
-from ..domain.actions import BUILT_IN, PICK, RELEASE, grip_problem
+from ..domain.actions import BUILT_IN, PICK, RELEASE
 from ..domain.errors import Failure, FlightFailed
 from ..fleet.energy import CLIMB_SPEED, docked, flight_seconds
 from ..fleet.navigation import way_from
+from ..fleet.reach import grip_problem
 from ..time.future import Future
 from ..time.kernel import FLEET, Kernel, Key, Kind, Task
 from .faults import CARRYING_HOME, OUTAGE, Drawn, Faults, Order, befell, draw, failed
@@ -22,9 +23,9 @@ from .world import World
 
 if TYPE_CHECKING:
     from ..domain.app import App
+    from ..domain.fleet_data import DroneData, FleetData
     from ..domain.model import Category, Item, Point
     from ..trips.flight import Flight
-    from .files import DroneData, FleetData
 
 
 class IdealDrone:

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
-from math import exp, inf
+from bisect import bisect_left, bisect_right
+from collections.abc import Mapping, Sequence
 from random import Random
 from typing import TYPE_CHECKING
 
 from ..domain.actions import BUILT_IN, MEASURE
-from ..domain.photos import take
+from ..domain.fleet_data import Feature, Source, WorldData
+from ..domain.model import Photo
 
 if TYPE_CHECKING:
     from ..domain.actions import Plain
     from ..domain.airspace import Airspace
     from ..domain.geometry import Corner
-    from ..domain.model import Photo, Point
+    from ..domain.model import Point
 
 BACKGROUND: Mapping[str, float] = {"temperature": 21.0, "pm10": 20.0}
 """What is measured far from every source, in `UNITS`. Any other quantity is 0 there."""
@@ -29,46 +29,9 @@ _NOISE = 0.001
 
 _KINDS = ("bloom", "pest", "disease")
 _GROUND_EACH = 4.0
-"""Square metres for each feature of a world that nobody described."""
+"""Square metres for each feature of a world that is made up."""
 _AT_MOST = 10_000
 """Features of such a world: more would take longer to make than the missions to fly."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Feature:
-    """Something on the ground that a photo can show."""
-
-    kind: str
-    at: Corner
-    radius: float = 0.3
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Source:
-    """Where a quantity is highest, by how much, and how far it spreads."""
-
-    quantity: str
-    at: Corner
-    peak: float
-    radius: float
-    """Metres within which most of it stays: the standard deviation of a bell curve."""
-
-    def at_distance(self, x: float, y: float) -> float:
-        """Return what there is of it so many metres away, however narrow or wide it is."""
-        away, spread = x * x + y * y, 2 * self.radius * self.radius
-        if away == 0.0 or spread == inf:
-            return self.peak
-        return self.peak * exp(-away / spread) if spread > 0.0 else 0.0
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class WorldData:
-    """A world as a fleet file describes it."""
-
-    features: tuple[Feature, ...] = ()
-    sources: tuple[Source, ...] = ()
-    background: Mapping[str, float] = field(default_factory=dict)
-    """Beside `BACKGROUND`, or instead of its numbers."""
 
 
 class World:
@@ -106,7 +69,7 @@ class World:
 
     def photo(self, point: Point, time: float) -> Photo:
         """Return a photo straight down from a point."""
-        return take(point, self._by_x, self._random("photo", point, time))
+        return take_photo(point, self._by_x, self._random("photo", point, time))
 
     def _random(self, what: str, point: Point, time: float) -> Random:
         """Chance that depends on what happens, where and when, and on nothing that went before."""
@@ -142,3 +105,37 @@ def invented(seed: int, airspace: Airspace) -> WorldData:
         source("temperature", 3, 8),
     )
     return WorldData(features=features, sources=sources)
+
+
+# A 4:3 camera with a wide lens sees 77° across and 62° along: twice the tangent of half the angle
+# is the ground that it covers from a height of one metre.
+_WIDTH, _HEIGHT = 1.6, 1.2
+
+_DRIFT = 0.05
+"""How far, in metres, a drone is from where it should be, as a standard deviation. The plan only:
+its height it measures to a centimetre."""
+
+_BLURRED = 0.1
+"""The share of photos that are not sharp."""
+
+
+def take_photo(point: Point, by_x: Sequence[tuple[float, float, str]], chance: Random) -> Photo:
+    """Return a photo from about this point; what there is to see is given as (x, y, kind), sorted.
+
+    Each thing whose middle is on the photo is seen once, be the photo sharp or not.
+    """
+    x = round(point[0] + chance.gauss(0.0, _DRIFT), 3)
+    y = round(point[1] + chance.gauss(0.0, _DRIFT), 3)
+    z = round(point[2], 3)
+    width, height = round(z * _WIDTH, 3), round(z * _HEIGHT, 3)
+    first = bisect_left(by_x, x - width / 2, key=lambda thing: thing[0])
+    last = bisect_right(by_x, x + width / 2, key=lambda thing: thing[0])
+    sees = sorted(
+        kind for _, at_y, kind in by_x[first:last] if y - height / 2 <= at_y <= y + height / 2
+    )
+    sharpness = 1.0
+    if chance.random() < _BLURRED:
+        sharpness = round(chance.uniform(0.3, 0.6), 3)
+    return Photo(
+        position=(x, y, z), width=width, height=height, sees=tuple(sees), sharpness=sharpness
+    )

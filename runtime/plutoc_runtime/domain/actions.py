@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Coroutine
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from .quantities import Type
-from .text import mass
-
-if TYPE_CHECKING:
-    from .model import Category, Item
 
 Plain = bool | int | float | str
 
@@ -37,6 +33,10 @@ class Action:
     hook: Callable[..., Any] | None = None
     """The app's own code; None: the drone's navigation knows how."""
 
+    def act(self, state: Any, flight: Any) -> Coroutine[Any, Any, None]:
+        """Do it by its hook; only an action of the app's own can be done so (flow/own_action.py)."""
+        raise NotImplementedError(f"{self.name} is done by the drone's navigation")
+
 
 PICK, RELEASE = "pick_item", "release_item"
 MEASURE = "measure"
@@ -56,21 +56,3 @@ BUILT_IN: dict[str, Action] = {
     )
 }
 """The actions that every app has."""
-
-
-def grip_problem(
-    drone: str, category: Category, aboard: Item | None, action: str, item: Item | None
-) -> str | None:
-    """Return why a drone with this aboard cannot pick or release an item, or None."""
-    if action == PICK:
-        if item is None:
-            return "there is nothing to pick"
-        if aboard is not None:
-            return f"{drone} already carries {aboard.name}"
-        if item.mass > category.payload + 1e-9:
-            most = mass(category.payload)
-            return f"{item.name} weighs {mass(item.mass)}, {drone} carries at most {most}"
-    if action == RELEASE and (aboard is None or item is None or aboard.name != item.name):
-        carries = "nothing" if aboard is None else aboard.name
-        return f"{drone} carries {carries}" + ("" if item is None else f", not {item.name}")
-    return None

@@ -11,8 +11,9 @@ from math import isfinite, nan
 from operator import index
 from typing import SupportsFloat, SupportsIndex, cast
 
-from ..time.kernel import WHATEVER
-from .text import bounded, shown, unless_by_a_person
+from .errors import ANY_ERROR
+from .guard import unless_by_a_person
+from .text import bounded, shown
 
 
 class Entity(Enum):
@@ -82,7 +83,7 @@ def number_of(value: object) -> float | None:
         elif kind is not bool and hasattr(kind, "__float__"):
             number = float.__pos__(float(cast("SupportsFloat", value)))
         return number if isfinite(number) and abs(number) < _LARGEST else None
-    except WHATEVER as error:  # its own, whatever its class makes of it
+    except ANY_ERROR as error:  # an error of its own class
         unless_by_a_person(error)
         return None
 

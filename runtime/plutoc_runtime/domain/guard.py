@@ -9,8 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TypeVar
 
-from ..time.kernel import Cancelled
-from .text import class_of
+from .errors import Cancelled
 
 T = TypeVar("T")
 
@@ -55,5 +54,16 @@ def by_a_person(error: BaseException) -> bool:
 def as_a_fault(error: BaseException) -> BaseException:
     """Return what those who called a hook get for what it raised: nothing that would end them."""
     if issubclass(type(error), NOT_ITS_OWN) and not by_a_person(error):
-        return RuntimeError(f"it may not raise {class_of(error)}")
+        name: str = type.__dict__["__name__"].__get__(type(error))  # a class may refuse to say it
+        return RuntimeError(f"it may not raise {name[:_LONGEST]}")
     return error
+
+
+def unless_by_a_person(error: BaseException) -> None:
+    """Raise a person's Ctrl-C on; all else is an error of the object that was asked something."""
+    if by_a_person(error):
+        raise error
+
+
+_LONGEST = 60
+"""Characters of a class's name."""

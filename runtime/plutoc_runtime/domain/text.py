@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from math import log10
 from reprlib import Repr
-from typing import TYPE_CHECKING, Any, cast
+from typing import Any, cast
 
-from ..time.kernel import WHATEVER
-
-if TYPE_CHECKING:
-    from .model import Point
+from .errors import ANY_ERROR
+from .guard import unless_by_a_person
 
 LONGEST = 60
 
@@ -36,7 +35,7 @@ def number(value: float) -> str:
     return "0" if text == "-0" else text
 
 
-def place(point: Point) -> str:
+def place(point: Sequence[float]) -> str:
     """Write where something is on the map."""
     return f"({number(point[0])}, {number(point[1])})"
 
@@ -102,10 +101,10 @@ def text_of(value: object, otherwise: str = "") -> str:
             if len(given) != 1:
                 return shown(given) if given else ""
             return text_of(given[0], otherwise) if kind.__str__ is _AN_ERRORS else shown(given[0])
-        if kind.__str__ is object.__str__:  # a list, and whatever has no words of its own
+        if kind.__str__ is object.__str__:  # a list, and all that has no text of its own
             return shown(value)
         return str.__str__(str(value))  # which may be of a class of its own
-    except WHATEVER as error:  # its own, whatever it is
+    except ANY_ERROR as error:  # an error of its own class
         unless_by_a_person(error)
         return otherwise
 
@@ -119,7 +118,7 @@ def shown(value: object) -> str:
         if value is None or type(value) in (bool, float):
             return repr(value)
         return bounded(_ADDRESS.sub("", _Everything().repr(value)), LONGEST_VALUE)
-    except WHATEVER as error:  # its own, whatever it is
+    except ANY_ERROR as error:  # an error of its own class
         unless_by_a_person(error)
         return f"<{class_of(value)} that cannot be shown>"
 
@@ -128,14 +127,6 @@ def class_of(value: object) -> str:
     """Return the name of a value's class, which may be of a class of its own and refuse to say it."""
     name: str = type.__dict__["__name__"].__get__(type(value))
     return bounded(str.__str__(name), LONGEST)
-
-
-def unless_by_a_person(error: BaseException) -> None:
-    """Raise a person's Ctrl-C on; all else is that of an object that was asked something."""
-    from .guard import by_a_person  # it is needed where something is wrong
-
-    if by_a_person(error):
-        raise error
 
 
 LONGEST_VALUE = 10_000

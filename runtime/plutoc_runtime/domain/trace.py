@@ -5,28 +5,32 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Mapping, Sequence
 from math import isfinite
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from ..time.kernel import Kernel
+from typing import Protocol
 
 Event = Mapping[str, object]
 """`t`, seconds; `event`, such as `trip.launched`; and its facts."""
 
 
-class Trace:
-    """The events of one run, told to whoever listens; with nobody, they cost nothing."""
+class Clock(Protocol):
+    """What tells the time of an event: the kernel."""
 
-    def __init__(self, kernel: Kernel, listeners: Sequence[Callable[[Event], object]]) -> None:
+    now: float
+    """Seconds since the start."""
+
+
+class Trace:
+    """The events of one run, told to its listeners; without any, they cost nothing."""
+
+    def __init__(self, clock: Clock, listeners: Sequence[Callable[[Event], object]]) -> None:
         self.live = bool(listeners)
-        """Whether anybody listens: ask before you put an event together."""
-        self._kernel, self._listeners = kernel, tuple(listeners)
+        """Whether there is a listener: ask before you put an event together."""
+        self._clock, self._listeners = clock, tuple(listeners)
         self._now = self._t = 0.0
         """The instant of the last event, and how it is written: several happen at one."""
 
     def note(self, event: str, **facts: object) -> None:
         """Something happened now."""
-        now = self._kernel.now
+        now = self._clock.now
         if now is not self._now:
             self._now, self._t = now, round(now, 6)
         noted = {"t": self._t, "event": event, **facts}

@@ -5,19 +5,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from ..domain.errors import HookFault, MissionFailed
+from ..domain.errors import Cancelled, HookFault, MissionFailed
 from ..domain.fields import Entity, wrong_field
 from ..domain.status import FAILED, UNEXECUTED, Status
 from ..time.future import Future
-from ..time.kernel import Cancelled, Task, mission_key
-from ..trips.flight import fail
+from ..time.kernel import Task, mission_key
 from .location import as_crash, blame, blamed
-from .mission import State
+from .mission import MissionState
 from .run import Run
 
 if TYPE_CHECKING:
     from ..domain.model import Mission
-    from .core import Core
+    from .mission import Core
 
 
 class Engine:
@@ -35,13 +34,13 @@ class Engine:
         for mission in missions:
             self._enter(self.new_state(mission), UNEXECUTED)
 
-    def new_state(self, mission: Mission[Any]) -> State:
+    def new_state(self, mission: Mission[Any]) -> MissionState:
         """Return the state of a mission, of which nothing is remembered as yet."""
         if self._core.recorder is not None:
             self._core.recorder.missions[mission.name] = mission
-        return State(self._core, mission, self)
+        return MissionState(self._core, mission, self)
 
-    def _enter(self, state: State, status: Status) -> None:
+    def _enter(self, state: MissionState, status: Status) -> None:
         """Send a mission into its graph, at its beginning or where it can go on."""
         core, mission, key = self._core, state.mission, mission_key(state.mission.index)
         run = Run(mission, state, key)
@@ -50,19 +49,19 @@ class Engine:
         task.over = state
         self._living += 1
 
-    def doomed(self, state: State) -> None:
+    def doomed(self, state: MissionState) -> None:
         """End a doomed mission, once the coroutine that found out has finished its turn."""
         mission = state.mission
         self._core.kernel.spawn(
             self._call_off(state), mission_key(mission.index), f"{mission.name} is doomed"
         )
 
-    async def _call_off(self, state: State) -> None:
+    async def _call_off(self, state: MissionState) -> None:
         """Take its turn among the coroutines of this instant: before those that are woken later."""
         if state.task is not None:
             state.task.cancel()
 
-    def ended(self, state: State, task: Task[Status]) -> None:
+    def ended(self, state: MissionState, task: Task[Status]) -> None:
         """A mission's coroutine is over: see how it ended."""
         self._living -= 1
         error, reason = task.error, ""
@@ -105,12 +104,12 @@ class Engine:
         if not self._living:
             self.done.set(None)
 
-    def _end(self, state: State, status: Status, reason: str) -> None:
+    def _end(self, state: MissionState, status: Status, reason: str) -> None:
         mission, fleet = state.mission, self._core.fleet
         flight = state.in_flight
         if flight is not None:
-            flight.break_off()
-            fail(state, flight, f"its mission ended: {reason or status.value}")
+            state.break_off(flight)
+            state.fail(flight, f"its mission ended: {reason or status.value}")
         if state.allocated is not None:
             fleet.never_flew(state.allocated)
         if state.carrier is not None:

@@ -6,19 +6,18 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, cast
 
 from ..domain.actions import PICK, RELEASE
-from ..domain.errors import HookFault
+from ..domain.errors import ANY_ERROR, HookFault
 from ..domain.guard import by_a_person
 from ..domain.status import COMPLETED, FAILED, STANDBY, Status, TripStatus
 from ..domain.text import class_of, shown, text_of
-from ..fleet.capability import why_not
+from ..fleet.reach import why_not
 from ..hooks.calls import hook_name, said
 from ..hooks.soundness import unsound, unsound_mission
-from ..time.kernel import WHATEVER
 from .verdict import Verdict
 
 if TYPE_CHECKING:
     from ..domain.model import Mission, Trip
-    from .core import Core
+    from .mission import Core
     from .run import Run
 
 
@@ -26,7 +25,7 @@ def apply(run: Run[Any], hook: Callable[..., object], verdict: object) -> Status
     """Do as the verdict says; one that cannot be followed is a fault of the evaluator."""
     mission, core = run.mission, run.core
     name = hook_name(hook)
-    wrong = unsound_mission(core, mission)
+    wrong = unsound_mission(core.app, mission)
     if wrong is not None:
         raise HookFault(f"evaluator {name} left a mission that cannot go on: {wrong}")
     if not issubclass(type(verdict), Verdict):
@@ -62,7 +61,7 @@ def apply(run: Run[Any], hook: Callable[..., object], verdict: object) -> Status
 def _is_ok(evaluator: str, value: object) -> bool:
     try:
         return bool(value)
-    except WHATEVER as error:
+    except ANY_ERROR as error:
         if by_a_person(error):
             raise
         raise HookFault(
@@ -107,7 +106,7 @@ def _name(mission: Mission[Any], added: Sequence[Trip]) -> None:
 
 
 def _problem(core: Core, mission: Mission[Any], trip: Trip) -> str | None:
-    problem = unsound(core, trip)
+    problem = unsound(core.app, core.airspace, trip)
     if problem is not None:
         return problem
     if any(trip is done for done in mission.completed_trips):

@@ -1,20 +1,92 @@
-"""What the runtime remembers of a mission while it lives, beside what its user sees."""
+"""One living mission: what is remembered of it, and what becomes of its trips."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Protocol
 
+from ..domain.actions import PICK, RELEASE
+from ..domain.errors import FlightFailed
 from ..domain.status import Status, TripStatus
+from ..domain.text import bounded
+from ..hooks.calls import LONGEST_LOG
+from ..time.kernel import mission_key
+from ..trips.flight import Flight
 
 if TYPE_CHECKING:
-    from ..domain.model import Drone, Item, Mission
-    from ..time.kernel import Task
-    from ..trips.flight import Flight
-    from .core import Core
-    from .engine import Engine
+    from ..domain.airspace import Airspace
+    from ..domain.app import App
+    from ..domain.model import Drone, Item, Mission, Trip
+    from ..domain.results import ResultStore
+    from ..domain.trace import Trace
+    from ..fleet.fleet import Fleet
+    from ..fleet.navigation import Navigation
+    from ..fleet.queue import Queue
+    from ..time.kernel import Kernel, Task
+    from ..trips.transitions import Transitions
 
-Place = tuple[str, str, int, int]
+
+class Recorder(Protocol):
+    """Writes down what happens, so that the app can go on from there after any end."""
+
+    missions: dict[str, Mission[Any]]
+    """The missions by name, as soon as they exist."""
+    trace: Trace | None
+    results: ResultStore | None
+
+    async def on_record(self) -> None:
+        """Wait until all that has happened up to now is durable."""
+        ...
+
+    def look(self, mission: Mission[Any]) -> None:
+        """A hook has had this mission in its hands: if it changed its trips, that is an event."""
+        ...
+
+
+class Supervisor(Protocol):
+    """What sees missions to their ends: the engine."""
+
+    def ended(self, state: MissionState, task: Task[Status]) -> None:
+        """Hear that a mission's coroutine is over."""
+        ...
+
+    def doomed(self, state: MissionState) -> None:
+        """Hear that a mission must end, even if its graph would go on."""
+        ...
+
+
+FailLater = Callable[["MissionState", "Flight", str], object]
+"""Fails the trip of a flight that was broken off, once it is known that its action was not done."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Core:
+    """The parts of one running app, which all its missions share."""
+
+    app: App
+    kernel: Kernel
+    airspace: Airspace
+    navigation: Navigation[Flight]
+    trace: Trace
+    results: ResultStore
+    transitions: Transitions
+    queue: Queue
+    fleet: Fleet
+    limits: dict[float, Any] = field(default_factory=dict)
+    """The limits on flights that are watched, by length (trips/deadlines.py)."""
+    fail_later: FailLater | None = None
+    """None: drones are in this process, and what was not reported was not done."""
+    recorder: Recorder | None = None
+    """Writes down what happens; None: nothing will ever go on from here."""
+
+    def log(self, text: str, mission: str | None = None) -> None:
+        """Write a line on the console."""
+        if self.trace.live:
+            self.trace.note("log", mission=mission, text=bounded(text, LONGEST_LOG))
+
+
+Delay = tuple[str, str, int, int]
 """A delay: block, trip, round, attempt."""
 
 MOST_CALLS = 100_000
@@ -23,13 +95,12 @@ whether they answer at once or sleep in between."""
 
 
 @dataclass(slots=True, eq=False)
-class State:
-    """One living mission."""
+class MissionState:
+    """What is remembered of a mission while it lives, beside what its user sees."""
 
     core: Core
     mission: Mission[Any]
-    engine: Engine
-    """Who sees it to its end."""
+    supervisor: Supervisor
     task: Task[Status] | None = None
     """The coroutine that takes it through its graph."""
     at: str | None = None
@@ -50,26 +121,26 @@ class State:
     """When its previous action in this round was done."""
     calls: int = 0
     """How often its hooks were called since its last launch."""
-    delay: tuple[Place, float, float] | None = None
+    delay: tuple[Delay, float, float] | None = None
     """Where it waits, when its delay is over, and its round begins."""
-    waited: set[Place] | None = None
+    waited: set[Delay] | None = None
     """Every delay that is over."""
     first_start: float | None = None
     """When its first trip was let go."""
     doom: str | None = None
-    """Why it must end whatever its graph says: a failure that no retry can mend."""
+    """Why it must end at once: a failure that no retry can mend."""
 
     def __call__(self, task: Task[Status]) -> None:
         """Hear that its coroutine is over."""
-        self.engine.ended(self, task)
+        self.supervisor.ended(self, task)
 
     def end(self, reason: str) -> None:
         """Take it out of its graph, FAILED; only the first reason counts."""
         if self.doom is None:
             self.doom = reason
-            self.engine.doomed(self)
+            self.supervisor.doomed(self)
 
-    def goes_round(self) -> bool:
+    def calls_too_often(self) -> bool:
         """Count a call of a hook; say whether the mission goes round and round without a launch."""
         self.calls += 1
         return self.calls > MOST_CALLS
@@ -78,4 +149,113 @@ class State:
     def in_flight(self) -> Flight | None:
         """The flight that is not over yet."""
         flight = self.flight
-        return flight if flight and flight.trip.status is TripStatus.EXECUTING else None
+        return flight if flight and flight.trip.status is _EXECUTING else None
+
+    # Its trips
+
+    def launch(self, drone: Drone) -> None:
+        """Send a drone on the next trip."""
+        core, mission, last = self.core, self.mission, self.flight
+        trip = mission.trips[0] if mission.trips else mission.current
+        if core.fleet.errands:
+            core.fleet.engage(drone)
+        self.flight = flight = self.new_flight(
+            trip, drone, last is not None and last.trip is trip and last.failed
+        )
+        self.allocated, self.calls = None, 0
+        core.transitions.launch(mission, trip, drone)
+        core.navigation.fly(flight, flight.report)
+
+    def new_flight(self, trip: Trip, drone: Drone, retry: bool) -> Flight:
+        """Return a flight of one of its trips, which tells this mission what comes of it."""
+        action, now = self.core.app.actions[trip.action], self.core.kernel.now
+        return Flight(self.mission, trip, drone, action, now, retry, self.reported)
+
+    def reported(self, flight: Flight, result: object) -> None:
+        """Hear what navigation reports of a flight: that it has arrived, is done, or has failed."""
+        if self.flight is not flight or flight.trip.status is not _EXECUTING:
+            return  # it was called off meanwhile
+        if isinstance(result, FlightFailed):
+            self.fail(flight, str(result))
+        elif flight.hook is None:
+            self.complete(flight, result)
+        elif not flight.called_off and flight.own_action is None:
+            flight.own_action = self.core.kernel.spawn(
+                self.core.app.actions[flight.trip.action].act(self, flight),
+                mission_key(self.mission.index),
+                f"{self.mission.name}: {flight.trip.action}",
+            )
+
+    def break_off(self, flight: Flight) -> None:
+        """Stop a flight where it is; what it has done is still heard, and nothing more begins."""
+        flight.called_off = True
+        if flight.own_action is not None:
+            flight.own_action.cancel()
+        self.core.navigation.break_off(flight.flier.id)
+
+    def complete(self, flight: Flight, value: object) -> None:
+        """A trip is over, and went well; its drone is free to go, unless it carries an item."""
+        if flight.trip not in self.mission.trips:
+            self.fail(flight, "a hook took it from the mission's trips", mends=False)
+            return
+        self.record_done(flight, value)
+        if self.carrier is None:
+            self.core.fleet.dismiss(flight.flier)
+        else:
+            self.keep_carrier(flight.flier)
+        flight.set(self.mission.status)
+
+    def record_done(self, flight: Flight, value: object) -> None:
+        """A trip's action was done; what becomes of its drone is not said yet."""
+        trip = flight.trip
+        if trip.item is not None:
+            if trip.action == PICK:
+                self.carries, self.carrier = trip.item, flight.flier
+            elif trip.action == RELEASE:
+                self.carries = self.carrier = None
+        self.last_action_end = self.core.kernel.now
+        self.core.transitions.complete(self.mission, trip, value)
+
+    def keep_carrier(self, drone: Drone) -> None:
+        """Its item is aboard a drone: that waits for the mission, which loses both together."""
+        self.core.fleet.keep(drone, self._lose)
+
+    def _lose(self, reason: str) -> None:
+        """The drone that the mission keeps cannot fly on; neither it nor the item is the mission's."""
+        if self.carries is not None:
+            reason = f"{reason}, with {self.carries.name} aboard"
+        self.carries = self.carrier = self.allocated = None
+        self.end(reason)
+
+    def fail(self, flight: Flight, reason: str, *, mends: bool = True) -> None:
+        """A trip is over, and went wrong. With an item aboard, no retry can mend it."""
+        of_drone = reason  # why it is lost, if it is, has nothing to do with what it carries
+        if self.carries is not None:
+            reason = f"{reason}, with {self.carries.name} aboard"
+            mends = False
+        self.carries = self.carrier = None
+        self.core.transitions.fail(self.mission, flight.trip, reason)
+        self.core.fleet.recover(flight.flier, of_drone)
+        if mends:
+            flight.set(self.mission.status)
+        else:
+            self.end(reason)
+
+    def abort(self, reason: str) -> None:
+        """Fail the trip that flies now: its time is up, or a hook wants it so.
+
+        Elsewhere an action may be done by the time that its drone hears of it: one that must not be
+        repeated is looked up first.
+        """
+        core, flight = self.core, self.in_flight
+        if flight is None or flight.called_off:
+            return
+        self.break_off(flight)
+        repeatable = flight.action is None or core.app.actions[flight.action].repeat == "safe"
+        if core.fail_later is None or repeatable:
+            self.fail(flight, reason)
+        else:
+            core.fail_later(self, flight, reason)
+
+
+_EXECUTING = TripStatus.EXECUTING

@@ -11,14 +11,20 @@ from ..domain.mission_data import change_data
 from ..domain.status import Status, TripStatus
 from ..domain.text import bounded, class_of, shown
 from ..hooks.calls import hook_name, look
+from ..hooks.context import Context
 from ..hooks.soundness import unsound, unsound_mission
-from ..trips.flight import abort
 
 if TYPE_CHECKING:
     from ..domain.model import Mission, Trip
-    from .core import Core
-    from .mission import State
+    from .mission import Core, MissionState
     from .run import Run
+
+
+def context_of(run: Run[Any]) -> Context:
+    """Return what a modifier gets of the running app."""
+    core, state = run.core, run.state
+    return Context(core.kernel, core.results, core.log, run.mission, lambda: state.flight)
+
 
 Standing = tuple[Sequence[tuple["Trip", str, int]], int]
 
@@ -39,7 +45,7 @@ async def settle(
 ) -> Status:
     """Return the status with which the mission goes on; one that cannot be is a fault."""
     name = hook_name(hook)
-    wrong = unsound_mission(run.core, run.mission)
+    wrong = unsound_mission(run.core.app, run.mission)
     if wrong is not None:
         raise HookFault(f"modifier {name} left a mission that cannot go on: {wrong}")
     _check_trips(run, name)
@@ -59,7 +65,7 @@ async def settle(
         raise HookFault(f"modifier {name} returned {returned.value}, but {lie}")
     flight = run.state.in_flight
     if returned is Status.FAILED and flight is not None:
-        abort(run.state, f"modifier {name} failed the trip")
+        run.state.abort(f"modifier {name} failed the trip")
         ended = await flight  # which may have been done just before
         if ended in emits:
             return ended
@@ -80,7 +86,7 @@ def _check_trips(run: Run[Any], name: str) -> None:
         )
     seen: set[int] = set()
     for number, trip in enumerate(mission.trips, start=1):
-        problem = unsound(run.core, trip)
+        problem = unsound(run.core.app, run.core.airspace, trip)
         if problem is None and id(trip) in seen:
             problem = "it is in the list twice"
         seen.add(id(trip))
@@ -99,7 +105,7 @@ def _note_change(core: Core, before: Standing, mission: Mission[Any]) -> None:
         core.trace.note("mission.changed", **change_data(core.app, mission))
 
 
-def _contradiction(state: State, status: Status) -> str | None:
+def _contradiction(state: MissionState, status: Status) -> str | None:
     """Return why the mission cannot stand so, or None."""
     mission = state.mission
     flying = state.in_flight

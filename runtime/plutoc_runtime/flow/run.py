@@ -5,18 +5,18 @@ from __future__ import annotations
 from collections.abc import Callable, Coroutine, Sequence
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
-from ..domain.errors import MissionFailed
+from ..domain.errors import ANY_ERROR, MissionFailed
 from ..domain.guard import NOT_ITS_OWN
 from ..domain.model import Mission
 from ..domain.status import UNEXECUTED, Status
 from ..hooks.calls import Held, changed, fault_of, hook_name, look
-from ..hooks.context import Context
-from ..time.kernel import WHATEVER, branch_key
-from .mission import MOST_CALLS
+from ..time.kernel import branch_key
+from .mission import MOST_CALLS, MissionState
 
 if TYPE_CHECKING:
     from ..time.kernel import Key, Task
-    from .mission import State
+    from ..trips.deadlines import Limit
+    from ..trips.flight import Flight
 
 M = TypeVar("M", bound=Mission[Any])
 
@@ -28,7 +28,7 @@ class Run(Generic[M]):
 
     __slots__ = ("_depth", "at", "core", "key", "mission", "state", "status", "task")
 
-    def __init__(self, mission: M, state: State, key: Key, depth: int = 0) -> None:
+    def __init__(self, mission: M, state: MissionState, key: Key, depth: int = 0) -> None:
         self.mission, self.state, self.key, self._depth = mission, state, key, depth
         self.core = state.core
         self.task: Task[Status] | None = None
@@ -49,7 +49,7 @@ class Run(Generic[M]):
 
     async def hook(self, hook: Callable[..., object], *args: object) -> object:
         """Call a hook of the app's with these arguments; its faults end the mission."""
-        if self.state.goes_round():
+        if self.state.calls_too_often():
             raise MissionFailed(
                 f"it goes round in its graph for ever: its hooks were called {MOST_CALLS:,} times "
                 f"since its last launch, and now {hook_name(hook)} again"
@@ -61,7 +61,7 @@ class Run(Generic[M]):
             answer = await self.core.kernel.call_hook(hook, *args)
         except NOT_ITS_OWN:
             raise
-        except WHATEVER as error:
+        except ANY_ERROR as error:
             raise fault_of(hook, error) from error
         finally:
             known = mission.name is name and mission.index is index
@@ -82,10 +82,9 @@ class Run(Generic[M]):
         trips = self.mission.trips
         return trips[0] if trips else self.mission.current
 
-    @property
-    def context(self) -> Context:
-        """What a hook gets of it."""
-        return Context(self.core, self.state)
+    def abort(self, reason: str) -> None:
+        """Fail the trip that flies now."""
+        self.state.abort(reason)
 
     def fork(
         self, status: Status, branches: Sequence[Callable[[Run[M], Status], Way]]
@@ -102,6 +101,21 @@ class Run(Generic[M]):
         name = f"{self.mission.name}: branch {number + 1}"
         run.task = self.core.kernel.spawn(branch(run, status), key, name)
         return run.task
+
+
+def watch(run: Run[Any], *limits: Limit | None) -> Flight:
+    """Return the flight, to be awaited: its end is how the mission stands then.
+
+    A limit fails the trip; a trip that ends at that very instant has ended first. Nothing is watched
+    any longer once the branch that asked for it is over.
+    """
+    core, flight = run.core, run.state.flight
+    if flight is None:
+        raise RuntimeError(f"mission {run.mission.name} has no flight to watch")
+    for number, limit in enumerate(limits, 1):
+        if limit is not None:
+            limit.set(core.kernel, core.limits, run, flight, number)
+    return flight
 
 
 Branch = Callable[[Run[M], Status], Way]

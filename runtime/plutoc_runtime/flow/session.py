@@ -13,16 +13,15 @@ from ..domain.status import DroneStatus, Status
 from ..domain.trace import Event, Trace
 from ..fleet.fleet import Fleet
 from ..fleet.queue import Queue
-from ..fleet.request import Reach
+from ..fleet.reach import Reach
 from ..time.kernel import FLEET, Kernel, Task
-from ..trips.deadlines import Deadlines
 from ..trips.transitions import Transitions
-from .core import CallsOff, Core, Recorder
 from .engine import Engine
+from .mission import Core, FailLater, Recorder
 
 if TYPE_CHECKING:
-    from ..alone.files import FleetData
     from ..domain.app import App
+    from ..domain.fleet_data import FleetData
     from ..fleet.navigation import Navigation
     from ..trips.flight import Flight
 
@@ -45,7 +44,7 @@ class Outcome:
 
     @property
     def crashed(self) -> int:
-        """How many drones have crashed: nobody brings them back in a simulation."""
+        """How many drones have crashed: none is brought back in a simulation."""
         return sum(drone.status is DroneStatus.LOST for drone in self.drones)
 
     @property
@@ -74,7 +73,7 @@ class Session:
         navigation: Navigation[Flight],
         listeners: Sequence[Listener],
         recorder: Recorder | None = None,
-        calls_off: CallsOff | None = None,
+        fail_later: FailLater | None = None,
         kind_of_fleet: type[Fleet] = Fleet,
         kind_of_engine: type[Engine] = Engine,
     ) -> None:
@@ -106,9 +105,8 @@ class Session:
             fleet=kind_of_fleet(
                 kernel, trace, fleet.airspace, navigation, self.drones, queue, fleet.after_trip
             ),
-            deadlines=Deadlines(kernel),
             recorder=recorder,
-            calls_off=calls_off,
+            fail_later=fail_later,
         )
         if recorder is not None:
             recorder.trace, recorder.results = trace, results
@@ -137,7 +135,7 @@ class Session:
             await engine.done
             ended = self._kernel.now
             await self.core.fleet.all_down()
-            if engine.done.is_set:  # and nobody has let a mission go on meanwhile
+            if engine.done.is_set:  # and no mission has been let go on meanwhile
                 return ended
 
 

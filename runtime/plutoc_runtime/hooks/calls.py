@@ -7,10 +7,10 @@ from pathlib import PurePath
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
-from ..domain.errors import ActionFailed, BadInput, HookFault
+from ..domain.errors import ANY_ERROR, ActionFailed, BadInput, HookFault
 from ..domain.guard import NOT_ITS_OWN, by_a_person
 from ..domain.text import bounded, class_of, text_of
-from ..time.kernel import WHATEVER, Kernel
+from ..time.kernel import Kernel
 
 if TYPE_CHECKING:
     from ..domain.app import App
@@ -20,12 +20,12 @@ Hook = Callable[..., object]
 
 
 async def call_action(kernel: Kernel, hook: Hook, /, *args: object, **named: object) -> object:
-    """Call an action; whatever it raises, `ActionFailed` aside, is a fault of the hook."""
+    """Call an action; all that it raises, `ActionFailed` aside, is a fault of the hook."""
     try:
         return await kernel.call_hook(hook, *args, **named)
     except (ActionFailed, *NOT_ITS_OWN):
         raise
-    except WHATEVER as error:
+    except ANY_ERROR as error:
         raise fault_of(hook, error) from error
 
 
@@ -54,7 +54,7 @@ def look(hook: Hook, note: Callable[[Mission[Any]], object], mission: Mission[An
     """Let it be noted what a hook has changed; what cannot be kept is a fault of the hook."""
     try:
         note(mission)
-    except WHATEVER as error:
+    except ANY_ERROR as error:
         if by_a_person(error):
             raise
         reason = f"hook {hook_name(hook)} left its mission so that it cannot be kept: {said(error)}"
@@ -93,7 +93,7 @@ def trace_of(error: BaseException) -> str:
     try:
         if all(type(given) in (str, int, float) for given in error.args):
             return bounded("".join(traceback.format_exception(error)).rstrip(), LONGEST_LOG)
-    except WHATEVER as its_own:
+    except ANY_ERROR as its_own:
         if by_a_person(its_own):
             raise
     # Python would ask what it was given how it is written, which may take for ever

@@ -2,43 +2,65 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from math import isfinite
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 from ..domain.text import class_of, text_of
 from ..time.future import Future
-from ..time.kernel import Key, Kind, mission_key
+from ..time.kernel import Kernel, Key, Kind, mission_key
 
 if TYPE_CHECKING:
-    from ..domain.model import Drone, Trip
-    from ..domain.results import Result
-    from ..flow.core import Core
-    from ..flow.mission import State
+    from ..domain.model import Drone, Mission, Trip
+    from ..domain.results import Result, ResultStore
     from .live_drone import LiveDrone
+
+
+class Ending(Protocol):
+    """The mission's latest flight: a future that is set when its trip is over."""
+
+    trip: Trip
+    is_set: bool
+
+    def watch(self, watcher: Callable[[Any], object]) -> None:
+        """Call this when it is over."""
+        ...
+
+    def unwatch(self, watcher: Callable[[Any], object]) -> None:
+        """Do not call it after all."""
+        ...
 
 
 class Context:
     """The running app, as an action or a modifier sees it. Times are seconds since the start."""
 
-    __slots__ = ("_core", "_live", "_state")
+    __slots__ = ("_kernel", "_latest", "_live", "_log", "_mission", "_results")
 
-    def __init__(self, core: Core, state: State, live: LiveDrone | None = None) -> None:
-        self._core, self._state, self._live = core, state, live
+    def __init__(
+        self,
+        kernel: Kernel,
+        results: ResultStore,
+        log: Callable[[str, str], None],
+        mission: Mission[Any],
+        latest: Callable[[], Ending | None],
+        live: LiveDrone | None = None,
+    ) -> None:
+        self._kernel, self._results, self._log = kernel, results, log
+        self._mission, self._latest, self._live = mission, latest, live
 
     @property
     def now(self) -> float:
         """The time, in seconds since the app started."""
-        return self._core.kernel.time()
+        return self._kernel.time()
 
     @property
     def results(self) -> Sequence[Result[Any, Any]]:
         """What every action of the app has given so far."""
-        return self._core.results.so_far()
+        return self._results.so_far()
 
     def log(self, text: str) -> None:
         """Write a line on the console."""
-        self._core.log(text_of(text, f"<{class_of(text)}>"), self._state.mission.name)
+        self._log(text_of(text, f"<{class_of(text)}>"), self._mission.name)
 
     def live(self, drone: Drone) -> LiveDrone:
         """Return what the drone of this action can be asked, and set to, while it hovers here."""
@@ -51,7 +73,7 @@ class Context:
 
     async def sleep(self, seconds: float) -> None:
         """Wait for so many seconds, simulated or real."""
-        kernel, over = self._core.kernel, Future[None]()
+        kernel, over = self._kernel, Future[None]()
         _must_be_finite(seconds)
         timer = kernel.at(kernel.time() + seconds, Kind.CLOCK, self._key, lambda: over.set(None))
         try:
@@ -65,10 +87,10 @@ class Context:
         With `within`, wait no longer than so many seconds from the trip's start: False means that
         it is still flying. At the very same instant the trip's own end wins.
         """
-        flight = self._state.flight
+        flight = self._latest()
         if trip.ended or flight is None or flight.trip is not trip:
             return trip.ended
-        kernel, over = self._core.kernel, Future[None]()
+        kernel, over = self._kernel, Future[None]()
 
         def wake(_: object = None) -> None:
             over.set(None)
@@ -89,7 +111,7 @@ class Context:
 
     @property
     def _key(self) -> Key:
-        return mission_key(self._state.mission.index)
+        return mission_key(self._mission.index)
 
 
 def _must_be_finite(seconds: float) -> None:

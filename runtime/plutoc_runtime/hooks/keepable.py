@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
+from ..domain.errors import ANY_ERROR
 from ..domain.guard import by_a_person
 from ..domain.model import Photo
 from ..domain.text import shown
-from ..time.kernel import WHATEVER
 
 _HARMLESS = (type(None), bool, float)
 
@@ -21,7 +21,7 @@ def keepable(value: object) -> object:
     try:
         if type(value) not in _HARMLESS:
             _Measure().take(value)
-    except WHATEVER as error:  # its own: a value may be an object of any kind
+    except ANY_ERROR as error:  # its own: a value may be an object of any kind
         if by_a_person(error):
             raise
         return shown(value)

@@ -9,17 +9,28 @@ from __future__ import annotations
 from collections.abc import Callable, Coroutine
 from inspect import iscoroutinefunction, unwrap
 from math import isfinite
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 from ..domain.errors import ActionFailed, FlightFailed
 from ..time.future import Future
 
 if TYPE_CHECKING:
     from ..domain.model import Drone, Point
-    from ..fleet.navigation import Navigation
     from ..time.kernel import Kernel, Key, Task
 
 T = TypeVar("T")
+
+
+class Instruments(Protocol):
+    """What can be asked of a drone that hovers, and set on it: a part of its navigation."""
+
+    async def read(self, drone: str, name: str) -> float:
+        """Return what it measures now under this name."""
+        ...
+
+    async def write(self, drone: str, name: str, value: float) -> None:
+        """Set what it has under this name."""
+        ...
 
 
 class LiveDrone:
@@ -30,7 +41,7 @@ class LiveDrone:
 
     __slots__ = ("_drone", "_is_over", "_kernel", "_key", "_navigation")
 
-    def __init__(self, kernel: Kernel, navigation: Navigation[Any], drone: Drone, key: Key) -> None:
+    def __init__(self, kernel: Kernel, navigation: Instruments, drone: Drone, key: Key) -> None:
         self._kernel, self._navigation, self._drone, self._key = kernel, navigation, drone, key
         self._is_over = False
 
@@ -57,7 +68,7 @@ class LiveDrone:
             raise ValueError(f"{name} cannot be set to {number}")
         await self._asked(lambda drone: self._navigation.write(drone, name, number), name)
 
-    def lets_go(self) -> None:
+    def release(self) -> None:
         """The action is over: the drone is not the action's any more."""
         self._is_over = True
 

@@ -5,54 +5,54 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, cast
 
+from ..domain.errors import ANY_ERROR
 from ..domain.fields import number_of
 from ..domain.guard import by_a_person
 from ..domain.model import Item
 from ..domain.status import Status, TripStatus
 from ..domain.text import class_of, shown
-from ..time.kernel import WHATEVER
 from .calls import said
 from .keepable import keepable
 
 if TYPE_CHECKING:
     from ..domain.airspace import Airspace
+    from ..domain.app import App
     from ..domain.model import Mission, Point, Trip
-    from ..flow.core import Core
 
 
-def unsound(core: Core, trip: object) -> str | None:
+def unsound(app: App, airspace: Airspace, trip: object) -> str | None:
     """Return what is wrong with a trip, or None; a place without a height gets the map's."""
     try:
-        return _unsound(core, trip)
-    except WHATEVER as error:  # what a hook has put there may be of any class
+        return _unsound(app, airspace, trip)
+    except ANY_ERROR as error:  # what a hook has put there may be of any class
         if by_a_person(error):
             raise
         return f"it cannot be read: {said(error)}"
 
 
-def _unsound(core: Core, trip: object) -> str | None:
-    if not issubclass(type(trip), core.app.trip):
+def _unsound(app: App, airspace: Airspace, trip: object) -> str | None:
+    if not issubclass(type(trip), app.trip):
         return f"it must be a Trip of this app, not {class_of(trip)}"
     found = cast("Trip", trip)
     return (
         (None if _is_usual(found) else _wrong_facts(found, _TRIP))
-        or _wrong_action(core, found)
-        or _wrong_place(core.airspace, found)
+        or _wrong_action(app, found)
+        or _wrong_place(airspace, found)
     )
 
 
-def unsound_mission(core: Core, mission: Mission[Any]) -> str | None:
+def unsound_mission(app: App, mission: Mission[Any]) -> str | None:
     """Return what is wrong with what the runtime knows of a mission, and a hook has put there."""
     try:
         wrong = None if _is_usual_mission(mission) else _wrong_facts(mission, _MISSION)
         if wrong is not None:
             return wrong
-        kind = core.app.trip
+        kind = app.trip
         for trip in mission.completed_trips:
             if type(trip) is not kind:
                 return f"completed_trips holds {class_of(trip)}"
         return None
-    except WHATEVER as error:
+    except ANY_ERROR as error:
         if by_a_person(error):
             raise
         return f"it cannot be read: {said(error)}"
@@ -122,8 +122,8 @@ _MOST = 1 << 31
 """What is counted is kept in so many bits."""
 
 
-def _wrong_action(core: Core, trip: Trip) -> str | None:
-    action = core.app.actions.get(trip.action)
+def _wrong_action(app: App, trip: Trip) -> str | None:
+    action = app.actions.get(trip.action)
     if action is None:
         return f"there is no action {trip.action!r}"
     if not isinstance(trip.parameters, Mapping):

@@ -7,9 +7,10 @@ from functools import partial
 from types import CoroutineType, coroutine
 from typing import Any, TypeVar, cast
 
+from ..domain.errors import ANY_ERROR
 from ..domain.guard import by_a_person, guarded
 from .future import Future
-from .kernel import WHATEVER, ForeignAwait, Kernel
+from .kernel import ForeignAwait, Kernel
 
 T = TypeVar("T")
 
@@ -67,9 +68,9 @@ class VirtualTime(Kernel):
                 ) from error
             raise
 
-    async def offer(self, signal: Future[T]) -> T:
-        """Return what a hook may await for this signal."""
-        return await signal
+    async def offer(self, future: Future[T]) -> T:
+        """Return what a hook may await for this future."""
+        return await future
 
 
 @coroutine
@@ -91,7 +92,7 @@ def _called_off_for_good(hook: Coroutine[Any, Any, T]) -> Generator[Any, Any, T]
             for call in (partial(hook.throw, error), hook.close):
                 try:
                     call()
-                except WHATEVER as its_own:  # it is not wanted any longer
+                except ANY_ERROR as its_own:  # it is not wanted any longer
                     if by_a_person(its_own):
                         raise
             raise

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.domain.status import RUNNING
-from plutoc_runtime.trips.flight import launch
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.status import Status
@@ -17,7 +16,7 @@ def launch_trip(run: Run[Any], status: Status) -> Status:
     state = run.state
     drone = state.allocated
     if drone is not None:
-        launch(state, drone)
+        state.launch(drone)
     elif state.goes_on:
         state.goes_on = False  # the trip was launched before the mission was interrupted
     else:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.trips.deadlines import watch
+from plutoc_runtime.flow.run import watch
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.status import Status

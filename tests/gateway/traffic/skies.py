@@ -7,9 +7,9 @@ from math import dist, inf
 from random import Random
 from typing import Any
 
-from pluto_fleet.gateway.gateway import Gateway
-from pluto_fleet.gateway.link import Link
-from pluto_fleet.simulation.drones import SimulatedDrone, SimulatedNavigation
+from pluto_fleet.gateway.gateway import Gateway, Link
+from pluto_fleet.simulation.body import SimulatedDrone
+from pluto_fleet.simulation.drones import SimulatedNavigation
 from plutoc_runtime.alone.faults import Faults
 from plutoc_runtime.alone.world import World
 from plutoc_runtime.domain.airspace import Airspace

@@ -1,4 +1,4 @@
-"""Drones that fly as real ones do come down together, soon and apart, however fast they are."""
+"""Drones come down together as soon as the slowest would alone, and never too near to each other."""
 
 from __future__ import annotations
 
@@ -10,14 +10,15 @@ import pytest
 from pluto_fleet.gateway.traffic.choosing import Goer
 from pluto_fleet.gateway.traffic.courses import course
 from pluto_fleet.gateway.traffic.timetable import Timetable, timetable
-from pluto_fleet.gateway.traffic.ways_home import ways_home
+from pluto_fleet.gateway.traffic.ways import ways_home
 from pluto_fleet.jobs.reports import Down
-from pluto_fleet.simulation.drones import SimulatedDrone
+from pluto_fleet.simulation.body import SimulatedDrone
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.model import Point
 from tests.gateway.traffic.real_skies import FLIES_ON, late
 from tests.gateway.traffic.skies import ENDURING, Sky, is_home
 
+CASES = 10
 APART = 0.5
 LATER = 2.0
 ROWS = [(0.5 + column, 0.5 + 2.5 * row, 0.0) for row in range(2) for column in range(5)]
@@ -35,6 +36,34 @@ def scattered(chance: Random, side: float, z: float | None, count: int = 10) -> 
         if all(dist(place, other) >= 0.7 for other in found):
             found.append(place)
     return found
+
+
+def comes_down(homes: list[Point], places: list[Point], side: float, how: Down) -> Sky:
+    """Bring down drones that hover at these places."""
+    sky = Sky([home[:2] for home in homes], airspace=Airspace(size=(side, side)))
+    sky.puts(*places)
+    sky.look()
+    assert sky.until(sky.gateway.bring_down(how), 300)
+    return sky
+
+
+@pytest.mark.parametrize("how", [Down.HOME, Down.LAND])
+@pytest.mark.parametrize("side", [20.0, 6.0])
+@pytest.mark.parametrize("seed", range(CASES))
+def test_all_are_down_when_the_slowest_is(seed: int, side: float, how: Down) -> None:
+    """Within two seconds of what it takes alone; half of the cases at one and the same height."""
+    chance = Random(seed)
+    homes = scattered(chance, side, 0.0)
+    places = scattered(chance, side, 1.2 if seed % 2 else None)
+    alone = [
+        comes_down([home], [place], side, how).kernel.now
+        for home, place in zip(homes, places, strict=True)
+    ]
+    sky = comes_down(homes, places, side, how)
+    assert sky.kernel.now <= max(alone) + 2
+    assert sky.nearest >= sky.apart - 1e-6
+    if how is Down.HOME:
+        assert all(is_home(sky, drone) for drone in sky.drones)
 
 
 @pytest.mark.parametrize("speed", [0.3, 0.5, 1.0, 2.0, 3.0])
@@ -60,7 +89,7 @@ def test_ten_anywhere_are_down_when_the_slowest_is(seed: int, how: Down) -> None
     assert sky.nearest >= APART
 
 
-def test_nobody_waits_until_its_neighbour_says_that_it_stands() -> None:
+def test_no_drone_waits_until_its_neighbour_says_that_it_stands() -> None:
     """A real drone says so seconds after it has landed: who lands beside it would be later still."""
     airspace = Airspace(size=(6.0, 6.0), cruise_height=0.5)
     homes, places = [(1.0, 1.0, 0.0), (1.6, 1.0, 0.0)], [(1.0, 4.0, 0.5), (4.6, 1.0, 0.5)]
@@ -70,7 +99,7 @@ def test_nobody_waits_until_its_neighbour_says_that_it_stands() -> None:
 
 
 def test_where_only_one_may_be_in_the_air_who_stands_goes_when_it_is_down() -> None:
-    """Nobody in the air waits for somebody who must not take off."""
+    """No drone in the air waits for one that must not take off."""
     sky = Sky([(1.0, 1.0), (4.0, 1.0)], airspace=Airspace(size=(5.0, 5.0)), max_airborne=1)
     one, other = (sky.navigation.bodies[drone.id] for drone in sky.drones)
     for body, place in ((one, (4.0, 3.0, 0.0)), (other, (1.0, 1.2, 1.2))):
@@ -101,8 +130,8 @@ def plan_of(seed: int, is_real: bool) -> Timetable:
 
 @pytest.mark.parametrize("is_real", [True, False])
 @pytest.mark.parametrize("seed", range(4))
-def test_nobody_waits_for_who_waits_for_it(seed: int, is_real: bool) -> None:
-    """Whatever the times: whoever may go goes to its next rest, and so all come to their ends."""
+def test_no_drone_waits_for_one_that_waits_for_it(seed: int, is_real: bool) -> None:
+    """At all times a drone that may go goes to its next rest, and so all come to their ends."""
     plan, chance = plan_of(seed, is_real), Random(seed)
     at = dict.fromkeys(plan.courses, 0)
     ends = {drone: len(one.pieces) - 1 for drone, one in plan.courses.items()}

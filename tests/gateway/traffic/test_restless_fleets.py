@@ -1,4 +1,4 @@
-"""Whatever a fleet does, no two come too near to each other, and all is over some time."""
+"""In all that a fleet does, no two come too near to each other, and all comes to an end."""
 
 from __future__ import annotations
 
@@ -11,6 +11,8 @@ from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.model import Point
 from plutoc_runtime.time.kernel import FLEET
 from tests.gateway.traffic.skies import Restless, Sky, is_home
+from traffic import APART, flown, measured
+from traffic import crossings as crossing
 
 CASES = 40
 
@@ -56,7 +58,7 @@ def test_every_flight_ends_and_none_comes_too_near(seed: int) -> None:
 
 @pytest.mark.parametrize("seed", range(CASES // 2))
 def test_a_stop_in_between_brings_all_down(seed: int) -> None:
-    """Whatever they are at; who is well and can get home is home, if that was asked for."""
+    """In the middle of anything; who is well and can get home is home, if that was asked for."""
     chance = Random(1000 + seed)
     sky, targets = sky_of(chance)
     Restless(sky, seed, targets, 3, 0.0).begin()
@@ -69,3 +71,12 @@ def test_a_stop_in_between_brings_all_down(seed: int) -> None:
     if how is Down.HOME:
         assert sum(is_home(sky, drone) for drone in sky.drones) >= len(sky.drones) - 1
     sky.kernel.close()
+
+
+@pytest.mark.parametrize(("runs", "drones"), [(60, 2), (6, 10)])
+def test_trips_that_cross_keep_apart(runs: int, drones: int) -> None:
+    """No two drones come nearer; without a distance some would."""
+    assert measured(runs, drones, 10.0).nearest >= APART - 1e-6
+    assert any(
+        flown(*crossing(seed, drones, 10.0), 10.0, 0.0).nearest < APART for seed in range(runs)
+    )

@@ -14,7 +14,7 @@ from tests.gateway.traffic.skies import Sky
 
 APART = 0.5
 LOW = Airspace(ceiling=1.3)
-"""So low that nobody can go over anybody."""
+"""So low that no drone can go over another."""
 
 
 def gives(sky: Sky, drone: str, *stops: Point) -> Task[object]:
@@ -82,8 +82,8 @@ def test_two_that_hover_in_each_others_way_do_not_wait_for_ever() -> None:
     assert (first.result(), second.result()) == ((8, 5, 1.2), (2, 5, 1.2))
 
 
-def test_nobody_lands_on_another() -> None:
-    """Nor in another's dock; in its own it may, beside whoever stands there."""
+def test_no_drone_lands_on_another() -> None:
+    """Nor in another's dock; in its own it may, beside one that stands there."""
     sky = Sky([(1, 1), (1.3, 1), (5, 5)])
     jobs = [gives(sky, "cf2", (5, 5, 1.2)), gives(sky, "cf1", (8, 8, 1.2))]
     assert all(sky.until(job, 60) for job in jobs)
@@ -201,7 +201,7 @@ def test_without_a_distance_nothing_is_done() -> None:
     assert sky.nearest < 0.1
 
 
-def test_nobody_flies_below_a_drone_that_sinks() -> None:
+def test_no_drone_flies_below_one_that_sinks() -> None:
     """Who is on its way there stops, and goes on by another, or when the air is free again."""
     sky = Sky([(5, 4), (1, 5)])
     assert sky.until(gives(sky, "cf1", (5, 5, 2.2)), 60)

@@ -23,7 +23,7 @@ def test_check_says_that_the_fleet_can_fly_the_plan(missions: Path, command: Com
 def test_check_warns_of_a_speed_that_a_crazyflie_does_not_follow(
     missions: Path, command: Command
 ) -> None:
-    """Before anybody stands there with drones that will not take off; other drones may."""
+    """Before a person stands there with drones that will not take off; other drones may."""
     first, *others = APP.categories
     fast = replace(APP, categories=(replace(first, speed=1.5), *others))
     fleet = missions.with_name("f.toml")
@@ -68,7 +68,7 @@ def test_check_warns_of_names_that_look_alike(missions: Path, command: Command) 
     )
 
 
-def test_a_plan_that_nobody_can_fly_is_refused(missions: Path, command: Command) -> None:
+def test_a_plan_that_no_drone_can_fly_is_refused(missions: Path, command: Command) -> None:
     """By check and simulate alike, before anything starts."""
     fleet = missions.with_name("f.toml")
     fleet.write_text('[[drone]]\nid = "a"\ncategory = "scout"\nhome = [1, 1]\n')
@@ -89,7 +89,7 @@ def test_a_bad_file_is_exit_2(missions: Path, command: Command) -> None:
 
 
 def test_real_drones_need_a_fleet_file(missions: Path, command: Command) -> None:
-    """Nobody flies drones that nobody has named."""
+    """Drones that are not named are not flown."""
     code, out, err = command("fly", missions)
     assert (code, out) == (2, "")
     assert err.startswith("alfalfa: "), err
@@ -158,7 +158,7 @@ def in_a_process(code: str, missions: Path, stdout: int) -> subprocess.Completed
 
 
 def test_a_closed_pipe_is_silent(missions: Path) -> None:
-    """Whoever read the output knows that he has gone."""
+    """The reader of the output knows that he has gone."""
     code = "sys.exit(c.main(APP, ['simulate', sys.argv[1]]))"
     read, write = os.pipe()
     os.close(read)

@@ -47,7 +47,7 @@ uri = "fake://4"
 
 @pytest.fixture(autouse=True)
 def _drones(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[None]:
-    """Let some drones be there, and nobody wait for those that are not."""
+    """Let some drones be there, and let those that are not there not be waited for."""
     monkeypatch.setattr(drone_answers, "CONNECT", 0.2)
     monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
     monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
@@ -56,7 +56,7 @@ def _drones(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[None]:
     THERE["fake://1"] = at((0.52, 0.481, 0.01))
     THERE["fake://4"] = at((1.5, 2.0, 0.0), voltage=3.1)
     yield
-    assert {what for _, what in RECORD} <= ASKED  # whatever was asked, nothing has moved
+    assert {what for _, what in RECORD} <= ASKED  # no matter what was asked, nothing has moved
 
 
 @pytest.fixture
@@ -84,7 +84,7 @@ def test_all_that_can_be_found_are_asked(command: Command) -> None:
 
 
 def test_the_drones_of_a_fleet_are_asked_at_once(fleet: Path, command: Command) -> None:
-    """One that is silent delays nobody: its row says how long it was waited for."""
+    """One that is silent delays no other: its row says how long it was waited for."""
     code, out, _ = command("drones", "--fleet", fleet)
     assert [line.split("  ")[0] for line in out.splitlines()[1:5]] == ["cf1", "cf2", "cf3", "cf4"]
     assert [line.split("  ")[-1].strip() for line in out.splitlines()[1:5]] == [
@@ -250,7 +250,7 @@ def test_no_file_is_overwritten(fleet: Path, command: Command) -> None:
     assert RECORD == []
 
 
-def test_nothing_is_saved_where_nobody_answers(tmp_path: Path, command: Command) -> None:
+def test_nothing_is_saved_where_no_drone_answers(tmp_path: Path, command: Command) -> None:
     """A fleet of none cannot fly."""
     THERE.clear()
     path = tmp_path / "new.toml"

@@ -73,11 +73,11 @@ def air() -> Iterator[Air]:
 
 
 def test_crazyflies_say_how_they_are(air: Air, command: Command) -> None:
-    """Where they stand, what their batteries have, what they run; a silent one delays nobody."""
+    """Where they stand, what their batteries have, what they run; a silent one delays no other."""
     air.done(air.server.let("cf2", "lock"))
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as nobody:
-        nobody.bind(("127.0.0.1", 0))  # takes what comes, and never answers
-        silent = f"udp://127.0.0.1:{nobody.getsockname()[1]}"
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as silence:
+        silence.bind(("127.0.0.1", 0))  # takes what comes, and never answers
+        silent = f"udp://127.0.0.1:{silence.getsockname()[1]}"
         code, out, err = command("drones", *air.uris, silent, "--json")
     told = json.loads(out)["drones"]
     assert (code, [drone["ready"] for drone in told]) == (1, [True, False, True, False])

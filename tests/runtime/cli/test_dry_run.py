@@ -56,7 +56,7 @@ target = [6, 3]
 
 @pytest.fixture(autouse=True)
 def _nothing_is_done(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    """Let whatever would be written by default be written where it can be seen."""
+    """Let all that would be written by default be written where it can be seen."""
     monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
     RECORD.clear()
 
@@ -122,9 +122,7 @@ def test_a_drone_that_lacks_what_the_plan_asks_for_is_told(
     assert RECORD == []
 
 
-def test_whoever_lets_a_whole_category_stay_at_home_is_told(
-    plan: list[str], command: Command
-) -> None:
+def test_letting_a_whole_category_stay_at_home_is_told(plan: list[str], command: Command) -> None:
     """Fewer simulated Crazyflies than the fleet has drones: the first ones are flown."""
     _, _, err = command("fly", *plan, "--dry-run", "--crtp-sim", "1")
     assert err.startswith(

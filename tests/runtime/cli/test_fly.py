@@ -80,7 +80,7 @@ def test_what_an_earlier_flight_has_left_is_not_taken_for_this_ones(
     assert not (tmp_path / "a.journal").exists()
 
 
-def test_a_plan_that_nobody_can_fly_leaves_no_journal(tmp_path: Path, command: Command) -> None:
+def test_a_plan_that_no_drone_can_fly_leaves_no_journal(tmp_path: Path, command: Command) -> None:
     path = tmp_path / "new.journal"
     assert command("fly", tmp_path / "none.toml", "--sim", "--journal", path)[0] == 2
     assert not path.exists()
@@ -168,7 +168,7 @@ def test_two_processes_cannot_go_on_with_one_journal(journal: Write, command: Co
         ("x" * 100, f'"{"x" * 100}"'),
     ],
 )
-def test_whatever_a_mission_is_called_what_is_said_to_be_typed_runs_nothing_else(
+def test_under_any_name_of_a_mission_what_is_said_to_be_typed_runs_nothing_else(
     name: str, typed: str, journal: Write, command: Command
 ) -> None:
     facts = {"mission": name}
@@ -228,7 +228,7 @@ def test_who_was_mistaken_may_decide_otherwise(journal: Write, command: Command)
         ("North go-on", "was it done?; say one of: done, not-done, cancel"),
     ],
 )
-def test_a_decision_that_nobody_asked_for_is_refused(
+def test_a_decision_that_was_not_asked_for_is_refused(
     words: str, said: str, journal: Write, command: Command
 ) -> None:
     path = journal(created("North", 0), created("South", 1), LAUNCHED, DOUBT)

@@ -15,7 +15,7 @@ from plutoc_blocks.mission_repeater.step import repeat_mission
 from plutoc_blocks.priority_manager.step import raise_priority
 from plutoc_blocks.trip_launcher.step import launch_trip
 from plutoc_blocks.trip_monitor.step import watch_trip
-from plutoc_runtime.alone import bound as enough
+from plutoc_runtime.alone import simulate as enough
 from plutoc_runtime.domain.status import Status
 from plutoc_runtime.fleet.policies.nearest import nearest
 from plutoc_runtime.flow.run import Run
@@ -104,7 +104,7 @@ def test_a_round_counts_anew(tmp_path: Path, command: Command) -> None:
     assert "1 of 1 mission completed" in out
 
 
-def test_rounds_that_nobody_has_planned_do_not_count_anew(tmp_path: Path, command: Command) -> None:
+def test_rounds_that_were_not_planned_do_not_count_anew(tmp_path: Path, command: Command) -> None:
     """A hook that asks for one more round, each time, is no bound."""
 
     async def one_more(run: Run[FieldMission]) -> Status:

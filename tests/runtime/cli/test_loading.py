@@ -85,7 +85,7 @@ def test_a_process_that_hooks_fork_as_they_are_loaded_is_no_app(
 
 
 @pytest.mark.parametrize("command", ["tell", "journal", "decide"])
-def test_an_app_can_be_stopped_whatever_is_in_its_hooks(
+def test_an_app_can_be_stopped_with_anything_in_its_hooks(
     command: str,
     load_with: Callable[[str], int],
     monkeypatch: pytest.MonkeyPatch,

@@ -112,7 +112,7 @@ def test_the_bar_comes_only_after_a_while() -> None:
     assert stream.getvalue() == f"\r{half}\r{full} \r{' ' * len(full)}\r"
 
 
-def test_no_bar_where_nobody_sees_it() -> None:
+def test_no_bar_where_it_is_not_seen() -> None:
     """Not in a file, and not for ever so long."""
     stream = io.StringIO()
     Progress(stream, iter([0.0, 9.0]).__next__, shown=False).update(0.5, "x")

@@ -221,7 +221,7 @@ async def broken_in_a_block(run: Any) -> Any:
 
 
 def test_a_mistake_in_a_block_names_the_block(missions: Path, command: Command) -> None:
-    """As its declaration has it: it may be somebody else's."""
+    """As its declaration has it: it may be another author's."""
     err = command("simulate", missions, app=replace(APP, flow=broken_in_a_block))[2]
     assert err == (
         "alfalfa: internal error: ZeroDivisionError: by accident\n"

@@ -119,7 +119,7 @@ def test_who_finishes_something_between_crashes_is_started_again_for_ever(lived:
     assert (code, len(calls)) == (0, len(crashes) + 1)
 
 
-def test_whoever_stops_the_supervisor_stops_the_app(lived: Lived) -> None:
+def test_stopping_the_supervisor_stops_the_app(lived: Lived) -> None:
     """It is told by the same signal, and what it ends with is the end of all."""
     assert lived("waits") == (143, ["fly"])
 

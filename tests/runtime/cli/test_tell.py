@@ -98,7 +98,7 @@ def test_motors_are_cut_by_the_gateway_without_a_word_to_the_app(
     assert stop_mark.found(journal) is None
 
 
-def test_where_nobody_commands_drones_no_motor_is_cut(journal: Path, command: Command) -> None:
+def test_where_no_gateway_commands_drones_no_motor_is_cut(journal: Path, command: Command) -> None:
     """That is said, and how to reach them."""
     journal.touch()
     code, _, err = command("tell", journal, "cut-motors", "--all")
@@ -154,7 +154,7 @@ def test_where_no_app_runs_one_is_told_how_to_go_on(journal: Path, command: Comm
 
 
 def test_what_is_said_to_be_typed_is_safe_to_type(tmp_path: Path, command: Command) -> None:
-    """Whatever the journal is called."""
+    """Under any name of the journal."""
     journal = tmp_path / "a b$(id)"
     journal.touch()
     _, _, err = command("tell", journal, "pause")
@@ -162,14 +162,14 @@ def test_what_is_said_to_be_typed_is_safe_to_type(tmp_path: Path, command: Comma
 
 
 @pytest.mark.parametrize("words", ["stop", "stop --rtl", "pause"])
-def test_nobody_is_told_that_no_drone_flies_for_a_wrong_name(
+def test_a_wrong_name_is_not_answered_by_no_drone_flies(
     words: str, journal: Path, command: Command
 ) -> None:
     said = f"{journal}: there is no such journal\n"
     assert command("tell", journal, *words.split()) == (2, "", said)
 
 
-def test_a_stop_is_kept_for_whoever_starts_the_app_again(journal: Path, command: Command) -> None:
+def test_a_stop_is_kept_for_the_apps_next_start(journal: Path, command: Command) -> None:
     """It may crash while its drones come down."""
     with running(commands_note(journal), lambda request: "stopping"):
         assert command("tell", journal, "stop", "--rtl") == (0, "stopping\n", "")

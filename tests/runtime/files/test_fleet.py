@@ -12,13 +12,20 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pluto_fleet.files import drones
-from pluto_fleet.files.fleet import DroneEntry, FleetFile, default_fleet, load_fleet
+from pluto_fleet.files.drones import DroneEntry
+from pluto_fleet.files.fleet import (
+    FleetFile,
+    default_fleet,
+    load_fleet,
+    navigation_of,
+    not_real,
+    options_of,
+)
 from pluto_fleet.files.fleet_text import fleet_text
-from pluto_fleet.files.real import navigation_of, not_real, options_of
-from plutoc_runtime.alone.world import Feature, Source, WorldData
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.app import App
 from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.fleet_data import Feature, Source, WorldData
 from plutoc_runtime.domain.model import AfterTrip, Point
 from tests.runtime.files.an_app import APP, PLAIN
 
@@ -300,7 +307,7 @@ def test_a_fleet_that_is_written_is_read_the_same(tmp_path: Path) -> None:
     )
 )
 def test_options_are_kept_as_they_are(options: dict[str, object]) -> None:
-    """Whatever TOML can hold of texts, numbers, booleans, lists and tables, written and read."""
+    """All that TOML can hold of texts, numbers, booleans, lists and tables, written and read."""
     drone = DroneEntry(id="a", category="scout", home=(1.0, 1.0, 0.0), options=options)
     with tempfile.TemporaryDirectory() as folder:
         text = fleet_text(FleetFile(airspace=Airspace(), drones=(drone,)))

@@ -11,9 +11,9 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from pluto_fleet.files.fleet import FleetFile, load_fleet
-from pluto_fleet.files.limits import APART, RADIUS, SIDE
 from pluto_fleet.files.missions import load_missions
 from pluto_fleet.files.plan_check import problems
+from pluto_fleet.files.values import APART, RADIUS, SIDE
 from pluto_fleet.trials.blows import Blow, Kind
 from pluto_fleet.trials.case import Case, Weather
 from pluto_fleet.trials.rig import Rig
@@ -93,7 +93,7 @@ def test_the_ends_are_accepted(tmp_path: Path, fleet: str) -> None:
 @settings(max_examples=120, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(number=st.integers(0, len(CATEGORIES) - 1), seed=st.integers(0, 10**6))
 def test_what_is_accepted_flies(tmp_path: Path, number: int, seed: int) -> None:
-    """In the simulated world, whatever goes wrong there and whoever stops it: nothing is raised."""
+    """In the simulated world, with all that goes wrong there, and under any Stop: nothing is raised."""
     rng, app = Random(seed), extreme_app(number)
     drawn = Extremes(rng)
     try:

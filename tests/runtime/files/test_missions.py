@@ -317,7 +317,7 @@ def test_a_file_that_cannot_be_read_is_refused(tmp_path: Path) -> None:
         assert str(caught.value) == f"{path}{said}"
 
 
-def test_nobody_has_to_read_a_thousand_problems(tmp_path: Path) -> None:
+def test_a_thousand_problems_are_cut_short(tmp_path: Path) -> None:
     """The first fifty are told, and how many there are besides."""
     said = problems(tmp_path, trip(PHOTO + "".join(f"k{i} = 1\n" for i in range(1000))))
     assert len(said) == 51

@@ -37,5 +37,5 @@ def trip(target: Point, source: Point | None = None) -> Trip:
 
 
 def anyone(drone: Drone) -> bool:
-    """Refuse nobody."""
+    """Refuse none."""
     return True

@@ -158,6 +158,6 @@ def test_no_more_is_asked_of_a_row_than_matters() -> None:
     assert asked <= 200
 
 
-def test_nobody_and_nothing() -> None:
+def test_no_drones_and_no_requests() -> None:
     assert assign([]) == []
     assert assign([iter([]), iter([(3.0, "a")])]) == [None, (3.0, "a")]

@@ -6,7 +6,8 @@ from collections.abc import Coroutine
 from typing import Any, TypeVar
 
 from pluto_fleet.gateway.executor import Pilots
-from pluto_fleet.simulation.drones import SimulatedDrone, SimulatedNavigation
+from pluto_fleet.simulation.body import SimulatedDrone
+from pluto_fleet.simulation.drones import SimulatedNavigation
 from plutoc_runtime.alone.faults import Faults, Order, draw
 from plutoc_runtime.alone.world import World
 from plutoc_runtime.domain.airspace import Airspace
@@ -27,7 +28,7 @@ class Team(SimulatedNavigation):
     """The same, with what a gateway adds: flights begin, and drones are brought home."""
 
     async def takeoff(self, drone: str, height: float, order: Order | None = None) -> None:
-        """Take off for a flight, or for nobody."""
+        """Take off for a flight, or for none."""
         body, now = self.bodies[drone], self._kernel.now
         body.check(now)
         body.begin(draw(self._faults, self._seed, order), now)

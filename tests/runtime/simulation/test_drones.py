@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
-
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -36,7 +34,7 @@ def advance(kernel: VirtualTime, seconds: float) -> None:
 
 
 def test_it_can_be_made_to_do_all_that_a_gateway_wants() -> None:
-    """The simulation does what the gateway expects of whatever flies its drones."""
+    """The simulation does what the gateway expects of all that flies its drones."""
     navigation: Controls = team(VirtualTime())
     assert navigation.telemetry["cf1"].location == HOME
 
@@ -63,7 +61,7 @@ def test_commands_return_when_they_are_done() -> None:
 
 
 def test_a_drone_is_seen_between_two_places() -> None:
-    """Whoever looks in the middle of a leg finds it there."""
+    """A look in the middle of a leg finds it there."""
     kernel = VirtualTime()
     navigation = team(kernel)
     fly(kernel, navigation.takeoff("cf1", 1.2, None))
@@ -307,8 +305,8 @@ def test_an_action_that_no_drone_has_is_refused() -> None:
     assert failure(kernel, navigation.act("cf1", "dance", {}, None)).failure is Failure.REFUSED
 
 
-def test_nobody_commands_a_drone_twice_at_once() -> None:
-    """Two commands at a time are a mistake of whoever gives them, not a failed flight."""
+def test_no_drone_is_commanded_twice_at_once() -> None:
+    """Two commands at a time are a mistake of the caller, not a failed flight."""
     kernel = VirtualTime()
     navigation = team(kernel)
     fly(kernel, navigation.takeoff("cf1", 1.2, order()))
@@ -318,7 +316,7 @@ def test_nobody_commands_a_drone_twice_at_once() -> None:
 
 
 def test_drones_that_arrive_together_are_taken_in_the_fleets_order() -> None:
-    """Whoever was told first, the drone declared first comes first."""
+    """In any order of being told, the drone declared first comes first."""
     kernel = VirtualTime()
     navigation = team(kernel)
     arrived: list[str] = []
@@ -333,7 +331,7 @@ def test_drones_that_arrive_together_are_taken_in_the_fleets_order() -> None:
     assert arrived == ["cf1", "cf2"]
 
 
-def test_the_same_drones_fly_in_real_time() -> None:
+async def test_the_same_drones_fly_in_real_time() -> None:
     """On asyncio's clock nothing else changes: a millimetre, and a leg that is cancelled."""
 
     async def flight(kernel: Kernel, navigation: Team) -> None:
@@ -353,11 +351,8 @@ def test_the_same_drones_fly_in_real_time() -> None:
         assert telemetry.landed
         assert telemetry.battery_level < 1
 
-    async def main() -> None:
-        kernel = RealTime()
-        await kernel.run(kernel.spawn(flight(kernel, team(kernel)), FLEET, "flight"))
-
-    asyncio.run(main())
+    kernel = RealTime()
+    await kernel.run(kernel.spawn(flight(kernel, team(kernel)), FLEET, "flight"))
 
 
 def test_who_stands_somewhere_from_a_moment_to_come_is_there_already() -> None:

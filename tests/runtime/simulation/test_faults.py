@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import re
 
 import pytest
@@ -86,7 +85,7 @@ def test_a_flight_goes_wrong_after_its_take_off_however_late_that_is(
 
 
 def test_a_drone_that_fails_as_it_leaves_the_ground_stays_there() -> None:
-    """With nothing in its battery it does not rise, and nobody takes it to be up there."""
+    """With nothing in its battery it does not rise, and it is not taken to be up there."""
     kernel = VirtualTime()
     navigation = team(kernel, battery_level=0.0)
     error = failure(kernel, navigation.takeoff("cf1", 1.2, order()))
@@ -167,7 +166,7 @@ def test_the_outage_counts_from_the_loss_and_ends_on_the_ground() -> None:
 
 
 def test_an_empty_battery_is_noticed_at_that_moment() -> None:
-    """With a hundredth left it flies for 4.2 s and no longer; somebody carries it home."""
+    """With a hundredth left it flies for 4.2 s and no longer; a person carries it home."""
     kernel = VirtualTime()
     navigation = team(kernel, battery_level=0.01)
     telemetry = navigation.telemetry["cf1"]
@@ -194,7 +193,7 @@ def test_a_drawn_empty_battery_is_empty() -> None:
 
 
 def test_a_battery_may_run_out_during_the_failsafe_landing() -> None:
-    """Then waiting for the link is not enough: somebody must fetch the drone."""
+    """Then waiting for the link is not enough: a person must fetch the drone."""
     kernel = VirtualTime()
     drawn = draw(Faults(link=1), 2, order()).link
     assert drawn is not None
@@ -205,7 +204,7 @@ def test_a_battery_may_run_out_during_the_failsafe_landing() -> None:
     assert navigation.telemetry["cf1"].location == HOME
 
 
-def test_a_mishap_comes_even_when_nobody_commands() -> None:
+def test_a_mishap_comes_even_without_commands() -> None:
     """A drone that was left hovering falls when its battery is empty, and says so later."""
     kernel = VirtualTime()
     navigation = team(kernel, battery_level=0.02)
@@ -297,11 +296,11 @@ def test_recovery_flies_around_what_may_not_be_entered() -> None:
 
 
 def test_a_drone_without_a_way_home_is_fetched() -> None:
-    """It stays where it is, and somebody carries it."""
+    """It stays where it is, and a person carries it."""
     airspace = Airspace(no_fly=(((2, 0), (2.5, 0), (2.5, 20), (2, 20)),))
     kernel = VirtualTime()
     navigation = team(kernel, Faults(action=1), airspace=airspace)
-    failure(kernel, flight(navigation))  # a test may fly where nobody may
+    failure(kernel, flight(navigation))  # a test may fly where no drone may
     begun = kernel.now
     assert fly(kernel, navigation.recover("cf1"))
     assert kernel.now == pytest.approx(begun + 300)
@@ -319,7 +318,7 @@ def test_a_battery_that_ends_on_the_way_home_is_carried_there() -> None:
 
 
 def test_recovery_takes_off_what_is_still_aboard() -> None:
-    """Whoever meets the drone at home has the item; the next mission finds it empty."""
+    """The person at home has the item; the next mission finds it empty."""
     kernel = VirtualTime()
     navigation = team(kernel)
 
@@ -384,7 +383,7 @@ def test_the_same_seed_flies_the_same() -> None:
 
 
 @given(st.integers(0, 300), st.floats(0, 80), st.floats(0.005, 1))
-def test_whatever_happens_the_drone_comes_home_or_is_lost(
+def test_under_all_mishaps_the_drone_comes_home_or_is_lost(
     seed: int, abort: float, level: float
 ) -> None:
     """Faults, empty batteries and an abort at any moment: it ends docked, or crashed for good."""
@@ -410,16 +409,12 @@ def test_whatever_happens_the_drone_comes_home_or_is_lost(
     assert navigation.carrying("cf1") is None
 
 
-def test_faults_come_in_real_time_too() -> None:
+async def test_faults_come_in_real_time_too() -> None:
     """A battery with two milliseconds left says so on asyncio's clock."""
-
-    async def main() -> None:
-        kernel = RealTime()
-        navigation = team(kernel, battery_level=0.002 / SCOUT.flight_time)
-        trip = kernel.spawn(flight(navigation), FLEET, "trip")
-        trip.watch(lambda _: None)
-        with pytest.raises(FlightFailed, match="cf1 ran out of battery at"):
-            await kernel.run(trip)
-        assert navigation.telemetry["cf1"].landed
-
-    asyncio.run(main())
+    kernel = RealTime()
+    navigation = team(kernel, battery_level=0.002 / SCOUT.flight_time)
+    trip = kernel.spawn(flight(navigation), FLEET, "trip")
+    trip.watch(lambda _: None)
+    with pytest.raises(FlightFailed, match="cf1 ran out of battery at"):
+        await kernel.run(trip)
+    assert navigation.telemetry["cf1"].landed

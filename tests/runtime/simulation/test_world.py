@@ -9,8 +9,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from plutoc_runtime.alone.world import Feature, Source, World, WorldData, invented
+from plutoc_runtime.alone.world import World, invented
 from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.domain.fleet_data import Feature, Source, WorldData
 
 MAP = Airspace(size=(20.0, 10.0))
 DUST = Source(quantity="pm10", at=(5.0, 5.0), peak=80.0, radius=2.0)
@@ -19,7 +20,7 @@ PEST = Feature(kind="pest", at=(5.5, 5.2))
 
 
 def test_far_from_everything_there_is_the_background() -> None:
-    """Temperature and dust have one; what nobody described is nought."""
+    """Temperature and dust have one; what was not described is nought."""
     world = World(1, MAP, WorldData())
     assert world.measure("temperature", (1, 1, 1), 0) == pytest.approx(21, abs=0.2)
     assert world.measure("pm10", (1, 1, 1), 0) == pytest.approx(20, abs=0.2)
@@ -54,7 +55,7 @@ numbers = st.floats(allow_nan=False, allow_infinity=False)
     ),
     st.tuples(numbers, numbers, numbers),
 )
-def test_whatever_a_source_is_it_can_be_measured(
+def test_a_source_of_any_kind_can_be_measured(
     source: Source, point: tuple[float, float, float]
 ) -> None:
     """Ever so narrow, ever so wide, ever so far away: it is at most its peak."""
@@ -132,7 +133,7 @@ def test_a_world_is_made_up_where_none_is_described() -> None:
 
 
 def test_a_described_world_may_be_empty() -> None:
-    """Whoever describes nothing gets nothing."""
+    """A world without a description has nothing."""
     assert World(5, MAP, WorldData()).features == ()
 
 

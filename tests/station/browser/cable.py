@@ -38,7 +38,7 @@ class Cable:
                 line.shutdown(socket.SHUT_RDWR)
 
     def hush(self) -> None:
-        """Let nothing through, and tell nobody: as where a cable is pulled out."""
+        """Let nothing through, and say nothing: as where a cable is pulled out."""
         self._through.clear()
 
     def mend(self) -> None:

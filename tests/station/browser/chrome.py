@@ -1,4 +1,4 @@
-"""Debian's Chromium: where it is, and how it is started so that it asks nobody for anything."""
+"""Debian's Chromium: where it is, and how it is started so that it asks no server for anything."""
 
 from __future__ import annotations
 

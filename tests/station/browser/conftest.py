@@ -126,7 +126,7 @@ def ward(apps: dict[str, App], tmp_path_factory: pytest.TempPathFactory) -> Iter
 
 @pytest.fixture
 def watch() -> Iterator[Watch]:
-    """Fail the test for what any of its pages complains of, or asks of anybody else."""
+    """Fail the test for what any of its pages complains of, or asks of another server."""
     watch = Watch()
     yield watch
     assert watch.unexpected() == []

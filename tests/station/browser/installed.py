@@ -24,7 +24,7 @@ class App:
 
 
 def installed(names: Sequence[str], folder: Path) -> dict[str, App]:
-    """Install these examples into one environment; whoever comes second finds it made."""
+    """Install these examples into one environment; the second caller finds it made."""
     folder.mkdir(parents=True, exist_ok=True)
     programs = folder / "venv" / "bin"
     with (folder / "lock").open("w") as lock:

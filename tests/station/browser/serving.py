@@ -99,7 +99,7 @@ class Station:
         self._life.wait(PATIENCE)
 
     def end(self) -> None:
-        """Leave no process behind: neither server, nor whoever it supervises, nor a gateway."""
+        """Leave no process behind: neither server, nor what it supervises, nor a gateway."""
         if self._life is not None and self._life.poll() is None:
             self._life.send_signal(signal.SIGINT)
             try:
@@ -143,7 +143,7 @@ class Station:
         return self._ask(Request(self._at(path), data=data, headers=headers, method="PUT"))
 
     def now(self) -> dict[str, Any]:
-        """Return the newest that everybody is shown, whole."""
+        """Return the newest that all pages are shown, whole."""
         live: dict[str, Any] = self.get("/api/live?flight=&seen=0&log=0&results=0")
         return live
 

@@ -1,4 +1,4 @@
-"""Nobody drops a drone by mistake: "Cut motors" is held down, and Stop is not."""
+"""No drone is dropped by mistake: "Cut motors" is held down, and Stop is not."""
 
 from __future__ import annotations
 
@@ -98,7 +98,7 @@ def test_a_double_click_drops_no_drone_and_a_second_of_holding_does(
     assert status(station, drone) == "LOST"
 
 
-def test_whoever_lets_go_too_early_drops_nothing(alone: tuple[Page, Locator]) -> None:
+def test_letting_go_too_early_drops_nothing(alone: tuple[Page, Locator]) -> None:
     page, button = alone
     page.mouse.move(*middle(button))
     page.mouse.down()
@@ -153,10 +153,10 @@ def test_a_page_that_is_stuck_takes_no_click_for_a_hold(alone: tuple[Page, Locat
 
 
 @pytest.mark.parametrize("away", [HIDDEN, "() => window.dispatchEvent(new Event('blur'))"])
-def test_whoever_goes_to_another_tab_or_window_does_not_hold_it_any_more(
+def test_going_to_another_tab_or_window_holds_it_no_longer(
     alone: tuple[Page, Locator], away: str
 ) -> None:
-    """Where the button has no focus, as in some browsers, nobody would hear of the pointer again."""
+    """Without focus on the button, as in some browsers, the pointer is not heard of again."""
     page, button = alone
     page.mouse.move(*middle(button))
     page.mouse.down()

@@ -1,13 +1,23 @@
-"""An empty station says what to do, and draws an example that its own app and fleet can fly."""
+"""A station shows what its own app's graph needs, and an empty one says what to do."""
 
 from __future__ import annotations
 
 import pytest
-from playwright.sync_api import expect
+from playwright.sync_api import Page, expect
 
 from tests.station.browser.conftest import APPS, Serve, Visit
 from tests.station.browser.serving import until
-from tests.station.browser.steps import missions_listed, open_page, sees_all, start
+from tests.station.browser.steps import (
+    add_mission,
+    card_of,
+    drag,
+    labels,
+    missions_listed,
+    open_page,
+    row_of,
+    sees_all,
+    start,
+)
 
 
 @pytest.mark.parametrize("app", APPS)
@@ -27,7 +37,7 @@ def test_the_example_plan_of_every_app_is_sound_and_flies_to_its_end(
     until(lambda: station.phase == "over", "all have ended")
 
 
-def test_whoever_goes_to_the_trips_first_is_told_to_select_a_mission(
+def test_going_to_the_trips_first_is_answered_by_select_a_mission(
     serve: Serve, visit: Visit
 ) -> None:
     """The thesis's testers got lost just here."""
@@ -40,3 +50,48 @@ def test_whoever_goes_to_the_trips_first_is_told_to_select_a_mission(
     expect(first).to_be_hidden()
     open_page(page, "Monitor")
     expect(page.get_by_role("tabpanel", name="Monitor")).to_contain_text("mission")
+
+
+def fields(page: Page) -> tuple[set[str], set[str], set[str]]:
+    """Draw a mission with one trip and start it; return what can be filled in, and the columns."""
+    add_mission(page, "Look")
+    drag(page, "measure", (3.0, 5.0))
+    expect(card_of(page, 1).get_by_label("Name")).to_be_visible()
+    trip = labels(page)
+    open_page(page, "Missions")
+    expect(page.get_by_role("button", name="Set trips")).to_be_visible()
+    mission = labels(page)
+    start(page)
+    expect(row_of(page, "Look")).to_be_visible()
+    return mission, trip, set(page.get_by_role("columnheader").all_inner_texts())
+
+
+def test_an_app_without_clock_repeater_timer_or_priorities_shows_none_of_their_fields(
+    serve: Serve, visit: Visit
+) -> None:
+    mission, trip, columns = fields(visit(serve("drugs_distribution")))
+    assert mission == {"Name"}
+    assert trip == {"Mission", "Name", "x (m)", "y (m)", "Height (m)", "Quantity"}
+    assert columns == {"Mission", "State", "Trip", "Drone"}
+
+
+def test_an_app_with_all_of_them_shows_all_of_their_fields(serve: Serve, visit: Visit) -> None:
+    mission, trip, columns = fields(visit(serve("alfalfa")))
+    assert mission >= {"Name", "Safe time", "Repeat", "Evaluator", "Start at", "Repeat every"}
+    assert trip >= {"Delay", "Priority"}
+    assert columns >= {"Attempt", "Round"}
+
+
+def test_what_is_not_needed_is_not_in_what_the_station_says_of_its_app(serve: Serve) -> None:
+    """Nor is there any evaluator to choose, nor an action that no drone can do."""
+    app = serve("drugs_distribution").get("/api/app")
+    assert app["fields"] == {"mission": [], "trip": []}
+    assert app["evaluators"] == []
+    assert {action["name"] for action in app["actions"]} == {
+        "pick_item",
+        "release_item",
+        "take_photo",
+        "measure",
+    }
+    assert not app["retries"]
+    assert not app["rounds"]

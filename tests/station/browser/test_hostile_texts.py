@@ -96,7 +96,7 @@ def test_script_in_every_text_is_shown_as_text_and_never_runs(serve: Serve, visi
 def test_a_text_that_turns_the_writing_around_is_refused_or_kept_where_it_is(
     serve: Serve, visit: Visit
 ) -> None:
-    """Nobody's mission can make the words beside it read otherwise."""
+    """No mission can make the words beside it read otherwise."""
     station = serve("drugs_distribution")
     put(station, ("safe \u202egpj.exe", "zero\u200bwidth", "line\u2028end"))
     page = visit(station)

@@ -1,4 +1,4 @@
-"""Whoever has no mouse draws the same plan, and flies it."""
+"""Without a mouse the same plan is drawn, and flown."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from tests.station.browser.steps import (
 PLACES = {mission: [trip.at for trip in trips] for mission, trips in PLAN.items()}
 
 FAR = 150
-"""Presses of Tab: whoever has not come by then never will."""
+"""Presses of Tab: what has not come by then never will."""
 
 
 def tab_to(page: Page, wanted: Locator) -> None:

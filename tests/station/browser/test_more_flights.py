@@ -36,7 +36,7 @@ def test_a_mission_that_is_drawn_while_others_fly_is_started_beside_them(
     assert len(station.journals()) == 1
 
 
-def test_a_start_that_is_answered_late_takes_nobody_away_from_where_they_have_gone(
+def test_a_start_that_is_answered_late_does_not_take_one_away_from_where_one_has_gone(
     serve: Serve, visit: Visit
 ) -> None:
     station = serve("drugs_distribution")

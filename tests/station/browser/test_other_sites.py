@@ -95,7 +95,7 @@ def station(serve: Serve) -> Station:
 
 @pytest.fixture
 def page(browser: Browser) -> Iterator[Page]:
-    """A page that nobody watches: it is meant to fail."""
+    """A page that is not watched: it is meant to fail."""
     context = browser.new_context()
     yield context.new_page()
     context.close()

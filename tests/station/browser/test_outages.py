@@ -77,7 +77,7 @@ def test_a_network_that_breaks_and_comes_back_is_said_and_the_page_picks_up_by_i
     assert station.done() == DONE
 
 
-def test_a_server_that_is_killed_goes_on_where_it_was_once_somebody_says_resume(
+def test_a_server_that_is_killed_goes_on_where_it_was_once_a_person_says_resume(
     station: Station, visit: Visit, watch: Watch
 ) -> None:
     watch.expected += ["WebSocket", "ERR_", "Failed to load resource"]

@@ -41,7 +41,7 @@ NAMELESS = """
 
 
 def test_every_page_in_every_phase_fits_on_a_phone(serve: Serve, visit: Visit) -> None:
-    """Nobody scrolls to the side, neither the page nor a list in it; 24 pixels can be hit."""
+    """Nothing scrolls to the side, neither the page nor a list in it; 24 pixels can be hit."""
     station = serve("drugs_distribution", "--speed", "5")
     page = visit(station, size=PHONE, touch=True)
     wrong: dict[str, list[str]] = {}

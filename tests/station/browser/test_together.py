@@ -21,13 +21,13 @@ from tests.station.browser.steps import (
 )
 from tests.station.browser.watched import Watch
 
-# Whoever is told that somebody was quicker draws on top of that: a browser calls the answer an
+# A page that is told that another was quicker draws on top of that: a browser calls the answer an
 # error.
-SOMEBODY_WAS_QUICKER = "409 (Conflict)"
+ANOTHER_WAS_QUICKER = "409 (Conflict)"
 
 
 def test_what_one_draws_the_other_sees(serve: Serve, visit: Visit, watch: Watch) -> None:
-    watch.expected.append(SOMEBODY_WAS_QUICKER)  # the trip may still be on its way to the other
+    watch.expected.append(ANOTHER_WAS_QUICKER)  # the trip may still be on its way to the other
     station = serve("drugs_distribution")
     one, other = visit(station), visit(station)
     add_mission(one, "From here")
@@ -42,7 +42,7 @@ def test_what_one_draws_the_other_sees(serve: Serve, visit: Visit, watch: Watch)
 def test_what_two_draw_in_one_moment_is_kept_of_both(
     serve: Serve, visit: Visit, watch: Watch
 ) -> None:
-    watch.expected.append(SOMEBODY_WAS_QUICKER)
+    watch.expected.append(ANOTHER_WAS_QUICKER)
     station = serve("drugs_distribution")
     one, other = visit(station), visit(station)
     held: list[Route] = []
@@ -65,7 +65,7 @@ def test_what_two_draw_in_one_moment_is_kept_of_both(
         expect(missions_listed(page)).to_have_text(["From there", "From here"])
     until(lambda: _names(station) == ["From there", "From here"], "both are kept")
     # at least once: on a slow machine a page saves what is drawn there in more than one go
-    assert {SOMEBODY_WAS_QUICKER in one for one in watch.complaints} == {True}
+    assert {ANOTHER_WAS_QUICKER in one for one in watch.complaints} == {True}
 
 
 def _names(station: Station) -> list[str]:

@@ -11,7 +11,7 @@ from tests.station.browser.steps import missions_listed, open_page, sees_all, st
 from tests.station.browser.watched import Watch
 
 
-def test_whoever_opens_the_printed_address_flies_and_the_token_leaves_the_address(
+def test_the_printed_address_lets_one_fly_and_the_token_leaves_it(
     serve: Serve, visit: Visit
 ) -> None:
     """The floor plan is seen, too: it needs the token as well."""

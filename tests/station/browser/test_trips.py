@@ -126,7 +126,7 @@ def test_a_pin_over_a_no_fly_area_says_so_while_it_is_still_held(
 
 
 def test_what_is_released_is_what_was_picked_before_it(ward: Station, visit: Visit) -> None:
-    """In name and in mass, whatever is written later, and however the trips are ordered."""
+    """In name and in mass, though others are written later, and however the trips are ordered."""
     station, page = drawn(
         ward,
         visit,

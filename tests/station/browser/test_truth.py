@@ -76,7 +76,7 @@ def agree(page: Page, station: Station, *words: str) -> list[dict[str, Any]]:
 
 
 def is_away(station: Station) -> bool:
-    """Whether somebody is in the air, and well away from home."""
+    """Whether a drone is in the air, and well away from home."""
     homes = {drone["id"]: drone["home"] for drone in station.get("/api/app")["drones"]}
     heard = [row for row in station.now()["drones"] if row["seen"] is None]
     rows = [row for row in heard if row["x"] is not None and row["z"] > 0.3]
@@ -84,9 +84,9 @@ def is_away(station: Station) -> bool:
 
 
 def flies(page: Page, station: Station) -> None:
-    """Resume, and see somebody away from home."""
+    """Resume, and see a drone away from home."""
     page.get_by_role("button", name="Resume").click()
-    until(lambda: station.phase == "flying" and is_away(station), "somebody is away")
+    until(lambda: station.phase == "flying" and is_away(station), "a drone is away")
 
 
 def test_page_and_world_agree_on_each_drone_after_every_end_and_every_new_start(
@@ -98,7 +98,7 @@ def test_page_and_world_agree_on_each_drone_after_every_end_and_every_new_start(
     page = visit(station)
     start(page)
     open_page(page, "Monitor")
-    until(lambda: is_away(station), "somebody is away")
+    until(lambda: is_away(station), "a drone is away")
     page.get_by_role("button", name="Stop: land now").click()
     until(lambda: station.phase == "stopped", "all have landed")
     for row in agree(page, station, "On the ground"):
@@ -126,7 +126,7 @@ def test_page_and_world_agree_on_each_drone_after_every_end_and_every_new_start(
     first = gateway_of(station)
     os.kill(first, signal.SIGKILL)  # the app starts another, and flies on
     until(lambda: still_runs(folder_of(station)) not in (None, first), "another gateway is there")
-    until(lambda: station.phase == "flying" and is_away(station), "somebody is away again")
+    until(lambda: station.phase == "flying" and is_away(station), "a drone is away again")
     gateway = gateway_of(station)
     station.kill()
     os.kill(gateway, signal.SIGKILL)
@@ -137,7 +137,7 @@ def test_page_and_world_agree_on_each_drone_after_every_end_and_every_new_start(
         assert unknown is (row["word"] == "Unknown")
 
     flies(page, station)
-    until(lambda: bool(flown_by(station)), "somebody flies for a mission")
+    until(lambda: bool(flown_by(station)), "a drone flies for a mission")
     who = flown_by(station)[0]
     assert station.post("/api/cut-motors", {"id": "falls", "drone": who})[0] == 200
     until(lambda: lost(page) == [who], "it is seen that it is lost")

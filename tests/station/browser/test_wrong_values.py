@@ -14,7 +14,7 @@ from tests.station.browser.serving import Station, until
 from tests.station.browser.steps import card_of, open_page, select_mission
 from tests.station.browser.watched import Watch
 
-SOMEBODY_WAS_QUICKER = "409 (Conflict)"
+ANOTHER_WAS_QUICKER = "409 (Conflict)"
 
 
 @pytest.fixture
@@ -152,7 +152,7 @@ def test_a_height_that_cannot_be_flown_is_marked_itself_and_not_the_place_below(
 def test_two_who_name_one_mission_at_once_are_told_and_nothing_is_lost(
     planned: Station, visit: Visit, watch: Watch
 ) -> None:
-    watch.expected.append(SOMEBODY_WAS_QUICKER)
+    watch.expected.append(ANOTHER_WAS_QUICKER)
     one, other = visit(planned), visit(planned)
     held = holding_the_first(other)
     for page in (one, other):
@@ -178,7 +178,7 @@ def test_two_who_name_one_mission_at_once_are_told_and_nothing_is_lost(
 def test_two_who_move_one_trip_along_x_and_along_y_both_find_it_there(
     planned: Station, visit: Visit, watch: Watch
 ) -> None:
-    watch.expected.append(SOMEBODY_WAS_QUICKER)
+    watch.expected.append(ANOTHER_WAS_QUICKER)
     one, other = visit(planned), visit(planned)
     held = holding_the_first(other)
     x, y = (
@@ -199,7 +199,7 @@ def test_two_who_move_one_trip_along_x_and_along_y_both_find_it_there(
 def test_who_writes_into_a_mission_that_another_one_deletes_is_told(
     planned: Station, visit: Visit, watch: Watch
 ) -> None:
-    watch.expected.append(SOMEBODY_WAS_QUICKER)
+    watch.expected.append(ANOTHER_WAS_QUICKER)
     one, other = visit(planned), visit(planned)
     held = holding_the_first(other)
     for page in (one, other):
@@ -216,7 +216,7 @@ def test_who_types_into_a_mission_that_another_one_starts_is_told(
     serve: Serve, visit: Visit, watch: Watch
 ) -> None:
     """All that is drawn is there already, but what was typed is not."""
-    watch.expected.append(SOMEBODY_WAS_QUICKER)
+    watch.expected.append(ANOTHER_WAS_QUICKER)
     station = serve("drugs_distribution")
     put_in(station)
     page = visit(station)
@@ -237,7 +237,7 @@ def test_who_types_into_a_mission_that_another_one_starts_is_told(
 def test_one_who_changes_another_field_hears_nothing(
     planned: Station, visit: Visit, watch: Watch
 ) -> None:
-    watch.expected.append(SOMEBODY_WAS_QUICKER)
+    watch.expected.append(ANOTHER_WAS_QUICKER)
     one, other = visit(planned), visit(planned)
     held = holding_the_first(other)
     select_mission(one, "Mission 1")

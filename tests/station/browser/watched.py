@@ -1,4 +1,4 @@
-"""Whatever goes wrong in a page, or leaves the machine, is a test's failure."""
+"""All that goes wrong in a page, or leaves the machine, is a test's failure."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ HERE = ("127.0.0.1", "localhost")
 NO_NETWORK = ("data", "blob", "about", "chrome-error")
 
 
-@dataclass  # without slots: playwright keeps something in whoever listens
+@dataclass  # without slots: playwright keeps something in its listeners
 class Watch:
     """What pages have complained of, and whom they have asked."""
 

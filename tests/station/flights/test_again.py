@@ -24,7 +24,7 @@ def key_of(station: Station, name: str) -> str:
 def test_what_was_not_completed_flies_again_alone_also_after_a_crash_of_the_station(
     serve: Serve,
 ) -> None:
-    """Nothing is flown twice but what somebody chose, and then from its beginning."""
+    """Nothing is flown twice but what a person chose, and then from its beginning."""
     station = serve("drugs_distribution", "--speed", "60")
     tell(station, "start")
     until(flies(station), "something flies")
@@ -47,7 +47,7 @@ def test_what_was_not_completed_flies_again_alone_also_after_a_crash_of_the_stat
     assert tell(station, "start") == "3 missions started"
 
 
-def test_no_start_flies_beside_or_again_what_somebody_goes_on_with_by_command(
+def test_no_start_flies_beside_or_again_what_a_command_goes_on_with(
     serve: Serve,
 ) -> None:
     station = serve("drugs_distribution", "--speed", "20")

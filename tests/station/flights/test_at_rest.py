@@ -1,4 +1,4 @@
-"""What everybody sees of the drones while nobody flies them: where they are, and who is lost."""
+"""What all pages see of the drones while they are not flown: where they are, and who is lost."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def is_home(station: Station, row: dict[str, Any]) -> bool:
 
 
 def agrees(station: Station) -> bool:
-    """Whether everybody is shown the world as it is."""
+    """Whether all pages are shown the world as it is."""
     return disagreements(rows(station), truth(station, station.folder / "scratch")) == []
 
 
@@ -77,12 +77,12 @@ def is_killed_with_its_gateway(station: Station) -> None:
     "ends",
     [ends_by_a_stop_to_land, ends_by_a_stop_home, is_killed, is_killed_with_its_gateway],
 )
-def test_after_each_end_drones_are_shown_where_they_lie_before_and_after_somebody_resumes(
+def test_after_each_end_drones_are_shown_where_they_lie_before_and_after_a_resume(
     serve: Serve, ends: Callable[[Station], None]
 ) -> None:
     station = serve("drugs_distribution", "--speed", "60")
     tell(station, "start")
-    until(lambda: is_away_from_home(station), "somebody is away")
+    until(lambda: is_away_from_home(station), "a drone is away")
     ends(station)
     station.start()
     until(lambda: agrees(station), "page and world agree")
@@ -139,10 +139,10 @@ def test_a_lost_drone_stays_lost_over_ends_restarts_and_starts_until_it_is_broug
 
 
 def test_a_drone_that_is_dropped_while_no_app_flies_it_is_lost_as_well(serve: Serve) -> None:
-    """The gateway brings all down after a crash of the station, and somebody cuts the motors of one."""
+    """The gateway brings all down after a crash of the station, and the motors of one are cut."""
     station = serve("drugs_distribution", "--speed", "1")
     tell(station, "start")
-    until(lambda: any(row["z"] > 1 for row in rows(station)), "somebody is in the air")
+    until(lambda: any(row["z"] > 1 for row in rows(station)), "a drone is in the air")
     station.kill()
     station.start()
     who = next(row["id"] for row in rows(station) if row["z"] > 0.5)
@@ -153,13 +153,13 @@ def test_a_drone_that_is_dropped_while_no_app_flies_it_is_lost_as_well(serve: Se
     assert tell(station, "start").endswith(f"without {who}, lost until brought back")
 
 
-def test_a_drone_that_falls_with_nobody_but_the_gateway_there_is_lost_with_its_reason_and_place(
+def test_a_drone_that_falls_with_the_gateway_alone_there_is_lost_with_its_reason_and_place(
     serve: Serve,
 ) -> None:
     """While no station runs, and after the flight was put away."""
     station = serve("drugs_distribution", "--speed", "1")
     tell(station, "start")
-    until(lambda: any(row["z"] > 1 for row in rows(station)), "somebody is in the air")
+    until(lambda: any(row["z"] > 1 for row in rows(station)), "a drone is in the air")
     first, second = (row["id"] for row in rows(station)[:2])
     station.kill()
     folder = gateway_folder(station.journals()[-1])
@@ -196,7 +196,7 @@ def test_a_drone_that_has_lost_its_link_when_the_app_dies_is_said_to_be_unknown_
     assert row["x"] is not None
 
 
-def test_who_is_lost_is_remembered_though_journals_are_moved_away_and_nobody_left_flies_nothing(
+def test_who_is_lost_is_remembered_without_journals_and_with_no_drone_left_nothing_flies(
     serve: Serve,
 ) -> None:
     station = serve("drugs_distribution", "--speed", "60")
@@ -227,7 +227,7 @@ def test_a_lost_drone_is_brought_back_by_command_while_nothing_flies(serve: Serv
     app = [str(station.app.program), "tell", str(journal), "bring-back"]
     said = subprocess.run([*app, who], capture_output=True, text=True, check=True).stdout
     assert said.startswith(f"{who} is brought back")
-    until(lambda: found(station, who)["status"] == "UNKNOWN", "everybody sees it")
+    until(lambda: found(station, who)["status"] == "UNKNOWN", "all pages see it")
     other = subprocess.run([*app, "cf9"], capture_output=True, text=True, check=True).stdout
     assert other == "cf9 is neither retired nor lost\n"
     assert all_again(station) == "3 missions started"
@@ -240,7 +240,7 @@ def test_simulated_crazyflies_begin_the_next_flight_where_the_last_one_has_left_
     pytest.importorskip("cflib")
     station = serve("drugs_distribution", "--crtp-sim", "2")
     tell(station, "start")
-    until(lambda: is_away_from_home(station), "somebody is away")
+    until(lambda: is_away_from_home(station), "a drone is away")
     tell(station, "stop", how="land")
     comes_to(station, "stopped")
     before = {row["id"]: (row["x"], row["y"]) for row in rows(station)}

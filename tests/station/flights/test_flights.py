@@ -240,7 +240,7 @@ def test_a_priority_can_be_changed_while_missions_fly_and_only_in_apps_that_have
     )
 
 
-def test_nobody_else_serves_from_the_same_folder(serve: Serve) -> None:
+def test_no_other_station_serves_from_the_same_folder(serve: Serve) -> None:
     station = serve()
     other = Station(app=station.app, folder=station.folder, options=station.options)
     with pytest.raises(AssertionError, match="another station is being served from there"):
@@ -275,7 +275,7 @@ def test_a_flight_over_another_map_is_not_drawn_over_this_one(serve: Serve, tmp_
     assert station.phase == "stopped"
 
 
-def test_what_somebody_has_gone_on_with_elsewhere_cannot_be_put_away(serve: Serve) -> None:
+def test_what_was_gone_on_with_elsewhere_cannot_be_put_away(serve: Serve) -> None:
     station = serve()
     tell(station, "start")
     until(flies(station), "something flies")
@@ -306,7 +306,7 @@ def test_the_clock_does_not_go_back_when_all_drones_are_down(serve: Serve) -> No
     assert times == sorted(times)
 
 
-def test_nobody_else_may_look_into_the_folder_of_a_station(serve: Serve) -> None:
+def test_no_other_user_may_look_into_the_folder_of_a_station(serve: Serve) -> None:
     station = serve("drugs_distribution")
     folder = station.folder / "one" / "more"
     other = replace(station, folder=folder, port=0)
@@ -334,7 +334,7 @@ def test_what_could_not_be_written_down_is_not_shown_to_have_happened(serve: Ser
     assert each_trip_was_done_once(station)
 
 
-def test_a_journal_that_nobody_can_read_keeps_no_station_from_being_served(
+def test_an_unreadable_journal_keeps_no_station_from_being_served(
     serve: Serve, tmp_path: Path
 ) -> None:
     (tmp_path / "station0").mkdir()

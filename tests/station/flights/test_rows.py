@@ -1,4 +1,4 @@
-"""What everybody sees of a mission."""
+"""What all pages see of a mission."""
 
 from __future__ import annotations
 
@@ -12,9 +12,8 @@ from pluto_fleet.station.rows import mission_row, recorded_row
 from plutoc_runtime.domain.app import App
 from plutoc_runtime.domain.model import Mission, Trip
 from plutoc_runtime.domain.status import COMPLETED, STANDBY, Status
-from plutoc_runtime.flow.core import Core
 from plutoc_runtime.flow.engine import Engine
-from plutoc_runtime.flow.mission import State
+from plutoc_runtime.flow.mission import Core, MissionState
 
 
 class Long:
@@ -45,14 +44,14 @@ class Waiting:
     coroutine: Coroutine[Any, Any, Status]
 
 
-def row(mission: Mission[Any], state: State | None) -> dict[str, object]:
+def row(mission: Mission[Any], state: MissionState | None) -> dict[str, object]:
     return mission_row(cast("App", Resuming()), mission, state, 10.0, lambda trip: trip.action)
 
 
 def test_a_mission_whose_last_trip_is_judged_has_not_ended() -> None:
     mission = Mission[Any](name="a", trips=[])
     mission.status = COMPLETED
-    state = State(cast("Core", None), mission, cast("Engine", None))
+    state = MissionState(cast("Core", None), mission, cast("Engine", None))
     state.at = "judge"
     seen = row(mission, state)
     assert (seen["status"], seen["at"]) == ("STANDBY", ["judge"])
@@ -69,7 +68,7 @@ def test_a_mission_waits_for_a_drone_that_can_do_its_next_trip() -> None:
     trip = Trip(name="1", action="measure", target=(1.0, 1.0, 1.0))
     mission = Mission[Any](name="a", trips=[trip])
     mission.status = STANDBY
-    state = State(cast("Core", None), mission, cast("Engine", None))
+    state = MissionState(cast("Core", None), mission, cast("Engine", None))
     coroutine = flow(mission)
     coroutine.send(None)
     state.task = cast("Any", Waiting(coroutine))

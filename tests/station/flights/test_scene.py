@@ -1,4 +1,4 @@
-"""What everybody sees goes on, though something of it cannot be shown."""
+"""What all pages see goes on, though something of it cannot be shown."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from tests.station.plan.drawing import FLEET
 
 
 class Unseen:
-    """A flight at which nobody can look."""
+    """A flight that cannot be looked at."""
 
     id, journal, trouble = "a.journal", "a.journal", ""
     lives, life, end, records, now = False, None, None, None, 0.0
@@ -41,7 +41,7 @@ class Shown:
         self.inheritance: Any = Nothing()
 
 
-def test_a_mistake_in_what_is_shown_leaves_nobody_waiting_nor_who_heard_of_the_drones() -> None:
+def test_a_mistake_in_what_is_shown_leaves_no_one_waiting_nor_who_heard_of_the_drones() -> None:
     complaints: list[object] = []
 
     async def scenario() -> dict[str, Any]:

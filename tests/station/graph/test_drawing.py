@@ -13,7 +13,7 @@ from pluto_fleet.station.graph.picture import laid_out
 from pluto_fleet.station.graph.read import Arrow, Box, Graph, graph_in
 from plutoc.check.model import Checked
 from plutoc.emit.readme_file import readme
-from plutoc.report.graph import mermaid
+from plutoc.report.pictures import mermaid
 from tests.station.graph.looking import Pictured, lying_together, mistakes, overlap, pictured
 from tests.station.graph.sources import examples, random_graphs
 
@@ -130,6 +130,6 @@ def chain(many: int) -> Graph:
 
 
 def test_a_hundred_blocks_are_drawn_and_a_thousand_are_not() -> None:
-    """Of so many nobody would see anything, and everybody would wait for them."""
+    """So many could not be seen, and every page would wait for them."""
     assert not list(mistakes((picture := picture_of(chain(100))).laid, picture.ways))
     assert laid_out(chain(1000)) is None

@@ -1,4 +1,4 @@
-"""The station shows the picture of the app's own README, whatever is in it."""
+"""The station shows the picture of the app's own README, with anything in it."""
 
 from __future__ import annotations
 
@@ -10,8 +10,7 @@ from pluto_fleet.station.graph.read import graph_in
 from plutoc.block import ANY_SAME, Block
 from plutoc.check.model import Checked
 from plutoc.emit.readme_file import readme
-from plutoc.report.graph import mermaid
-from plutoc.report.graph.picture import Shape, picture
+from plutoc.report.pictures import Shape, mermaid, picture
 from plutoc_blocks.clock.step import wait_for_time
 from tests.station.graph.sources import examples, random_graphs
 
@@ -68,7 +67,7 @@ def test_every_graph_is_read_as_it_is_drawn() -> None:
 
 @pytest.mark.parametrize("doc", ["Scans.", "Scans `a|b` | and *more* \\ less.", HOSTILE, ""])
 def test_blocks_of_other_packages_are_read_as_they_are_drawn(doc: str) -> None:
-    """Their kinds and what these do are somebody else's words; so is the app's title."""
+    """Their kinds and what these do are another author's words; so is the app's title."""
     graph = examples()["alfalfa"]
     block = Block(name="GridScan", doc=doc, step=wait_for_time, transitions=ANY_SAME)
     nodes = tuple(

@@ -45,7 +45,7 @@ def test_what_has_changed_is_asked_again() -> None:
     assert [one[0] for one in said(plan)] == ["mission-one"]
 
 
-def test_start_waits_for_nobody() -> None:
+def test_start_does_not_wait() -> None:
     """What is not known then is found out then."""
     plan = drawn(mission("mission-one", FAR), fleet=WALLED)
     with pytest.raises(BadInput, match="finds no permitted way"):
@@ -53,7 +53,7 @@ def test_start_waits_for_nobody() -> None:
     assert told(plan) == 1
 
 
-def test_whoever_draws_meanwhile_is_waited_for() -> None:
+def test_drawing_meanwhile_is_waited_for() -> None:
     """The answer is about the newest plan."""
 
     async def both(plan: Plan) -> None:
@@ -67,7 +67,7 @@ def test_whoever_draws_meanwhile_is_waited_for() -> None:
     assert told(plan) == 1
 
 
-def test_nobody_reads_the_thousandth_problem() -> None:
+def test_the_thousandth_problem_is_left_out() -> None:
     """So no page is sent more."""
     plan = a_plan()
     trips = [trip(f"trip-{i:05}", target=None) for i in range(MOST_SHOWN + 1)]

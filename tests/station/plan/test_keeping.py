@@ -1,4 +1,4 @@
-"""What is kept of a plan on the disk, whatever happens to it there."""
+"""What is kept of a plan on the disk, no matter what happens to it there."""
 
 from __future__ import annotations
 
@@ -112,7 +112,7 @@ def test_what_is_no_plan_is_put_aside(file: Path, content: bytes, why: str) -> N
 
 @pytest.mark.parametrize("make", ["folder", "link", "pipe"])
 def test_what_is_no_file_is_put_aside(file: Path, make: str) -> None:
-    """Nobody waits for a pipe."""
+    """A pipe is not waited for."""
     match make:
         case "folder":
             file.mkdir()
@@ -129,7 +129,7 @@ def test_what_is_no_file_is_put_aside(file: Path, make: str) -> None:
 def test_a_damaged_plan_is_a_plan_or_put_aside(
     tmp_path_factory: pytest.TempPathFactory, place: float, bit: int
 ) -> None:
-    """Whatever bit of it is wrong."""
+    """For every wrong bit of it."""
     file = tmp_path_factory.mktemp("plan") / "plan.json"
     kept(file, mission(M, trip(delay="3 min"), safe_time=5))
     content = bytearray(file.read_bytes())
@@ -175,7 +175,7 @@ def test_a_changed_app_takes_what_it_still_knows(file: Path) -> None:
 
 
 def test_an_action_that_is_gone_is_a_problem_of_the_plan(file: Path) -> None:
-    """Somebody chooses another."""
+    """Another is chosen."""
     dose = {"dose": "40 mg"}
     kept(file, mission(M, trip(action="pollinate", parameters=dose)))
     changed = replace(PLAIN, name=APP.name, categories=APP.categories)

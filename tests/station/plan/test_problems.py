@@ -119,7 +119,7 @@ def test_two_of_one_name_are_told_at_the_second() -> None:
     ]
 
 
-def test_what_nobody_can_fly_is_told_at_its_first_trip() -> None:
+def test_what_no_drone_can_fly_is_told_at_its_first_trip() -> None:
     """With the trips that belong to it."""
     heavy = {"name": "pills", "mass": "8 g"}
     pick, release = (
@@ -147,7 +147,7 @@ def test_a_mission_that_cannot_be_read_is_not_asked_whether_it_can_be_flown() ->
 
 
 def test_start_says_what_is_still_to_be_done() -> None:
-    """A line each with mission and trip, as far as somebody reads it."""
+    """A line each with mission and trip, as far as a person reads it."""
     plan = drawn(mission(M, trip(T, target=None)), mission("mission-two", name=""))
     assert start_refused(plan) == (
         f'Mission "{M}", trip 1: has no place yet: drag it onto the floor plan, or type x and y\n'
@@ -176,7 +176,7 @@ def test_a_screen_and_a_file_find_the_same(tmp_path_factory: Any, missions: list
 
 
 def readable(sentences: list[str]) -> list[str]:
-    """Leave out what nobody can fly, and count the others: their words and places differ."""
+    """Leave out what no drone can fly, and count the others: their words and places differ."""
     return ["" for one in sentences if "no drone of the fleet" not in one.lower()]
 
 
@@ -186,7 +186,7 @@ def plan_missions(plan: Any) -> list[Json]:
 
 
 def checked_file(path: Path) -> list[str]:
-    """Return what `check` says: of the file, and if there is nothing, of what nobody can fly."""
+    """Return what `check` says: of the file, and if there is nothing, of what no drone can fly."""
     try:
         read = load_missions(path, APP, FLEET.airspace)
     except BadInput as error:

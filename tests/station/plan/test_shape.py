@@ -8,7 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pluto_fleet.station.plan.plan import Plan, Stale
+from pluto_fleet.station.plan.errors import Stale
+from pluto_fleet.station.plan.plan import Plan
 from pluto_fleet.station.plan.shape import LONGEST_TEXT, MOST_MISSIONS, MOST_TRIPS
 from plutoc_runtime.domain.errors import BadInput
 from tests.station.plan.drawing import PLANS, Json, a_plan, mission, said, trip
@@ -84,7 +85,7 @@ def without(given: Json, key: str) -> Json:
     ],
 )  # fmt: skip
 def test_another_shape_is_refused(missions: object, sentence: str) -> None:
-    """With a sentence for whoever writes pages, and nothing changes."""
+    """With a sentence for the authors of pages, and nothing changes."""
     assert refused(missions) == sentence
 
 
@@ -108,7 +109,7 @@ def test_what_is_not_given_needs_no_key() -> None:
 
 @pytest.mark.parametrize("revision", [None, "1", True, 1.0, [], 10**400])
 def test_a_revision_is_a_whole_number(revision: object) -> None:
-    """Whatever else a page calls it: it is told so, or that there is another one."""
+    """Called anything else by a page: it is told so, or that there is another one."""
     plan = a_plan()
     with pytest.raises((BadInput, Stale)):
         plan.replace(revision, [mission()])

@@ -9,7 +9,8 @@ from hypothesis import settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, invariant, rule
 
-from pluto_fleet.station.plan.plan import Plan, Stale
+from pluto_fleet.station.plan.errors import Stale
+from pluto_fleet.station.plan.plan import Plan
 from plutoc_runtime.domain.errors import BadInput
 from tests.station.plan.drawing import MISSIONS, Json, a_plan, drawn, keyed, mission, trip
 
@@ -22,7 +23,7 @@ def keys_of(plan: Plan) -> list[str]:
 
 
 def test_a_change_of_an_old_plan_is_refused() -> None:
-    """Whoever drew it draws it again on the new one."""
+    """The page that drew it draws it again on the new one."""
     plan = a_plan()
     old = plan.revision
     plan.replace(old, [mission("mission-one")])
@@ -32,7 +33,7 @@ def test_a_change_of_an_old_plan_is_refused() -> None:
 
 
 def test_what_is_there_already_may_be_said_again() -> None:
-    """An answer may have been lost on its way: nothing is done twice, and nobody is refused."""
+    """An answer may have been lost on its way: nothing is done twice, and no page is refused."""
     plan = a_plan()
     old = plan.revision
     plan.replace(old, [mission()])
@@ -42,7 +43,7 @@ def test_what_is_there_already_may_be_said_again() -> None:
 
 
 def test_what_flies_stays_as_it_is() -> None:
-    """Whatever a page sends of it; where it leaves it out, it comes first."""
+    """No matter what a page sends of it; left out, it comes first."""
     plan = drawn(*map(mission, KEYS))
     before: Any = plan.data()["missions"]
     plan.launched(["mission-two"])
@@ -67,7 +68,7 @@ def test_who_has_drawn_a_mission_otherwise_that_was_launched_meanwhile_is_told()
     assert plan.revision == new
 
 
-def test_a_key_of_what_flies_is_nobody_elses() -> None:
+def test_a_key_of_what_flies_is_taken() -> None:
     """A trip of a mission that was left out counts, too."""
     plan = drawn(mission("mission-one"))
     plan.launched(["mission-one"])
@@ -97,7 +98,7 @@ def test_a_launched_mission_and_a_new_one_may_not_share_a_name() -> None:
 
 
 def test_missions_to_fly_are_new_ones_each_time() -> None:
-    """Whoever flies them changes them."""
+    """Flying them changes them."""
     plan = drawn(mission())
     (first,), _ = plan.launchable()
     first.trips.clear()
@@ -106,14 +107,14 @@ def test_missions_to_fly_are_new_ones_each_time() -> None:
 
 
 def test_a_journal_that_was_found_says_what_flies() -> None:
-    """Whatever the plan said: the station may have ended between the one and the other."""
+    """Against what the plan said: the station may have ended between the one and the other."""
     plan = drawn(*map(mission, KEYS))
     plan.launched(["mission-one"])
     plan.adopt(["mission-two", "gone"])
     assert plan.launchable()[1] == ["mission-one"]
 
 
-def test_marks_are_changes_that_everybody_sees() -> None:
+def test_marks_are_changes_that_all_pages_see() -> None:
     """And what is marked already is no change."""
     plan = drawn(mission())
     before = plan.revision
@@ -206,7 +207,7 @@ class Drawing(RuleBasedStateMachine):
         assert self.pages[page]["revision"] == self.plan.revision
 
     @invariant()
-    def whoever_looks_sees_the_same(self) -> None:
+    def every_look_shows_the_same(self) -> None:
         assert self.plan.data() == self.plan.data()
 
     @invariant()

@@ -131,7 +131,7 @@ def request(
     headers: Mapping[str, str] | None = None,
     **query: str,
 ) -> Request:
-    """Return what a page of the station's own asks, or whoever sends these headers."""
+    """Return what a page of the station's own asks, or a program that sends these headers."""
     if not isinstance(body, bytes):
         body = (body if isinstance(body, str) else json.dumps(body)).encode()
 

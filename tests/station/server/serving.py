@@ -1,4 +1,4 @@
-"""A station behind the real web server, in the same loop as whoever asks it byte by byte."""
+"""A station behind the real web server, in the same loop as the client that asks it byte by byte."""
 
 from __future__ import annotations
 

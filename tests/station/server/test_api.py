@@ -38,7 +38,7 @@ def test_why_a_command_was_not_done_is_said(error: Exception, status: int) -> No
     assert said(reply).startswith(str(error))
 
 
-def test_a_mistake_of_ours_is_told_to_the_log_and_not_to_whoever_asked(tmp_path: Path) -> None:
+def test_a_mistake_of_ours_is_told_to_the_log_and_not_to_the_client(tmp_path: Path) -> None:
     ask = asked(AStation(wrong=ZeroDivisionError("secret")), tmp_path / "audit.log")
     for reply in (
         ask("POST", "/api/start", {"id": "one"}),
@@ -89,7 +89,7 @@ def test_without_the_token_nothing_changes_and_one_waits_to_be_told(
     assert len(ask.paused) == 2
 
 
-def test_many_who_guess_keep_nobody_out() -> None:
+async def test_many_who_guess_keep_no_owner_out() -> None:
     ask = asked(token="sesame")
     gate = asyncio.Event()
 
@@ -100,15 +100,11 @@ def test_many_who_guess_keep_nobody_out() -> None:
     stop = request("POST", "/api/stop", {"id": "1"}, without(authorization="Bearer sesame"))
     start = request("POST", "/api/start", {"id": "2"}, without(authorization="Bearer sesame"))
     guess = request("POST", "/api/start", {"id": "3"})
-
-    async def scene() -> None:
-        guesses = [asyncio.create_task(ask.api.answer(guess)) for _ in range(200)]
-        assert (await ask.api.answer(start)).status == 200
-        assert (await ask.api.answer(stop)).status == 200
-        gate.set()
-        assert {(await each).status for each in guesses} == {401}
-
-    asyncio.run(scene())
+    guesses = [asyncio.create_task(ask.api.answer(guess)) for _ in range(200)]
+    assert (await ask.api.answer(start)).status == 200
+    assert (await ask.api.answer(stop)).status == 200
+    gate.set()
+    assert {(await each).status for each in guesses} == {401}
 
 
 BAD_BODIES = [
@@ -203,7 +199,7 @@ def test_a_missions_file_is_taken_in() -> None:
     ],
 )
 def test_a_file_that_is_refused_has_its_own_name(file: str | None, told: str) -> None:
-    """Somebody else may have chosen it: it is a text, and no long one."""
+    """Another may have chosen it: it is a text, and no long one."""
     ask = asked()
     toml = without(content_type="application/toml")
     query = {} if file is None else {"file": file}
@@ -266,33 +262,29 @@ def test_of_too_many_commands_some_are_refused_but_never_what_brings_drones_down
     assert [ask("POST", "/api/start", {"id": "x"}).status for _ in range(11)][9:] == [200, 429]
 
 
-def test_a_stop_is_taken_when_everybody_else_waits() -> None:
+async def test_a_stop_is_taken_when_all_others_wait() -> None:
     gate = asyncio.Event()
     station = AStation(busy=gate.wait)
     ask = asked(station)
-
-    async def scene() -> None:
-        waiting = []
-        for n in range(64):
-            ask.times.append(float(n))
-            start = request("POST", "/api/start", {"id": f"{n}"})
-            waiting.append(asyncio.create_task(ask.api.answer(start)))
-            await asyncio.sleep(0)
-        poll = request("GET", "/api/live")
-        polls = [asyncio.create_task(ask.api.answer(poll)) for _ in range(33)]
+    waiting = []
+    for n in range(64):
+        ask.times.append(float(n))
+        start = request("POST", "/api/start", {"id": f"{n}"})
+        waiting.append(asyncio.create_task(ask.api.answer(start)))
         await asyncio.sleep(0)
-        one_more = await ask.api.answer(request("POST", "/api/start", {"id": "one more"}))
-        assert one_more.status == 503
-        assert (await ask.api.answer(request("GET", "/"))).status == 200
-        assert (await ask.api.answer(request("POST", "/api/stop", {"id": "s"}))).status == 200
-        cut = request("POST", "/api/cut-motors", {"id": "c", "drone": "cf1"})
-        assert (await ask.api.answer(cut)).status == 200
-        assert [what for what, _ in station.done] == ["stop", "cut-motors"]
-        gate.set()
-        assert {(await each).status for each in waiting} == {200}
-        assert [(await each).status for each in polls] == [200] * 32 + [503]
-
-    asyncio.run(scene())
+    poll = request("GET", "/api/live")
+    polls = [asyncio.create_task(ask.api.answer(poll)) for _ in range(33)]
+    await asyncio.sleep(0)
+    one_more = await ask.api.answer(request("POST", "/api/start", {"id": "one more"}))
+    assert one_more.status == 503
+    assert (await ask.api.answer(request("GET", "/"))).status == 200
+    assert (await ask.api.answer(request("POST", "/api/stop", {"id": "s"}))).status == 200
+    cut = request("POST", "/api/cut-motors", {"id": "c", "drone": "cf1"})
+    assert (await ask.api.answer(cut)).status == 200
+    assert [what for what, _ in station.done] == ["stop", "cut-motors"]
+    gate.set()
+    assert {(await each).status for each in waiting} == {200}
+    assert [(await each).status for each in polls] == [200] * 32 + [503]
 
 
 @pytest.mark.parametrize(
@@ -322,7 +314,7 @@ def test_every_answer_says_what_a_browser_must_not_do_with_it(
     assert "unsafe" not in headers["content-security-policy"]
 
 
-def test_where_somebody_may_listen_a_browser_is_told_nothing_that_it_would_not_heed() -> None:
+def test_where_others_may_listen_a_browser_is_told_nothing_that_it_would_not_heed() -> None:
     headers = {"host": "192.168.0.7:8765"}
     reply = asked(host="192.168.0.7", token="sesame")("GET", "/", b"", headers)
     assert reply.status == 200

@@ -1,4 +1,4 @@
-"""A line for each command, whatever came of it."""
+"""A line for each command, taken or refused."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def test_what_was_done_and_what_was_refused_stands_there(tmp_path: Path) -> None
     assert (nowhere["refused"], nowhere["status"]) == ("GET /pages/../secret", 404)
 
 
-def test_nobody_but_its_owner_reads_it_and_no_token_stands_there(tmp_path: Path) -> None:
+def test_its_owner_alone_reads_it_and_no_token_stands_there(tmp_path: Path) -> None:
     file = tmp_path / "audit.log"
     ask = asked(file=file, token="sesame")
     ask("POST", "/api/start", {"id": "one"}, without(authorization="Bearer sesame"))

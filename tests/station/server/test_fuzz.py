@@ -1,4 +1,4 @@
-"""Whatever is asked, the station answers, and never with a mistake of its own."""
+"""The station answers all that is asked, and never with a mistake of its own."""
 
 from __future__ import annotations
 
@@ -133,7 +133,7 @@ def a_station(folder: Path) -> Station:
 
 
 async def no_pause(_: float) -> None:
-    """Let nobody wait."""
+    """Let nothing wait."""
 
 
 def may_command(request: Request) -> bool:

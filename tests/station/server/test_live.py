@@ -166,7 +166,7 @@ def test_so_many_pages_and_no_more_are_kept_up_to_date() -> None:
     assert all(line.closed == live.TOO_MANY or line.refused for line in others)
 
 
-def test_strangers_who_say_nothing_take_nobodys_place() -> None:
+def test_strangers_who_say_nothing_take_no_clients_place() -> None:
     ask = asked(token="sesame")
     strangers = [ALine(stays=True) for _ in range(100)]
     all_at_once(ask, strangers)
@@ -181,7 +181,7 @@ def test_a_page_that_hangs_up_makes_room() -> None:
         assert len(talk(ask, ALine(SEEN)).heard) == 1
 
 
-def test_when_the_station_ends_nobody_is_waited_for() -> None:
+def test_when_the_station_ends_no_client_is_waited_for() -> None:
     gate = asyncio.Event()
     ask = asked(AStation(busy=gate.wait))
     lines = [ALine(SEEN), ALine(stays=True), ALine(SEEN, SEEN)]

@@ -138,7 +138,7 @@ def test_who_does_not_read_the_answer_is_let_go(monkeypatch: pytest.MonkeyPatch)
     play(scene)
 
 
-def test_many_who_say_nothing_keep_nobody_out(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_many_who_say_nothing_keep_no_client_out(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(crowd, "_MOST", 16)
 
     async def scene(station: Served) -> None:
@@ -257,35 +257,29 @@ def test_who_asks_and_does_not_read_costs_nothing_and_hears_all_of_it_later() ->
     play(scene)
 
 
-def test_it_ends_at_once_whoever_is_connected() -> None:
-    async def whole() -> None:
-        async with served() as station:
+async def test_it_ends_at_once_with_clients_connected() -> None:
+    async with served() as station:
 
-            async def endless() -> None:
-                await asyncio.Event().wait()
+        async def endless() -> None:
+            await asyncio.Event().wait()
 
-            station.station.busy = endless
-            where = f"ws://{station.host}/api/live"
-            page = await connect(where, origin=station.origin)
-            await page.send(json.dumps(SEEN))
-            start = station.request("POST", "/api/start", {"id": "1"})
-            waits = asyncio.create_task(station.say(start))
-        async with asyncio.timeout(10):
-            with pytest.raises(ConnectionClosed) as closed:
-                await page.recv()
-            assert closed.value.rcvd is not None and closed.value.rcvd.code == 1012
-            await waits
-
-    asyncio.run(whole())
+        station.station.busy = endless
+        where = f"ws://{station.host}/api/live"
+        page = await connect(where, origin=station.origin)
+        await page.send(json.dumps(SEEN))
+        start = station.request("POST", "/api/start", {"id": "1"})
+        waits = asyncio.create_task(station.say(start))
+    async with asyncio.timeout(10):
+        with pytest.raises(ConnectionClosed) as closed:
+            await page.recv()
+        assert closed.value.rcvd is not None and closed.value.rcvd.code == 1012
+        await waits
 
 
-def test_signals_are_left_to_those_who_fly() -> None:
-    async def whole() -> None:
-        before = signal.getsignal(signal.SIGINT), signal.getsignal(signal.SIGTERM)
-        async with served():
-            assert (signal.getsignal(signal.SIGINT), signal.getsignal(signal.SIGTERM)) == before
-
-    asyncio.run(whole())
+async def test_signals_are_left_to_those_who_fly() -> None:
+    before = signal.getsignal(signal.SIGINT), signal.getsignal(signal.SIGTERM)
+    async with served():
+        assert (signal.getsignal(signal.SIGINT), signal.getsignal(signal.SIGTERM)) == before
 
 
 def test_a_port_that_is_taken_is_said_in_words() -> None:
@@ -305,7 +299,7 @@ def test_a_port_that_is_taken_is_said_in_words() -> None:
         ("\x00", 0, "no such address"),
     ],
 )
-def test_where_nobody_can_listen_is_said_in_words(host: str, port: int, why: str) -> None:
+def test_where_it_cannot_listen_is_said_in_words(host: str, port: int, why: str) -> None:
     with pytest.raises(BadInput, match=why):
         listening(host, port)
 

@@ -1,4 +1,4 @@
-"""Blocks for surveys: what a package of somebody else's looks like."""
+"""Blocks for surveys: what a package of another author's looks like."""
 
 from .grid_scan import GRID_SCAN
 

@@ -1,0 +1,70 @@
+"""A fleet as its file describes it: the map, the drones, and the world that a simulation shows them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from math import exp, inf
+
+from .airspace import Airspace
+from .geometry import Corner
+from .model import AfterTrip, Point
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Feature:
+    """Something on the ground that a photo can show."""
+
+    kind: str
+    at: Corner
+    radius: float = 0.3
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Source:
+    """Where a quantity is highest, by how much, and how far it spreads."""
+
+    quantity: str
+    at: Corner
+    peak: float
+    radius: float
+    """Metres within which most of it stays: the standard deviation of a bell curve."""
+
+    def at_distance(self, x: float, y: float) -> float:
+        """Return what there is of it so many metres away, however narrow or wide it is."""
+        away, spread = x * x + y * y, 2 * self.radius * self.radius
+        if away == 0.0 or spread == inf:
+            return self.peak
+        return self.peak * exp(-away / spread) if spread > 0.0 else 0.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WorldData:
+    """A world as a fleet file describes it."""
+
+    features: tuple[Feature, ...] = ()
+    sources: tuple[Source, ...] = ()
+    background: Mapping[str, float] = field(default_factory=dict)
+    """Beside `BACKGROUND`, or instead of its numbers."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DroneData:
+    """A drone as the fleet file has it."""
+
+    id: str
+    category: str
+    """The name of one of the app's categories."""
+    home: Point
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FleetData:
+    """What the brain must know of a fleet."""
+
+    airspace: Airspace
+    drones: Sequence[DroneData]
+    after_trip: AfterTrip = AfterTrip.HOME
+    max_airborne: int | None = None
+    world: WorldData | None = None
+    """None: a simulation makes up a world from its seed."""

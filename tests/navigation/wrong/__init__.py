@@ -1,1 +1,0 @@
-"""Navigations that are wrong on purpose, a file each; `FOUND_BY` is the check that must find it."""
