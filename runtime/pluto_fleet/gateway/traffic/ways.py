@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING
 from pluto_fleet.jobs.landing_sites import free_spots, is_free
 from plutoc_runtime.fleet.reach import docked
 
+from ...jobs.landing_sites import free_spots, is_free
+
 if TYPE_CHECKING:
     from plutoc_runtime.domain.airspace import Airspace
     from plutoc_runtime.domain.model import Point, Telemetry
