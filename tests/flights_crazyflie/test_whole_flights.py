@@ -19,6 +19,9 @@ from tests.flights_crazyflie.plans import SIZE, WARD, fleet, missions, quick_pac
 from tests.flights_crazyflie.scenarios import SCENARIOS
 from tests.kill.trial import gateway_of
 
+# minutes in real time; test_dry_run.py flies one through all of it
+pytestmark = pytest.mark.long
+
 APART = 0.5
 
 

@@ -30,7 +30,13 @@ json.dump([text for text in texts if black.format_str(text, mode=mode) != text],
 """
 
 
-@pytest.fixture(params=RELEASES, ids=lambda release: release or "newest")
+@pytest.fixture(
+    # pip fetches each; the newest is what people have
+    params=[
+        pytest.param(release, marks=[pytest.mark.long] if release else []) for release in RELEASES
+    ],
+    ids=lambda release: release or "newest",
+)
 def black(request: pytest.FixtureRequest) -> Path:
     """Return a folder with a release of Black, and of what it needs."""
     release: str = request.param
