@@ -30,7 +30,7 @@ def test_all_trips_are_completed_at_their_targets_and_every_drone_lands_before_i
 ) -> None:
     flight = new_flight(missions(WARD), fleet(5), 5)
     flight.start()
-    assert flight.wait() == 0, flight.told
+    assert flight.see_through() == 0, flight.told
     assert set(flight.ends().values()) == {"COMPLETED"}, flight.told
     flight.until(lambda: gateway_of(flight.journal) is None)  # all links are closed
     events, deeds, trace = flight.events, flight.deeds, flight.trace

@@ -92,7 +92,7 @@ def stopped(how: str, source: Path, folder: Path, speed: float) -> Figures:
         places = {id: point_of(one["at"]) for id, one in flight.state.items()}
         began = time.monotonic()
         ask(note_of(flight.journal), {"command": "stop", "how": how}, 90.0)
-        code = flight.wait()
+        code = flight.see_through()
         deeds = flight.deeds
         problems = [*dropped(deeds), *left_in_the_air(deeds), *astray(deeds, SIZE)]
         if code != STOPPED:
