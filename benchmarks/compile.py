@@ -3,15 +3,11 @@
 `python benchmarks/compile.py` compiles an app of ten blocks, each way in turn with `python -c pass`,
 round after round, and prints the least and the median time of each and their ratios:
 
-- cold_black: nothing is in the cache and no package is there yet, so all is rendered and formatted,
-- black_asked: the same, and a title has both kinds of quotes, so that Black itself is imported and
-  asked: what else generated code has, it is known to leave alone,
+- cold: no package is there yet,
 - edit: one setting is another one than in the compile before,
-- cold: a comment is another one, so the app is compiled and no file's text changes,
 - unchanged: nothing at all has changed.
 
-Then it compiles apps of 1,000 and of 10,000 blocks, with nothing in the cache, for how much longer
-the large one takes. `grcc`, the compiler of GNU Radio, does the same for a flow graph of ten blocks
+Then it compiles apps of 1,000 and of 10,000 blocks, for how much longer the large one takes. `grcc`, the compiler of GNU Radio, does the same for a flow graph of ten blocks
 where it is installed. With --json, one object: the ratios, and beside them all times in `raw`.
 """
 
@@ -34,11 +30,9 @@ from cold_start import SOUND, program
 from large_apps import SHAPES, write_app
 from measuring.options import at_least_one
 
-FORGETFUL = ("cold_black", "black_asked")
 EMPTY = "python -c pass"
 GRCC = "grcc"
-WAYS = ("black_asked", "cold_black", "edit", "cold", "unchanged")
-QUOTES = SOUND.replace("app sound {", 'app sound "It\'s \\"sound\\"" {')
+WAYS = ("cold", "edit", "unchanged")
 
 
 @dataclass(slots=True)
@@ -50,10 +44,9 @@ class Bench:
 
     @property
     def environment(self) -> dict[str, str]:
-        """A cache of its own; and Python may keep its bytecode, as it does where it is installed."""
+        """Python may keep its bytecode, as it does where it is installed."""
         unwanted = ("PYTHONDONTWRITEBYTECODE", "PYTHONPROFILEIMPORTTIME")
-        kept = {name: value for name, value in os.environ.items() if name not in unwanted}
-        return {**kept, "XDG_CACHE_HOME": str(self.home / "cache")}
+        return {name: value for name, value in os.environ.items() if name not in unwanted}
 
     def run(self, name: str, command: Iterable[str]) -> None:
         """Run a command, and note its time under a name."""
@@ -64,9 +57,8 @@ class Bench:
         self.times.setdefault(name, []).append(time.perf_counter() - begun)
 
     def forget(self) -> None:
-        """Remove what compiles have left."""
-        for name in ("cache", "package"):
-            shutil.rmtree(self.home / name, ignore_errors=True)
+        """Remove the package that a compile has left."""
+        shutil.rmtree(self.home / "package", ignore_errors=True)
 
 
 def small(bench: Bench, number: int) -> None:
@@ -74,16 +66,14 @@ def small(bench: Bench, number: int) -> None:
     app = bench.home / "app.pluto"
     command = [*program(), "compile", "app.pluto", "-o", "package"]
     before: Mapping[str, Callable[[], object]] = {
-        "black_asked": lambda: app.write_text(QUOTES),
-        "cold_black": lambda: app.write_text(SOUND),
+        "cold": lambda: app.write_text(SOUND),
         "edit": lambda: app.write_text(SOUND.replace("attempts: 3", f"attempts: {number + 4}")),
-        "cold": lambda: app.write_text(f"{app.read_text()}# {number}\n"),
         "unchanged": lambda: None,
     }
     for name in WAYS:
         bench.run(EMPTY, [sys.executable, "-c", "pass"])
         before[name]()
-        if name in FORGETFUL:
+        if name == "cold":
             bench.forget()
         bench.run(name, command)
 

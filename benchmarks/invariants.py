@@ -21,7 +21,8 @@ from random import Random
 
 sys.path[:0] = [str(Path(__file__).parents[1])]
 
-from pluto_fleet.files.fleet import DroneEntry, FleetFile
+from pluto_fleet.files.drones import DroneEntry
+from pluto_fleet.files.fleet import FleetFile
 from pluto_fleet.journal.event_line import line
 from pluto_fleet.trials.blows import blows_of
 from pluto_fleet.trials.book import Trial

@@ -7,12 +7,11 @@ generated code, pages and screens all come from these properties.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from enum import Enum
 from types import MappingProxyType
 from typing import Any
 
-from plutoc.frozen import frozen, frozen_one
 from plutoc_runtime.domain.fields import Field
 from plutoc_runtime.domain.quantities import Type
 from plutoc_runtime.domain.status import IN_GRAPH, Status
@@ -50,7 +49,7 @@ class Gate(Enum):
     ALL = "waits for every branch, then passes the worst status"
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Param:
     """A value written in the source, in parentheses after the block's kind."""
 
@@ -63,7 +62,7 @@ class Param:
     least: float | None = None
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class HookParam:
     """The name of a hook. The block's step gets the function itself, as `hook`."""
 
@@ -75,7 +74,7 @@ class HookParam:
     """The hook's own parameters are written beside it, and its step gets them by name."""
 
 
-@frozen_one
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Choice:
     """One of several functions of the runtime, by name, or one of the app's hooks."""
 
@@ -91,7 +90,7 @@ class Choice:
 AnyParam = Param | HookParam | Choice
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Narrowed:
     """While a parameter has this value, the block emits no more than these statuses."""
 
@@ -100,7 +99,7 @@ class Narrowed:
     emits: frozenset[Status]
 
 
-@frozen_one
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Block:
     """One kind of block.
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from plutoc.check.model import Checked
 from plutoc.check.run import check
 from plutoc.diagnostic import Diagnostic, Rejected, accept_or_raise
-from plutoc.frozen import frozen
 from plutoc.graph.resolve import resolved
 from plutoc.registry import blocks, standard
 from plutoc.source import Source
@@ -27,7 +27,7 @@ KnownHooks = Callable[[Checked], Mapping[str, str]]
 _NONE: Mapping[str, str] = MappingProxyType({})
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Compiled:
     """An app from its source to its files."""
 
@@ -114,12 +114,12 @@ def package_of(
     from plutoc.emit.errors import not_embeddable, place_of
     from plutoc.emit.modules import EmbedError
     from plutoc.emit.package import emit
-    from plutoc.report.graph import mermaid
+    from plutoc.report.pictures import mermaid
 
     plan = planned(checked, optimise=optimise)
     try:
         return emit(
             plan, source_name=source_name, picture=mermaid(checked), carry=carry, former=former
         )
-    except EmbedError as error:  # a block that somebody else made
+    except EmbedError as error:  # a block of another package
         raise Rejected([not_embeddable(place_of(checked.graph), str(error))]) from error

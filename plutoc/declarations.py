@@ -1,6 +1,6 @@
 """Is what a package declares as a block one, in every field of it?
 
-A declaration is somebody else's code: what is wrong with it is said here, with the package's name and
+A declaration may be another author's code: what is wrong with it is said here, with the package's name and
 the block's, and not met later as a mistake of the compiler.
 """
 
@@ -16,6 +16,7 @@ from plutoc.block import Block, Choice, Gate, HookKind, HookParam, Narrowed, Par
 from plutoc_runtime.domain.fields import Entity, Field, FieldType
 from plutoc_runtime.domain.quantities import Type
 from plutoc_runtime.domain.status import Status
+from plutoc_runtime.domain.text import bounded, printable, shown
 
 _FLAGS = (
     "emits_by_hook",
@@ -68,8 +69,6 @@ def is_text(text: object) -> bool:
 
 
 def _called(value: object) -> str:
-    from plutoc_runtime.domain.text import bounded, printable, shown
-
     return bounded(printable(shown(value)), 60)
 
 

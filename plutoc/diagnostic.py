@@ -7,10 +7,9 @@ code is never used twice, not even after its diagnostic is gone.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from enum import Enum
 
-from plutoc.frozen import frozen
 from plutoc.source import Source, Span
 
 
@@ -21,7 +20,7 @@ class Severity(Enum):
     WARNING = "warning"
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Related:
     """Another place that has to do with it, and how."""
 
@@ -30,7 +29,7 @@ class Related:
     label: str
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Fix:
     """A change that certainly mends it: put this text in place of the span."""
 
@@ -38,7 +37,7 @@ class Fix:
     text: str
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Diagnostic:
     """One finding: what is wrong, where, what has to do with it, and what to do."""
 

@@ -1,19 +1,23 @@
 """The blocks that are installed: found by their packages' entry points, loaded when first used.
 
 To look for entry points takes longer than to check an app. So it is done only where an app uses
-somebody's package: where ours are is known.
+another package: where ours are is known.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
+from importlib.metadata import entry_points
 from types import MappingProxyType
 
 from plutoc.block import Block
-from plutoc.frozen import frozen
-from plutoc.terminated import Terminated
+from plutoc.declarations import is_name, mistakes_in
+from plutoc.strangers import Terminated, by_a_person, kept_apart
+from plutoc_runtime.domain.text import printable
+from plutoc_runtime.hooks.calls import said
 
 GROUP = "plutoc.blocks"
 STD = "std"
@@ -25,16 +29,14 @@ OURS = "plutoc_blocks:BLOCKS"
 class RegistryError(Exception):
     """A package of blocks cannot be used. The message is a sentence for a person.
 
-    It may quote what somebody else has written: nothing in it can command a terminal.
+    It may quote what a stranger has written: nothing in it can command a terminal.
     """
 
     def __init__(self, message: str) -> None:
-        from plutoc_runtime.domain.text import printable
-
         super().__init__("\n".join(map(printable, message.split("\n"))))
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Blocks:
     """The packages there are, and how to get one's blocks by kind."""
 
@@ -60,8 +62,6 @@ def installed() -> Mapping[str, Mapping[str, Block]]:
 
 def installed_packages() -> tuple[str, ...]:
     """Return the names of the installed packages of blocks, ours first."""
-    from importlib.metadata import entry_points
-
     names = {point.name for point in entry_points(group=GROUP)} - {STD}
     return (STD, *sorted(names))
 
@@ -71,8 +71,6 @@ def blocks_of(package: str) -> Mapping[str, Block]:
     """Load a package's blocks, by kind; raise `RegistryError` where that fails."""
     if package == STD:
         return _loaded(package, OURS, _ours)
-    from importlib.metadata import entry_points
-
     points = list(entry_points(group=GROUP, name=package))
     if not points:
         raise RegistryError(f"no package of blocks named {package} is installed")
@@ -92,9 +90,6 @@ def _ours() -> object:
 
 def _theirs(package: str, value: str, load: Callable[[], object]) -> object:
     """Load a package's own code, which may raise anything, or end Python: neither passes for ours."""
-    from plutoc.strangers import by_a_person, kept_apart
-    from plutoc_runtime.hooks.calls import said
-
     with kept_apart():
         try:
             declared = load()
@@ -137,8 +132,6 @@ def _loaded(package: str, value: str, load: Callable[[], object]) -> Mapping[str
 
 def _look_at(block: Block, package: str) -> None:
     """Raise `RegistryError` if a declaration is not what it must be."""
-    from plutoc.declarations import is_name, mistakes_in
-
     try:
         mistakes = list(mistakes_in(block))
     except (KeyboardInterrupt, Terminated):

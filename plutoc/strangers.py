@@ -10,6 +10,14 @@ from types import FrameType
 from typing import NoReturn
 
 
+class Terminated(BaseException):
+    """We were told to end, by a signal. No `Exception`: code that catches those must let it through."""
+
+    def __init__(self, signal: int) -> None:
+        super().__init__(signal)
+        self.code = 128 + signal
+
+
 class Interrupted(KeyboardInterrupt):
     """A person has pressed Ctrl-C: a type of its own, for any code may raise `KeyboardInterrupt`."""
 

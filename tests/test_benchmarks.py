@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -13,8 +14,7 @@ import pytest
 
 ROOT = Path(__file__).parents[1]
 EXAMPLES = sorted(path.parent.name for path in ROOT.glob("examples/*/app.pluto"))
-HEAVY = ("networkx", "jinja2", "black", "asyncio", "importlib.metadata", "lark", "pickle")
-FOR_APPS = ("lark", "argparse", "dataclasses", "typing", "plutoc.compile")
+FOR_PACKAGES = ("jinja2", "black", "asyncio")
 
 
 def python(*arguments: str) -> subprocess.CompletedProcess[str]:
@@ -33,37 +33,29 @@ def loaded(*arguments: str) -> set[str]:
     return set(python("-c", code, *arguments).stdout.splitlines()[-1].split())
 
 
-def test_who_asks_for_the_version_does_not_wait_for_the_compiler() -> None:
-    """Neither the parser of the language nor that of the command line is loaded."""
-    assert not loaded("--version").intersection(HEAVY + FOR_APPS)
+@pytest.mark.parametrize("flag", ["--version", "--help"])
+def test_the_version_and_the_help_do_not_wait_for_the_compiler(flag: str) -> None:
+    """No tool of the compiler is loaded, nor the compiler itself."""
+    assert not loaded(flag).intersection((*FOR_PACKAGES, "lark", "networkx", "plutoc.compile"))
 
 
 @pytest.mark.parametrize("example", EXAMPLES)
-def test_checking_a_sound_app_loads_nothing_heavy(example: str, tmp_path: Path) -> None:
+def test_checking_an_app_loads_nothing_that_writes_packages(example: str, tmp_path: Path) -> None:
     """Not even where there is a hooks.py, or a warning to be told."""
     for name in ("app.pluto", "hooks.py"):
         if (ROOT / "examples" / example / name).exists():
             shutil.copy(ROOT / "examples" / example / name, tmp_path)
-    assert not loaded("check", str(tmp_path / "app.pluto")).intersection(HEAVY)
-
-
-def test_a_compile_that_has_nothing_to_do_loads_nothing(tmp_path: Path) -> None:
-    """Not even the parser of the command line."""
-    shutil.copy(ROOT / "tests" / "cases" / "alfalfa" / "app.pluto", tmp_path)
-    command = ("compile", str(tmp_path / "app.pluto"))
-    first = loaded(*command)
-    assert "plutoc.compile" in first
-    assert not first.intersection(("black", "networkx", "importlib.metadata"))
-    assert not loaded(*command).intersection(HEAVY + FOR_APPS)
+    assert not loaded("check", str(tmp_path / "app.pluto")).intersection(FOR_PACKAGES)
 
 
 def test_the_cold_start_is_measured() -> None:
     """Every command gets a line, and the sample apps are what they are meant to be."""
     said = python(str(ROOT / "benchmarks" / "cold_start.py"), "--rounds", "1").stdout
     lines = {line[:24].strip(): line for line in said.splitlines()[1:]}
-    assert "networkx" in lines["check, with networkx"]
-    assert "networkx" not in lines["check"]
-    assert "networkx" not in lines["check, with a hooks.py"]
+    assert "lark" not in lines["--help"]
+    for name in ("check", "check, with a hooks.py", "check, with a warning"):
+        assert "lark" in lines[name]
+        assert "black" not in lines[name]
 
 
 def test_large_apps_are_measured() -> None:
@@ -78,9 +70,9 @@ def test_compiling_is_measured() -> None:
     script = str(ROOT / "benchmarks" / "compile.py")
     few = ("--sizes", "12", "24", "--rounds", "1", "--large-rounds", "1", "--json")
     found = json.loads(python(script, *few).stdout)
-    for name in ("cold_black", "edit", "cold", "unchanged", "growth_10k"):
+    for name in ("cold", "edit", "unchanged", "growth_10k"):
         assert found[name] > 0
-    assert set(found["raw"]) >= {"python -c pass", "cold_black", "cold", "unchanged", "wide 24"}
+    assert set(found["raw"]) >= {"python -c pass", "cold", "edit", "unchanged", "wide 24"}
     assert all(least["least_s"] <= least["median_s"] for least in found["raw"].values())
 
 
@@ -92,3 +84,21 @@ def test_the_choice_of_drones_is_measured() -> None:
     assert list(told["queue_s"]) == [f"{name} {size}" for name in policies for size in (2, 60)]
     assert len(told["choice_us"]) == 6
     assert list(told["share_ms"]) == ["3 x 2"]
+
+
+def test_the_house_is_measured() -> None:
+    """Each package has its line, and so have the rings."""
+    sizes, *rings = python(str(ROOT / "benchmarks" / "house.py")).stdout.split("\n\n")
+    named = {line.split()[0] for line in sizes.splitlines()[1:]}
+    assert {"plutoc", "runtime/plutoc_runtime", "runtime/pluto_fleet", "tests"} <= named
+    titles = [ring.partition(":")[0] for ring in rings]
+    assert titles == ["rings between rooms", "rings between files"]
+
+
+def test_the_path_of_a_trip_is_measured() -> None:
+    """It leads through more files where a gateway keeps drones apart."""
+    said = python(str(ROOT / "benchmarks" / "trip_path.py")).stdout
+    counted = re.findall(r"files (\d+), moves (\d+) until ([a-z.]+)", said)
+    assert [end for _, _, end in counted] == ["mission.ended", "drone.free"] * 2
+    alone, *_, together = (int(files) for files, _, _ in counted)
+    assert 5 < alone < together

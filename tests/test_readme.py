@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 
 from plutoc.compile import compile_source
-from plutoc.report.graph import mermaid
+from plutoc.report.pictures import mermaid
 from plutoc.source import Source
 
 ROOT = Path(__file__).parent.parent

@@ -64,7 +64,7 @@ class FromTheLoop(Still):
     def fly(self, job: Flight, report: Report) -> None:
         """Fly, then report."""
         trip = job.trip
-        failed = fails(job.state.mission.index, trip.index, trip.attempt - 1)
+        failed = fails(job.mission.index, trip.index, trip.attempt - 1)
         result = self.crash if failed else None
         if self.flight:
             self.notes.launched(job.drone, self.loop.time())
@@ -92,7 +92,7 @@ class AllTogether(Still):
     def fly(self, job: Flight, report: Report) -> None:
         """Wait for the others."""
         trip = job.trip
-        failed = fails(job.state.mission.index, trip.index, trip.attempt - 1)
+        failed = fails(job.mission.index, trip.index, trip.attempt - 1)
         self.up.append(report)
         self.results.append(self.crash if failed else None)
         self.flying += 1
@@ -120,6 +120,6 @@ class ThroughTheKernel(Still):
 
     def fly(self, job: Flight, report: Report) -> None:
         """Fly, then report."""
-        trip, kernel, mission = job.trip, self.kernel, job.state.mission.index
+        trip, kernel, mission = job.trip, self.kernel, job.mission.index
         result = self.crash if fails(mission, trip.index, trip.attempt - 1) else None
         kernel.schedule(kernel.now, self.kind, self.key(mission), partial(report, result))

@@ -7,7 +7,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from pluto_fleet.files.fleet import DroneEntry, FleetFile
+from pluto_fleet.files.drones import DroneEntry
+from pluto_fleet.files.fleet import FleetFile
 from pluto_fleet.jobs.job import Job
 from pluto_fleet.jobs.reports import Down, DroneReport, FleetReport
 from pluto_fleet.process.realtime import RealTime
@@ -125,7 +126,7 @@ class Instant:
         """Return what is known of a drone."""
         return self._docked
 
-    def fly(self, job: Job, report: Callable[[object], None]) -> None:
+    def fly(self, job: Job, report: Callable[[object], object]) -> None:
         """Report what was measured: in real time at once, and as something that comes by itself."""
         kernel = self._kernel
         if isinstance(kernel, RealTime):
@@ -183,7 +184,7 @@ class Instant:
         drones: Mapping[str, Any] = {name: await self.roll_call(name) for name in self._drones}
         return FleetReport(drones=drones, jobs={})
 
-    def attach(self, id: str, report: Callable[[object], None]) -> None:
+    def attach(self, id: str, report: Callable[[object], object]) -> None:
         """Nothing was given before."""
 
     def forget(self, id: str) -> None:

@@ -15,7 +15,7 @@ import sys
 from pathlib import Path
 
 from plutoc.compile import analyse
-from plutoc.report.graph import mermaid
+from plutoc.report.pictures import mermaid
 from plutoc.source import Source
 
 ROOT = Path(__file__).parents[2]

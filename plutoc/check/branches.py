@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
+
+import networkx as nx
 
 from plutoc.check.flow import Flow, Fork, Frame, Place, is_final
-from plutoc.check.rounds import rounds
-from plutoc.frozen import filled
+from plutoc.graph.digraph import reachable
 from plutoc.graph.model import END, Edge
 from plutoc_runtime.domain.status import IN_GRAPH, Status
 
@@ -15,7 +16,7 @@ Astray = tuple[Place, Status | None]
 """A place, and the status that it is left with where no edge takes that."""
 
 
-@filled
+@dataclass(slots=True, kw_only=True, eq=False)
 class Branch:
     """One branch of a fork, over all the missions that come through it."""
 
@@ -63,7 +64,7 @@ def branches(flow: Flow) -> Branches:
         for place in entries:
             if place.frame is not None:
                 _of(found, place.frame).inner[split.fork] = None
-    for part in rounds(flow):
+    for part in flow.endless():
         frame = part[0].frame
         if frame is not None and all(place.frame is not None for place in part):
             branch = _of(found, frame)
@@ -71,15 +72,20 @@ def branches(flow: Flow) -> Branches:
     return found
 
 
-def within(found: Branches, branch: Branch) -> tuple[Branch, ...]:
-    """Return the branch and all those of the forks in it, however deep."""
-    seen = {branch: None}
-    queue = [branch]
-    for one in queue:
-        fresh = [b for fork in one.inner for b in found[fork] if b not in seen]
-        seen.update(dict.fromkeys(fresh))
-        queue.extend(fresh)
-    return tuple(queue)
+def nesting(found: Branches) -> nx.DiGraph:
+    """Return which forks begin within the branches of which."""
+    inside = nx.DiGraph()
+    inside.add_nodes_from(found)
+    inside.add_edges_from(
+        (fork, inner) for fork, parts in found.items() for part in parts for inner in part.inner
+    )
+    return inside
+
+
+def within(found: Branches, inside: nx.DiGraph, branch: Branch) -> tuple[Branch, ...]:
+    """Return the branch and all those of the forks in it, however deep, in no certain order."""
+    deeper = (one for fork in reachable(inside, branch.inner) for one in found[fork])
+    return tuple({branch, *deeper})
 
 
 def _of(found: Branches, frame: Frame) -> Branch:

@@ -1,19 +1,102 @@
-"""From everywhere a way must lead to an end: loops that nothing leaves, now or one day."""
+"""From everywhere a way must lead to an end: statuses that no edge takes, loops that nothing leaves."""
 
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 
 from plutoc.check import errors
-from plutoc.check.components import round_of
+from plutoc.check.branches import Branch, Branches
 from plutoc.check.facts import elsewhere, is_over, puts_trips
-from plutoc.check.flow import Flow, Place, Split, blocks_of
-from plutoc.check.rounds import Round, rounds
-from plutoc.check.statuses import explore
-from plutoc.check.unflown import unflown
+from plutoc.check.flow import Flow, Fork, Place, Split, blocks_of, is_final
+from plutoc.check.forks import gates_of
+from plutoc.check.statuses import arrows_of, explore, unflown
 from plutoc.diagnostic import Diagnostic
+from plutoc.graph.digraph import round_of
 from plutoc.graph.model import END, Edge, Node
-from plutoc_runtime.domain.status import Status
+from plutoc_runtime.domain.status import IN_GRAPH, Status
+
+Left = tuple[Node, tuple[Status, ...], Place]
+"""A block, the statuses of it that no edge takes, and where it is left with the first of them."""
+
+
+Loop = tuple[Place, ...]
+
+
+def stuck(flow: Flow, found: Branches, idle: Collection[str]) -> list[Diagnostic]:
+    """Find where missions are left: one message a block, or for all that a fork leaves open.
+
+    What comes to an `idle` gate was meant to be in a fork: what is left behind it is not said.
+    """
+    diagnostics = []
+    walked = set(flow.edges)
+    # an arrow that must not be there has its own message, and was meant to take something
+    wrong = {edge.source for edge in flow.graph.edges if edge not in walked}
+    open_forks: dict[Fork, list[Left]] = {}
+    for node in flow.graph.nodes:
+        left = _left(flow, node)
+        if not left or node.name in wrong:
+            continue
+        statuses = tuple(s for s in IN_GRAPH if s in left)
+        place = left[statuses[0]]
+        if place.frame is not None:
+            open_forks.setdefault(place.frame.split.fork, []).append((node, statuses, place))
+        else:
+            way = flow.way(place, statuses[0])
+            if not any(hop.node in idle for hop in way):
+                taker = _taker(flow, node, statuses[0])
+                diagnostics.append(errors.stuck(flow.graph, node, statuses, way, taker))
+    for fork, lost in open_forks.items():
+        _, statuses, place = lost[0]
+        blocks = [(node, left) for node, left, _ in lost]
+        way = flow.way(place, statuses[0])
+        gate = _gate(flow, found[fork])
+        diagnostics.append(errors.stuck_in_fork(flow.graph, fork, blocks, gate, way))
+    return diagnostics
+
+
+def implicitly(flow: Flow) -> list[Diagnostic]:
+    """Warn of blocks where missions end without an edge to `end`."""
+    left: dict[str, list[Status]] = {}
+    for name, status in implicit_ends(flow):
+        left.setdefault(name, []).append(status)
+    return [
+        errors.implicit_end(
+            flow.graph, flow.graph.node[name], statuses, flow.way_to(name, statuses[0])
+        )
+        for name, statuses in left.items()
+    ]
+
+
+def implicit_ends(flow: Flow) -> tuple[tuple[str, Status], ...]:
+    """Return where missions end without an edge to `end`; in a fork that is another mistake."""
+    left = {
+        (place.node, status)
+        for place, status in flow.loose
+        if place.frame is None and is_final(status)
+    }
+    return tuple((name, s) for name in flow.graph.node for s in IN_GRAPH if (name, s) in left)
+
+
+def _left(flow: Flow, node: Node) -> dict[Status, Place]:
+    """Where missions are left at a block, by the status that no edge takes."""
+    left: dict[Status, Place] = {}
+    for place, status in flow.loose:
+        if place.node == node.name and not is_final(status):
+            left.setdefault(status, place)
+    return left
+
+
+def _gate(flow: Flow, branches: tuple[Branch, ...]) -> str | None:
+    """The gate that a fork most likely should close at: its other branches', or one left over."""
+    spare = (n.name for n in flow.graph.nodes if n.block.gate and not flow.arrives[n.name])
+    return next(iter((*gates_of(branches), *spare)), None)
+
+
+def _taker(flow: Flow, node: Node, status: Status) -> str | None:
+    """The block that the mission most likely should go to: it takes the status, and mends most."""
+    takers = [n for n in flow.graph.nodes if status in n.block.accepts and n is not node]
+    likely = sorted(takers, key=lambda n: (not n.block.allocates, not n.block.watches))
+    return likely[0].name if likely else None
 
 
 def endless(flow: Flow, astray: Collection[str]) -> list[Diagnostic]:
@@ -22,14 +105,14 @@ def endless(flow: Flow, astray: Collection[str]) -> list[Diagnostic]:
     Those within a fork that nothing leaves are left out: there it is the fork that does not close. So
     are those of finished missions through gates to which they go `astray`: that has been said.
     """
-    never = [part for part in rounds(flow) if not (_is_idle(part) and _meets(part, astray))]
+    never = [part for part in flow.endless() if not (_is_idle(part) and _meets(part, astray))]
     blocks = {*astray, *(place.node for part in never for place in part)}
     found = [_endless(flow, part) for part in never if any(place.frame is None for place in part)]
     # a way round within a branch may lie on another one, which leads through the branch's gate
     for edges in (flow.edges, _within_branches(flow)):
         idle = _idle(flow, edges)
         if idle is not None:
-            parts = [part for part in rounds(idle) if not _meets(part, blocks)]
+            parts = [part for part in idle.endless() if not _meets(part, blocks)]
             found += [_spins(flow, idle, part) for part in parts]
             blocks.update(place.node for part in parts for place in part)
     return found
@@ -49,7 +132,7 @@ def _idle(flow: Flow, edges: tuple[Edge, ...]) -> Flow | None:
 
     Only on ways round where nothing is flown, and only where a hook could fail them.
     """
-    turns = unflown(flow.graph, edges)
+    turns = unflown(flow.graph, arrows_of(flow.graph, edges))
     failing = {turns[name] for name in turns if _may_fail(flow.graph.node[name])}
     blocks = {name for name, number in turns.items() if number in failing}
     if not blocks:
@@ -87,23 +170,23 @@ def _may_fail(node: Node) -> bool:
     return node.block.evaluates or (puts_trips(node) and len(node.emitted(Status.COMPLETED)) > 1)
 
 
-def _is_idle(part: Round) -> bool:
+def _is_idle(part: Loop) -> bool:
     """Is it a loop that only missions with nothing left to fly cannot leave, for all is said already?"""
     return all(map(is_over, part)) and any(place.facts.said for place in part)
 
 
-def _meets(part: Round, blocks: Collection[str]) -> bool:
+def _meets(part: Loop, blocks: Collection[str]) -> bool:
     return any(place.node in blocks for place in part)
 
 
-def _endless(flow: Flow, part: Round) -> Diagnostic:
+def _endless(flow: Flow, part: Loop) -> Diagnostic:
     way, names = flow.way(part[0]), blocks_of(round_of(flow.after, part, part[0]))
     head = flow.graph.node[part[0].node]
     error = errors.spins if _is_idle(part) else errors.endless
     return error(flow.graph, head, way, names)
 
 
-def _spins(flow: Flow, idle: Flow, part: Round) -> Diagnostic:
+def _spins(flow: Flow, idle: Flow, part: Loop) -> Diagnostic:
     first = part[0]
     where = (place for place in flow.places if place._replace(frame=first.frame) == first)
     way = flow.way(next(where, flow.nearest[first.node]))

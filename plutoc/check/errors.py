@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from plutoc.check.flow import Fork, Way, ordered
-from plutoc.check.words import (
+from plutoc.check.phrases import (
     accepts,
     arrows,
     emits_here,
@@ -131,7 +131,7 @@ def nothing_to_fly(graph: Graph, node: Node, edges: Sequence[Edge], way: Way) ->
         "P2008",
         (graph, edges[0].span),
         f"no mission ever takes the arrow `{node.name} -> {edges[0].target}`",
-        label=f"whatever comes to `{node.name}` has no trip left, and ends there FAILED",
+        label=f"a mission that comes to `{node.name}` has no trip left, and ends there FAILED",
         related=tuple(related_to(graph, edge.span, "nor this one") for edge in edges[1:]),
         help=f"lead FAILED elsewhere: a mission can fly on only where a trip of it failed, or where an "
         f"evaluator asked for more trips, STANDBY{there(way)}",
@@ -327,7 +327,7 @@ def drone_held(graph: Graph, node: Node, way: Way) -> Diagnostic:
     return warning(
         "P2054",
         (graph, node.name_span),
-        f"a mission waits in `{node.name}` with a drone allocated, which nobody else can use",
+        f"a mission waits in `{node.name}` with a drone allocated, which no other mission can use",
         help=f"put `{node.name}` before the block that allocates{there(way)}",
     )
 

@@ -1,13 +1,22 @@
-"""Drones and launches: what a mission must have behind it where it comes to a block."""
+"""What is flown: drones and launches, what becomes of failures, and who judges before repeating."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+
+import networkx as nx
 
 from plutoc.check import errors
-from plutoc.check.flow import Flow, Place, Way
+from plutoc.check.facts import bound_of
+from plutoc.check.flow import Flow, Place, Way, blocks_of
+from plutoc.check.statuses import arrows_of
 from plutoc.diagnostic import Diagnostic
+from plutoc.graph.digraph import loops, reachable, round_of
 from plutoc.graph.model import Graph, Node
+from plutoc_runtime.domain.status import Status
+
+_MOST_LOOPS = 10
+"""So many are shown, each with its way round."""
 
 
 def undrawn(flow: Flow) -> list[Diagnostic]:
@@ -25,7 +34,7 @@ def unlaunched(flow: Flow) -> list[Diagnostic]:
 
 
 def held(flow: Flow) -> list[Diagnostic]:
-    """Warn of missions that rest with a drone allocated that nobody else can use."""
+    """Warn of missions that rest with a drone allocated that no other can use."""
     return _first(flow, lambda node, p: node.block.holds and p.facts.allocated, errors.drone_held)
 
 
@@ -42,3 +51,77 @@ def _first(
         if node and not place.out and node.name not in found and wrong(node, place):
             found[node.name] = error(flow.graph, node, flow.way(place))
     return list(found.values())
+
+
+def unmended(flow: Flow) -> list[Diagnostic]:
+    """Warn where a failed trip ends its mission, for want of a block that puts it back."""
+    failing = [
+        node
+        for node in flow.graph.nodes
+        if node.block.watches and Status.FAILED in flow.leaves[node.name]
+    ]
+    if not failing or any(_mends(flow, node) for node in flow.graph.nodes):
+        return []
+    return [errors.failures_stop(flow.graph, failing[0])]
+
+
+def unbounded(flow: Flow) -> list[Diagnostic]:
+    """Warn of loops that a trip which always fails would go round for ever."""
+    after = nx.DiGraph()
+    after.add_nodes_from(flow.places)
+    after.add_edges_from((p, t) for p, t in flow.after.edges if _is_failure(flow, p, t))
+    found: dict[str, Diagnostic] = {}
+    for part in loops(after):
+        inside = set(part)
+        for place in part:
+            node = flow.graph.node[place.node]
+            mended = _is_mended(place, [t for t in after[place] if t in inside])
+            if len(found) == _MOST_LOOPS:
+                return list(found.values())
+            if mended and node.name not in found:
+                names = blocks_of(round_of(after, part, place))
+                found[node.name] = errors.fails_forever(flow.graph, node, names)
+    return list(found.values())
+
+
+def _is_mended(place: Place, targets: Iterable[Place]) -> bool:
+    """Does a failed mission leave this place in a better state?"""
+    return place.status is Status.FAILED and any(t.status is not Status.FAILED for t in targets)
+
+
+def _mends(flow: Flow, node: Node) -> bool:
+    """Does a failed mission come here, and may it leave in a better state?"""
+    return Status.FAILED in flow.arrives[node.name] and bool(
+        node.emitted(Status.FAILED) - {Status.FAILED}
+    )
+
+
+def _is_failure(flow: Flow, place: Place, target: Place) -> bool:
+    """Can a mission take this step though no flight of its trip succeeds, as often as it likes?"""
+    node = flow.graph.node[place.node]
+    if target.status is Status.FAILED:
+        return True
+    if node.block.evaluates or node.block.repeats:
+        return False
+    return not (node.block.watches or bound_of(node))
+
+
+def repeated_unjudged(flow: Flow) -> list[Diagnostic]:
+    """Warn where a mission is repeated before it was judged."""
+    graph = flow.graph
+    # behind a launch it is another flight that is judged
+    unlaunched = (e for e in flow.edges if flow.carries[e] and not _launches(flow, e.source))
+    after = arrows_of(graph, unlaunched)
+    found = []
+    for node in graph.nodes:
+        if node.block.repeats and flow.arrives[node.name]:
+            follow = reachable(after, [node.name])
+            judges = [n for n in graph.nodes if n.block.evaluates and n.name in follow]
+            if judges:
+                found.append(errors.repeated_unjudged(graph, node, judges[0]))
+    return found
+
+
+def _launches(flow: Flow, name: str) -> bool:
+    node = flow.graph.node.get(name)
+    return node is not None and node.block.launches

@@ -9,10 +9,13 @@ Places are looked up by the million, and so are tuples: to hash those is quicker
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 from itertools import groupby
 from typing import NamedTuple
 
-from plutoc.frozen import frozen
+import networkx as nx
+
+from plutoc.graph.digraph import endless_loops
 from plutoc.graph.model import Edge, Graph
 from plutoc_runtime.domain.status import IN_GRAPH, Status
 
@@ -92,15 +95,17 @@ class Hop(NamedTuple):
 Way = tuple[Hop, ...]
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Flow:
     """Everything that the walk found. Mappings are in the order of discovery."""
 
     graph: Graph
     edges: tuple[Edge, ...]
     """Those that were walked: all but the ones that `start` and the creator forbid."""
+    arrows: nx.DiGraph
+    """The same, from block to block by name."""
     places: Mapping[Place, Step | None]
-    after: Mapping[Place, tuple[Place, ...]]
+    after: nx.DiGraph
     """Where missions go next from each place."""
     loose: tuple[tuple[Place, Status], ...]
     """Places left with a status that no edge takes."""
@@ -111,6 +116,15 @@ class Flow:
     arrives: Mapping[str, frozenset[Status]]
     leaves: Mapping[str, frozenset[Status]]
     carries: Mapping[Edge, frozenset[Status]]
+
+    def endless(self) -> tuple[tuple[Place, ...], ...]:
+        """Return the loops that are never left, each as places in the order of discovery.
+
+        A way comes to its end where nothing follows, or where some status is left without an edge,
+        even if that is a mistake of its own.
+        """
+        ending = {place for place, _ in self.loose}
+        return tuple(part for part in endless_loops(self.after) if ending.isdisjoint(part))
 
     def branches(self, node: str, status: Status) -> tuple[Edge, ...]:
         """The edges that this status was seen to take from this block."""

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from plutoc.check.branches import Astray, Branch
 from plutoc.check.flow import Fork, Way
-from plutoc.check.words import error, fate, fork_of, is_flown, names, related_to, there
+from plutoc.check.phrases import error, fate, fork_of, is_flown, names, related_to, there
 from plutoc.diagnostic import Diagnostic
 from plutoc.graph.model import Graph, Node
 

@@ -1,25 +1,26 @@
-"""Every branch of a fork closes at one gate; forks nest."""
+"""Every branch of a fork closes at one gate, forks nest, and every gate closes a fork."""
 
 from __future__ import annotations
 
 from plutoc.block import Gate
 from plutoc.check import fork_errors as errors
 from plutoc.check import model
-from plutoc.check.branches import Branch, Branches, within
-from plutoc.check.components import loops
-from plutoc.check.flow import Flow, Fork
+from plutoc.check.branches import Branch, Branches, nesting, within
+from plutoc.check.flow import Flow, Place
 from plutoc.diagnostic import Diagnostic
+from plutoc.graph.digraph import loops
 
 Branched = tuple[Branch, ...]
 MOST_NESTED = 100
 """So deep forks may lie in each other: a branch is written within the one around it."""
 _MOST_WAYS = 200
-"""Of so many forks that go round for ever a way is shown; nobody reads those of thousands."""
+"""Of so many forks that go round for ever a way is shown."""
 
 
 def unclosed(flow: Flow, found: Branches) -> list[Diagnostic]:
     """Find forks that do not close: for each the one message that says most."""
-    breeding = loops({fork: _inner(branches) for fork, branches in found.items()})
+    inside = nesting(found)
+    breeding = loops(inside)
     diagnostics = []
     for part in breeding:
         again = [p for s, places in flow.entries.items() if s.fork == part[0] for p in places]
@@ -27,7 +28,7 @@ def unclosed(flow: Flow, found: Branches) -> list[Diagnostic]:
             errors.breeds(flow.graph, found[part[0]][0], flow.way(again[-1], part[0][1]))
         )
     for fork, branches in found.items():
-        stuck = any(inner.stuck for branch in branches for inner in within(found, branch))
+        stuck = any(inner.stuck for branch in branches for inner in within(found, inside, branch))
         if not stuck and not any(fork in part for part in breeding):
             shown = len(diagnostics) < _MOST_WAYS
             wrong = _shared(flow, found, branches) or _open(flow, found, branches, shown)
@@ -97,13 +98,39 @@ def _open(flow: Flow, found: Branches, branches: Branched, shown: bool) -> Diagn
     return None
 
 
-def _inner(branches: Branched) -> tuple[Fork, ...]:
-    return tuple(dict.fromkeys(fork for branch in branches for fork in branch.inner))
-
-
 def _sound(branches: Branched) -> bool:
     """Do the branches all close, at one gate?"""
     return len(gates_of(branches)) == 1 and all(
         branch.gates and not branch.astray and not branch.circles and not branch.stuck
         for branch in branches
     )
+
+
+def idle_gates(flow: Flow, found: Branches, *, lacking: bool) -> dict[str, Diagnostic]:
+    """Find gates that missions come to outside of any fork, by name.
+
+    Where something else is `lacking`, a block that nothing leads to, that may be the branch which a
+    gate waits for: it has a message already.
+    """
+    # where branches close at different gates, what comes behind them has been said already
+    torn = {
+        g for branches in found.values() if len(gates_of(branches)) > 1 for g in gates_of(branches)
+    }
+    closing = {gate for branches in found.values() for gate in gates_of(branches)}
+    alone: dict[str, Place] = {}
+    for place in flow.places:
+        if place.frame is None and not place.out:
+            alone.setdefault(place.node, place)
+    idle: dict[str, Diagnostic] = {}
+    for name, place in alone.items():
+        node = flow.graph.node.get(name)
+        if node is None or node.block.gate is None or name in torn:
+            continue
+        way = flow.way(place)
+        # behind a gate that closes nothing comes what was meant to be in a fork
+        behind_another = any(hop.node in idle for hop in way)
+        if name in closing:
+            idle[name] = errors.outside_fork(flow.graph, node, way)
+        elif not lacking and not behind_another:
+            idle[name] = errors.closes_nothing(flow.graph, node, way)
+    return idle

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 
-from plutoc.frozen import frozen
 from plutoc.graph.model import Edge, Graph
 from plutoc_runtime.domain.status import Status
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Fork:
     """One status of one block that two or more edges take: a clone of the mission on each."""
 
@@ -21,7 +21,7 @@ class Fork:
     """The block at which every branch closes."""
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Checked:
     """A sound graph. What missions do after a Stop counts like anything else that they do."""
 

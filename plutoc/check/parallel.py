@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from itertools import combinations
 
+import networkx as nx
+
 from plutoc.check import fork_errors as errors
-from plutoc.check.branches import Branch, Branches, within
+from plutoc.check.branches import Branch, Branches, nesting, within
 from plutoc.check.flow import Flow, Fork, Frame, Way
 from plutoc.diagnostic import Diagnostic
 from plutoc.graph.model import Node
@@ -13,9 +15,13 @@ from plutoc.graph.model import Node
 
 def written_twice(flow: Flow, found: Branches) -> list[Diagnostic]:
     """Find attributes that the hooks of two branches of one fork write."""
+    inside = nesting(found)
     diagnostics: dict[tuple[str, str, str], Diagnostic] = {}
     for branches in found.values():
-        writers = [_writers(flow, found, branch) for branch in branches]
+        writers = [
+            [n for n in _nodes(flow, found, inside, branch) if n.hook and n.hook.writes]
+            for branch in branches
+        ]
         # of many branches few write anything: only those are held against each other
         for one, other in combinations(filter(None, writers), 2):
             for first in one:
@@ -33,18 +39,15 @@ def written_twice(flow: Flow, found: Branches) -> list[Diagnostic]:
 
 def unwatched_limits(flow: Flow, found: Branches) -> list[Diagnostic]:
     """Find blocks that set a limit to a flight with nothing beside them that watches it."""
+    inside = nesting(found)
     diagnostics: dict[str, Diagnostic] = {}
     for place in flow.places:
         node = flow.graph.node.get(place.node)
         if node is None or not node.block.limits or node.name in diagnostics:
             continue
-        if not _watched(flow, found, place.frame, set()):
+        if not _watched(flow, found, inside, place.frame, set()):
             diagnostics[node.name] = errors.unwatched_limit(flow.graph, node, flow.way(place))
     return list(diagnostics.values())
-
-
-def _writers(flow: Flow, found: Branches, branch: Branch) -> list[Node]:
-    return [node for node in _nodes(flow, found, branch) if node.hook and node.hook.writes]
 
 
 def _common(first: Node, second: Node) -> list[str]:
@@ -56,19 +59,22 @@ def _ways(flow: Flow, first: Node, second: Node) -> list[Way]:
     return [flow.way_to(name) for name in dict.fromkeys((first.name, second.name))]
 
 
-def _nodes(flow: Flow, found: Branches, branch: Branch) -> list[Node]:
-    names = dict.fromkeys(name for inner in within(found, branch) for name in inner.nodes)
+def _nodes(flow: Flow, found: Branches, inside: nx.DiGraph, branch: Branch) -> list[Node]:
+    names = {name for inner in within(found, inside, branch) for name in inner.nodes}
     return sorted((flow.graph.node[name] for name in names), key=lambda node: node.span.start)
 
 
-def _watched(flow: Flow, found: Branches, frame: Frame | None, seen: set[Fork]) -> bool:
+def _watched(
+    flow: Flow, found: Branches, inside: nx.DiGraph, frame: Frame | None, seen: set[Fork]
+) -> bool:
     """Does a branch beside this one, or beside a branch around it, only watch?"""
     if frame is None or frame.split.fork in seen:
         return False
     for branch in found[frame.split.fork]:
         if branch.number != frame.branch and any(
-            node.block.watches and not node.block.limits for node in _nodes(flow, found, branch)
+            node.block.watches and not node.block.limits
+            for node in _nodes(flow, found, inside, branch)
         ):
             return True
     around = seen | {frame.split.fork}
-    return all(_watched(flow, found, p.frame, around) for p in flow.entries[frame.split])
+    return all(_watched(flow, found, inside, p.frame, around) for p in flow.entries[frame.split])

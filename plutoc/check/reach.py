@@ -1,15 +1,40 @@
-"""Blocks that nothing reaches, and edges that nothing takes."""
+"""Where missions come in, blocks that nothing reaches, and edges that nothing takes."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Container, Iterator
 
+import networkx as nx
+
 from plutoc.check import errors
-from plutoc.check.components import behind, components
 from plutoc.check.flow import Flow, is_final, ordered
 from plutoc.diagnostic import Diagnostic
+from plutoc.graph.digraph import components, reachable, subgraph
 from plutoc.graph.model import END, START, Edge, Graph, Node
 from plutoc_runtime.domain.status import Status
+
+
+def entry(graph: Graph) -> tuple[Node | None, tuple[Edge, ...], list[Diagnostic]]:
+    """Return the block that makes missions, the edges that may be walked, and what is wrong."""
+    creators = [node for node in graph.nodes if node.block.creates]
+    if not creators:
+        return None, (), [errors.no_creator(graph)]
+    started = {edge.target for edge in graph.outgoing[START]}
+    creator = next((node for node in creators if node.name in started), creators[0])
+    found = [errors.second_creator(graph, n, creator) for n in creators if n is not creator]
+    if creator.name not in started:
+        found.append(errors.no_start(graph, creator))
+    edges = []
+    for edge in graph.edges:
+        if edge.source == START and edge.target != creator.name:
+            # a second creator is wrong already, however it is reached
+            if edge.target not in {node.name for node in creators}:
+                found.append(errors.start_elsewhere(graph, edge, creator))
+        elif edge.source != START and edge.target == creator.name:
+            found.append(errors.into_creator(graph, edge, creator))
+        else:
+            edges.append(edge)
+    return creator, tuple(edges), found
 
 
 def unreached(flow: Flow, creator: str, missed: Callable[[Node], bool]) -> list[Diagnostic]:
@@ -19,19 +44,14 @@ def unreached(flow: Flow, creator: str, missed: Callable[[Node], bool]) -> list[
     them follows from that, and is not said again. So it is with blocks that are missed elsewhere.
     """
     graph = flow.graph
-    after: dict[str, list[str]] = {}
-    for edge in flow.edges:
-        after.setdefault(edge.source, []).append(edge.target)
-    reached = behind(after, (creator,))
-    lost = {
-        name: tuple(e.target for e in graph.outgoing[name] if e.target not in reached)
-        for name in graph.node
-        # a second creator has its own message, and may be the way to others
-        if name not in reached and not graph.node[name].block.creates
-    }
+    reached = reachable(flow.arrows, [creator])
+    # a second creator has its own message, and may be the way to others
+    lost = subgraph(
+        flow.arrows, (n.name for n in graph.nodes if n.name not in reached and not n.block.creates)
+    )
     parts = components(lost)
     island = {name: index for index, part in enumerate(parts) for name in part}
-    led_to = {t for n in lost for t in lost[n] if t in island and island[t] != island[n]}
+    led_to = {target for source, target in lost.edges if island[source] != island[target]}
     left = {status for _, status in flow.loose if not is_final(status)}
 
     def is_told(name: str) -> bool:
@@ -42,14 +62,14 @@ def unreached(flow: Flow, creator: str, missed: Callable[[Node], bool]) -> list[
         for part in parts
         if led_to.isdisjoint(part)
         and not _creator_leads(graph, reached, part)
-        and not any(is_told(name) for name in behind(lost, part) if name in lost)
+        and not any(map(is_told, reachable(lost, part)))
     ]
 
 
-def _behind(lost: dict[str, tuple[str, ...]], first: str) -> tuple[str, ...]:
+def _behind(lost: nx.DiGraph, first: str) -> tuple[str, ...]:
     """The other blocks that this one leads to."""
-    follow = behind(lost, [first])
-    return tuple(name for name in lost if name in follow and name != first)
+    follow = nx.descendants(lost, first)
+    return tuple(name for name in lost if name in follow)
 
 
 def _creator_leads(graph: Graph, reached: Container[str], part: tuple[str, ...]) -> bool:

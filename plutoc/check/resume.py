@@ -9,7 +9,10 @@ there it is told once more how that trip ended: nothing is flown again.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from heapq import heappop, heappush
+from functools import reduce
+from operator import or_
+
+import networkx as nx
 
 from plutoc.check.flow import Facts, Flow, Place
 from plutoc.graph.model import Graph
@@ -81,26 +84,17 @@ def _named(graph: Graph, bits: int) -> tuple[str, ...]:
 
 
 def _points(flow: Flow, is_point: IsPoint) -> Points:
-    places = tuple(flow.places)
-    number = {place: i for i, place in enumerate(places)}
+    points = {p for p, step in flow.places.items() if step is None or is_point(flow, p)}
+    onward = nx.DiGraph()
+    onward.add_nodes_from(flow.places)
+    onward.add_edges_from((p, after) for p, after in flow.after.edges if after not in points)
+    parts = nx.condensation(onward)
     bit = {name: 1 << i for i, name in enumerate(flow.graph.node)}
-    points = [p for p, step in flow.places.items() if step is None or is_point(flow, p)]
-    found = dict.fromkeys(places, 0)
-    found.update((place, bit[place.node]) for place in points)
-    settled = frozenset(points)
-    queue = [number[place] for place in points]  # the first is always the nearest
-    queued = set(queue)
-    while queue:
-        one = heappop(queue)
-        queued.remove(one)
-        brought = found[places[one]]
-        for following in flow.after[places[one]]:
-            if following not in settled and brought & ~found[following]:
-                found[following] |= brought
-                if number[following] not in queued:
-                    queued.add(number[following])
-                    heappush(queue, number[following])
-    return found
+    found: dict[int, int] = {}
+    for part in nx.topological_sort(parts):
+        own = [bit[place.node] for place in parts.nodes[part]["members"] if place in points]
+        found[part] = reduce(or_, (*own, *map(found.__getitem__, parts.pred[part])), 0)
+    return {place: found[part] for place, part in parts.graph["mapping"].items()}
 
 
 def _is_point(flow: Flow, place: Place) -> bool:

@@ -5,21 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import TypeVar
 
-from plutoc.check import (
-    ending,
-    errors,
-    failures,
-    flights,
-    forks,
-    gates,
-    order,
-    parallel,
-    reach,
-    resume,
-    stuck,
-)
+from plutoc.check import ending, errors, flights, forks, parallel, reach, resume
 from plutoc.check.branches import Branches, branches
-from plutoc.check.entry import entry
 from plutoc.check.flow import Flow, Place
 from plutoc.check.model import Checked
 from plutoc.check.statuses import creation, explore, stop_if_tangled
@@ -35,7 +22,7 @@ def check(graph: Graph) -> tuple[Checked, tuple[Diagnostic, ...]]:
 
     Raises `Rejected` with all errors of the graph, if it has any.
     """
-    creator, edges, found = entry(graph)
+    creator, edges, found = reach.entry(graph)
     if creator is None or (found and not graph.outgoing[creator.name]):
         raise Rejected(in_order(found))  # nothing moves: there is nothing else to say
     flow = explore(graph, edges, (creation(creator.name),))
@@ -66,7 +53,7 @@ def check(graph: Graph) -> tuple[Checked, tuple[Diagnostic, ...]]:
         carries=_both(flow.carries, stopped.carries),
         forks=tuple(dict.fromkeys((*forks.closed(parallels), *forks.closed(again)))),
         implicit_ends=tuple(
-            dict.fromkeys((*stuck.implicit_ends(flow), *stuck.implicit_ends(stopped)))
+            dict.fromkeys((*ending.implicit_ends(flow), *ending.implicit_ends(stopped)))
         ),
         resumes=resume.resume_points(graph, (points, points_then)),
         entries=resume.entries(graph, (points, points_then)),
@@ -90,19 +77,19 @@ def _warnings(flow: Flow, stopped: Flow) -> list[Diagnostic]:
     """Find what is odd about a sound graph; about another one, most of this would be guessed."""
     return [
         *reach.spare(flow, stopped),
-        *stuck.ends(flow),
+        *ending.implicitly(flow),
         *flights.held(flow),
-        *failures.unmended(flow),
-        *failures.unbounded(flow),
-        *order.repeated_unjudged(flow),
+        *flights.unmended(flow),
+        *flights.unbounded(flow),
+        *flights.repeated_unjudged(flow),
     ]
 
 
 def _in_flight(flow: Flow, parallels: Branches, *, lacking: bool) -> list[Diagnostic]:
     """Find what can happen to a mission on its way: each shown by the shortest way to it."""
-    idle = gates.idle(flow, parallels, lacking=lacking)
+    idle = forks.idle_gates(flow, parallels, lacking=lacking)
     return [
-        *stuck.stuck(flow, parallels, tuple(idle)),
+        *ending.stuck(flow, parallels, tuple(idle)),
         *ending.endless(flow, tuple(idle)),
         *idle.values(),
         *flights.undrawn(flow),

@@ -11,10 +11,12 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Collection, Iterable, Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
+
+import networkx as nx
 
 from plutoc.block import Gate
-from plutoc.check import company, errors
+from plutoc.check import errors, gate_outcomes
 from plutoc.check.facts import (
     elsewhere,
     is_over,
@@ -24,9 +26,8 @@ from plutoc.check.facts import (
     unless_failed,
 )
 from plutoc.check.flow import Facts, Flow, Frame, Place, Split, Step
-from plutoc.check.unflown import unflown
 from plutoc.diagnostic import Rejected
-from plutoc.frozen import filled
+from plutoc.graph.digraph import loops, subgraph
 from plutoc.graph.model import END, START, Edge, Graph
 from plutoc_runtime.domain.status import Status
 
@@ -49,11 +50,13 @@ def explore(
     With `idle` blocks, only as long as they stay there with nothing left to fly, and as no hook fails
     them that could do otherwise. Raises `Rejected` where there is no end of places.
     """
-    rounds = unflown(graph, edges)
+    arrows = arrows_of(graph, edges)
+    rounds = unflown(graph, arrows)
     asked = [name for name in rounds if says_the_same(graph.node[name])]
     walk = _Walk(
         graph=graph,
         edges=edges,
+        arrows=arrows,
         forgets=any(puts_trips(node) for node in graph.nodes),
         rounds=rounds,
         numbers={name: number for number, name in enumerate(asked)},
@@ -63,8 +66,26 @@ def explore(
     return walk.flow()
 
 
+def arrows_of(graph: Graph, edges: Iterable[Edge]) -> nx.DiGraph:
+    """Return which block some edges lead to from which, by name; `start` and `end` among them."""
+    arrows = nx.DiGraph()
+    arrows.add_nodes_from(graph.node)
+    arrows.add_edges_from((edge.source, edge.target) for edge in edges)
+    return arrows
+
+
+def unflown(graph: Graph, arrows: nx.DiGraph) -> Mapping[str, int]:
+    """Return the blocks of loops on which nothing is flown; those of one loop have one number.
+
+    There a mission finds all as it was before. Nearly every loop in an app leads to its next launch,
+    so that hardly any is left.
+    """
+    unlaunched = subgraph(arrows, (node.name for node in graph.nodes if not node.block.launches))
+    return {name: number for number, part in enumerate(loops(unlaunched), 1) for name in part}
+
+
 def stop_if_tangled(graph: Graph, places: int, steps: int = 0) -> None:
-    """Raise `Rejected` if there is more to look at than anybody would wait for."""
+    """Raise `Rejected` if there is too much to look at."""
     if places > MOST_PLACES or steps > MOST_STEPS:
         raise Rejected([errors.too_tangled(graph, MOST_PLACES, MOST_STEPS)])
 
@@ -74,12 +95,13 @@ def creation(creator: str) -> Place:
     return Place(frame=None, node=creator, status=Status.UNEXECUTED, facts=Facts())
 
 
-@filled
+@dataclass(slots=True, kw_only=True, eq=False)
 class _Walk:
     """The walk while it goes on. Dicts stand in for sets: their order is certain."""
 
     graph: Graph
     edges: tuple[Edge, ...]
+    arrows: nx.DiGraph
     forgets: bool
     """A hook may put another trip first, in one branch while another one is in a gate."""
     rounds: Mapping[str, int]
@@ -95,11 +117,13 @@ class _Walk:
     widths: dict[Split, int] = field(default_factory=dict)
     queue: deque[Place] = field(default_factory=deque)
     places: dict[Place, Step | None] = field(default_factory=dict)
-    after: dict[Place, Places] = field(default_factory=dict)
+    after: nx.DiGraph = field(default_factory=nx.DiGraph)
     loose: dict[tuple[Place, Status], None] = field(default_factory=dict)
     entries: dict[Split, Places] = field(default_factory=dict)
     closes: dict[Split, dict[str, dict[int, Places]]] = field(default_factory=dict)
-    through: dict[Split, dict[str, dict[company.Passing, Place]]] = field(default_factory=dict)
+    through: dict[Split, dict[str, dict[gate_outcomes.Passing, Place]]] = field(
+        default_factory=dict
+    )
     """What each fork's gates have let through, and the arrival that brought it."""
     waiting: dict[Split, None] = field(default_factory=dict)
     """Forks with a clone at a gate that has let nothing through yet."""
@@ -115,13 +139,14 @@ class _Walk:
                 self.carries[edge] = {Status.UNEXECUTED}
         for place in beginnings:
             self.places[place] = None
+            self.after.add_node(place)
             self.queue.append(place)
         while self.queue:
             while self.queue:
                 self.visit(self.queue.popleft())
                 stop_if_tangled(self.graph, len(self.places), self.steps)
             self.stop_waiting()
-        self.accompany()
+        self.join_at_gates()
 
     def visit(self, place: Place) -> None:
         self.arrives.setdefault(place.node, set()).add(place.status)
@@ -144,7 +169,7 @@ class _Walk:
     def reach(self, place: Place, step: Step) -> None:
         if self.idle and self.rounds.get(place.node) != self.rounds.get(step.before.node):
             place = place._replace(node=END)  # what follows on another way round is looked at there
-        self.after.setdefault(step.before, {})[place] = None
+        self.after.add_edge(step.before, place)
         self.steps += 1
         if place not in self.places:
             self.places[place] = step
@@ -204,41 +229,40 @@ class _Walk:
 
     def passing(
         self, split: Split, gate: Gate, branches: dict[int, Places]
-    ) -> dict[company.Passing, Place]:
+    ) -> dict[gate_outcomes.Passing, Place]:
         """Return what a gate lets through, given what each branch has brought so far."""
         if gate is Gate.ALL and len(branches) < self.width(split) and split not in self.hasty:
             return {}
-        passing = company.passing(gate, branches)
+        passing = gate_outcomes.passing(gate, branches)
         if self.forgets:
             for (status, facts), arrival in tuple(passing.items()):
                 passing.setdefault((status, facts._replace(attempts=0)), arrival)
         return passing
 
-    def go_on(self, arrival: Place, what: company.Passing, entry: Place) -> None:
+    def go_on(self, arrival: Place, what: gate_outcomes.Passing, entry: Place) -> None:
         """The branch is left where the clone has arrived; the mission goes on from there."""
         target = self.beyond(arrival, what, entry)
         self.reach(target, Step(before=arrival, leaving=None, back_to=entry))
 
-    def beyond(self, arrival: Place, what: company.Passing, entry: Place) -> Place:
+    def beyond(self, arrival: Place, what: gate_outcomes.Passing, entry: Place) -> Place:
         """Return the place of the mission behind the gate."""
         status, facts = what
         return Place(frame=entry.frame, node=arrival.node, status=status, facts=facts, out=True)
 
-    def accompany(self) -> None:
-        """Let every clone at a gate lead on to what passes there in its company.
+    def join_at_gates(self) -> None:
+        """Let every clone at a gate lead on to what passes there together with it.
 
         So far only the clone that brings a status does; but the others do not end here.
         """
         for split, gates in self.closes.items():
             for name, branches in gates.items():
-                passed: dict[Status, list[tuple[company.Passing, Place]]] = {}
+                passed: dict[Status, list[tuple[gate_outcomes.Passing, Place]]] = {}
                 for what, bringer in self.through[split][name].items():
                     passed.setdefault(what[0], []).append((what, bringer))
-                for arrival, status in company.with_each(self.gate(name), branches):
-                    after = self.after.setdefault(arrival, {})
+                for arrival, status in gate_outcomes.with_each(self.gate(name), branches):
                     for what, bringer in passed.get(status, ()):
                         for entry in self.entries[split]:
-                            after[self.beyond(bringer, what, entry)] = None
+                            self.after.add_edge(arrival, self.beyond(bringer, what, entry))
                             self.steps += 1
                     stop_if_tangled(self.graph, len(self.places), self.steps)
 
@@ -270,7 +294,8 @@ class _Walk:
             graph=self.graph,
             edges=self.edges,
             places=self.places,
-            after={place: tuple(self.after.get(place, ())) for place in self.places},
+            arrows=self.arrows,
+            after=self.after,
             loose=tuple(self.loose),
             entries={split: tuple(entries) for split, entries in self.entries.items()},
             nearest={place.node: place for place in reversed(self.places)},

@@ -5,7 +5,7 @@ from __future__ import annotations
 import gc
 import os
 import sys
-from contextlib import contextmanager
+from collections.abc import Sequence
 from errno import ENAMETOOLONG
 
 from plutoc.cli.endings import (
@@ -17,46 +17,32 @@ from plutoc.cli.endings import (
     REFUSED,
     USAGE,
     Unusable,
+    tidy_when_told_to_end,
 )
-from plutoc.terminated import Terminated
+from plutoc.cli.options import Options, parse
+from plutoc.cli.say import say
+from plutoc.diagnostic import Rejected
+from plutoc.strangers import Terminated
 from plutoc_runtime import output
-
-TYPE_CHECKING = False  # `typing` itself is slow to import, and `--version` does without
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-
-    from plutoc.cli.options import Options
+from plutoc_runtime.domain.text import printable
 
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command and return its exit code; `argv` is without the program."""
     output.prepare()
     ending = _Ending()
-    with ending, _seldom_collecting():
-        ending.code = _command(argv)
+    before = gc.get_threshold()
+    # A compiler builds much and drops little: else half of its time goes into looking for garbage.
+    gc.set_threshold(1_000_000, *before[1:])
+    with ending:
+        ending.code = _command(sys.argv[1:] if argv is None else argv)
         output.flush()
+    gc.set_threshold(*before)
     return ending.code
 
 
-@contextmanager
-def _seldom_collecting() -> Iterator[None]:
-    """Look for garbage less often: a compiler builds much and drops little before it ends.
-
-    Python's own measure would have it spend half of its time on looking. What was built until then
-    counts as old afterwards, or Python would look at all of it once more, right before the end.
-    """
-    before = gc.get_threshold()
-    gc.set_threshold(1_000_000, *before[1:])
-    try:
-        yield
-    finally:
-        gc.freeze()
-        gc.unfreeze()
-        gc.set_threshold(*before)
-
-
 class _Ending:
-    """Turns whatever a command ends with into an exit code, and into a message."""
+    """Turns what a command ends with into an exit code, and into a message."""
 
     def __init__(self) -> None:
         self.code = CLEAN
@@ -72,8 +58,6 @@ class _Ending:
                 output.tell(f"plutoc: {error}")
                 self.code = USAGE
             case OSError() if error.errno == ENAMETOOLONG:
-                from plutoc_runtime.domain.text import printable
-
                 output.tell(f"plutoc: {printable(str(error.filename))}: a name is too long")
                 self.code = USAGE
             case output.ClosedPipe():
@@ -95,29 +79,11 @@ class _Ending:
         return True
 
 
-def _command(argv: Sequence[str] | None) -> int:
-    """Import as little as will do: one who asks for the version shall not wait for the rest."""
-    arguments = sys.argv[1:] if argv is None else list(argv)
-    if arguments == ["--version"]:
-        from plutoc.cli.version import tell_version
-
-        tell_version()
-        return CLEAN
-    if arguments[:1] == ["compile"]:
-        from plutoc.cli.unchanged import said_again
-
-        if said_again(arguments):
-            return CLEAN
-    from plutoc.cli.options import parse
-    from plutoc.cli.say import say
-    from plutoc.cli.termination import tidy_when_told_to_end
-    from plutoc.diagnostic import Rejected
-
+def _command(arguments: Sequence[str]) -> int:
     try:
         options = parse(arguments)
     except SystemExit as end:  # the help or the version is printed, or what is wrong
         return end.code if isinstance(end.code, int) else USAGE
-    options.arguments = tuple(arguments)
     try:
         with tidy_when_told_to_end():
             return _run(options)
@@ -148,7 +114,7 @@ def _run(options: Options) -> int:
 
             return run(options)
         case "test":
-            from plutoc.cli.test import test
+            from plutoc.cli.run import test
 
             return test(options)
         case "fmt":
@@ -156,7 +122,7 @@ def _run(options: Options) -> int:
 
             return fmt(options)
         case "graph":
-            from plutoc.cli.graph import graph
+            from plutoc.cli.show import graph
 
             return graph(options)
         case "diff":
@@ -164,11 +130,11 @@ def _run(options: Options) -> int:
 
             return diff(options)
         case "explain":
-            from plutoc.cli.explain import explain
+            from plutoc.cli.show import explain
 
             return explain(options)
         case _:
-            from plutoc.cli.blocks import blocks
+            from plutoc.cli.show import blocks
 
             return blocks(options)
 

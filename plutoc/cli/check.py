@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import dataclass
 from pathlib import Path
 
 from plutoc.cli.endings import CLEAN, ERRORS, USAGE, Unusable
@@ -17,7 +18,6 @@ from plutoc.cli.options import Options
 from plutoc.cli.say import say
 from plutoc.compile import analyse, check_hooks
 from plutoc.diagnostic import Diagnostic, Rejected, Severity
-from plutoc.frozen import frozen
 from plutoc.source import Source
 from plutoc_runtime import output
 
@@ -53,7 +53,7 @@ def _check(file: Path, options: Options, troubles: list[str]) -> tuple[Diagnosti
     return findings.found
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class _Findings:
     """What was found, and at what cost."""
 
@@ -79,8 +79,8 @@ def _findings(file: Path, source: Source) -> _Findings:
 
 def _fixed(file: Path, source: Source, options: Options) -> _Findings:
     """Mend a file, say what was mended, and return what is left."""
+    from plutoc.cli.changes import rewrite
     from plutoc.cli.fix import mended, summary
-    from plutoc.cli.rewrite import rewrite
 
     if file == STANDARD_INPUT:
         raise Unusable("--fix changes files, and standard input is none")

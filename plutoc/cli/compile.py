@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import os
-import time
 from collections.abc import Iterator, Mapping
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -20,17 +19,14 @@ from plutoc.cli.files import (
     shown,
 )
 from plutoc.cli.options import Options
-from plutoc.cli.record import record
-from plutoc.cli.say import say, worded
-from plutoc.cli.unchanged import speak
+from plutoc.cli.say import say, speak, worded
 from plutoc.compile import Compiled, analyse, compile_source, planned
 from plutoc.diagnostic import Diagnostic, Rejected
-from plutoc.emit.carry import NoLibrary
+from plutoc.emit.embed import NoLibrary
 from plutoc.emit.errors import never_written, outdated, place_of
 from plutoc.emit.lock import NAME as LOCK
-from plutoc.emit.recorded import only_forgets
+from plutoc.emit.lock import only_forgets
 from plutoc.emit.write import CannotWrite, Changes, Refused, compare, record_of, write
-from plutoc.frozen import filled
 from plutoc.source import Source
 from plutoc_runtime.domain.text import counted, printable
 
@@ -39,21 +35,17 @@ if TYPE_CHECKING:
     from plutoc.plan.model import Plan
 
 
-@filled
+@dataclass(slots=True, kw_only=True, eq=False)
 class _Said:
     """What there is to say, gathered: some formats are one document."""
 
     found: list[Diagnostic] = field(default_factory=list)
     lines: list[str] = field(default_factory=list)
-    beside: Source | None = None
-    """The hooks.py beside the app, where the package's own is the one that counts."""
-    done: tuple[Compiled, Changes] | None = None
-    """What was compiled, where the package is as it shall be now."""
 
 
 def compile_(options: Options) -> int:
     """Write an app's package, or say what would be written."""
-    said, code, begun = _Said(), CLEAN, time.time_ns()
+    said, code = _Said(), CLEAN
     try:
         _compile(options, said)
     except Rejected as rejected:
@@ -65,14 +57,8 @@ def compile_(options: Options) -> int:
         say(said.found, options.format, [str(error)])
         raise
     text = options.format == "text"
-    found = list(worded(said.found, options.format))
-    speak(found)
+    speak(worded(said.found, options.format))
     speak((text, line) for line in said.lines)  # other formats have standard output for themselves
-    if said.done is not None:
-        compiled, changes = said.done
-        again = _again(changes) if text and not options.diff else []
-        words = [*found, *((text, line) for line in again)]
-        record(options, begun, compiled, changes, said.beside, words)
     return code
 
 
@@ -91,15 +77,12 @@ def _compile(options: Options, said: _Said) -> None:
             known_hooks=lambda checked: _known_hooks(options, checked),
         )
         said.found += compiled.warnings
-        said.beside = passed_over(
-            compiled.checked, options.file, _folder(options, compiled.checked)
-        )
-        said.found += _of_hooks_beside(said.beside, compiled.hooks)
+        said.found += _of_hooks_beside(options, compiled)
         changes = _changes(options, compiled)
         if options.diff:
-            from plutoc.cli.patch import diff
+            from plutoc.cli.changes import patch
 
-            said.lines += diff(changes)
+            said.lines += patch(changes)
         if options.check:
             changes = _drift(changes)
             _refuse(compiled.checked, changes)
@@ -109,15 +92,13 @@ def _compile(options: Options, said: _Said) -> None:
         raise Unusable(f"{printable(str(error))}; nothing was changed") from None
     if options.format == "text" and not options.diff:
         said.lines += _outcome(compiled, changes)
-    if not (changes.files and options.diff) and options.carry is None:
-        said.done = compiled, changes
 
 
 def _show(source: Source, options: Options, what: str, said: _Said) -> None:
     checked, warnings = analyse(source)
     said.found += warnings
     if what == "graph":
-        from plutoc.report.graph import mermaid
+        from plutoc.report.pictures import mermaid
 
         text = mermaid(checked)
     else:
@@ -163,8 +144,10 @@ def _known_hooks(options: Options, checked: Checked) -> Mapping[str, str]:
     return record.hooks if record is not None else {}
 
 
-def _of_hooks_beside(beside: Source | None, hooks: Source | None) -> Iterator[Diagnostic]:
+def _of_hooks_beside(options: Options, compiled: Compiled) -> Iterator[Diagnostic]:
     """Warn of a hooks.py beside the app that looks like the code that counts, and is not."""
+    folder, hooks = _folder(options, compiled.checked), compiled.hooks
+    beside = passed_over(compiled.checked, options.file, folder)
     if beside is not None and hooks is not None and beside.text != hooks.text:
         from plutoc.hooks.errors import passed_over as not_read
 
@@ -221,7 +204,7 @@ def _outcome(compiled: Compiled, changes: Changes) -> Iterator[str]:
             mark = "+" if change.before is None else "-" if change.after is None else "~"
             yield f"  {mark} {shown(Path(change.path))}"
     else:
-        yield from _again(changes)
+        yield f"{folder}: up to date"
 
 
 def _installing(graph: Graph, path: str) -> Iterator[str]:
@@ -235,8 +218,3 @@ def _installing(graph: Graph, path: str) -> Iterator[str]:
     yield f"    without an index, from Pluto's sources: pip install -e {fleet} PLUTO/runtime"
     yield f"    without a network: pip wheel -w wheels PLUTO/runtime {fleet}, and there:"
     yield f"    pip install --no-index --find-links wheels {name}"
-
-
-def _again(changes: Changes) -> Iterator[str]:
-    """Yield what is said where nothing changes."""
-    yield f"{shown(changes.folder)}: up to date"

@@ -5,15 +5,15 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from plutoc.cli.colour import in_colour
 from plutoc.cli.endings import CLEAN, ERRORS, Unusable
 from plutoc.cli.files import STANDARD_INPUT, read_app, read_standard_input, shown
 from plutoc.cli.options import Options
+from plutoc.cli.say import in_colour
 from plutoc.compile import analyse
 from plutoc.diagnostic import Diagnostic, Rejected
 from plutoc.diff.model import Difference, Version
 from plutoc.diff.run import compare
-from plutoc.report.changes import json, markdown, text
+from plutoc.report.change_reports import json, markdown, text
 from plutoc.source import Source
 from plutoc_runtime import output
 

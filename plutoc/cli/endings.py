@@ -1,9 +1,48 @@
-"""How the program ends: its exit codes, and what is wrong with how it was called."""
+"""How the program ends: its exit codes, what is wrong with how it was called, and being told to end.
+
+That is done by `kill`, by a CI job that is cancelled, by a terminal that is closed.
+"""
 
 from __future__ import annotations
 
+import signal
+from collections.abc import Iterator
+from contextlib import contextmanager
+from types import FrameType
+
+from plutoc.strangers import Terminated
+
 CLEAN, ERRORS, USAGE, REFUSED, INTERNAL, INTERRUPTED, CLOSED_PIPE = 0, 1, 2, 3, 70, 130, 141
+
+_SIGNALS = tuple(one for one in signal.Signals if one.name in ("SIGTERM", "SIGHUP"))
 
 
 class Unusable(Exception):
     """Wrong usage, or a file that cannot be read or written. The text says so to a person."""
+
+
+@contextmanager
+def tidy_when_told_to_end() -> Iterator[None]:
+    """Raise `Terminated` when we are told to end: unfinished work is taken away on its way out.
+
+    A second signal ends the program at once.
+    """
+    before = {one: signal.getsignal(one) for one in _SIGNALS}
+    try:
+        for one, handler in before.items():
+            if handler == signal.SIG_DFL:  # `nohup` has it ignored, and that shall stay
+                signal.signal(one, _terminate)
+    except ValueError:  # we are in a thread, where signals are not heard
+        yield
+        return
+    try:
+        yield
+    finally:
+        for one in _SIGNALS:
+            if signal.getsignal(one) == _terminate:
+                signal.signal(one, signal.SIG_DFL)
+
+
+def _terminate(number: int, _: FrameType | None) -> None:
+    signal.signal(number, signal.SIG_DFL)
+    raise Terminated(number)

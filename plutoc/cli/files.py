@@ -73,7 +73,7 @@ def passed_over(checked: Checked, file: Path, folder: Path) -> Source | None:
 def _is_there(checked: Checked, path: Path) -> bool:
     """Say whether there is a file, or a link; refuse what is neither, and has its name.
 
-    A pipe is not opened: nobody may ever write into it.
+    A pipe is not opened: it may never be written to.
     """
     try:
         mode = os.lstat(path).st_mode
@@ -82,7 +82,7 @@ def _is_there(checked: Checked, path: Path) -> bool:
     except (
         OSError,
         ValueError,
-    ) as error:  # a name that is too long, a folder that nobody may enter
+    ) as error:  # a name that is too long, a folder that may not be entered
         raise Unusable(f"{shown(path)} cannot be read: {_why(error)}") from None
     if not (stat.S_ISREG(mode) or stat.S_ISLNK(mode)):
         is_folder = stat.S_ISDIR(mode)
@@ -112,7 +112,7 @@ def hooks_path(checked: Checked) -> str:
 
 
 def default_folder(file: Path, checked: Checked) -> Path:
-    """Return where a package goes if nobody says so."""
+    """Return where a package goes if no folder is named."""
     return file.parent / checked.graph.name
 
 
@@ -137,11 +137,11 @@ def _text(path: Path) -> str:
 
 
 def _opened(path: str, flags: int) -> int:
-    """Open a file without waiting: a pipe that nobody writes into is empty."""
+    """Open a file without waiting: a pipe without a writer is empty."""
     if not hasattr(os, "O_NONBLOCK"):
         return os.open(path, flags)
     descriptor = os.open(path, flags | os.O_NONBLOCK)
-    os.set_blocking(descriptor, True)  # one that somebody does write into is read to its end
+    os.set_blocking(descriptor, True)  # one with a writer is read to its end
     return descriptor
 
 

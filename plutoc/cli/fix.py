@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 
 from plutoc.diagnostic import Diagnostic, Severity
 from plutoc.edits import applied, compatible
-from plutoc.frozen import frozen
 from plutoc.source import Source
 
 _ROUNDS = 10
@@ -17,7 +17,7 @@ _NAMED = 20
 """Of so many it is told where they were."""
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Mended:
     """A source as it is after its fixes, what they mended, and what is left."""
 

@@ -5,11 +5,10 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
+from plutoc.cli.changes import patch, rewrite
 from plutoc.cli.endings import CLEAN, ERRORS, USAGE, Unusable
 from plutoc.cli.files import STANDARD_INPUT, read_app, read_standard_input, shown
 from plutoc.cli.options import Options
-from plutoc.cli.patch import diff
-from plutoc.cli.rewrite import rewrite
 from plutoc.cli.say import say
 from plutoc.diagnostic import Diagnostic, Rejected
 from plutoc.emit.write import Change, Changes
@@ -46,7 +45,7 @@ def _format(file: Path, options: Options) -> int:
     changed = after != source.text
     writes = not (options.check or options.diff)
     if options.diff:
-        _write_exactly("".join(line + "\n" for line in diff(_changes(source, after))))
+        _write_exactly("".join(line + "\n" for line in patch(_changes(source, after))))
     if options.check and changed:
         mend = "" if from_stdin else f": `plutoc fmt {source.path}` does it"
         output.tell(f"{source.path} is not in canonical form{mend}")
@@ -77,7 +76,7 @@ def _changes(source: Source, after: str) -> Changes:
 
 
 def _write_exactly(text: str) -> None:
-    """Write what may become a source again: in UTF-8, whatever a terminal knows of it."""
+    """Write what may become a source again: in UTF-8, whether a terminal knows it or not."""
     output.flush()
     try:
         if sys.stdout is not None:

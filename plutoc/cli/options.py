@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import os
 import sys
-from argparse import SUPPRESS, Action, ArgumentParser, ArgumentTypeError, HelpFormatter
+from argparse import SUPPRESS, Action, ArgumentParser, ArgumentTypeError
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from functools import partial
 from pathlib import Path
 
+from plutoc import __version__
 from plutoc.cli.endings import USAGE
-from plutoc.cli.version import tell_version
+from plutoc_runtime import output
 
 FORMATS = ("text", "json", "github", "sarif")
 CHANGES = ("text", "markdown", "json")
@@ -24,8 +23,6 @@ PICTURES = ("mermaid", "dot", "svg", "json")
 class Options:
     """What was asked for."""
 
-    arguments: tuple[str, ...] = ()
-    """As they were given."""
     command: str = ""
     name: str = ""
     file: Path = field(default_factory=Path)
@@ -60,11 +57,8 @@ class Options:
 
 def parse(arguments: Sequence[str]) -> Options:
     """Read the command line; raise SystemExit, as argparse does, after help or an error."""
-    # argparse lays out each argument, if only to see that it can, and asks each time how wide
-    layout = partial(HelpFormatter, width=_columns() - 2)
     parser = _plain(
         ArgumentParser(
-            formatter_class=layout,
             prog="plutoc",
             description="Turns graphs of drone missions into Python packages that fly them.",
             epilog="`plutoc COMMAND --help` says more about a command.",
@@ -73,23 +67,10 @@ def parse(arguments: Sequence[str]) -> Options:
     )
     parser.add_argument("--version", action=_Version, help="print the version and end")
     commands = parser.add_subparsers(
-        prog=parser.prog,  # or argparse would lay out a whole help to find it
-        dest="command",
-        metavar="COMMAND",
-        title="commands",
-        required=True,
+        dest="command", metavar="COMMAND", title="commands", required=True
     )
-
-    # who has named a command can ask for nothing of another one
-    asked = [name for name in arguments[:1] if name in _COMMANDS]
-    for name in asked or _COMMANDS:
-        what, describe = _COMMANDS[name]
-        command = _plain(
-            commands.add_parser(
-                name, help=what, description=what, allow_abbrev=False, formatter_class=layout
-            )
-        )
-        describe(command)
+    for name, (what, describe) in _COMMANDS.items():
+        describe(_plain(commands.add_parser(name, help=what, description=what, allow_abbrev=False)))
     if not arguments:
         parser.print_help(sys.stderr)
         raise SystemExit(USAGE)
@@ -103,20 +84,8 @@ class _Version(Action):
         super().__init__(option_strings, SUPPRESS, nargs=0, default=SUPPRESS, help=help)
 
     def __call__(self, parser: ArgumentParser, *_: object) -> None:
-        tell_version()
+        output.line(f"plutoc {__version__}")
         parser.exit()
-
-
-def _columns() -> int:
-    """Return how wide the terminal is; `shutil` knows, too, but loads three compressors first."""
-    try:
-        return int(os.environ.get("COLUMNS", "")) or 80
-    except ValueError:
-        pass
-    try:
-        return os.get_terminal_size().columns or 80
-    except (OSError, ValueError):
-        return 80
 
 
 def _plain(parser: ArgumentParser) -> ArgumentParser:

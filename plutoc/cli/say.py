@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import os
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from typing import TextIO
 
-from plutoc.cli.colour import in_colour
-from plutoc.cli.unchanged import speak
 from plutoc.diagnostic import Diagnostic, arranged
+from plutoc_runtime import output
+
+Words = Iterable[tuple[bool, str]]
+"""Texts, and whether each goes to standard output."""
 
 
 def say(
@@ -15,8 +19,8 @@ def say(
 ) -> None:
     """Print what the compiler found; once a run, for one of the formats is a single document.
 
-    `troubles` are what kept files from being read. A person is told of them on standard error, by
-    whoever met them; here they are told to programs.
+    `troubles` are what kept files from being read. A person is told of them on standard error, where
+    they were met; here they are told to programs.
     """
     speak(worded(diagnostics, format, troubles))
 
@@ -49,6 +53,21 @@ def worded(
 
             yield False, render(found, colour=in_colour(sys.stderr)).rstrip("\n")
             yield False, f"`plutoc explain {found[0].code}` tells more"
+
+
+def speak(words: Words) -> None:
+    """Print some texts, each where it belongs."""
+    for on_output, text in words:
+        (output.line if on_output else output.tell)(text)
+
+
+def in_colour(stream: TextIO | None) -> bool:
+    """Follow no-color.org and force-color.org; else colour is for terminals."""
+    if os.environ.get("NO_COLOR"):
+        return False
+    if os.environ.get("FORCE_COLOR"):
+        return True
+    return os.environ.get("TERM") != "dumb" and stream is not None and stream.isatty()
 
 
 def _title(code: str) -> str | None:

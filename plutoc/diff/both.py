@@ -8,8 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from plutoc.check.model import Checked
-from plutoc.diff.match import Pairs, pairs
-from plutoc.diff.match_hooks import category_pairs, hook_pairs
+from plutoc.diff.match import Pairs, category_pairs, hook_pairs, pairs
 from plutoc.diff.model import Version
 from plutoc.diff.roles import Role, role
 from plutoc.diff.routes import Routes, destinations, routes

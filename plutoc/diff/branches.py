@@ -7,10 +7,10 @@ from collections.abc import Iterator, Sequence
 
 from plutoc.check.model import Fork
 from plutoc.diff.both import Both, Side
-from plutoc.diff.journeys import Reroute, places
-from plutoc.diff.model import Change
+from plutoc.diff.journeys import places
+from plutoc.diff.messages import forks as messages
+from plutoc.diff.model import Change, Reroute
 from plutoc.diff.roles import Role, limited, role
-from plutoc.diff.words import forks as words
 from plutoc.graph.model import Node
 from plutoc_runtime.domain.status import Status
 
@@ -22,10 +22,10 @@ def limits(both: Both) -> Iterator[Change]:
     before, after = _limits(both.old), _limits(both.new)
     for what, nodes in before.items():
         if what not in after:
-            yield words.limit_removed(what, nodes)
+            yield messages.limit_removed(what, nodes)
     for what, nodes in after.items():
         if what not in before:
-            yield words.limit_added(what, nodes)
+            yield messages.limit_added(what, nodes)
 
 
 def branches(both: Both, moved: Sequence[Reroute]) -> Iterator[Change]:
@@ -40,12 +40,12 @@ def branches(both: Both, moved: Sequence[Reroute]) -> Iterator[Change]:
         for name in dict.fromkeys(one.before):
             known, node = both.old.called([name])[0], both.old.graph.node.get(name)
             if known not in now and not _is_told(node, after):
-                yield words.branch_removed(both.old.graph, one, name, stays, spans)
+                yield messages.branch_removed(both.old.graph, one, name, stays, spans)
         for name in now:
             if name in was and was[name] != now[name]:
-                yield words.branch_repeated(one, name, was[name], now[name], spans)
+                yield messages.branch_repeated(one, name, was[name], now[name], spans)
             elif name not in was and not _is_told(both.new.graph.node.get(name), before):
-                yield words.branch_added(both.new.graph, one, name, stays, spans)
+                yield messages.branch_added(both.new.graph, one, name, stays, spans)
 
 
 def gates(both: Both) -> Iterator[Change]:
@@ -58,7 +58,7 @@ def gates(both: Both) -> Iterator[Change]:
         old, new = both.old.graph.node[known.gate], both.new.graph.node[fork.gate]
         was, now = old.block.gate, new.block.gate
         if was and now and was is not now:
-            yield words.gate_changed(fork, old, new, was, now)
+            yield messages.gate_changed(fork, old, new, was, now)
 
 
 def order(both: Both) -> Iterator[Change]:
@@ -75,7 +75,7 @@ def order(both: Both) -> Iterator[Change]:
         was = both.old.called(edge.target for edge in known.branches)
         now = tuple(edge.target for edge in fork.branches)
         if was != now and sorted(was) == sorted(now) and _acts(both.new, fork):
-            yield words.order_changed(known, fork, was, now)
+            yield messages.order_changed(known, fork, was, now)
 
 
 def _limits(side: Side) -> dict[str, tuple[Node, ...]]:

@@ -5,25 +5,26 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from plutoc.block import HookKind
+from plutoc.diff.blocks import same
 from plutoc.diff.both import Both
-from plutoc.diff.match_hooks import Declared, declared, kind_of
+from plutoc.diff.match import Declared, declared, kind_of
+from plutoc.diff.messages import declared as messages
 from plutoc.diff.model import Change
-from plutoc.diff.settings import same
-from plutoc.diff.words import declared as words
 from plutoc.graph.categories import PARAMS
-from plutoc.graph.model import Action, Category, Graph, Hook, Library
+from plutoc.graph.model import Action, Category, Graph, Hook, Library, Node
 from plutoc_runtime.domain.actions import BUILT_IN
+from plutoc_runtime.domain.fields import Entity, Field
 
 
 def app(both: Both) -> Iterator[Change]:
     """Compare what the apps are called."""
     old, new = both.old.graph, both.new.graph
     if old.name != new.name:
-        yield words.app_renamed(old, new)
+        yield messages.app_renamed(old, new)
     if old.title != new.title:
-        yield words.title_changed(old, new)
+        yield messages.title_changed(old, new)
     if old.version != new.version:
-        yield words.version_changed(old, new)
+        yield messages.version_changed(old, new)
     yield from _libraries(old, new)
 
 
@@ -33,12 +34,12 @@ def _libraries(old: Graph, new: Graph) -> Iterator[Change]:
     for name, now in after.items():
         was = before.get(name, ())
         if not was:
-            yield words.library_added(now)
+            yield messages.library_added(now)
         elif not _same_libraries(was, now):
-            yield words.library_changed(was, now)
+            yield messages.library_changed(was, now)
     for name, was in before.items():
         if name not in after:
-            yield words.library_removed(was)
+            yield messages.library_removed(was)
 
 
 def _by_name(graph: Graph) -> dict[str, tuple[Library, ...]]:
@@ -66,33 +67,33 @@ def categories(both: Both) -> Iterator[Change]:
     for was, now in both.categories.items():
         before, after = old[was], new[now]
         if was != now:
-            yield words.category_renamed(before, after)
+            yield messages.category_renamed(before, after)
         for param in PARAMS:
             value, other = getattr(before, param.name), getattr(after, param.name)
             if value != other:
-                yield words.category_changed(before, after, param, value, other)
+                yield messages.category_changed(before, after, param, value, other)
         yield from _abilities(both, before, after)
     kept = set(both.categories.values())
     yield from (
-        words.category_removed(one) for one in old.values() if one.name not in both.categories
+        messages.category_removed(one) for one in old.values() if one.name not in both.categories
     )
-    yield from (words.category_added(one) for one in new.values() if one.name not in kept)
+    yield from (messages.category_added(one) for one in new.values() if one.name not in kept)
 
 
 def _abilities(both: Both, before: Category, after: Category) -> Iterator[Change]:
     was, now = before.actions, after.actions
     if was is None or now is None:
         if was is not None:
-            yield words.abilities_changed(before, after, None, ())
+            yield messages.abilities_changed(before, after, None, ())
         elif now is not None:
-            yield words.abilities_changed(before, after, (), None)
+            yield messages.abilities_changed(before, after, (), None)
         return
     known = [both.hooks.get(name, name) for name in was]
     gained = [name for name in now if name not in known]
     there = {*BUILT_IN, *(one.name for one in declared(both.new.graph))}
     lost = [name for name in known if name not in now and name in there]
     if gained or lost:
-        yield words.abilities_changed(before, after, gained, lost)
+        yield messages.abilities_changed(before, after, gained, lost)
 
 
 def hooks(both: Both) -> Iterator[Change]:
@@ -102,27 +103,27 @@ def hooks(both: Both) -> Iterator[Change]:
     for was, now in both.hooks.items():
         before, after = old[was], new[now]
         if was != now:
-            yield words.hook_renamed(before, after)
+            yield messages.hook_renamed(before, after)
         yield from _repeats(before, after)
         yield from _parameters(before, after)
         yield from _statuses(before, after)
     kept = set(both.hooks.values())
-    yield from (words.hook_removed(one) for one in old.values() if one.name not in both.hooks)
-    yield from (words.hook_added(one) for one in new.values() if one.name not in kept)
+    yield from (messages.hook_removed(one) for one in old.values() if one.name not in both.hooks)
+    yield from (messages.hook_added(one) for one in new.values() if one.name not in kept)
 
 
 def _repeats(old: Declared, new: Declared) -> Iterator[Change]:
     if isinstance(old, Action) and isinstance(new, Action) and old.repeat != new.repeat:
-        yield words.repeat_changed(old, new)
+        yield messages.repeat_changed(old, new)
 
 
 def _statuses(old: Declared, new: Declared) -> Iterator[Change]:
     if not (isinstance(old, Hook) and isinstance(new, Hook)):
         return
     if old.emits != new.emits:
-        yield words.emits_changed(old, new)
+        yield messages.emits_changed(old, new)
     if sorted(old.writes) != sorted(new.writes):
-        yield words.writes_changed(old, new)
+        yield messages.writes_changed(old, new)
 
 
 def _parameters(old: Declared, new: Declared) -> Iterator[Change]:
@@ -131,11 +132,34 @@ def _parameters(old: Declared, new: Declared) -> Iterator[Change]:
     for name, now in after.items():
         was = before.get(name)
         if was is None:
-            yield words.parameter_added(old, new, now)
+            yield messages.parameter_added(old, new, now)
         elif was.type is not now.type:
-            yield words.type_changed(old, new, was, now)
+            yield messages.type_changed(old, new, was, now)
         elif kind_of(new) is HookKind.ACTION and not same(was.default, now.default):
-            yield words.default_changed(old, new, was, now)  # others get theirs from a block
+            yield messages.default_changed(old, new, was, now)  # others get theirs from a block
     for name, was in before.items():
         if name not in after:
-            yield words.parameter_removed(old, new, was)
+            yield messages.parameter_removed(old, new, was)
+
+
+_Fields = dict[tuple[Entity, str], tuple[Field, Node]]
+
+
+def fields(both: Both) -> Iterator[Change]:
+    """Tell which fields missions files may have now, and which no more."""
+    before, after = _fields(both.old.graph), _fields(both.new.graph)
+    for on in Entity:
+        more = [one for key, one in after.items() if key not in before and key[0] is on]
+        if more:
+            yield messages.fields_added(on, more)
+        less = [one for key, one in before.items() if key not in after and key[0] is on]
+        if less:
+            yield messages.fields_removed(on, less)
+
+
+def _fields(graph: Graph) -> _Fields:
+    found: _Fields = {}
+    for node in graph.nodes:
+        for field in node.block.needs:
+            found.setdefault((field.on, field.name), (field, node))
+    return found

@@ -1,36 +1,19 @@
-"""Where missions go: what comes next for them now, and what came next before."""
+"""Where missions go now and went before, and where they go on after a Stop."""
 
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
+from dataclasses import replace
 
 from plutoc.diff.both import Both, Side
-from plutoc.diff.model import Change
+from plutoc.diff.messages import routes as messages
+from plutoc.diff.model import Change, Reroute
 from plutoc.diff.roles import Role, decides, role
-from plutoc.diff.words import routes as words
-from plutoc.frozen import frozen
 from plutoc.graph.model import END, Node
 from plutoc.source import Span
 from plutoc_runtime.domain.status import IN_GRAPH, Status
 
 _WATCH = (Role.WATCHES, Role.LIMITS)
-
-
-@frozen
-class Reroute:
-    """Missions leave a block with these statuses for somewhere else than before."""
-
-    old: Node
-    new: Node
-    statuses: tuple[Status, ...]
-    before: tuple[str, ...]
-    """Blocks of the old app, by their names there, or `end`."""
-    after: tuple[str, ...]
-
-    @property
-    def forks(self) -> bool:
-        """Say whether missions are in several places at once, before or after."""
-        return len(self.before) > 1 or len(self.after) > 1
 
 
 def reroutes(both: Both) -> tuple[Reroute, ...]:
@@ -72,11 +55,11 @@ def journeys(both: Both, moved: Sequence[Reroute]) -> Iterator[Change]:
         if one.new.name in came & went:
             continue
         if added:
-            yield words.step_added(both, one, added, spans)
+            yield messages.step_added(both, one, added, spans)
         elif removed:
-            yield words.step_removed(both, one, removed, spans)
+            yield messages.step_removed(both, one, removed, spans)
         else:
-            yield words.rerouted(both, one, spans)
+            yield messages.rerouted(both, one, spans)
 
 
 def gained(both: Both) -> Iterator[Change]:
@@ -89,10 +72,10 @@ def gained(both: Both) -> Iterator[Change]:
             has = (new.name, status) in both.new.destinations
             if has and not had:
                 leads = both.new.destinations[new.name, status]
-                yield words.outcome_added(both.new, new, status, leads)
+                yield messages.outcome_added(both.new, new, status, leads)
             elif had and not has and role(new) is not Role.RETRIES:  # its bound is told
                 led = both.old.destinations[old.name, status]
-                yield words.outcome_removed(old, new, status, led)
+                yield messages.outcome_removed(old, new, status, led)
 
 
 def places(side: Side, node: Node, statuses: tuple[Status, ...]) -> tuple[Span, ...]:
@@ -147,7 +130,7 @@ def _steps_between(both: Both, one: Reroute) -> tuple[tuple[str, ...], tuple[str
     added = _steps(both.new, one.after, status, both.old.known(one.before))
     removed = _steps(both.old, one.before, status, both.new.known(one.after))
     if not (added or removed) and _retries(both.old, one.before):
-        # whatever comes instead, that is what matters
+        # that failed trips are not put back matters more than what comes instead
         removed = () if _flown_again(both.new, one) else one.before
     if added and removed:  # one block or two have moved, and all between them has not
         return (added, ()) if len(added) <= len(removed) else ((), removed)
@@ -181,3 +164,72 @@ def _steps(
         steps.append(names[0])
         names = side.destinations.get((names[0], status), ())
     return tuple(steps)
+
+
+_Swaps = dict[tuple[str, str], dict[Status, Reroute]]
+"""The step that came first and the one that comes first now, by their new names: for each status
+the way out of the former."""
+
+
+def without_swaps(
+    both: Both, moved: Sequence[Reroute]
+) -> tuple[tuple[Reroute, ...], tuple[Change, ...]]:
+    """Return the ways that are not explained by steps that changed places, and what explains them.
+
+    `x -> y` has become `y -> x`, and what came behind `y` comes behind `x` now.
+    """
+    swaps: _Swaps = {}
+    for one in moved:
+        for second, status in _swapped(both, one):
+            swaps.setdefault((one.new.name, second), {})[status] = one
+    told = tuple(
+        _told(both, next(iter(ways.values())), second, tuple(ways))
+        for (_, second), ways in swaps.items()
+    )
+    return tuple(_left(both, moved, swaps)), told
+
+
+def _told(both: Both, one: Reroute, second: str, statuses: tuple[Status, ...]) -> Change:
+    now = places(both.new, both.new.graph.node[second], statuses)
+    return messages.swapped(both, one, second, statuses, (places(both.old, one.old, statuses), now))
+
+
+def _swapped(both: Both, one: Reroute) -> Iterator[tuple[str, Status]]:
+    """Yield what has changed places with the block that this way leads out of."""
+    if one.forks:
+        return
+    (second,), old_second = both.old.called(one.before), one.before[0]
+    for status in one.statuses:
+        back = both.new.destinations.get((second, status))
+        behind = both.old.destinations.get((old_second, status), ())
+        if back == (one.new.name,) and both.old.called(behind) == one.after:
+            yield second, status
+
+
+def _left(both: Both, moved: Sequence[Reroute], swaps: _Swaps) -> Iterator[Reroute]:
+    for one in moved:
+        before, name = both.old.called(one.before), one.new.name
+        explained = {
+            status
+            for (first, second), ways in swaps.items()
+            if name in (first, second) or (before == (first,) and one.after == (second,))
+            for status in ways
+        }
+        statuses = tuple(status for status in one.statuses if status not in explained)
+        if statuses:
+            yield replace(one, statuses=statuses)
+
+
+def stops(both: Both) -> Iterator[Change]:
+    """Tell where it goes on now, for the blocks that both apps have: once for all of a kind."""
+    found: dict[tuple[tuple[str, ...], tuple[str, ...]], list[tuple[Node, Node]]] = {}
+    for old, new in both.common():
+        if role(new) is Role.GATE:  # no mission waits in a gate: what stands before it is told
+            continue
+        before = both.old.checked.resumes[old.name]
+        after = both.new.checked.resumes[new.name]
+        if {*both.old.called(before)} != {*after}:
+            found.setdefault((before, after), []).append((old, new))
+    for (before, after), nodes in found.items():
+        was = tuple(old.name_span for old, _ in nodes)
+        yield messages.resumes_elsewhere([new for _, new in nodes], before, after, was)

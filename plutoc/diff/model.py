@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from enum import Enum
 
 from plutoc.check.model import Checked
 from plutoc.diagnostic import Diagnostic
-from plutoc.frozen import frozen
+from plutoc.graph.model import Node
 from plutoc.source import Source, Span
 from plutoc_runtime.domain.status import Status
 
@@ -30,7 +31,7 @@ class Importance(Enum):
     """Names and arrangement: no mission fares otherwise."""
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Version:
     """One of the two apps."""
 
@@ -38,7 +39,7 @@ class Version:
     warnings: tuple[Diagnostic, ...]
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Change:
     """One change in meaning."""
 
@@ -58,10 +59,27 @@ class Change:
     """Places in the new source."""
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Difference:
     """All that changed in meaning from one source to another, most important first."""
 
     old: Source
     new: Source
     changes: tuple[Change, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Reroute:
+    """Missions leave a block with these statuses for somewhere else than before."""
+
+    old: Node
+    new: Node
+    statuses: tuple[Status, ...]
+    before: tuple[str, ...]
+    """Blocks of the old app, by their names there, or `end`."""
+    after: tuple[str, ...]
+
+    @property
+    def forks(self) -> bool:
+        """Say whether missions are in several places at once, before or after."""
+        return len(self.before) > 1 or len(self.after) > 1

@@ -4,18 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from plutoc.diff.blocks import blocks
+from plutoc.diff.blocks import blocks, settings
 from plutoc.diff.both import Both, side_by_side
 from plutoc.diff.branches import branches, gates, limits, order
-from plutoc.diff.declared import app, categories, hooks
-from plutoc.diff.fields import fields
-from plutoc.diff.journeys import gained, journeys, reroutes
+from plutoc.diff.declared import app, categories, fields, hooks
+from plutoc.diff.journeys import gained, journeys, reroutes, stops, without_swaps
+from plutoc.diff.messages.blocks import arranged_otherwise
 from plutoc.diff.model import Change, Difference, Importance, Version
-from plutoc.diff.settings import settings
-from plutoc.diff.stops import stops
-from plutoc.diff.swaps import without_swaps
 from plutoc.diff.warned import warned
-from plutoc.diff.words.blocks import arranged_otherwise
 
 
 def compare(old: Version, new: Version) -> Difference:

@@ -7,9 +7,9 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from plutoc.diagnostic import Diagnostic
 from plutoc.diff.both import Both, Side
+from plutoc.diff.messages import blocks as messages
 from plutoc.diff.model import Change, Importance
 from plutoc.diff.roles import awaited
-from plutoc.diff.words import blocks as words
 from plutoc.graph.model import Node
 from plutoc_runtime.domain.status import Status
 
@@ -46,15 +46,15 @@ def warned(both: Both, told: Sequence[Change]) -> Iterator[Change]:
 def _added(side: Side, warning: Diagnostic) -> Change:
     node = _node_of(side, warning)
     if warning.code == _HELD and node:
-        return words.held_added(_wait(node), node)
-    return words.warning_added(warning, _importance(warning), node)
+        return messages.held_added(_wait(node), node)
+    return messages.warning_added(warning, _importance(warning), node)
 
 
 def _removed(side: Side, warning: Diagnostic) -> Change:
     node = _node_of(side, warning)
     if warning.code == _HELD and node:
-        return words.held_removed(_wait(node), node)
-    return words.warning_removed(warning, _importance(warning), node)
+        return messages.held_removed(_wait(node), node)
+    return messages.warning_removed(warning, _importance(warning), node)
 
 
 def _wait(node: Node) -> str:

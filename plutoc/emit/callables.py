@@ -1,4 +1,4 @@
-"""The functions that `flow.py` calls, and by what names: nobody's name hides another's."""
+"""The functions that `flow.py` calls, and by what names: none hides another."""
 
 from __future__ import annotations
 
@@ -8,17 +8,28 @@ from typing import Any
 
 from plutoc.block import Choice
 from plutoc.emit.embed import OURS, Carried
-from plutoc.emit.imports import Import
-from plutoc.emit.walk import branches, steps
+from plutoc.emit.python import Import
 from plutoc.graph.model import Node
+from plutoc.plan.bodies import branches, steps
 from plutoc.plan.model import Call, Join, Plan, Watch
 from plutoc_runtime.domain.status import IN_GRAPH
 from plutoc_runtime.flow.run import watch
 
 RESERVED = frozenset(
     {
-        *("APP", "Action", "App", "BUILT_IN", "CATEGORIES", "FIELDS", "Mission", "Parameter"),
-        *("Run", "Status", "Trip", "Type", "at", "declared", "flow", "hooks", "mission"),
+        *("APP", "App", "BUILT_IN", "CATEGORIES", "FIELDS", "Mission", "Parameter"),
+        *(
+            "OwnAction",
+            "Run",
+            "Status",
+            "Trip",
+            "Type",
+            "at",
+            "declared",
+            "flow",
+            "hooks",
+            "mission",
+        ),
         "partial",
         *("run", "status"),
         *(status.name for status in IN_GRAPH),

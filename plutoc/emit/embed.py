@@ -1,4 +1,4 @@
-"""What a generated package carries along: the runtime's modules and the blocks' steps.
+"""What a generated package carries along: the runtime's modules, the blocks' steps, and a library.
 
 A module of the runtime is copied byte for byte. A module of a block is copied with its imports bent to where things are now,
 and not a byte more: `plutoc_runtime` becomes dots, and a module of the block's own package, however
@@ -9,22 +9,29 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
+from importlib.util import find_spec
+from pathlib import Path
 from typing import Any
 
-from plutoc.emit.memory import all_remembered
 from plutoc.emit.modules import RUNTIME, EmbedError, Module, imports_from, is_within, load
-from plutoc.frozen import filled, frozen
-from plutoc.installed import facts_of_package
 from plutoc.registry import STD
 
 FOLDER = "_runtime"
 BLOCKS = "blocks"
 OURS = STD
 """Carried code of this package lies in the blocks' folder itself; other packages' in one more."""
+LIBRARY = "pluto_fleet"
+LIBRARY_FOLDER = "_fleet"
+BRAIN = f"{LIBRARY}/_brain"
+"""Where a library that was built has its copy of the brain; one that is worked on has none."""
 
 
-@frozen
+class NoLibrary(Exception):
+    """There is no library that could be carried. The message says what to install."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Carried:
     """A function of an installed package that generated code calls."""
 
@@ -53,29 +60,16 @@ def embed(functions: Iterable[Carried], runtime_modules: Iterable[str]) -> Mappi
 
     They are those that the functions and these modules of the runtime need, and no others.
     """
-    wanted: list[tuple[str, str]] = []
+    embedding = _Embedding()
     for carried in functions:
         _check(carried)
-        wanted.append((carried.package, carried.module))
-    wanted += ((OURS, name) for name in runtime_modules)
-    packages = dict.fromkeys(name.partition(".")[0] for _, name in [("", RUNTIME), *wanted])
-    facts = [fact for name in packages for fact in facts_of_package(name)]
-    # texts of modules have no NUL in them, or Python would not read them
-    parts = all_remembered(("embed", repr(wanted), *facts), lambda: _collected(wanted))
-    return dict(zip(parts[::2], parts[1::2], strict=True))
+        embedding.add(carried.package, carried.module)
+    for name in runtime_modules:
+        embedding.add(OURS, name)
+    return dict(sorted(embedding.files.items()))
 
 
-def _collected(wanted: Iterable[tuple[str, str]]) -> Iterator[str]:
-    """Yield the path and the text of each file to carry along, in order of path."""
-    embedding = _Embedding()
-    for package, name in wanted:
-        embedding.add(package, name)
-    for path, text in sorted(embedding.files.items()):
-        yield path
-        yield text
-
-
-@filled
+@dataclass(slots=True, kw_only=True, eq=False)
 class _Embedding:
     """What has been collected so far."""
 
@@ -217,3 +211,23 @@ def _check(carried: Carried) -> None:
     name = getattr(function, "__qualname__", repr(function))
     if "." in name or not name.isidentifier():
         raise EmbedError(f"{where}: {name} must be a function at the top of its module")
+
+
+def carried_library() -> Mapping[str, str]:
+    """Return the library's files, by their path inside the package; it is read and not imported."""
+    found = _files(LIBRARY, f"{LIBRARY_FOLDER}/{LIBRARY}")
+    if f"{LIBRARY_FOLDER}/{BRAIN}/__init__.py" not in found:
+        found.update(_files("plutoc_runtime", f"{LIBRARY_FOLDER}/{BRAIN}"))
+    return dict(sorted(found.items()))
+
+
+def _files(package: str, into: str) -> dict[str, str]:
+    spec = find_spec(package)
+    if spec is None or spec.origin is None:
+        raise NoLibrary(f"{package} is not installed here: pip install pluto-fleet")
+    home = Path(spec.origin).parent
+    return {
+        f"{into}/{path.relative_to(home).as_posix()}": path.read_text("utf-8")
+        for path in sorted(home.rglob("*"))
+        if path.is_file() and "__pycache__" not in path.parts
+    }

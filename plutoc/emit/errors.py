@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from shlex import quote
 
 from plutoc.diagnostic import Diagnostic, Related, error
-from plutoc.frozen import frozen
 from plutoc.graph.model import Graph
 from plutoc.source import Source, Span
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Place:
     """Where the app that the files are made of is declared."""
 
@@ -26,7 +26,7 @@ def place_of(graph: Graph) -> Place:
 
 
 def edited(place: Place, path: str, text: str, wanted: str | None) -> Diagnostic:
-    """A file that is made of the app, and that somebody changed."""
+    """A file that is made of the app, and was changed by hand."""
     gone = "" if wanted is not None else ", and the app does not need this file any more"
     return error(
         "P4001",

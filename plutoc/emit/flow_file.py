@@ -3,26 +3,25 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
-from dataclasses import replace
+from collections.abc import Collection, Iterable, Mapping
+from dataclasses import dataclass, replace
 
 from plutoc.block import HookKind
+from plutoc.check.model import Checked
 from plutoc.emit.callables import carried_functions, imports_of, names_of
-from plutoc.emit.declared import declared_of
-from plutoc.emit.fields import fields_of
-from plutoc.emit.imports import Import, import_lines, names
-from plutoc.emit.python import call, items, literal
+from plutoc.emit.embed import OURS
+from plutoc.emit.model_file import fields_of
+from plutoc.emit.python import Import, call, import_lines, items, literal, names
 from plutoc.emit.render import render
 from plutoc.emit.statements import Scope, asked_for, body_lines
-from plutoc.emit.walk import branches, nodes, steps
-from plutoc.frozen import frozen
-from plutoc.graph.model import Action, Graph, Parameter
+from plutoc.graph.model import Action, Graph, Node, Parameter
+from plutoc.plan.bodies import branches, nodes, steps
 from plutoc.plan.model import Arrived, Body, Plan
 from plutoc_runtime.domain.fields import Entity, Field
-from plutoc_runtime.domain.status import IN_GRAPH
+from plutoc_runtime.domain.status import IN_GRAPH, Status
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Function:
     """A branch of a fork."""
 
@@ -31,7 +30,7 @@ class Function:
     lines: list[str]
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class FlowFile:
     """What the template places."""
 
@@ -110,7 +109,7 @@ def _imports(graph: Graph, written: str) -> list[Import]:
     if "partial(" in written:
         imports += names("functools", "partial")
     if graph.actions:
-        imports += names("._runtime.domain.actions", "Action")
+        imports += names("._runtime.flow.own_action", "OwnAction")
     if any(action.parameters for action in graph.actions):
         imports += [
             *names("._runtime.domain.actions", "Parameter"),
@@ -164,7 +163,7 @@ def _action(action: Action) -> str:
     if action.parameters:
         arguments.append(f"parameters={items(map(_parameter, action.parameters))}")
     arguments += [f"repeat={literal(action.repeat)}", f"hook=hooks.{action.name}"]
-    return call("Action", arguments)
+    return call("OwnAction", arguments)
 
 
 def _parameter(parameter: Parameter) -> str:
@@ -172,3 +171,28 @@ def _parameter(parameter: Parameter) -> str:
     if parameter.default is not None:
         arguments.append(f"default={literal(parameter.default)}")
     return call("Parameter", arguments)
+
+
+def declared_of(checked: Checked) -> Mapping[str, str]:
+    """Return the statuses that blocks of other packages may give where they are called.
+
+    Checks, plan and code rest on them, so it is asked for where they fly. Our own blocks are held to
+    their declarations by our tests.
+    """
+    return {
+        node.name: _given(node, checked) for node in checked.graph.nodes if node.package != OURS
+    }
+
+
+def _given(node: Node, checked: Checked) -> str:
+    if node.block.gate is not None:  # each of its branches brings a status
+        return _statuses_of(checked.leaves.get(node.name, ()))
+    taken = checked.arrives.get(node.name, ())
+    ways = {s.name: _statuses_of(node.emitted(s)) for s in IN_GRAPH if s in taken}
+    if len(set(ways.values())) == 1:
+        return next(iter(ways.values()))
+    return f"{{{', '.join(f'{name}: {given}' for name, given in ways.items())}}}[status]"
+
+
+def _statuses_of(statuses: Collection[Status]) -> str:
+    return items(status.name for status in IN_GRAPH if status in statuses)

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import dataclass
+from textwrap import wrap
 
 from plutoc.block import HookKind
 from plutoc.check.model import Checked
-from plutoc.emit.fields import fields_of
-from plutoc.emit.imports import Import, import_lines, names
-from plutoc.emit.python import LINE_LENGTH, builtins_alias, formatted, shadows
-from plutoc.emit.render import render
+from plutoc.emit.model_file import fields_of
+from plutoc.emit.python import LINE_LENGTH, Import, builtins_alias, import_lines, names, shadows
+from plutoc.emit.render import formatted, render
 from plutoc.emit.stubs import Stub, in_order, stubs
-from plutoc.frozen import frozen
 from plutoc.graph.model import Graph
 from plutoc_runtime.domain.fields import Entity
 from plutoc_runtime.domain.quantities import PYTHON
@@ -26,7 +26,7 @@ TRIP_OFFERS = (
 )
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class HooksFile:
     """What the template places."""
 
@@ -37,14 +37,14 @@ class HooksFile:
     stubs: list[Stub]
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Stubs:
     """What the template of stubs alone places."""
 
     stubs: list[Stub]
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class HooksTest:
     """What the template of the tests places."""
 
@@ -88,19 +88,12 @@ def stub(checked: Checked, name: str) -> str:
 
 def _offers(what: str, basics: str, graph: Graph, entity: Entity) -> list[str]:
     own = [f", `{field.name}`" for field in fields_of(graph) if field.on is entity]
-    return _filled(f"A {what} offers {basics}{''.join(own)}.")
-
-
-def _filled(text: str) -> list[str]:
-    """Return a text in lines that fit; `textwrap` takes longer to import than all of the stubs."""
-    first, *words = text.split()
-    lines = [first]
-    for word in words:
-        if len(lines[-1]) + 1 + len(word) <= LINE_LENGTH:
-            lines[-1] += f" {word}"
-        else:
-            lines.append(word)
-    return lines
+    return wrap(
+        f"A {what} offers {basics}{''.join(own)}.",
+        LINE_LENGTH,
+        break_long_words=False,
+        break_on_hyphens=False,
+    )
 
 
 def _imports(graph: Graph, found: Iterable[Stub]) -> list[Import]:

@@ -2,18 +2,29 @@
 
 from __future__ import annotations
 
-from plutoc.emit.fields import fields_of, python_type
-from plutoc.emit.imports import Import, import_lines, names
-from plutoc.emit.python import annotation, builtins_alias, call, docstring, items, literal, shadows
+from dataclasses import dataclass
+
+from plutoc.emit.modules import EmbedError
+from plutoc.emit.python import (
+    Import,
+    annotation,
+    builtins_alias,
+    call,
+    docstring,
+    import_lines,
+    items,
+    literal,
+    names,
+    shadows,
+)
 from plutoc.emit.render import render
-from plutoc.frozen import frozen
 from plutoc.graph import model as graph_model
 from plutoc.graph.categories import PARAMS
 from plutoc.graph.model import Graph
-from plutoc_runtime.domain.fields import Entity, Field
+from plutoc_runtime.domain.fields import PYTHON, Entity, Field
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Attribute:
     """One line of a class, and its docstring."""
 
@@ -23,7 +34,7 @@ class Attribute:
     doc: str
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class CategoryEntry:
     """A category, below the declaration that it comes from."""
 
@@ -31,7 +42,7 @@ class CategoryEntry:
     written: str
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class ModelFile:
     """What the template places."""
 
@@ -116,3 +127,24 @@ def _category(category: graph_model.Category) -> str:
         actions = items(map(literal, category.actions), "{}") if category.actions else ""
         arguments.append(f"actions=frozenset({actions})")
     return call("Category", arguments)
+
+
+def fields_of(graph: Graph) -> tuple[Field, ...]:
+    """Return every field once: missions' before trips', each in the order of the blocks."""
+    found: dict[tuple[Entity, str], Field] = {}
+    for node in graph.nodes:
+        for field in node.block.needs:
+            same = found.setdefault((field.on, field.name), field)
+            if same.type is not field.type:
+                raise EmbedError(
+                    f"two blocks of the graph want different things of a {field.on.value}'s "
+                    f"{field.name}: {same.type.value} and {field.type.value} ({node.name})"
+                )
+    return tuple(field for entity in Entity for field in found.values() if field.on is entity)
+
+
+def python_type(field: Field) -> str:
+    """Return the annotation of a field."""
+    written = PYTHON[field.type]
+    optional = field.default is None and "None" not in written
+    return f"{written} | None" if optional else written

@@ -3,29 +3,24 @@
 from __future__ import annotations
 
 import ast
-import os
 import sys
 from collections.abc import Iterator
+from dataclasses import dataclass
 from functools import cache
 from importlib.util import find_spec
-from pathlib import PurePath
+from pathlib import Path
 from typing import NamedTuple
 
 import plutoc_runtime
-from plutoc.emit.scan import Written, written_imports
-from plutoc.frozen import frozen
-from plutoc.installed import files_in
 
 RUNTIME = plutoc_runtime.__name__
-_HOME = os.path.dirname(plutoc_runtime.__file__)
-_START = "__init__.py"
 
 
 class EmbedError(Exception):
     """An installed module cannot be carried along. The message says where and what to change."""
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Module:
     """An installed module: its text, byte for byte, read as UTF-8."""
 
@@ -59,44 +54,18 @@ class ImportFrom(NamedTuple):
 @cache
 def load(name: str) -> Module | None:
     """Return an installed module's text; None where there is no such module."""
-    if is_within(name, RUNTIME) and os.path.isdir(_HOME):
-        return _of_runtime(name)
     try:
         spec = find_spec(name)
     except ModuleNotFoundError:  # what should be a package on the way there is none
         return None
-    if spec is None or spec.origin is None or spec.loader is None:
+    if spec is None or spec.origin is None or not spec.origin.endswith(".py"):
         return None
-    get_data = getattr(spec.loader, "get_data", None)
-    if get_data is None or PurePath(spec.origin).suffix != ".py":
-        return None
-    data: bytes = get_data(spec.origin)
     return Module(
         name=name,
         file=spec.origin,
-        text=data.decode("utf-8"),
+        text=Path(spec.origin).read_bytes().decode(),
         is_package=spec.submodule_search_locations is not None,
     )
-
-
-def _of_runtime(name: str) -> Module | None:
-    """Return a module of the runtime: where that is known, Python need not search."""
-    path = name.removeprefix(RUNTIME).replace(".", "/")
-    here = _files_of_runtime()
-    is_package = f"{path}/{_START}" in here
-    path = f"{path}/{_START}" if is_package else f"{path}.py"
-    if path not in here:
-        return None
-    file = _HOME + path
-    with open(file, "rb", buffering=0) as opened:
-        text = opened.readall().decode("utf-8")
-    return Module(name=name, file=file, text=text, is_package=is_package)
-
-
-@cache
-def _files_of_runtime() -> frozenset[str]:
-    """Return the path of each file of the runtime, from its folder on."""
-    return frozenset(path.removeprefix(_HOME).replace(os.sep, "/") for path in files_in(_HOME))
 
 
 def is_within(name: str, package: str) -> bool:
@@ -116,25 +85,7 @@ def imports_from(module: Module) -> tuple[ImportFrom, ...]:
     Imports inside functions count too. A plain `import` of such a module is refused: it would bind
     a name that a carried module does not have.
     """
-    written = written_imports(module.text, strange=not is_within(module.name, RUNTIME))
-    return tuple(_imports(module) if written is None else _scanned(module, written))
-
-
-def _scanned(module: Module, written: list[Written]) -> Iterator[ImportFrom]:
-    """Yield the same as `_imports`, for a module whose texts say it plainly."""
-    for one in written:
-        inner = one.target.lstrip(".")
-        level = len(one.target) - len(inner)
-        if not one.names:
-            if not is_standard(one.target):
-                raise module.refuse(one.start, _no_plain_import(one.target))
-        elif level or not is_standard(one.target):
-            yield ImportFrom(
-                target=_target(module, inner, level, one.start),
-                names=one.names,
-                start=one.start,
-                written=one.target,
-            )
+    return tuple(_imports(module))
 
 
 def _imports(module: Module) -> Iterator[ImportFrom]:

@@ -4,27 +4,24 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from types import MappingProxyType
 
 from plutoc.emit.callables import carried_functions
-from plutoc.emit.carry import carried_library
-from plutoc.emit.embed import FOLDER, embed
+from plutoc.emit.embed import FOLDER, carried_library, embed
 from plutoc.emit.flow_file import flow_file
 from plutoc.emit.hooks_file import hooks_file, hooks_test
 from plutoc.emit.lock import NAME, Hooks, hooks_of, lock
 from plutoc.emit.model_file import model_file
 from plutoc.emit.modules import RUNTIME
 from plutoc.emit.project_files import attributes_file, init_file, main_file, project_file
-from plutoc.emit.python import owned
 from plutoc.emit.readme_file import readme
-from plutoc.emit.render import verbatim
-from plutoc.emit.scan import written_imports
+from plutoc.emit.render import owned, verbatim
 from plutoc.emit.test_file import flow_test
-from plutoc.frozen import frozen
 from plutoc.plan.model import Plan
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Package:
     """The files of a generated package, by path; folders are separated by `/`."""
 
@@ -54,7 +51,7 @@ def emit(
     graph = plan.checked.graph
     app = f"src/{graph.name}"
     modules = {
-        "__init__.py": init_file(graph),
+        "__init__.py": init_file(graph, former=bool(former)),
         "__main__.py": main_file(graph),
         "flow.py": flow_file(plan),
         "model.py": model_file(graph),
@@ -99,10 +96,6 @@ def _runtime_modules(texts: Iterable[str]) -> Iterator[str]:
 
 def _imports(text: str) -> Iterator[tuple[str, tuple[str, ...]]]:
     """Yield what a module imports names from, dots included, and the names."""
-    written = written_imports(text)
-    if written is not None:
-        yield from ((one.target, one.names) for one in written)
-        return
     for node in ast.walk(ast.parse(text)):
         if isinstance(node, ast.ImportFrom):
             target = "." * node.level + (node.module or "")

@@ -2,31 +2,31 @@
 
 from __future__ import annotations
 
-from plutoc.emit.exports import EXPORTS
-from plutoc.emit.imports import Import, import_lines
-from plutoc.emit.markup import one_line, toml_text
-from plutoc.emit.python import header
+from dataclasses import dataclass
+
+from plutoc.emit.markup import header, one_line, toml_text
+from plutoc.emit.python import Import, import_lines
 from plutoc.emit.render import render
-from plutoc.frozen import frozen
+from plutoc.emit.stubs import exports_of
 from plutoc.graph.model import Graph
 from plutoc_runtime.command import SEAM
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Headed:
     """A file that only needs its header."""
 
     header: str
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Entry:
     """`__main__.py`."""
 
     app: str
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Exports:
     """`__init__.py`."""
 
@@ -36,7 +36,7 @@ class Exports:
     homes: list[tuple[str, str]]
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Project:
     """`pyproject.toml`."""
 
@@ -51,16 +51,17 @@ class Project:
     carry: bool
 
 
-def init_file(graph: Graph) -> str:
+def init_file(graph: Graph, *, former: bool) -> str:
     """Return the text of `__init__.py`, not yet formatted."""
-    imports = [Import(module=module, name=name) for name, module in EXPORTS.items()]
+    exports = exports_of(graph, former=former)
+    imports = [Import(module=module, name=name) for name, module in exports.items()]
     return render(
         "init.py",
         Exports(
             app=graph.name,
             imports=import_lines(imports),
-            exports=list(EXPORTS),
-            homes=list(EXPORTS.items()),
+            exports=list(exports),
+            homes=list(exports.items()),
         ),
     )
 

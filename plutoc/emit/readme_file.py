@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from plutoc.block import Block
-from plutoc.emit.fields import fields_of
-from plutoc.emit.markup import fence, markdown, toml_text
-from plutoc.emit.python import header
+from plutoc.emit.markup import fence, header, markdown, toml_text
+from plutoc.emit.model_file import fields_of
 from plutoc.emit.render import render
 from plutoc.emit.test_file import MissionTable, able, sample
-from plutoc.frozen import frozen
 from plutoc.graph.model import Graph
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class KindRow:
     """A kind of block, in the README's table."""
 
@@ -20,7 +20,7 @@ class KindRow:
     doc: str
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class FieldRow:
     """A field of missions or trips, in the README's table."""
 
@@ -29,7 +29,7 @@ class FieldRow:
     doc: str
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Readme:
     """What the template places."""
 

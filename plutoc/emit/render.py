@@ -1,59 +1,53 @@
-"""The templates: they place what Python has decided."""
+"""How the text of a file comes about: a template places what was decided, Black formats Python."""
 
 from __future__ import annotations
 
 from dataclasses import fields
-from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from plutoc.emit.memory import edition, remembered
+import black
+from black.mode import TargetVersion
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+from plutoc.emit.markup import header
+from plutoc.emit.python import LINE_LENGTH
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from _typeshed import DataclassInstance
-    from jinja2 import Environment
 
-_FOLDER = Path(__file__).with_name("templates")
-_ENDING = ".jinja"
+_TEMPLATES = Path(__file__).with_name("templates")
+_ENVIRONMENT = Environment(
+    loader=FileSystemLoader(_TEMPLATES),
+    undefined=StrictUndefined,
+    autoescape=False,  # what needs it comes escaped, for the language that it goes into
+    trim_blocks=True,
+    lstrip_blocks=True,
+    keep_trailing_newline=True,
+)
+_MODE = black.Mode(line_length=LINE_LENGTH, target_versions={TargetVersion.PY311})
 
 
 def render(template: str, view: DataclassInstance) -> str:
     """Return a template with the view's fields in their places."""
-    name = f"{template}{_ENDING}"
-    # one may include others, so all of them count
-    made_of = (edition("jinja2"), repr(sorted(_templates().items())), name, repr(view))
-    return remembered(made_of, lambda: _rendered(name, view))
+    values = {field.name: getattr(view, field.name) for field in fields(view)}
+    return _ENVIRONMENT.get_template(f"{template}.jinja").render(values)
 
 
 def verbatim(name: str) -> str:
     """Return a file that is handed on as it is."""
-    return (_FOLDER / name).read_bytes().decode()
+    return (_TEMPLATES / name).read_text("utf-8")
 
 
-def _rendered(name: str, view: DataclassInstance) -> str:
-    values = {field.name: getattr(view, field.name) for field in fields(view)}
-    return _environment().get_template(name).render(values)
+def formatted(text: str) -> str:
+    """Return a module as Black writes it."""
+    return black.format_str(text, mode=_MODE)
 
 
-@cache
-def _templates() -> Mapping[str, str]:
-    """Return the text of each template."""
-    files = sorted(_FOLDER.glob(f"*{_ENDING}"))
-    return {file.name: file.read_bytes().decode() for file in files}
+def owned(text: str, source_name: str) -> str:
+    """Return a module that plutoc rewrites each time, with its header.
 
-
-@cache
-def _environment() -> Environment:
-    from jinja2 import DictLoader, Environment, StrictUndefined
-
-    # Nothing is escaped here: what needs it comes escaped, for the language that it goes into.
-    return Environment(
-        loader=DictLoader(_templates()),
-        undefined=StrictUndefined,
-        autoescape=False,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        keep_trailing_newline=True,
-    )
+    The header stands first: nothing that a user wrote can get into the two lines in which Python
+    looks for a file's encoding.
+    """
+    return f"# {header(source_name)}\n# fmt: off\n{formatted(text)}"

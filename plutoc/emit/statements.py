@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from inspect import CO_ITERABLE_COROUTINE, iscoroutinefunction
 from typing import Any
 
@@ -11,8 +11,8 @@ from plutoc.block import Choice, HookParam, Param
 from plutoc.emit.callables import WATCH, Names, chosen
 from plutoc.emit.embed import Carried
 from plutoc.emit.python import call, items, literal
-from plutoc.frozen import frozen
 from plutoc.graph.model import Node
+from plutoc.plan.bodies import falls
 from plutoc.plan.model import (
     Arm,
     Arrived,
@@ -34,7 +34,7 @@ from plutoc_runtime.domain.fields import Entity, Field
 from plutoc_runtime.domain.status import Status
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Scope:
     """What the lines around a statement settle."""
 
@@ -212,7 +212,7 @@ def _switch(switch: Switch, scope: Scope) -> Iterator[str]:
         else:
             yield "else:" if arm is rest else f"{keyword} {_condition(arm, switch, scope)}:"
             yield from _indented(lines)
-        if not leaves(arm.body):
+        if falls(arm.body):
             keyword = "elif"
     if not switch.decided:
         idle = tuple(status for arm, lines in written if not lines for status in arm.statuses)
@@ -270,33 +270,6 @@ def _any_of(statuses: tuple[Status, ...]) -> str:
     return items(status.name for status in statuses)
 
 
-def leaves(body: Body) -> bool:
-    """Say whether control never falls off the end of a body."""
-    match body[-1] if body else None:
-        case Continue() | Break() | End() | Goto() | Dispatch():
-            return True
-        case Switch(arms=arms):
-            return all(leaves(arm.body) for arm in arms)
-        case Loop(body=inner):
-            return not _breaks(inner)
-        case _:
-            return False
-
-
-def _breaks(body: Body) -> bool:
-    """Say whether the loop around this body is left by a `Break`."""
-    for step in body:
-        match step:
-            case Break():
-                return True
-            case Switch(arms=arms):
-                if any(_breaks(arm.body) for arm in arms):
-                    return True
-            case _:
-                pass
-    return False
-
-
 def _dispatch(dispatch: Dispatch, scope: Scope) -> Iterator[str]:
     first = literal(dispatch.start)
     yield f"at = run.at or {first}" if dispatch.entries else f"at = {first}"
@@ -331,7 +304,7 @@ def _leads_on(step: Step) -> bool:
     """Say whether a step is a switch of which every way but the last leads elsewhere."""
     match step:
         case Switch(arms=(*early, Arm(body=())), decided=True):
-            return bool(early) and all(leaves(arm.body) for arm in early)
+            return bool(early) and not any(falls(arm.body) for arm in early)
         case _:
             return False
 

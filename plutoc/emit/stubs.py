@@ -1,14 +1,35 @@
-"""The stubs of hooks: typed and documented, and right at once where nobody writes more."""
+"""The stubs of hooks: typed and documented, and right as they stand."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from plutoc.block import HookKind
 from plutoc.check.model import Checked
-from plutoc.emit.python import annotation, literal, status_tuple
-from plutoc.frozen import frozen
+from plutoc.emit.python import annotation, status_tuple
 from plutoc.graph.model import Action, Graph, Hook, Parameter
 from plutoc_runtime.domain.quantities import PYTHON, Type
 from plutoc_runtime.domain.status import IN_GRAPH, Status
+
+EXPORTS = {
+    "ActionFailed": "._runtime.domain.errors",
+    "Category": "._runtime.domain.model",
+    "Context": "._runtime.hooks.context",
+    "Drone": "._runtime.domain.model",
+    "Item": "._runtime.domain.model",
+    "LiveDrone": "._runtime.hooks.live_drone",
+    "Mission": ".model",
+    "Photo": "._runtime.domain.model",
+    "Point": "._runtime.domain.model",
+    "Result": ".model",
+    "Results": ".model",
+    "Status": "._runtime.domain.status",
+    "Trip": ".model",
+    "Verdict": "._runtime.flow.verdict",
+}
+"""The types that hooks are written with, and where they are."""
+_FOR_HOOKS = ("Context", "LiveDrone", "Verdict")
+
 
 UNITS = {
     Type.MASS: "in kilograms",
@@ -23,7 +44,7 @@ OUTCOMES = (Status.STANDBY, Status.COMPLETED, Status.FAILED)
 """How a mission can stand when its trip is over."""
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Stub:
     """One hook as it is first written."""
 
@@ -43,6 +64,13 @@ def stubs(checked: Checked) -> list[Stub]:
     made = {action.name: _action(action, taken) for action in graph.actions}
     made |= {hook.name: _hook(hook, checked, taken) for hook in graph.hooks}
     return [made[name] for name in in_order(graph)]
+
+
+def exports_of(graph: Graph, *, former: bool) -> dict[str, str]:
+    """Return what a package offers: without a hook, and without one left over, less is carried."""
+    if graph.hooks or graph.actions or former:
+        return EXPORTS
+    return {name: home for name, home in EXPORTS.items() if name not in _FOR_HOOKS}
 
 
 def in_order(graph: Graph) -> list[str]:
@@ -79,7 +107,7 @@ def _hook(hook: Hook, checked: Checked, taken: set[str]) -> Stub:
                 coroutine="",
                 signature="(mission: Mission, results: Results) -> Verdict",
                 doc=["Judge a finished mission by what its actions gave."],
-                lines=[f"return Verdict(ok=True, log=({literal(_all_pass(hook.name))},))"],
+                lines=[f'return Verdict(ok=True, log=("{_all_pass(hook.name)}",))'],
                 uses=("Mission", "Results", "Verdict"),
             )
         case HookKind.POLICY:
@@ -161,4 +189,4 @@ def _all_pass(name: str) -> str:
 
 
 def _log(name: str) -> str:
-    return f"context.log({literal(_yet(name))})"
+    return f'context.log("{_yet(name)}")'

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from plutoc.emit.markup import toml_text
 from plutoc.emit.render import render
-from plutoc.frozen import frozen
 from plutoc.graph.model import Action, Category, Graph
 from plutoc_runtime.domain.actions import BUILT_IN, PICK, RELEASE
 from plutoc_runtime.domain.quantities import Type
@@ -16,7 +17,7 @@ _TARGETS = ("[3.0, 4.0]", "[6.0, 2.5]")
 """Near the drones of a plain of 20 × 20 m."""
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class MissionTable:
     """A `[[mission]]`, in TOML."""
 
@@ -26,7 +27,7 @@ class MissionTable:
     """What its drone must be able to do."""
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class FlowTest:
     """What the template places."""
 

@@ -8,30 +8,30 @@ from __future__ import annotations
 
 import errno
 import os
+import stat
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
+from dataclasses import dataclass
 from pathlib import Path
+from shutil import copy2
+from tempfile import TemporaryDirectory
 from types import MappingProxyType
 
 from plutoc import __version__
 from plutoc.diagnostic import Diagnostic, Rejected
 from plutoc.emit import errors
 from plutoc.emit.errors import Place
-from plutoc.emit.held import InTheWay, facts_of, held
 from plutoc.emit.lock import NAME as LOCK
+from plutoc.emit.lock import DamagedLock, Lock, is_newer, read_lock
 from plutoc.emit.merged import sides, was_merged, was_written
 from plutoc.emit.package import Package
-from plutoc.emit.recorded import DamagedLock, Lock, is_newer, read_lock
-from plutoc.frozen import frozen
 
 _ASIDE = ".plutoc-"
 """What the names of folders for unfinished work begin with; one is left only if we are killed."""
 
 _NOTHING: Mapping[str, str] = MappingProxyType({})
 
-_TO_WRITE = os.O_WRONLY | os.O_CREAT | os.O_TRUNC | getattr(os, "O_BINARY", 0)
-
-Save = Callable[[str, bytes], object]
+Save = Callable[[Path, bytes], object]
 
 
 class Refused(Rejected):
@@ -47,7 +47,15 @@ class CannotWrite(Exception):
         super().__init__(f"{name if told else folder}: {error.strerror or error}")
 
 
-@frozen
+class InTheWay(Exception):
+    """A file cannot be written through what is there: a link, or what is no folder."""
+
+    def __init__(self, place: Path, wanted: str) -> None:
+        self.place = place
+        self.wanted = wanted
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Change:
     """One file: its text before and after; None where there is none."""
 
@@ -56,7 +64,7 @@ class Change:
     after: str | None
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Changes:
     """What writing would change in a folder, in the package's order."""
 
@@ -178,15 +186,43 @@ def _texts(
     ours = {*package.owned, *package.once}
     wanted |= {path: None for path in recorded if path not in ours}
     texts: dict[str, tuple[bytes | None, str | None]] = {}
-    top, passed = os.fspath(folder), set[str]()
     for path, text in wanted.items():
         try:
-            facts = facts_of(top, path, passed)
-            texts[path] = held(os.path.join(top, path), facts), text
+            texts[path] = _read(folder, path), text
         except InTheWay as error:
-            what = "a folder" if error.is_on_the_way else "a file"
-            found.append(errors.in_the_way(place, str(error.place), _kind(error.place), what))
+            kind = _kind(error.place)
+            found.append(errors.in_the_way(place, str(error.place), kind, error.wanted))
     return texts
+
+
+def _read(folder: Path, path: str) -> bytes | None:
+    """Return what a file holds, None where there is none; raise `InTheWay` where none can be."""
+    _refuse_what_is_in_the_way(folder, path)
+    try:
+        with open(folder / path, "rb", opener=_through_no_link) as file:
+            return file.read()
+    except FileNotFoundError:
+        return None
+
+
+def _through_no_link(path: str, flags: int) -> int:
+    """Open a file, but no link that came in its place just now; and wait for no pipe."""
+    return os.open(path, flags | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0))
+
+
+def _refuse_what_is_in_the_way(folder: Path, path: str) -> None:
+    """Raise `InTheWay` for what is no folder on the way to a file, and for what is no file there."""
+    file = folder / path
+    ways = [
+        (one, stat.S_ISDIR, "a folder") for one in reversed(file.parents) if folder in one.parents
+    ]
+    for place, is_right, wanted in (*ways, (file, stat.S_ISREG, "a file")):
+        try:
+            mode = place.lstat().st_mode
+        except (FileNotFoundError, NotADirectoryError):
+            return
+        if not is_right(mode):
+            raise InTheWay(place, wanted)
 
 
 def _kind(path: Path) -> str:
@@ -195,16 +231,7 @@ def _kind(path: Path) -> str:
     return "a folder" if path.is_dir() else "a file" if path.is_file() else "no ordinary file"
 
 
-def _save(path: str, data: bytes) -> None:
-    handle = os.open(path, _TO_WRITE, 0o666)
-    try:
-        while data := data[os.write(handle, data) :]:
-            pass
-    finally:
-        os.close(handle)
-
-
-def write(changes: Changes, *, save: Save = _save) -> None:
+def write(changes: Changes, *, save: Save = Path.write_bytes) -> None:
     """Make the changes, all or none; raise `CannotWrite` where the disk refuses."""
     if not changes.files:
         return
@@ -217,7 +244,11 @@ def write(changes: Changes, *, save: Save = _save) -> None:
             if changes.first and folder.exists() and not _is_free(folder):
                 # It came since, or `new/../there` leads to it once there is a `new`.
                 raise FileExistsError(errno.EEXIST, "it is not empty any more", str(folder))
-            with _aside(folder if folder.exists() else folder.parent) as aside:
+            parent = folder if folder.exists() else folder.parent  # on the same disk
+            with TemporaryDirectory(
+                prefix=_ASIDE, dir=parent, ignore_cleanup_errors=True
+            ) as unfinished:
+                aside = Path(unfinished)
                 _prepare(changes, aside, save)
                 if folder.exists():
                     _replace(changes, aside)
@@ -227,27 +258,10 @@ def write(changes: Changes, *, save: Save = _save) -> None:
         raise CannotWrite(error, folder) from error
 
 
-def create(folder: Path, texts: Mapping[str, str], *, save: Save = _save) -> None:
+def create(folder: Path, texts: Mapping[str, str], *, save: Save = Path.write_bytes) -> None:
     """Write files into a new or empty folder, all or none."""
     files = [Change(path=path, before=None, after=text) for path, text in texts.items()]
     write(Changes(folder=folder, first=True, files=tuple(files)), save=save)
-
-
-@contextmanager
-def _aside(parent: Path) -> Iterator[Path]:
-    """Give a folder for unfinished work, on the same disk as its place, and take it away again."""
-    # not by tempfile, nor with shutil before it is needed: they take longer to import than this does
-    aside = parent / f"{_ASIDE}{os.urandom(8).hex()}"
-    aside.mkdir(mode=0o700)
-    try:
-        yield aside
-    finally:
-        try:
-            aside.rmdir()  # all of it is in its place, as a rule
-        except OSError:
-            from shutil import rmtree
-
-            rmtree(aside, ignore_errors=True)
 
 
 @contextmanager
@@ -272,18 +286,12 @@ def _make_folders(folder: Path, made: list[Path]) -> None:
 
 def _prepare(changes: Changes, aside: Path, save: Save) -> None:
     """Write the new texts aside, and keep the old ones there. Most of what can fail fails here."""
-    top, parents = os.path.join(aside, "new"), set[str]()
     for change in changes.files:
         if change.after is not None:
-            new = os.path.join(top, change.path)
-            parent = os.path.dirname(new)
-            if parent not in parents:
-                os.makedirs(parent, exist_ok=True)
-                parents.add(parent)
+            new = aside / "new" / change.path
+            new.parent.mkdir(parents=True, exist_ok=True)
             save(new, change.after.encode())
         if change.before is not None:
-            from shutil import copy2
-
             old = aside / "old" / change.path
             old.parent.mkdir(parents=True, exist_ok=True)
             copy2(changes.folder / change.path, old, follow_symlinks=False)
@@ -320,8 +328,8 @@ def _refuse_what_came_since(folder: Path, path: str) -> None:
     """What was no link when we compared may be one now, and lead anywhere."""
     try:
         if folder.is_symlink():
-            raise InTheWay(os.fspath(folder), is_on_the_way=True)
-        facts_of(os.fspath(folder), path, set())
+            raise InTheWay(folder, "a folder")
+        _refuse_what_is_in_the_way(folder, path)
     except InTheWay as error:
         reason = f"{_kind(error.place)} was put there meanwhile"
         raise FileExistsError(errno.EEXIST, reason, str(error.place)) from None

@@ -1,10 +1,10 @@
-"""The pages as they are installed: `pages/CODE.md` beside this file."""
+"""The pages as they are installed, `pages/CODE.md` beside this file, and how a terminal shows them."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 from importlib.resources import files
-
-from plutoc.frozen import frozen
 
 GROUPS = {
     "P0": "Syntax",
@@ -17,7 +17,13 @@ GROUPS = {
 """What the codes that begin so are about."""
 
 
-@frozen
+_FOLDER = files("plutoc.explain") / "pages"
+_BOLD, _CYAN = "1", "1;36"
+_FENCE = "```"
+_MARGIN = "    "
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Page:
     """What there is to know about a code."""
 
@@ -41,9 +47,42 @@ def page(code: str) -> Page:
 
 
 def code_meant(asked: str) -> str:
-    """Return the code that somebody means who writes `p1003` or `1003`."""
+    """Return the code that is meant by `p1003` or `1003`."""
     code = asked.strip().upper()
     return f"P{code}" if code.isdigit() else code
 
 
-_FOLDER = files("plutoc.explain") / "pages"
+def render(page: Page, *, colour: bool) -> str:
+    """Return a page: headings stand out, examples are indented."""
+    return "\n".join(_lines(page.text, colour)) + "\n"
+
+
+def render_list(pages: Iterable[Page], *, colour: bool) -> str:
+    """Return all codes with their titles, group by group."""
+    lines: list[str] = []
+    group = ""
+    for page in pages:
+        if page.code[:2] != group:
+            group = page.code[:2]
+            lines += ([""] if lines else []) + [_paint(GROUPS[group], _BOLD, colour)]
+        lines.append(f"  {page.code}  {page.title}")
+    return "\n".join(lines) + "\n"
+
+
+def _lines(text: str, colour: bool) -> Iterator[str]:
+    in_example = False
+    for line in text.rstrip("\n").split("\n"):
+        if line.startswith(_FENCE):
+            in_example = not in_example
+        elif in_example:
+            yield f"{_MARGIN}{line}".rstrip()
+        elif line.startswith("# "):
+            yield _paint(line[2:], _BOLD, colour)
+        elif line.startswith("## "):
+            yield _paint(line[3:], _CYAN, colour)
+        else:
+            yield line
+
+
+def _paint(text: str, code: str, colour: bool) -> str:
+    return f"\033[{code}m{text}\033[0m" if colour else text

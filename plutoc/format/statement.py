@@ -19,7 +19,7 @@ from plutoc.format.document import (
     Remark,
 )
 from plutoc.format.words import Word
-from plutoc.syntax.newlines import ARROW, CLOSING, EQUAL, NAME, OPENING
+from plutoc.syntax.tokens import ARROW, CLOSING, EQUAL, NAME, OPENING
 
 _TIGHT_BEFORE = frozenset({"COLON", "DOT", "LPAR", *CLOSING})
 _TIGHT_BEHIND = frozenset({"DOT", *OPENING})

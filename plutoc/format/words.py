@@ -7,20 +7,20 @@ comments, for a source that was parsed holds nothing else.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
-from plutoc.frozen import frozen
-from plutoc.syntax.lex import lexed
-from plutoc.syntax.newlines import NEWLINE
-from plutoc.syntax.tokens import Token
+from lark import Token
+
+from plutoc.syntax.grammar import end_of, lexed
+from plutoc.syntax.tokens import NEWLINE, span
 
 COMMA, LBRACE, RBRACE = "COMMA", "LBRACE", "RBRACE"
 
 _BLANKS = " \t\r"
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Word:
     """A token as it is to be written, and what follows it."""
 
@@ -42,7 +42,7 @@ def read(text: str) -> tuple[tuple[str, ...], Iterator[tuple[Word, ...]]]:
     A line is a statement, or ends with a brace. An empty comment stands for a blank line.
     """
     tokens = lexed(text)
-    before = text[: tokens[0].start_pos].split("\n")[:-1]
+    before = text[: span(tokens[0]).start].split("\n")[:-1]
     return _stripped(before), _lines(_without_commas(_words(text, tokens)))
 
 
@@ -57,11 +57,11 @@ def _lines(words: Iterator[Word]) -> Iterator[tuple[Word, ...]]:
 
 
 def _words(text: str, tokens: Sequence[Token]) -> Iterator[Word]:
-    beyond = Token("", "", len(text), len(text), 0)
+    beyond = end_of(text)
     words = [token for token in tokens if token.type != NEWLINE]
     ends = {id(token) for token, then in pairwise(tokens) if then.type == NEWLINE}
     for token, then in pairwise([*words, beyond]):
-        gap = text[token.end_pos : then.start_pos].split("\n")
+        gap = text[span(token).end : span(then).start].split("\n")
         if len(gap) > 1 and then is not beyond:
             gap.pop()  # the blanks before the next word
         beside, *below = _stripped(gap)

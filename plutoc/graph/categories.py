@@ -5,10 +5,9 @@ from __future__ import annotations
 from plutoc.block import Param
 from plutoc.diagnostic import Diagnostic
 from plutoc.graph import errors, value_errors
-from plutoc.graph.arguments import once_each
 from plutoc.graph.model import Category
 from plutoc.graph.unclear import Unclear
-from plutoc.graph.values import typed, written
+from plutoc.graph.values import once_each, typed, written
 from plutoc.source import Source
 from plutoc.syntax.tree import Argument, CategoryDecl
 from plutoc_runtime.domain.quantities import Type

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import pairwise, product
 
 from plutoc.diagnostic import Diagnostic
-from plutoc.frozen import frozen
 from plutoc.graph import edge_errors as errors
 from plutoc.graph.hooks import statuses
 from plutoc.graph.model import END, START, Edge, Node
@@ -19,10 +18,10 @@ from plutoc.syntax.tree import FlowDecl, Guard, Name
 from plutoc_runtime.domain.status import IN_GRAPH, Status
 
 MOST_EDGES = 100_000
-"""Of an app: brackets of a thousand names each make a million of them, which nobody meant."""
+"""Of an app: brackets of a thousand names each make a million of them, which is a mistake."""
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Arrow:
     """One pair of a flow; a guard belongs to the last arrow of its statement."""
 

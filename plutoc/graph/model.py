@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from plutoc.block import Block, HookKind
-from plutoc.frozen import frozen
 from plutoc.source import Source, Span
 from plutoc_runtime.domain.quantities import Type
 from plutoc_runtime.domain.status import Status
@@ -20,7 +19,7 @@ FIRST_VERSION = "0.1.0"
 Plain = bool | int | float | str
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Library:
     """What must be installed beside an app, since its hooks import it."""
 
@@ -33,7 +32,7 @@ class Library:
     span: Span
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Parameter:
     """A parameter of an action or a modifier; without a default it must be given."""
 
@@ -42,7 +41,7 @@ class Parameter:
     default: Plain | None
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Action:
     """An action of the app's own: a hook that a drone does at the end of a trip."""
 
@@ -55,7 +54,7 @@ class Action:
     span: Span
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Hook:
     """An evaluator, a modifier or a policy of the app."""
 
@@ -68,7 +67,7 @@ class Hook:
     span: Span
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Category:
     """What drones of one shape can carry and do. SI units."""
 
@@ -86,7 +85,7 @@ class Category:
     """Its name; None where the source declares no category."""
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Choose:
     """A `Choice` parameter's value: the option's name, or the hook's."""
 
@@ -94,7 +93,7 @@ class Choose:
     hook: Hook | None
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Node:
     """A block of the app."""
 
@@ -124,7 +123,7 @@ class Node:
         return out
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Edge:
     """An arrow from a block to a block, or from `start`, or to `end`."""
 

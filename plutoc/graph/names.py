@@ -1,4 +1,4 @@
-"""What a name may be, and which name somebody may have meant."""
+"""What a name may be, and which name may have been meant."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import unicodedata
 from collections.abc import Iterable
 from enum import Enum
 
-from plutoc.syntax.newlines import WORDS
+from plutoc.syntax.tokens import WORDS
 
 LONGEST = 63
 
@@ -68,7 +68,7 @@ def reserved(name: str) -> str | None:
 
 
 def near(name: str, options: Iterable[str]) -> list[str]:
-    """Return what somebody may have meant, the nearest first; at most three."""
+    """Return what may have been meant, the nearest first; at most three."""
     possible = [each for each in options if abs(len(each) - len(name)) <= max(len(name), 3)]
     same = next((each for each in possible if _bare(each) == _bare(name)), None)
     if same is not None:

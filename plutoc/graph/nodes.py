@@ -3,25 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 from plutoc.block import Choice, HookKind, HookParam, Param
 from plutoc.diagnostic import Diagnostic
-from plutoc.frozen import frozen
 from plutoc.graph import value_errors
-from plutoc.graph.arguments import once_each
 from plutoc.graph.model import Choose, Hook, Node, Parameter, Plain
 from plutoc.graph.names import near
 from plutoc.graph.packages import Packages, find
 from plutoc.graph.scope import ACTION, HOOK_ROLES, Scope
 from plutoc.graph.unclear import Unclear
-from plutoc.graph.values import EXAMPLES, at_least, typed, written
+from plutoc.graph.values import EXAMPLES, at_least, once_each, typed, written
 from plutoc.source import Source
 from plutoc.syntax.tree import Argument, BlockDecl, Bool, Name, Text, Value
 
 _ROLES = {HookKind.ACTION: ACTION} | {HookKind(kind): role for kind, role in HOOK_ROLES.items()}
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Place:
     """What a block's declaration can refer to, and where findings go."""
 

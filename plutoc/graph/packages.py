@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 from plutoc.block import Block, HookParam, Param
 from plutoc.diagnostic import Diagnostic
-from plutoc.frozen import frozen
 from plutoc.graph import errors
 from plutoc.graph.unclear import Unclear
 from plutoc.registry import STD, Blocks, RegistryError
@@ -14,7 +14,7 @@ from plutoc.source import Source
 from plutoc.syntax.tree import BlockDecl, File, Name
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Packages:
     """What the prefixes of a file stand for."""
 

@@ -8,18 +8,16 @@ from dataclasses import replace
 from plutoc.block import HookKind, HookParam
 from plutoc.diagnostic import Diagnostic, Severity, accept_or_raise
 from plutoc.graph import categories, errors, hooks
+from plutoc.graph.cascades import each_name_once, told_once
 from plutoc.graph.edges import edges
 from plutoc.graph.model import FIRST_VERSION, Action, Graph, Hook, Node
-from plutoc.graph.neighbours import told_once
 from plutoc.graph.nodes import Place, node
-from plutoc.graph.once import each_name_once
 from plutoc.graph.packages import packages_of, unused_packages
-from plutoc.graph.requires import libraries
 from plutoc.graph.scope import check_app_name, scope_of, spoilt_names
+from plutoc.graph.settings import libraries, version
 from plutoc.graph.stops import meant_to_declare
 from plutoc.graph.unclear import bad_statements, unclear
 from plutoc.graph.values import written
-from plutoc.graph.version import version
 from plutoc.registry import STD, Blocks
 from plutoc.source import Source
 from plutoc.syntax.tree import (

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 from plutoc.diagnostic import Diagnostic
-from plutoc.frozen import frozen
 from plutoc.graph import errors, names
 from plutoc.graph.app_names import taken_app_name
 from plutoc.graph.names import Style
@@ -31,7 +31,7 @@ _HOOKS = frozenset({ACTION, *HOOK_ROLES.values()})
 _BAD_ROLES = HOOK_ROLES | {"block": BLOCK, "category": CATEGORY, "action": ACTION, "use": PREFIX}
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Declared:
     """What a name stands for."""
 

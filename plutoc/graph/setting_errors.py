@@ -8,8 +8,8 @@ from plutoc.diagnostic import Diagnostic, error, warning
 from plutoc.edits import without_item
 from plutoc.graph.wording import related
 from plutoc.source import Source, Span
+from plutoc.syntax.tokens import shortened
 from plutoc.syntax.tree import Text
-from plutoc.syntax.words import shortened
 
 _ALL_IN_ONE = {
     "version": "an app has one version: remove one of them",

@@ -15,7 +15,7 @@ from plutoc.syntax.tree import FlowDecl
 from plutoc_runtime.domain.status import IN_GRAPH, Status
 
 _MOST_PROPOSALS = 100
-"""Near names are looked for so often: it takes long among many, and nobody reads more."""
+"""Near names are looked for so often: it takes long among many, and more is not read."""
 
 
 END_ACCEPTS = frozenset({Status.COMPLETED, Status.FAILED})

@@ -7,15 +7,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from dataclasses import dataclass
 from itertools import chain
 
-from plutoc.frozen import frozen
 from plutoc.graph.names import Style, has_style, reserved
-from plutoc.syntax.newlines import SETTINGS
+from plutoc.syntax.tokens import SETTINGS
 from plutoc.syntax.tree import BadStatement, BlockDecl, File
 
 _DECLARE_NOTHING = frozenset({"flow", *SETTINGS})
-"""No name comes from them, whatever is wrong with them."""
+"""They declare no name, even where something is wrong with them."""
 _WORD = re.compile(r"\w+")
 _ALIKE = 0.6
 _MANY = 20
@@ -24,7 +24,7 @@ _SHORT = 3
 """A name of so many letters is found in most texts by chance."""
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Unclear:
     """Names that may be declared after all."""
 

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from plutoc.diagnostic import Diagnostic
 from plutoc.graph import value_errors
 from plutoc.graph.model import Plain
 from plutoc.source import Source
-from plutoc.syntax.tree import Bool, List, Name, Number, Quantity, Text, Value
+from plutoc.syntax.tree import Argument, Bool, List, Name, Number, Quantity, Text, Value
 from plutoc_runtime.domain.quantities import QUANTITIES, UNITS, Type, to_si
 
 _WANTED = {
@@ -121,3 +123,15 @@ def _digits(number: float) -> str:
     from decimal import Decimal  # dear to load, and seldom needed
 
     return format(Decimal(written), "f")
+
+
+def once_each(
+    source: Source, arguments: Sequence[Argument], found: list[Diagnostic]
+) -> list[Argument]:
+    """Return the arguments without those that are given a second time."""
+    first: dict[str, Argument] = {}
+    for argument in arguments:
+        before = first.setdefault(argument.name.text, argument)
+        if before is not argument:
+            found.append(value_errors.argument_twice(source, argument.name, before.name.span))
+    return list(first.values())

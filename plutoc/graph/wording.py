@@ -30,7 +30,7 @@ _UNITS = {
 
 
 def meant(name: str, options: Iterable[str]) -> str | None:
-    """Ask for what somebody may have meant; say which letter only looks like a plain one."""
+    """Ask for what may have been meant; say which letter only looks like a plain one."""
     question = alternatives(near(name, options), "did you mean ", "?")
     strange = strange_letter(name)
     return "; ".join(filter(None, (strange, question))) or None
@@ -43,7 +43,7 @@ def strange_letter(name: str) -> str | None:
 
 
 def unit_meant(unit: str, units: Sequence[str]) -> str | None:
-    """Ask for the unit that somebody may have meant."""
+    """Ask for the unit that may have been meant."""
     stem = unit.lower().removesuffix("s")
     word = _UNITS.get(stem, stem)
     return f"did you mean `{word}`?" if word in units else meant(unit, units)

@@ -7,13 +7,16 @@ Python and Oniguruma, which editors use, both understand.
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 from enum import Enum
+from json import dumps
 
-from plutoc.frozen import frozen
 from plutoc.graph.model import END, START
-from plutoc.syntax.newlines import SETTINGS, WORDS
+from plutoc.syntax.tokens import SETTINGS, WORDS
 from plutoc_runtime.domain.quantities import UNITS, Type
 from plutoc_runtime.domain.status import IN_GRAPH
+
+_UNITS = "|".join(re.escape(unit) for unit in sorted(UNITS, key=len, reverse=True))
 
 
 class Kind(Enum):
@@ -33,7 +36,7 @@ class Kind(Enum):
     ARROW = "->"
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Rule:
     """A kind, and where it is found."""
 
@@ -44,8 +47,6 @@ class Rule:
 def _one_of(words: tuple[str, ...]) -> str:
     return rf"\b(?:{'|'.join(words)})\b"
 
-
-_UNITS = "|".join(re.escape(unit) for unit in sorted(UNITS, key=len, reverse=True))
 
 RULES = (
     Rule(kind=Kind.COMMENT, pattern=r"#.*"),
@@ -62,3 +63,31 @@ RULES = (
     Rule(kind=Kind.BLOCK, pattern=r"\b[A-Z]\w*"),
     Rule(kind=Kind.ARROW, pattern=r"->"),
 )
+
+
+SCOPES = {
+    Kind.COMMENT: "comment.line.number-sign",
+    Kind.TEXT: "string.quoted.double",
+    Kind.NUMBER: "constant.numeric",
+    Kind.PARAMETER: "variable.parameter",
+    Kind.DECLARED: "entity.name.function",
+    Kind.WORD: "keyword.other",
+    Kind.CONSTANT: "constant.language",
+    Kind.STATUS: "constant.other.status",
+    Kind.TYPE: "support.type",
+    Kind.TERMINAL: "variable.language",
+    Kind.BLOCK: "entity.name.type",
+    Kind.ARROW: "keyword.operator.arrow",
+}
+
+
+def grammar() -> str:
+    """Return the grammar as the text of a `.tmLanguage.json` file."""
+    patterns = [{"name": f"{SCOPES[rule.kind]}.pluto", "match": rule.pattern} for rule in RULES]
+    whole = {
+        "name": "Pluto",
+        "scopeName": "source.pluto",
+        "fileTypes": ["pluto"],
+        "patterns": patterns,
+    }
+    return dumps(whole, indent=2) + "\n"

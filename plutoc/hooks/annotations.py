@@ -5,9 +5,9 @@ from __future__ import annotations
 import ast
 import builtins
 from collections.abc import Iterator
+from dataclasses import dataclass
 
-from plutoc.emit.exports import EXPORTS
-from plutoc.frozen import frozen
+from plutoc.emit.stubs import EXPORTS
 from plutoc.graph.names import near
 from plutoc.hooks.module import Module
 from plutoc.hooks.python import annotation
@@ -32,7 +32,7 @@ _OWN = {f"{home}.{name}": name for name, home in EXPORTS.items()}
 _TYPES = frozenset(name for name, what in vars(builtins).items() if isinstance(what, type))
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Scope:
     """What the names in an annotation can stand for."""
 
@@ -118,7 +118,7 @@ def _either(sides: list[Meaning]) -> Meaning:
     return frozenset().union(*known) if len(known) == len(sides) else None
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Unknown:
     """A name in an annotation that nothing has."""
 

@@ -124,7 +124,7 @@ def renamed_parameter(
 def unfilled_parameter(
     app: Source, hooks: Source, hook: Expected, span: Span, name: str
 ) -> Diagnostic:
-    """A parameter that nobody gives a value."""
+    """A parameter that is given no value."""
     return _on_hook(
         "P3008",
         f"`{hook.name}` asks for `{name}`, and nothing gives it a value",

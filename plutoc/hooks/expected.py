@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from plutoc.block import HookKind
 from plutoc.check.model import Checked
 from plutoc.emit.stubs import Stub, stubs
-from plutoc.frozen import frozen
 from plutoc.graph.model import Action, Hook, Parameter
 from plutoc.source import Span
 
@@ -15,10 +16,10 @@ _PASSED = {
     HookKind.MODIFIER: ("mission", "context"),
     HookKind.POLICY: ("trip", "candidates"),
 }
-"""What comes by position, whatever the hook calls it."""
+"""What comes by position: the hook may call it as it likes."""
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Expected:
     """One function of hooks.py, as the app calls it."""
 

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
-from dataclasses import field
+from dataclasses import dataclass, field
 
-from plutoc.frozen import filled
 from plutoc.hooks.python import at, column_of, parsed
 from plutoc.source import Source, Span
 
@@ -14,7 +13,7 @@ Function = ast.FunctionDef | ast.AsyncFunctionDef
 Definition = Function | ast.ClassDef | None
 
 
-@filled
+@dataclass(slots=True, kw_only=True, eq=False)
 class Module:
     """The names of a module's top level."""
 

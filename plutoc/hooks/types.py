@@ -13,7 +13,7 @@ from plutoc.hooks.annotations import Meaning, Scope, meaning, unknown_names
 from plutoc.hooks.expected import Expected
 from plutoc.hooks.module import Function, Module, node_span
 from plutoc.source import Source
-from plutoc.syntax.words import shortened
+from plutoc.syntax.tokens import shortened
 from plutoc_runtime.domain.quantities import PYTHON
 
 _ARRIVES = {

@@ -8,12 +8,12 @@ from plutoc.check.model import Checked
 from plutoc.graph.model import START, Edge, Graph
 from plutoc.plan.chart import Chart, Charts, Kind, Spot
 from plutoc.plan.dispatch import dispatch
-from plutoc.plan.entering import entrances
-from plutoc.plan.entries import untangled
+from plutoc.plan.irreducible import reducible
 from plutoc.plan.model import Arrived, Body, Branch, Call, End, Join, Plan
-from plutoc.plan.places import asked_once
+from plutoc.plan.resume_entry import entrances
+from plutoc.plan.resume_paths import asked_once
 from plutoc.plan.shape import Shape, shape
-from plutoc.plan.structure import Around, Hopeless, Unstructured, Writer
+from plutoc.plan.structure import Context, GivenUp, Unstructured, Writer
 from plutoc_runtime.domain.status import Status
 
 
@@ -39,7 +39,7 @@ def _structured(
     found: Shape, steps: Mapping[Spot, Body], entries: tuple[str, ...], graph: Graph
 ) -> Body | None:
     """Write the body by loops and switches, if that is possible."""
-    one_entry = untangled(found)
+    one_entry = reducible(found)
     if one_entry is None:
         return None
     for entered in entrances(one_entry, entries, graph):
@@ -47,8 +47,8 @@ def _structured(
         for copies in (False, True):
             writer = Writer(entered, written, copies=copies)
             try:
-                body = writer.body(entered.chart.entry, Around())
-            except (Unstructured, Hopeless):
+                body = writer.body(entered.chart.entry, Context())
+            except (Unstructured, GivenUp):
                 continue
             return asked_once(body, entries)
     return None

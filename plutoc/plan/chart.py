@@ -7,12 +7,11 @@ anew in every body: a block may stand in two of them, and get other statuses in 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from enum import Enum
 
 from plutoc.block import Gate
 from plutoc.check.model import Checked
-from plutoc.frozen import frozen
 from plutoc.graph.model import END, Edge
 from plutoc.plan.model import Place
 from plutoc_runtime.domain.status import IN_GRAPH, WORST_FIRST, Status
@@ -39,14 +38,14 @@ class Kind(Enum):
     __hash__ = object.__hash__  # members are single: hashing by name is six times slower
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Spot:
     """A place in a body."""
 
     kind: Kind
     name: str
     """The block's, or the gate's; for a fork that of the block before it."""
-    branches: tuple[Edge, ...] = ()
+    branches: tuple[Edge, ...] = field(default=(), hash=False)  # a fork may have thousands
     gate: str = ""
     copy: int = 0
     """Counts the places that the source has once and that are written more than once."""
@@ -57,7 +56,7 @@ class Spot:
         return replace(self, copy=0) if self.copy else self
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Way:
     """What leads from a spot to the next, or out of the body."""
 
@@ -77,7 +76,7 @@ NO_TRIP_LEFT = Way(statuses=(Status.FAILED,), target=None, to=END)
 """Out of a block in which every mission ends that comes there."""
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Chart:
     """A body before it has a structure."""
 

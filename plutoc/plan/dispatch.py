@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from plutoc.plan.chart import Kind, Spot
 from plutoc.plan.model import Body, Case, Dispatch
 from plutoc.plan.shape import Shape
-from plutoc.plan.structure import Around, Writer
+from plutoc.plan.structure import Context, Writer
 
 
 def dispatch(found: Shape, steps: Mapping[Spot, Body], entries: tuple[str, ...] = ()) -> Body:
@@ -19,11 +19,11 @@ def dispatch(found: Shape, steps: Mapping[Spot, Body], entries: tuple[str, ...] 
     places = tuple(
         spot
         for spot in found.order
-        if spot in found.shared
+        if found.arrows.in_degree(spot) > 1
         or spot == first
         or (spot.kind is Kind.BLOCK and spot.name in entered)
     )
-    around = Around(elsewhere=frozenset(places), labels=frozenset(places))
+    around = Context(elsewhere=frozenset(places), labels=frozenset(places))
     cases = tuple(
         # each with a writer of its own: here nothing is ever tried twice
         Case(label=spot.name, body=Writer(found, steps).body(spot, around))

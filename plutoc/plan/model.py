@@ -6,8 +6,9 @@ around it says, or by `Continue`, `Break` or `End`.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from plutoc.check.model import Checked
-from plutoc.frozen import frozen
 from plutoc.graph.model import Node
 from plutoc_runtime.domain.status import Status
 
@@ -15,14 +16,14 @@ Place = str | None
 """The block at which an interrupted mission goes on; None: it begins."""
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Call:
     """The mission goes through a block: `status = step(run, status, …)`."""
 
     node: Node
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Branch:
     """One way through a fork, a function of its own; `End` in it is the arrival at the gate."""
 
@@ -35,7 +36,7 @@ class Branch:
     """Without it everything is the same: no clone is sent."""
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Join:
     """A fork and the gate that closes it: `status = gate(run, status, branch, branch)`."""
 
@@ -44,7 +45,7 @@ class Join:
     branches: tuple[Branch, ...]
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Watch:
     """One wait for the end of the trip, under all limits: `status = watch(run, limit, limit)`."""
 
@@ -54,7 +55,7 @@ class Watch:
     """The blocks that would each have waited, in the order of their branches."""
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Arm:
     """What is done for some of the statuses of a `Switch`; `to` names where it leads."""
 
@@ -65,7 +66,7 @@ class Arm:
     """In place of statuses, where an interrupted mission goes on."""
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Switch:
     """Goes on by status, or by where a mission was interrupted. The arms share neither."""
 
@@ -79,12 +80,12 @@ class Switch:
         return any(arm.places for arm in self.arms)
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Arrived:
     """An interrupted mission has come to where it goes on: from here it is one like any other."""
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Loop:
     """`while True`: falling off the end begins again."""
 
@@ -92,29 +93,29 @@ class Loop:
     body: Body
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Continue:
     """Begin the innermost loop again."""
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Break:
     """Leave the innermost loop and go on behind it."""
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class End:
     """The mission, or the branch, is at its end: `return status`."""
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Goto:
     """Inside a `Dispatch`: go on with the case of this name."""
 
     label: str
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Case:
     """One place of a `Dispatch`; its body ends with `Goto` or `End` on every way."""
 
@@ -122,7 +123,7 @@ class Case:
     body: Body
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Dispatch:
     """For a graph without structure: `match` on where the mission is, in one loop."""
 
@@ -136,7 +137,7 @@ Step = Call | Join | Watch | Switch | Arrived | Loop | Continue | Break | End | 
 Body = tuple[Step, ...]
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Plan:
     """An app's flow."""
 

@@ -8,24 +8,23 @@ them. Where a jump would be needed that Python does not have, `Unstructured` is 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
-from plutoc.frozen import frozen
 from plutoc.plan.bodies import breaks, continues, falls, switch, without_last_continue
 from plutoc.plan.chart import Kind, Spot, Way
 from plutoc.plan.model import Arm, Body, Break, Continue, End, Goto, Loop, Step, Switch
-from plutoc.plan.shape import Shape, ahead, round_of
+from plutoc.plan.shape import Shape
 from plutoc_runtime.domain.status import IN_GRAPH, Status
 
-LOOPS = 12
+MOST_NESTED_LOOPS = 12
 """Loops in loops; Python itself compiles no more than twenty."""
-ARMS = 40
+MOST_NESTED_ARMS = 40
 """Arms in arms; Python itself indents no more than a hundred times."""
-MERGES = 40
+MOST_MERGES = 40
 """Places at which the ways of one switch meet; each is written in a call of its own."""
-COPIES = 3
+MOST_COPIES = 3
 """Blocks that may be written once more where a jump cannot be written."""
-PATIENCE = 50
+MOST_TRIES = 50
 """How often each spot may be tried in one place or another before we give up."""
 
 
@@ -33,12 +32,12 @@ class Unstructured(Exception):
     """A jump is needed that cannot be written."""
 
 
-class Hopeless(Exception):
-    """Too many ways were tried."""
+class GivenUp(Exception):
+    """It would be nested too deeply, or take too long: too many ways were tried."""
 
 
-@frozen
-class Around:
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Context:
     """What a piece of a body knows of what is around it."""
 
     follow: Spot | None = None
@@ -70,21 +69,21 @@ class Writer:
         self.reached: dict[Spot, frozenset[Spot]] = {}
         """Both are looked for only where they are asked for: all of them may be far too much."""
 
-    def body(self, spot: Spot, around: Around) -> Body:
+    def body(self, spot: Spot, around: Context) -> Body:
         """Write a spot, and all that is reached through it only."""
         if spot in self.shape.loops and spot not in around.labels:
             looped, behind = self.loop(spot, around)
             return looped if behind is None else looped + self.body(behind, around)
         return self.plain(spot, around)
 
-    def plain(self, spot: Spot, around: Around) -> Body:
+    def plain(self, spot: Spot, around: Context) -> Body:
         """Write a spot whose loop, if it has one, has been opened. Straight on, no recursion."""
         written: list[Step] = []
         current: Spot | None = spot
         while current is not None:
             self.tried += 1
-            if self.tried > PATIENCE * len(self.shape.order):
-                raise Hopeless
+            if self.tried > MOST_TRIES * len(self.shape.order):
+                raise GivenUp
             written += self.steps[current]
             steps, current = self.onward(current, around)
             written += steps
@@ -93,7 +92,7 @@ class Writer:
                 written += steps
         return tuple(written)
 
-    def onward(self, spot: Spot, around: Around) -> tuple[Body, Spot | None]:
+    def onward(self, spot: Spot, around: Context) -> tuple[Body, Spot | None]:
         """Write what follows a spot, up to where one line goes on; return the spot there."""
         ways = self.shape.chart.ways[spot]
         merges = self.merges(spot, around)
@@ -114,19 +113,19 @@ class Writer:
             return written, last.target
         return written + self.jump(last.target, around), None
 
-    def merges(self, spot: Spot, around: Around) -> tuple[Spot, ...]:
+    def merges(self, spot: Spot, around: Context) -> tuple[Spot, ...]:
         """The spots that are written behind this one's switch."""
         found = tuple(
             child
-            for child in self.shape.children[spot]
+            for child in self.shape.dominators[spot]
             if child in self.shape.merges and child not in around.elsewhere
         )
-        if len(found) > MERGES:
-            raise Hopeless
+        if len(found) > MOST_MERGES:
+            raise GivenUp
         return found
 
     def merging(
-        self, ways: Sequence[Way], merges: Sequence[Spot], spot: Spot, around: Around
+        self, ways: Sequence[Way], merges: Sequence[Spot], spot: Spot, around: Context
     ) -> tuple[Body, Spot | None]:
         """Write ways that come together again at `merges`; return the last of these."""
         last = merges[-1]
@@ -138,7 +137,7 @@ class Writer:
         return written, last if falls(written) else None
 
     def otherwise(
-        self, ways: Sequence[Way], merges: Sequence[Spot], spot: Spot, around: Around
+        self, ways: Sequence[Way], merges: Sequence[Spot], spot: Spot, around: Context
     ) -> tuple[Body, Spot | None]:
         """Write ways that cannot all go on at the last merge: apart, or one merge for each of them."""
         try:
@@ -154,7 +153,7 @@ class Writer:
         raise Unstructured
 
     def apart(
-        self, ways: Sequence[Way], merges: Sequence[Spot], spot: Spot, around: Around
+        self, ways: Sequence[Way], merges: Sequence[Spot], spot: Spot, around: Context
     ) -> Body:
         """Write the ways that come together at the last merge in one arm, the others beside it."""
         one = [way for way in ways if self.reaches(way, merges[-1])]
@@ -171,7 +170,7 @@ class Writer:
         return switch(together)
 
     def together(
-        self, ways: Sequence[Way], merges: Sequence[Spot], spot: Spot, around: Around
+        self, ways: Sequence[Way], merges: Sequence[Spot], spot: Spot, around: Context
     ) -> Arm:
         written, behind = self.merging(ways, merges, spot, around)
         if behind is not None:
@@ -179,7 +178,7 @@ class Writer:
         return _arm(ways, written)
 
     def switching(
-        self, ways: Sequence[Way], merges: Sequence[Spot], spot: Spot, around: Around
+        self, ways: Sequence[Way], merges: Sequence[Spot], spot: Spot, around: Context
     ) -> Body:
         """Write a switch, and behind it the merges that the ways meet at."""
         if merges:
@@ -187,25 +186,25 @@ class Writer:
             return written if behind is None else written + self.body(behind, around)
         return switch([self.arm(way, spot, around) for way in ways])
 
-    def arm(self, way: Way, spot: Spot, around: Around) -> Arm:
+    def arm(self, way: Way, spot: Spot, around: Context) -> Arm:
         if way.target is not None and self.inlined(way, spot, around):
-            if around.arms == ARMS:
-                raise Hopeless
+            if around.arms == MOST_NESTED_ARMS:
+                raise GivenUp
             written = self.body(way.target, replace(around, arms=around.arms + 1))
         else:
             written = self.jump(way.target, around)
         return _arm((way,), written)
 
-    def inlined(self, way: Way, spot: Spot, around: Around) -> bool:
+    def inlined(self, way: Way, spot: Spot, around: Context) -> bool:
         """Is the target written just where the way leads there?"""
         return (
             way.target is not None
-            and self.shape.parent.get(way.target) == spot
+            and self.shape.is_child(way.target, spot)
             and way.target not in self.shape.merges
             and way.target not in around.elsewhere
         )
 
-    def weight(self, way: Way, spot: Spot, around: Around) -> tuple[bool, int]:
+    def weight(self, way: Way, spot: Spot, around: Context) -> tuple[bool, int]:
         """How much is written where the way leads; of mere jumps, going round weighs most.
 
         The heaviest way becomes the main line. So arms are short, and few stand in each other.
@@ -217,7 +216,7 @@ class Writer:
     def reaches(self, way: Way, spot: Spot) -> bool:
         return way.target is not None and spot in self.ahead(way.target)
 
-    def jump(self, target: Spot | None, around: Around, copies: int = COPIES) -> Body:
+    def jump(self, target: Spot | None, around: Context, copies: int = MOST_COPIES) -> Body:
         """Write how a spot is reached that is written elsewhere; `copies` may be written again."""
         if target is None:
             return (End(),)
@@ -239,15 +238,15 @@ class Writer:
             *(switch(arms) if len(arms) > 1 else _only(ways[0], arms[0].body)),
         )
 
-    def loop(self, head: Spot, around: Around) -> tuple[Body, Spot | None]:
+    def loop(self, head: Spot, around: Context) -> tuple[Body, Spot | None]:
         """Write a loop; return the spot to go on with behind it."""
-        if around.loops == LOOPS:
-            raise Hopeless
+        if around.loops == MOST_NESTED_LOOPS:
+            raise GivenUp
         for out in self.outs(head, around):
             ours = out is not None and self.ours(out, head, around)
             try:
                 behind = () if out is None or ours else self.jump(out, around)
-                within = Around(
+                within = Context(
                     head=head,
                     out=out,
                     elsewhere=around.elsewhere | {spot for spot in (out,) if spot is not None},
@@ -267,11 +266,11 @@ class Writer:
             return (looped, out) if ours else (looped + behind, None)
         raise Unstructured
 
-    def ours(self, spot: Spot, head: Spot, around: Around) -> bool:
+    def ours(self, spot: Spot, head: Spot, around: Context) -> bool:
         """Is the spot to be written behind the loop that begins at `head`?"""
         return self.shape.is_below(spot, head) and spot not in around.elsewhere
 
-    def outs(self, head: Spot, around: Around) -> Iterator[Spot | None]:
+    def outs(self, head: Spot, around: Context) -> Iterator[Spot | None]:
         """Yield what may stand behind a loop, the most promising first; None: nothing does.
 
         What is around the loop can be reached in no other way. What only the loop leads to may
@@ -285,7 +284,9 @@ class Writer:
             for way in chart.ways[spot]
             if way.target is not None and way.target not in round_
         ]
-        behind = [child for spot in round_ for child in found.children[spot] if child not in round_]
+        behind = [
+            child for spot in round_ for child in found.dominators[spot] if child not in round_
+        ]
         inside = found.ordered(behind)[::-1]
         around_it = [spot for spot in exits if not self.ours(spot, head, around)]
         meeting = [spot for spot in inside if spot in found.merges]
@@ -305,13 +306,13 @@ class Writer:
     def round(self, head: Spot) -> frozenset[Spot]:
         """The spots that go round in a loop."""
         if head not in self.rounds:
-            self.rounds[head] = round_of(self.shape, head)
+            self.rounds[head] = self.shape.loop_body(head)
         return self.rounds[head]
 
     def ahead(self, spot: Spot) -> frozenset[Spot]:
         """What can be reached from a spot without an arrow back."""
         if spot not in self.reached:
-            self.reached[spot] = ahead(self.shape, spot)
+            self.reached[spot] = self.shape.ahead(spot)
         return self.reached[spot]
 
 

@@ -26,8 +26,8 @@ from plutoc.plan.model import (
     Switch,
     Watch,
 )
-from plutoc.plan.places import GOES_ON, comers
-from plutoc.plan.walk import walk
+from plutoc.plan.resume_paths import GOES_ON, candidates
+from plutoc.plan.verify_paths import verify_paths
 from plutoc_runtime.domain.status import Status
 
 FLOW = "the flow"
@@ -38,7 +38,7 @@ def verify(plan: Plan) -> None:
     names: dict[str, None] = {}
     _whole(plan.body, FLOW, names)
     _led_astray(plan)
-    walk(plan, FLOW)
+    verify_paths(plan, FLOW)
 
 
 def _whole(body: Body, where: str, names: dict[str, None]) -> None:
@@ -191,12 +191,12 @@ def _places(arms: tuple[Arm, ...], where: str) -> None:
 
 
 def _led_astray(plan: Plan) -> None:
-    """Check that who goes on already is led nowhere else by where it was once interrupted."""
-    for step, found in comers(plan.body, tuple(plan.checked.entries)).values():
-        for comer in found:
-            ways = [arm.places for arm in step.arms if comer.place in arm.places]
-            if not ways or (comer.on and GOES_ON in found and None not in ways[0]):
-                raise errors.led_astray(FLOW, comer.place)
+    """Check that a mission that goes on already is led nowhere else by where it was interrupted."""
+    for step, found in candidates(plan.body, tuple(plan.checked.entries)).values():
+        for candidate in found:
+            ways = [arm.places for arm in step.arms if candidate.place in arm.places]
+            if not ways or (candidate.resumed and GOES_ON in found and None not in ways[0]):
+                raise errors.led_astray(FLOW, candidate.place)
 
 
 def _branch(branch: Branch, names: dict[str, None]) -> None:

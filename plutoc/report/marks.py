@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 
-from plutoc.frozen import frozen
-from plutoc.report.paint import paint
+from plutoc.report.terminal import paint
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Mark:
     """A stretch of cells of one line, the end not included, and what is said about it."""
 

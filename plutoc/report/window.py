@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from itertools import pairwise
 
-from plutoc.frozen import frozen
-from plutoc.report.cells import columns, shown
 from plutoc.report.marks import Mark, under
-from plutoc.report.paint import BLUE, paint
+from plutoc.report.terminal import BLUE, columns, paint, shown
 from plutoc.source import Source, Span
 from plutoc_runtime.domain.text import printable
 
@@ -18,7 +17,7 @@ _WIDEST = 160
 """Of a longer line, only the part around the place is shown."""
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Place:
     """A place to be underlined, with which sign and colour, and what is said about it."""
 
@@ -93,7 +92,7 @@ def last_line(places: Iterable[Place]) -> int:
     return max(place.lines()[1] for place in places)
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class _Part:
     """What lies of a place in one line, in characters."""
 

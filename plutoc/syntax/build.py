@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from lark import Token, Tree
+
 from plutoc.source import Source, Span
 from plutoc.syntax import tree
-from plutoc.syntax.lalr import Child, Node
 from plutoc.syntax.texts import unescaped
-from plutoc.syntax.tokens import Token
+from plutoc.syntax.tokens import span
+
+Node = Tree[Token]
+Child = Node | Token | None
+"""None stands for what `[ ]` in a rule leaves out."""
 
 
 def file(source: Source, node: Node) -> tree.File:
@@ -25,11 +30,10 @@ def empty(source: Source) -> tree.File:
 
 def _use(node: Node) -> tree.Use:
     package, alias = node.children
-    end = _token(alias or package).end_pos
     return tree.Use(
         package=_name(package),
         alias=_name(alias) if alias else None,
-        span=Span(_span(node).start, end),
+        span=Span(_span(node).start, _span(alias or package).end),
     )
 
 
@@ -118,7 +122,7 @@ def _flow(node: Node) -> tree.FlowDecl:
 
 def _stop(node: Node) -> tree.Stop:
     (only,) = node.children
-    names = _names(only) if isinstance(only, Node) else (_name(only),)
+    names = _names(only) if isinstance(only, Tree) else (_name(only),)
     return tree.Stop(names=names, span=_span(node))
 
 
@@ -155,22 +159,22 @@ def _parameter(node: Node) -> tree.Parameter:
 
 
 def _value(child: Child) -> tree.Value:
-    span = _span(child)
-    if isinstance(child, Node):
+    where = _span(child)
+    if isinstance(child, Tree):
         items = tuple(_value(item) for item in child.children if item is not None)
-        return tree.List(items=items, span=span)
+        return tree.List(items=items, span=where)
     token = _token(child)
     match token.type:
         case "NUMBER":
-            return tree.Number(value=_number(token), span=span)
+            return tree.Number(value=_number(token), span=where)
         case "QUANTITY":
             unit = token.lstrip("-0123456789.").strip()
             number = token[: len(token) - len(unit)].strip()
-            return tree.Quantity(value=_number(number), unit=unit, span=span)
+            return tree.Quantity(value=_number(number), unit=unit, span=where)
         case "TEXT":
             return _text(token)
         case _ if token in ("yes", "no"):
-            return tree.Bool(value=token == "yes", span=span)
+            return tree.Bool(value=token == "yes", span=where)
         case _:
             return _name(token)
 
@@ -184,7 +188,7 @@ def _text(token: Token) -> tree.Text:
 
 
 def _names(child: Child) -> tuple[tree.Name, ...]:
-    return tuple(map(_name, child.children)) if isinstance(child, Node) else ()
+    return tuple(map(_name, child.children)) if isinstance(child, Tree) else ()
 
 
 def _name(child: Child) -> tree.Name:
@@ -192,17 +196,18 @@ def _name(child: Child) -> tree.Name:
 
 
 def _span(child: Child) -> Span:
-    assert child is not None
-    return Span(child.start_pos, child.end_pos)
+    if isinstance(child, Tree):
+        return Span(child.meta.start_pos, child.meta.end_pos)
+    return span(_token(child))
 
 
 def _nodes(child: Child) -> list[Node]:
-    children = child.children if isinstance(child, Node) else []
-    return [grandchild for grandchild in children if isinstance(grandchild, Node)]
+    children = child.children if isinstance(child, Tree) else []
+    return [grandchild for grandchild in children if isinstance(grandchild, Tree)]
 
 
 def _node(child: Child) -> Node:
-    assert isinstance(child, Node)
+    assert isinstance(child, Tree)
     return child
 
 

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import unicodedata
 
+from lark import Token
+
 from plutoc.diagnostic import Diagnostic, Fix, Related, error
 from plutoc.source import Source, Span
-from plutoc.syntax.tokens import Token
-from plutoc.syntax.words import found, shortened
+from plutoc.syntax.tokens import found, shortened, span
 
 
 def unexpected(
@@ -40,7 +41,7 @@ def open_text(source: Source, span: Span) -> Diagnostic:
 def unknown_character(
     source: Source, span: Span, help: str | None = None, fix: Fix | None = None
 ) -> Diagnostic:
-    """A character that the language does not use, or several that somebody took for one sign."""
+    """A character that the language does not use, or several that were taken for one sign."""
     char = source.quote(span)
     # The name, too: a no-break space or a typographic dash cannot be told from the right one.
     is_plain = len(char) > 1 or (char.isascii() and char.isprintable())
@@ -99,7 +100,7 @@ def unknown_escape(source: Source, span: Span) -> Diagnostic:
 
 
 def too_large(source: Source, limit: int) -> Diagnostic:
-    """A file that nobody wrote."""
+    """A file too large to have been written by hand."""
     return error(
         "P0006",
         f"this file is larger than {limit // 1024} KiB",
@@ -253,10 +254,9 @@ def early_brace(source: Source, span: Span, last: Span) -> Diagnostic:
 
 def behind_the_app(source: Source, token: Token) -> Diagnostic:
     """Something behind the brace that ends the app."""
-    span = Span(token.start_pos, token.end_pos)
     end = "the end of the file"
     help = "what belongs to the app stands before its `}`"
-    return unexpected(source, span, end, found(token), help, None)
+    return unexpected(source, span(token), end, found(token), help, None)
 
 
 def described(char: str) -> str:

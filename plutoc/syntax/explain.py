@@ -5,17 +5,30 @@ from __future__ import annotations
 import difflib
 from collections.abc import Mapping, Sequence
 
+from lark import Token
+
 from plutoc.diagnostic import Diagnostic, Fix
 from plutoc.source import Source, Span
 from plutoc.syntax import errors
+from plutoc.syntax.characters import slip
+from plutoc.syntax.grammar import State, would_feed
 from plutoc.syntax.hints import conflict, hint, role_of_a_name
-from plutoc.syntax.newlines import CLOSING, END, EQUAL, NAME, NEWLINE, OPENING, SETTINGS, WORDS
-from plutoc.syntax.slips import slip
-from plutoc.syntax.state import State, would_feed
+from plutoc.syntax.layout import DEEPEST, MOST_DIGITS
 from plutoc.syntax.texts import written_out
-from plutoc.syntax.tokens import Token, made_up, span
-from plutoc.syntax.unreadable import DEEPEST, MOST_DIGITS
-from plutoc.syntax.words import expected, found
+from plutoc.syntax.tokens import (
+    CLOSING,
+    END,
+    EQUAL,
+    NAME,
+    NEWLINE,
+    OPENING,
+    SETTINGS,
+    WORDS,
+    expected,
+    found,
+    made_up,
+    span,
+)
 
 _LINE_WORDS = ("use", "app")
 _STATEMENT_WORDS = ("category", "action", "evaluator", "modifier", "policy")
@@ -73,7 +86,7 @@ def explain(
             closing = {"(": ")", "[": "]"}[str(left_open)]
             more = [made_up(OPENING[left_open.type], closing), *tokens[i:]]
             fix = _certain(state, more, Span(here.start, here.start), closing)
-            if "#" in source.text[here.start : tokens[-1].start_pos]:
+            if "#" in source.text[here.start : span(tokens[-1]).start]:
                 fix = None  # the bracket may be in the comment
             return errors.never_closed(source, span(left_open), here.start, fix)
     if token.type == "APP" and i == 0 and app is not None and "CATEGORY" in accepts:
@@ -178,7 +191,7 @@ def _missing(
         if kind == EQUAL and arrow:
             continue
         if kind in accepts and would_feed(state, [made_up(kind, text), *tokens[i : i + 2]]):
-            at = Span(*[(tokens[i - 1].end_pos) if i else span(token).start] * 2)
+            at = Span(*[span(tokens[i - 1]).end if i else span(token).start] * 2)
             more = [made_up(kind, text), *tokens[i:]]
             certain = kind == "COLON" or (kind == "COMMA" and tokens[i + 1].type == "COLON")
             fix = _certain(state, more, at, text) if certain else None
@@ -221,6 +234,6 @@ def _mends(state: State, tokens: Sequence[Token]) -> bool:
 def _place(tokens: Sequence[Token], i: int) -> Span:
     """Return where to point. What ends a line is missed behind the token before it."""
     if i == len(tokens) - 1 or tokens[i].type in (NEWLINE, END):
-        end = tokens[i - 1].end_pos
+        end = span(tokens[i - 1]).end
         return Span(end, end)
     return span(tokens[i])

@@ -1,76 +1,92 @@
-"""Lark's parser, made of the grammar once and kept in the user's own cache folder.
-
-Only a source with a mistake needs it: what is in order is read with its tables alone (lalr.py).
-"""
+"""Lark's parser of the language: its tokens, its tree, and what it would have taken."""
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Iterator
+from collections.abc import Iterable
 from functools import cache
-from io import BytesIO
 from pkgutil import get_data
+from typing import Protocol, cast
 
-import lark
-from lark.lark import PostLex
-from lark.lexer import BasicLexer, Token
+from lark import Lark, Token, Tree, UnexpectedToken
+from lark.lexer import BasicLexer
 
-from plutoc.cache import cache_file, keep, kept
-from plutoc.syntax.newlines import COMMENT, NEWLINE
-
-START = "file"
+from plutoc.syntax.layout import Layout
+from plutoc.syntax.tokens import END
 
 
-class AllTokens(PostLex):
-    """Makes Lark keep the terminals that no rule takes."""
+class State(Protocol):
+    """What we use of Lark's interactive parser, which has no types of its own for it."""
 
-    always_accept = (COMMENT, NEWLINE, "OPEN_TEXT", "UNKNOWN")
+    def feed_token(self, token: Token) -> object:
+        """Go on by one token; return the tree at the end of the file."""
+        ...
 
-    def process(self, stream: Iterator[Token]) -> Iterator[Token]:
-        """Give the tokens as they are: what the newlines mean is said in newlines.py."""
-        return stream
+    def accepts(self) -> set[str]:
+        """Return what could come next."""
+        ...
+
+    def copy(self, deepcopy_values: bool) -> State:
+        """Return another one at the same place."""
+        ...
 
 
 @cache
-def parser() -> lark.Lark:
+def parser() -> Lark:
     """Return the parser of the language."""
-    parser = _kept_or_made(_grammar())
-    parser.lexer = BasicLexer(parser.lexer_conf)  # else it makes one for each text, however short
-    return parser
+    lark = Lark(
+        (get_data("plutoc_grammar", "pluto.lark") or b"").decode(),
+        start="file",
+        parser="lalr",
+        lexer="basic",
+        postlex=Layout(),
+        propagate_positions=True,
+        maybe_placeholders=True,
+    )
+    lark.lexer = BasicLexer(lark.lexer_conf)  # else it makes one for each text, however short
+    return lark
 
 
-def made() -> lark.Lark:
-    """Return the parser, made of the grammar just now."""
-    return _made(_grammar())
+def lexed(text: str) -> list[Token]:
+    """Return the tokens of a text; every text has some."""
+    return list(parser().lex(text))
 
 
-def _grammar() -> str:
-    return (get_data("plutoc_grammar", "pluto.lark") or b"").decode()
+def end_of(text: str) -> Token:
+    """Return the token at the end of a text."""
+    return Token(END, "", len(text), 0, 0, 0, 0, len(text))
 
 
-def _kept_or_made(grammar: str) -> lark.Lark:
-    python = ".".join(map(str, sys.version_info[:2]))
-    file = cache_file(f"grammar-lark{lark.__version__}-py{python}")
-    if file is None:
-        return _made(grammar)
-    made_of = repr((lark.__version__, sys.version, _OPTIONS, AllTokens, grammar)).encode()
-    data = kept(file, made_of)
-    if data is not None:
-        return lark.Lark.load(BytesIO(data))
-    made, text = _made(grammar), BytesIO()
-    made.save(text)
-    keep(file, made_of, text.getvalue())
-    return made
+def tree_of(tokens: Iterable[Token]) -> Tree[Token] | None:
+    """Return the tree of a whole source, or None where its tokens are not in order."""
+    state, tree = beginning(), None
+    try:
+        for token in tokens:
+            tree = state.feed_token(token)
+    except UnexpectedToken:
+        return None
+    return cast("Tree[Token] | None", tree)
 
 
-_OPTIONS = (
-    ("start", START),
-    ("parser", "lalr"),
-    ("lexer", "basic"),
-    ("propagate_positions", True),
-    ("maybe_placeholders", True),
-)
+def beginning() -> State:
+    """Return the parser before the first token."""
+    return cast(State, parser().parse_interactive(""))
 
 
-def _made(grammar: str) -> lark.Lark:
-    return lark.Lark(grammar, postlex=AllTokens(), **dict(_OPTIONS))
+def copied(state: State) -> State:
+    """Return another one at the same place. The trees of the two get mixed up: use neither."""
+    return state.copy(deepcopy_values=False)
+
+
+def feeds(state: State, token: Token) -> bool:
+    """Go on by one token, if it is in order."""
+    try:
+        state.feed_token(token)
+    except UnexpectedToken:
+        return False
+    return True
+
+
+def would_feed(state: State, tokens: Iterable[Token]) -> bool:
+    """Say whether it could go on with these."""
+    trial = copied(state)
+    return all(feeds(trial, token) for token in tokens)

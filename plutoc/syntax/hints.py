@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import pairwise
 
+from lark import Token
+
 from plutoc.source import Source
-from plutoc.syntax.newlines import ARROW, EQUAL, NAME, NEWLINE, SETTING_KINDS, SETTINGS
-from plutoc.syntax.tokens import Token
+from plutoc.syntax.tokens import ARROW, EQUAL, NAME, NEWLINE, SETTING_KINDS, SETTINGS, span
 
 _AMOUNTS = frozenset({"NUMBER", "QUANTITY"})
 _OPENING = frozenset({"LPAR", "LSQB", "LBRACE"})
@@ -159,7 +160,7 @@ def role_of_a_name(before: Sequence[Token]) -> str:
 
 
 def _follows_a_comma(source: Source, token: Token) -> bool:
-    line = source.line(max(1, source.position(token.start_pos)[0] - 1))
+    line = source.line(max(1, source.position(span(token).start)[0] - 1))
     return line.split("#")[0].rstrip().endswith(",")
 
 

@@ -1,21 +1,29 @@
 """A source with mistakes, cut into lines that can be judged one by one.
 
-A line is what stands between two newlines (as newlines.py leaves them), or ends with the brace that
+A line is what stands between two newlines (as layout.py leaves them), or ends with the brace that
 opens the app. Which line is which is told by what stands in it, never by what stood before: so a
 mistake in one of them costs no other.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 
-from plutoc.frozen import frozen
-from plutoc.source import Span
-from plutoc.syntax.newlines import BEGINNERS, END, EQUAL, NAME, NEWLINE
-from plutoc.syntax.tokens import Token, made_up, span
+from lark import Token
+
+from plutoc.source import Source, Span
+from plutoc.syntax.grammar import State, lexed, would_feed
+from plutoc.syntax.tokens import BEGINNERS, END, EQUAL, NAME, NEWLINE, made_up, span
+
+_BREAK = re.compile(r"[ \t]*\r?\n[ \t]*")
+_WORD = re.compile(r"\w+|->|[^\w\s]")
+_LONGEST = 2000
+"""In characters: a longer one was not typed on one line, and to read it once more takes time."""
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Line:
     """The tokens of a line (at least one), and what ends it."""
 
@@ -78,7 +86,7 @@ def _opens_the_app(tokens: Sequence[Token]) -> int:
         if token.type == "LBRACE":
             if first == "APP":
                 return i
-            if ends_its_line < 0 and (tokens[i + 1].line) > (token.line):
+            if ends_its_line < 0 and (tokens[i + 1].line or 0) > (token.line or 0):
                 ends_its_line = i
                 first = None
     return ends_its_line
@@ -94,3 +102,47 @@ def goes_on(line: Line) -> bool:
     """Say whether a line can only be the rest of what is in brackets: `limit: 3 min,` or `)`."""
     second = line.tokens[1].type if len(line.tokens) > 1 else END
     return line.first in ("RPAR", "RSQB", "COMMA") or (line.first == NAME and second == "COLON")
+
+
+def is_split(source: Source, base: State, first: Line, second: Line) -> bool:
+    """Say whether two lines are a statement once the break between them is gone."""
+    if is_torn(source, base, first, second):
+        return True
+    return _are_near(source, first, second) and would_feed(base, joined([first, second]).ended)
+
+
+def is_torn(source: Source, base: State, first: Line, second: Line) -> bool:
+    """Say whether two lines are a statement once a word with a break in it is whole again."""
+    if not _are_near(source, first, second):
+        return False
+    text = source.quote(first.span.to(second.span))
+    return would_feed(base, lexed(text.replace("\r", "").replace("\n", "")))
+
+
+def _are_near(source: Source, first: Line, second: Line) -> bool:
+    middle = source.text[first.span.end : second.span.start]
+    short = second.span.end - first.span.start <= _LONGEST
+    return short and _BREAK.fullmatch(middle) is not None
+
+
+def is_shifted(source: Source, first: Line, below: State, second: Line) -> bool:
+    """Say whether the last letter of a line stands at the beginning of the next one."""
+    letter, *rest = second.tokens
+    if first.tokens[-1].type != NAME or letter.type != NAME or len(letter) > 1 or not rest:
+        return False
+    if source.text[first.span.end : second.span.start] != "\n":
+        return False
+    return would_feed(below, Line(tokens=tuple(rest), end=second.end).ended)
+
+
+def is_exchanged(source: Source, above: State, first: Line, below: State, second: Line) -> bool:
+    """Say whether both lines are in order once the words beside the break change places."""
+    left, right = source.quote(first.span), source.quote(second.span)
+    if len(left) + len(right) > _LONGEST:
+        return False
+    last, head = str(first.tokens[-1]), _WORD.match(right)
+    if head is None or not left.endswith(last):
+        return False
+    return would_feed(above, lexed(left.removesuffix(last) + head[0])) and would_feed(
+        below, lexed(last + right[head.end() :])
+    )

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from lark import Token
+
 from plutoc.diagnostic import Diagnostic, accept_or_raise, in_order
 from plutoc.source import Source, Span
 from plutoc.syntax import build, errors
-from plutoc.syntax.lalr import tree_of
-from plutoc.syntax.lex import lexed
-from plutoc.syntax.newlines import END, NEWLINE
+from plutoc.syntax.characters import HIDDEN
+from plutoc.syntax.grammar import end_of, lexed, tree_of
+from plutoc.syntax.recover import recover
 from plutoc.syntax.texts import wrong_escapes
-from plutoc.syntax.tokens import Token, span
+from plutoc.syntax.tokens import END, NEWLINE, span
 from plutoc.syntax.tree import File
-from plutoc.syntax.unreadable import marked
 
 LARGEST = 1 << 20
 """In bytes of UTF-8."""
@@ -45,8 +46,6 @@ def read(source: Source) -> tuple[File, tuple[Diagnostic, ...]]:
     node = tree_of(tokens)
     if node is not None:
         return build.file(source, node), in_order(found)
-    from plutoc.syntax.recover import recover  # much, and of use for mistakes alone
-
     file, mistakes = recover(source, tokens)
     return file, in_order((*found, *mistakes))
 
@@ -55,15 +54,12 @@ def _tokens(text: str) -> list[Token]:
     """Return the parser's tokens. Some editors begin a file with a byte order mark: a space."""
     if text.startswith(_BOM):
         text = " " + text[1:]
-    size = len(text)
-    return [*marked(lexed(text)), Token(END, "", size, size, 0)]
+    return [*lexed(text), end_of(text)]
 
 
 def _hidden_characters(source: Source, tokens: Sequence[Token]) -> Iterator[Diagnostic]:
     """Find them in texts and comments; anywhere else they are no token, and the parser says so."""
     if not _is_plain(source.text):
-        from plutoc.syntax.hidden import HIDDEN  # a large pattern
-
         elsewhere = {token.start_pos for token in tokens if token.type == "UNKNOWN"}
         for match in HIDDEN.finditer(source.text):
             if match.start() not in elsewhere and (match[0] != _BOM or match.start()):
@@ -83,7 +79,7 @@ def _is_plain(text: str) -> bool:
 def _wrong_escapes(source: Source, tokens: Sequence[Token]) -> Iterator[Diagnostic]:
     for token in tokens:
         if token.type == "TEXT":
-            start = token.start_pos
+            start = span(token).start
             for match in wrong_escapes(token):
                 yield errors.unknown_escape(
                     source, Span(start + match.start(), start + match.end())

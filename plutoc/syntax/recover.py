@@ -6,26 +6,33 @@ what the parser refuses becomes a `BadStatement`, and the rest is parsed.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
+
+from lark import Token
 
 from plutoc.diagnostic import Diagnostic
-from plutoc.frozen import frozen
 from plutoc.source import Source, Span
 from plutoc.syntax import build
-from plutoc.syntax.bad import bad_statement
 from plutoc.syntax.explain import explain
-from plutoc.syntax.lalr import tree_of
-from plutoc.syntax.lines import Line, goes_on, joined, lines_of
-from plutoc.syntax.newlines import END, NEWLINE
+from plutoc.syntax.grammar import State, beginning, copied, feeds, tree_of
+from plutoc.syntax.lines import (
+    Line,
+    goes_on,
+    is_exchanged,
+    is_shifted,
+    is_split,
+    is_torn,
+    joined,
+    lines_of,
+)
 from plutoc.syntax.sections import sections
-from plutoc.syntax.split import is_exchanged, is_shifted, is_split, is_torn
-from plutoc.syntax.state import State, beginning, copied, feeds
-from plutoc.syntax.tokens import Token, made_up
+from plutoc.syntax.tokens import BEGINNERS, END, EQUAL, NAME, NEWLINE, SETTING_KINDS, made_up, span
 from plutoc.syntax.tree import BadStatement, File, Name
 
 MOST_MISTAKES = 1_000
-"""Of more mistakes in one source nothing is told: nobody reads that many."""
+"""Of more mistakes in one source nothing is told: that many are not read."""
 
 _HEADER = (("PLUTO", "pluto"), ("NUMBER", "1"), (NEWLINE, ""))
 _APP = (("APP", "app"), ("NAME", ""), ("LBRACE", "{"))
@@ -34,7 +41,12 @@ _BELOW = "if the next line belongs to this one, join the two"
 _CLOSING = (("RBRACE", "}"), (NEWLINE, ""), (END, ""))
 
 
-@frozen
+_IN_A_FLOW = frozenset({NAME, "_ARROW", "COMMA", "LSQB", "RSQB", "WHEN", "OTHERWISE", "UNKNOWN"})
+_UP_TO_BLANK = re.compile(r"\w[^\s(]*")
+_EQUAL_SIGN = "="
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class _Placed:
     """A line, and the parser as it stands before it."""
 
@@ -44,7 +56,7 @@ class _Placed:
     """Whether what is wrong with it is told already."""
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class _Judged:
     """The lines that can be read, and what is left of the others."""
 
@@ -151,7 +163,7 @@ def _failing(placed: _Placed) -> tuple[State, int | None]:
 
 def _with_bad(file: File, app: Line | None, bad: Sequence[BadStatement], named: bool) -> File:
     """Put what cannot be read where it stands. A broken first line of an app may have its name."""
-    end = app.tokens[-1].end_pos if app else 0
+    end = span(app.tokens[-1]).end if app else 0
     inside = [each for each in bad if each.span.start >= end]
     name = file.app.name
     if not named:
@@ -174,3 +186,53 @@ def _fed(tokens: Sequence[tuple[str, str]]) -> State:
 
 def _made_up(tokens: Sequence[tuple[str, str]]) -> list[Token]:
     return [made_up(kind, text) for kind, text in tokens]
+
+
+def bad_statement(source: Source, line: Line) -> BadStatement:
+    """Return what is left of a line: what it was to be, and what it declares."""
+    kind, name, head = _declared(source, line)
+    return BadStatement(
+        kind=kind,
+        name=name,
+        head=head,
+        span=line.span,
+    )
+
+
+def _declared(source: Source, line: Line) -> tuple[str | None, Name | None, str | None]:
+    """Return the kind of a statement, the name that it declares, or else what stands there."""
+    tokens = line.tokens
+    second = tokens[1].type if len(tokens) > 1 else ""
+    if line.first in SETTING_KINDS:
+        return line.first.lower(), None, None
+    if line.first in (*BEGINNERS, "USE", "APP") and second != EQUAL:
+        kind = line.first.lower()
+        rest = source.quote(line.span)[len(tokens[0]) :].strip()
+        written = _UP_TO_BLANK.match(rest)
+        head = written[0] if written else ""
+        if second == NAME and head == tokens[1]:
+            return kind, _name(tokens[1]), None
+        return kind, None, None if kind == "app" else head
+    equals = next((i for i, token in enumerate(tokens) if token.type == EQUAL), None)
+    if equals is None:
+        if tokens[0].type == NAME and (
+            second == "COLON" or (second == NAME and tokens[1][:1].isupper())
+        ):
+            return "block", _name(tokens[0]), None
+        text = source.quote(line.span)
+        if _EQUAL_SIGN in text:  # within a text that is left open
+            return "block", None, "".join(text.partition(_EQUAL_SIGN)[0].split())
+        if len(tokens) == 1 and tokens[0].type == NAME:  # the rest may be behind a stray `#`
+            return "block", _name(tokens[0]), None
+        types = {token.type for token in tokens}
+        is_flow = "_ARROW" in types and types <= _IN_A_FLOW
+        return "flow" if is_flow else None, None, None
+    if equals == 1 and tokens[0].type == NAME:
+        return "block", _name(tokens[0]), None
+    start = span(tokens[0])
+    head = source.quote(start.to(span(tokens[equals - 1]))) if equals else ""
+    return "block", None, "".join(head.split())
+
+
+def _name(token: Token) -> Name:
+    return Name(text=str(token), span=span(token))

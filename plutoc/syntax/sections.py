@@ -4,18 +4,20 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections.abc import Sequence
+from dataclasses import dataclass
+
+from lark import Token
 
 from plutoc.diagnostic import Diagnostic
-from plutoc.frozen import frozen
 from plutoc.source import Source, Span
 from plutoc.syntax import errors
 from plutoc.syntax.lines import Line, begins_a_statement, joined
-from plutoc.syntax.tokens import Token, span
+from plutoc.syntax.tokens import span
 
 _OUTSIDE = ("USE", "APP", "RBRACE", "LBRACE")
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Sections:
     """The lines of a source, by where they stand."""
 
@@ -93,7 +95,7 @@ def _app(lines: Sequence[Line]) -> int | None:
 
 def _behind(lines: Sequence[Line], end: Token) -> Span:
     """Return the place behind all that is there."""
-    last = (lines[-1].span.end if lines else end.start_pos) or 0
+    last = lines[-1].span.end if lines else span(end).start
     return Span(last, last)
 
 
@@ -132,8 +134,8 @@ def _braces(
     if not closings:
         hidden = any(line.has("RBRACE") or "}" in line.tokens[-1] for line in body)
         if opened is not None and not hidden:
-            at = body[-1].tokens[-1].end_pos if body else opened.end_pos
-            found.append(errors.never_closed(source, span(opened), at or 0))
+            at = span(body[-1].tokens[-1] if body else opened).end
+            found.append(errors.never_closed(source, span(opened), at))
             if body and len(body[-1].tokens) == 1:  # stands where the brace should
                 return [*body[:-1]], [body[-1]]
         return [*body], []

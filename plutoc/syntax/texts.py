@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from decimal import Decimal
 
 ESCAPES = {'\\"': '"', "\\\\": "\\"}
 """The only two: a text cannot hold what a screen does not show."""
@@ -19,8 +20,6 @@ _MOST_DIGITS = 15
 
 def written_out(quantity: str) -> str | None:
     """Say how a number is written here that other languages write so: `1e9`, `1_000`."""
-    from decimal import Decimal  # only for mistakes
-
     match = re.fullmatch(_DIGITS, "".join(quantity.split()))
     if match is None or not set(match[0]) & set("_eE"):
         return None

@@ -1,41 +1,94 @@
-"""A token: a piece of a source that means something, its type, and where it stands."""
+"""Tokens: which types there are, where each stands, and how they are called in messages."""
 
 from __future__ import annotations
 
-from typing import Self
+from collections.abc import Iterable
+
+from lark import Token
 
 from plutoc.source import Span
 
+COMMENT, NEWLINE, END = "COMMENT", "_NL", "$END"
+NAME, ARROW, EQUAL = "NAME", "_ARROW", "EQUAL"
+OPENING = {"LPAR": "RPAR", "LSQB": "RSQB"}
+CLOSING = frozenset(OPENING.values())
 
-class Token(str):
-    """A text that knows its type and its place. A string: so nothing is copied to look at it."""
+WORDS = (
+    *("pluto", "use", "as", "app", "category", "can", "action", "evaluator", "modifier", "policy"),
+    *("emits", "writes", "when", "otherwise"),
+)
+"""The language's own words. Each is a terminal of the grammar, named in capitals."""
 
-    __slots__ = ("end_pos", "line", "start_pos", "type")
+SETTINGS = ("version", "requires")
+"""Words too, but only where they begin a statement: elsewhere they are names like any other."""
 
-    type: str
-    start_pos: int
-    end_pos: int
-    line: int
+SETTING_KINDS = frozenset(word.upper() for word in SETTINGS)
+BEGINNERS = SETTING_KINDS | {"CATEGORY", "ACTION", "EVALUATOR", "MODIFIER", "POLICY"}
 
-    def __new__(cls, type: str, text: str, start_pos: int, end_pos: int, line: int) -> Self:
-        """Return a token; `line` is the one that it begins on, from 1."""
-        token = str.__new__(cls, text)
-        token.type = type
-        token.start_pos = start_pos
-        token.end_pos = end_pos
-        token.line = line
-        return token
+_NAMED = {
+    "NAME": "a name",
+    "NUMBER": "a number",
+    "QUANTITY": "a quantity",
+    "TEXT": "a text in quotes",
+    "_ARROW": "`->`",
+    "EQUAL": "`=`",
+    "DOT": "`.`",
+    "COLON": "`:`",
+    "COMMA": "`,`",
+    "LPAR": "`(`",
+    "RPAR": "`)`",
+    "LSQB": "`[`",
+    "RSQB": "`]`",
+    "LBRACE": "`{`",
+    "RBRACE": "`}`",
+    **{word.upper(): f"`{word}`" for word in (*WORDS, *SETTINGS)},
+    NEWLINE: "the end of the line",
+    END: "the end of the file",
+}
 
-    def of_type(self, type: str) -> Token:
-        """Return the same token as one of another type."""
-        return Token(type, self, self.start_pos, self.end_pos, self.line)
+_GROUPS = (
+    (frozenset({"NAME", "CATEGORY", "MODIFIER", "LSQB"}), "a declaration or an edge"),
+    (frozenset({"NUMBER", "QUANTITY", "TEXT", "NAME", "LSQB"}), "a value"),
+)
+"""What is too long to tell one by one."""
+
+_IN_A_STATEMENT = SETTING_KINDS | {"ACTION", "EVALUATOR", "POLICY"}
 
 
 def made_up(kind: str, text: str) -> Token:
     """Return a token that the source does not have, to stand where it should have it."""
-    return Token(kind, text, 0, 0, 1)
+    return Token(kind, text, 0, 1, 1, 1, 1, 0)
 
 
 def span(token: Token) -> Span:
     """Return the place of a token."""
-    return Span(token.start_pos, token.end_pos)
+    return Span(token.start_pos or 0, token.end_pos or 0)
+
+
+def expected(types: Iterable[str], name: str = "a name") -> str:
+    """Say what could stand here: "`,` or `)`"; `name` is what a name would be."""
+    left = set(types)
+    said = []
+    for group, words in _GROUPS:
+        if group <= left:
+            said.append(words)
+            left -= group | _IN_A_STATEMENT
+    for kind, words in _NAMED.items():
+        if kind in left:
+            said.append(name if kind == "NAME" else words)
+    return alternatives(said)
+
+
+def found(token: Token) -> str:
+    """Say what stands here instead."""
+    return _NAMED[token.type] if token.type in (NEWLINE, END) else f"`{shortened(token)}`"
+
+
+def shortened(text: str, longest: int = 30) -> str:
+    """Cut a long text, so that it does not fill the message."""
+    return text if len(text) <= longest else text[: longest - 1] + "…"
+
+
+def alternatives(words: list[str]) -> str:
+    """Join with commas and an "or" before the last one."""
+    return " or ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words)

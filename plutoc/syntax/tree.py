@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from plutoc.frozen import frozen
+from dataclasses import dataclass
+
 from plutoc.source import Source, Span
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Name:
     """A word that names something."""
 
@@ -14,7 +15,7 @@ class Name:
     span: Span
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Number:
     """`3`, `-0.5`: whole numbers stay whole."""
 
@@ -22,7 +23,7 @@ class Number:
     span: Span
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Quantity:
     """`5 min`, `40 %`: not yet converted, the unit not yet known to exist."""
 
@@ -31,7 +32,7 @@ class Quantity:
     span: Span
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Text:
     """`"a text"`, its escapes resolved."""
 
@@ -39,7 +40,7 @@ class Text:
     span: Span
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Bool:
     """`yes` or `no`."""
 
@@ -47,7 +48,7 @@ class Bool:
     span: Span
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class List:
     """`[a, b]` as a value."""
 
@@ -58,7 +59,7 @@ class List:
 Value = Name | Number | Quantity | Text | Bool | List
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Argument:
     """`policy: nearest`, given to a block or a category."""
 
@@ -67,7 +68,7 @@ class Argument:
     span: Span
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Parameter:
     """`dose: mass = 50 mg`, declared by an action or a modifier."""
 
@@ -77,7 +78,7 @@ class Parameter:
     span: Span
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Use:
     """`use pluto_survey as survey`."""
 
@@ -86,7 +87,7 @@ class Use:
     span: Span
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class VersionDecl:
     """`version "1.2.0"`."""
 
@@ -94,7 +95,7 @@ class VersionDecl:
     span: Span
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class RequiresDecl:
     """`requires "numpy>=2", "requests>=2.32"`: at least one text."""
 
@@ -102,7 +103,7 @@ class RequiresDecl:
     span: Span
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class CategoryDecl:
     """`category scout(payload: 5 g) can take_photo`."""
 
@@ -112,7 +113,7 @@ class CategoryDecl:
     span: Span
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class ActionDecl:
     """`action pollinate(dose: mass = 50 mg) once`; `repeat` is the last word, if any."""
 
@@ -122,7 +123,7 @@ class ActionDecl:
     span: Span
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class HookDecl:
     """`evaluator NAME`, `policy NAME`, `modifier NAME(…) emits … writes …`."""
 
@@ -135,7 +136,7 @@ class HookDecl:
     span: Span
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class BlockDecl:
     """`launch = TripLauncher`, `scan = survey.GridScan(spacing: 2 m)`."""
 
@@ -146,7 +147,7 @@ class BlockDecl:
     span: Span
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Stop:
     """One stop of a flow: a name, or several in brackets."""
 
@@ -154,7 +155,7 @@ class Stop:
     span: Span
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Guard:
     """`when STANDBY, FAILED`; `otherwise` has no statuses."""
 
@@ -163,7 +164,7 @@ class Guard:
     span: Span
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class FlowDecl:
     """`a -> [b, c] -> d when STANDBY`: at least two stops."""
 
@@ -172,7 +173,7 @@ class FlowDecl:
     span: Span
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class BadStatement:
     """What cannot be read, up to the next statement. A tree without mistakes has none."""
 
@@ -191,7 +192,7 @@ Setting = VersionDecl | RequiresDecl
 Statement = Setting | CategoryDecl | ActionDecl | HookDecl | BlockDecl | FlowDecl | BadStatement
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class AppDecl:
     """`app NAME ["Title"] { … }`."""
 
@@ -202,7 +203,7 @@ class AppDecl:
     span: Span
 
 
-@frozen
+@dataclass(frozen=True, slots=True, kw_only=True)
 class File:
     """A whole source."""
 

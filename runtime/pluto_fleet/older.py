@@ -12,12 +12,14 @@ from importlib import import_module
 from importlib.abc import Loader, MetaPathFinder
 from importlib.machinery import ModuleSpec
 from types import ModuleType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
     from plutoc_runtime.domain.model import Drone
     from plutoc_runtime.flow.mission import MissionState
+    from plutoc_runtime.flow.run import Run
+    from plutoc_runtime.trips.flight import Flight
 
 _ROOMS = {
     "domain": (
@@ -27,7 +29,7 @@ _ROOMS = {
     "time": "kernel signals:future virtual",
     "hooks": "plain:keepable context handle:live_drone soundness",
     "fleet": (
-        "allocation:queue capability request energy navigation policy spots:landing_sites"
+        "allocation:queue capability:reach request:reach energy navigation policy"
         " policies policies.assignment policies.batch_optimal policies.first policies.least_used"
         " policies.nearest policies.own"
     ),
@@ -36,7 +38,7 @@ _ROOMS = {
 }
 """Which room a module went to, and as what."""
 
-_RENAMED = {"Signal": "Future", "State": "MissionState", "WHATEVER": "ANY_ERROR"}
+_RENAMED = {"Signal": "Future", "State": "MissionState", "ANY_ERROR": "ANY_ERROR"}
 
 _ELSEWHERE = ("domain.errors", "flow.run", "flow.mission")
 """Where what left its module may be."""
@@ -66,6 +68,23 @@ def loaded_again(brain: str) -> App:
     return app
 
 
+def _of_former_blocks() -> dict[str, object]:
+    """Return what those blocks and flows call, and is called otherwise today."""
+    from plutoc_runtime.flow.modification import context_of
+    from plutoc_runtime.flow.own_action import OwnAction
+    from plutoc_runtime.flow.run import Run
+
+    type.__setattr__(Run, "context", property(context_of))
+    return {"Action": OwnAction, "launch": _launch, "watch": _watch}
+
+
+def _watch(run: Run[Any], *limits: tuple[Any, ...] | None) -> Flight:
+    from plutoc_runtime.flow.run import watch
+    from plutoc_runtime.trips.deadlines import Limit
+
+    return watch(run, *(None if limit is None else Limit(*limit) for limit in limits))
+
+
 def _launch(state: MissionState, drone: Drone) -> None:
     state.launch(drone)
 
@@ -92,5 +111,5 @@ class _Former(MetaPathFinder, Loader):
         for home in (*_ELSEWHERE, self._moved[old]):
             given |= vars(import_module(f"plutoc_runtime.{home}"))
         given |= {old: given[new] for old, new in _RENAMED.items() if new in given}
-        given |= {"launch": _launch}
+        given |= _of_former_blocks()
         vars(module).update({name: one for name, one in given.items() if not name.startswith("__")})

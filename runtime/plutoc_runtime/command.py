@@ -121,7 +121,7 @@ def _checked(app: App, options: Any) -> int:
     from .alone.faults import Faults
     from .alone.files import load_fleet, load_missions
     from .alone.simulate import default_fleet, simulate
-    from .fleet.capability import problems
+    from .fleet.reach import problems
 
     beside = options.missions.parent / "fleet.toml"
     if options.fleet is None and os.path.lexists(beside):

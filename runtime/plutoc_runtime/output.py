@@ -9,7 +9,7 @@ from io import TextIOWrapper
 
 
 class ClosedPipe(Exception):
-    """Whoever read the output has gone: there is nobody to tell."""
+    """The reader of the output has gone."""
 
 
 class CannotWrite(Exception):
@@ -51,7 +51,7 @@ def flush() -> None:
 
 
 def tell(text: str) -> None:
-    """Write a message for a person on standard error; if nobody hears it, so be it."""
+    """Write a message for a person on standard error; one that cannot be written is dropped."""
     with suppress(OSError, ValueError):
         print(text, file=sys.stderr, flush=True)
 

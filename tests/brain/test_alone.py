@@ -15,11 +15,12 @@ from pluto_fleet.flight import simulate as library
 from plutoc_runtime.alone import simulate as alone
 from plutoc_runtime.alone.faults import CARRYING_HOME, OUTAGE, Faults
 from plutoc_runtime.alone.ideal import IdealNavigation
-from plutoc_runtime.domain.actions import Action, Plain
+from plutoc_runtime.domain.actions import Plain
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.errors import BadInput, Cancelled, Failure, FlightFailed
 from plutoc_runtime.domain.model import AfterTrip, Category, Drone, Item, Point, Trip
 from plutoc_runtime.domain.status import DroneStatus, Status
+from plutoc_runtime.flow.own_action import OwnAction
 from plutoc_runtime.flow.session import Outcome, Session
 from plutoc_runtime.time.future import Future
 from plutoc_runtime.time.kernel import FLEET
@@ -179,7 +180,7 @@ def test_what_is_beyond_the_map_is_refused_before_take_off() -> None:
 def test_a_battery_drains_in_the_air_and_charges_at_home() -> None:
     """It is empty after its flight time, and full again after its charge time."""
     weak = Category(name="scout", flight_time=20.0, charge_time=100.0, reserve=0.0)
-    hold = Action(name="wait", hook=wait_long)
+    hold = OwnAction(name="wait", hook=wait_long)
     tested = apps.app(apps.flow(), categories=[weak], actions=[hold])
     mission = apps.mission("a", apps.trip("1", 1.0, action="wait"))
     outcome = fly(tested, [mission], apps.fleet(), faults=Faults())
@@ -296,7 +297,7 @@ async def turn_on(drone: Drone, trip: Trip, context: Context) -> tuple[float, fl
 
 def test_an_action_of_the_apps_own_reads_and_writes() -> None:
     """What was not written is measured where the drone is."""
-    action = Action(name="turn_on", hook=turn_on)
+    action = OwnAction(name="turn_on", hook=turn_on)
     tested = apps.app(apps.flow(), actions=[action])
     outcome = fly(
         tested,

@@ -1,4 +1,4 @@
-"""Blocks of somebody else's that end Python, or give what they do not declare: never in silence."""
+"""Blocks of another package that end Python, or give what they do not declare: never in silence."""
 
 from __future__ import annotations
 

@@ -36,7 +36,7 @@ def test_errors_end_with_1_and_stand_on_standard_error(plutoc: Call, app: Path) 
 
 @pytest.mark.parametrize("name", ["missions.toml", "hooks.py"])
 def test_what_lies_beside_an_app_is_no_app(plutoc: Call, here: Path, name: str) -> None:
-    """It is not parsed: what that would say helps nobody."""
+    """It is not parsed: what that would say is of no help."""
     Path(name).touch()
     said = plutoc("check", name)
     assert said.code == 2

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from plutoc.emit import lock, recorded, write
+from plutoc.emit import lock, write
 from tests.cli.conftest import APP, Call, tree
 
 FLOW, HOOKS, LOCK = Path("crop/src/crop/flow.py"), Path("crop/src/crop/hooks.py"), "crop/pluto.lock"
@@ -33,7 +33,7 @@ def test_a_package_goes_where_it_is_told(plutoc: Call, app: Path, here: Path) ->
 
 
 def test_an_empty_folder_will_do(plutoc: Call, app: Path) -> None:
-    """Such as one that somebody made for it."""
+    """Such as one that was made for it."""
     Path("crop").mkdir()
     assert plutoc("compile", app).code == 0
     assert FLOW.is_file()
@@ -289,7 +289,7 @@ def test_what_a_newer_plutoc_made_is_not_overwritten(
     plutoc: Call, app: Path, monkeypatch: pytest.MonkeyPatch, made_by: str, code: int, other: str
 ) -> None:
     """The order of versions is that of PEP 440; a package without one is older than any."""
-    for module in (lock, recorded, write):
+    for module in (lock, write):
         monkeypatch.setattr(module, "__version__", "0.1.0")
     plutoc("compile", app)
     text = Path(LOCK).read_text().replace('plutoc = "0.1.0"\n', f"{made_by}\n{other}")

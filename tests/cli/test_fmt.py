@@ -13,8 +13,8 @@ from pathlib import Path
 
 import pytest
 
+from plutoc.cli.changes import rewrite
 from plutoc.cli.endings import Unusable
-from plutoc.cli.rewrite import rewrite
 from plutoc.format import run
 from tests.cli.conftest import APP, Call, tree
 
@@ -99,7 +99,7 @@ def test_line_ends_and_marks_of_windows_go(plutoc: Call, app: Path) -> None:
 def test_standard_input_goes_to_standard_output(
     plutoc: Call, here: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """In UTF-8, whatever the terminal knows."""
+    """In UTF-8, whether the terminal knows it or not."""
     text = UNTIDY.replace("Crop watch", "Ünkräut 日本")
     give(text.encode(), monkeypatch)
     said = plutoc("fmt", "-")
@@ -164,7 +164,7 @@ def test_a_closed_standard_input_is_said(
 
 @pytest.mark.skipif(os.name != "posix", reason="Windows has no permissions of this kind")
 def test_permissions_are_kept(plutoc: Call, app: Path) -> None:
-    """A file that nobody else may read stays so."""
+    """A file that other users may not read stays so."""
     app.write_text(UNTIDY)
     app.chmod(0o640)
     assert plutoc("fmt", app).code == 0
@@ -172,7 +172,7 @@ def test_permissions_are_kept(plutoc: Call, app: Path) -> None:
 
 
 def test_a_read_only_file_is_left_alone(plutoc: Call, app: Path) -> None:
-    """Renaming could replace it; somebody did not want that."""
+    """Renaming could replace it, which its owner did not want."""
     app.write_text(UNTIDY)
     app.chmod(0o444)
     said = plutoc("fmt", app)
@@ -209,7 +209,7 @@ def test_what_is_no_ordinary_file_is_not_replaced(app: Path) -> None:
     [(OSError(errno.ENOSPC, "No space left on device"), 2), (KeyboardInterrupt(), 130)],
 )
 @pytest.mark.parametrize("at", ["replace", "save"])
-def test_whatever_happens_in_between_leaves_the_old_source(
+def test_any_end_in_between_leaves_the_old_source(
     plutoc: Call,
     app: Path,
     here: Path,

@@ -172,8 +172,8 @@ def test_a_report_that_cannot_be_written_ends_with_2(app: Path, name: str) -> No
 
 
 @pytest.mark.parametrize("name", PROGRAMS)
-def test_a_report_that_nobody_reads_ends_with_141(app: Path, name: str) -> None:
-    """Whoever read it has gone: there is nobody to tell."""
+def test_a_report_without_a_reader_ends_with_141(app: Path, name: str) -> None:
+    """Its reader has gone."""
     app.write_text(MISTAKE)
     reading, writing = os.pipe()
     os.close(reading)

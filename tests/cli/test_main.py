@@ -161,7 +161,7 @@ def test_who_ignores_it_goes_on(app: Path) -> None:
 
 @pytest.mark.skipif(os.name != "posix", reason="Windows does not send these signals")
 def test_a_simulation_ends_with_the_command_that_began_it(app: Path) -> None:
-    """Nobody is left behind to go on simulating."""
+    """No process is left behind to go on simulating."""
     Path("hooks.py").write_text(
         "import os, signal\n"
         "async def pollinate(drone, trip, context, *, dose): ...\n"

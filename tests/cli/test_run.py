@@ -10,24 +10,17 @@ import pytest
 from tests.cli.conftest import APP, MISSIONS, Call, tree
 
 
-@pytest.fixture(autouse=True)
-def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A cache folder for this test only."""
-    folder = tmp_path / "cache"
-    monkeypatch.setenv("XDG_CACHE_HOME", str(folder))
-    return folder
-
-
-def test_missions_fly_and_nothing_is_left_beside_the_app(
-    plutoc: Call, app: Path, here: Path, cache: Path
+def test_missions_fly_and_nothing_is_left(
+    plutoc: Call, app: Path, here: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The package goes to the user's cache."""
+    """Neither beside the app nor among temporary files."""
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
     before = tree(here)
     said = plutoc("run", app)
     assert said.code == 0
     assert "1 of 1 missions completed" in said.out or "1 of 1 mission completed" in said.out
     assert tree(here) == before
-    assert len(list((cache / "pluto" / "run").iterdir())) == 1
+    assert list(tmp_path.iterdir()) == [here]
 
 
 def test_json_and_seed_are_passed_on(plutoc: Call, app: Path) -> None:
@@ -127,7 +120,7 @@ def test_a_fleet_beside_missions_that_are_named_is_flown(plutoc: Call, app: Path
 
 
 def test_what_repeats_for_ever_is_flown_for_so_long(plutoc: Call, app: Path) -> None:
-    """`simulate` asks for it, and so whoever calls it by `run` can say it."""
+    """`simulate` asks for it, and so it can be given to `run`."""
     said = plutoc("run", app, "--until", "10 s", "--json")
     assert json.loads(said.out)["duration_s"] == 10.0
 
@@ -165,11 +158,3 @@ def test_errors_end_with_1_and_nothing_flies(plutoc: Call, app: Path) -> None:
     said = plutoc("run", app)
     assert said.code == 1
     assert not said.out
-
-
-def test_a_cache_that_others_can_write_is_not_used(plutoc: Call, app: Path, cache: Path) -> None:
-    """What is in it gets run."""
-    (cache / "pluto").mkdir(parents=True)
-    (cache / "pluto").chmod(0o777)
-    assert plutoc("run", app).code == 0
-    assert not list((cache / "pluto").iterdir())

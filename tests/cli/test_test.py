@@ -74,7 +74,7 @@ def test_a_mistake_in_a_hook_is_found_and_shown_small(
 
 
 def test_a_hook_that_raises_keyboard_interrupt_interrupts_nothing(app: Path, capfd: Said) -> None:
-    """It is found as whatever else a hook raises: only a person interrupts."""
+    """It is found as anything else that a hook raises: only a person interrupts."""
     hooks = app.with_name("hooks.py")
     text = hooks.read_text(encoding="utf-8")
     begins = "    for result in results.new:"
@@ -89,7 +89,7 @@ def test_a_hook_that_raises_keyboard_interrupt_interrupts_nothing(app: Path, cap
 
 
 def test_a_case_is_said_to_show_it_only_if_its_command_does(app: Path, capfd: Said) -> None:
-    """What hooks.py keeps from run to run is not there when somebody types the command."""
+    """What hooks.py keeps from run to run is not there when the command is typed."""
     hooks = app.with_name("hooks.py")
     text = hooks.read_text(encoding="utf-8")
     begins = "    done = {result.trip.target"

@@ -1,4 +1,4 @@
-"""Writing is all or nothing, whatever the disk, or Ctrl-C, does in the middle of it."""
+"""Writing is all or nothing, though the disk, or Ctrl-C, stops it in the middle."""
 
 from __future__ import annotations
 
@@ -93,7 +93,7 @@ def test_a_failure_between_two_renames_puts_all_back(
 
 
 class Killed(BaseException):
-    """Ends everything at once, and whatever would tidy up after it."""
+    """Ends everything at once, and all that would tidy up after it."""
 
 
 @pytest.mark.parametrize("after", [0, 1, 2, 3, 4])

@@ -11,9 +11,10 @@ from pathlib import Path
 
 from pluto_fleet.crazyflie.navigation import Crazyflie
 from pluto_fleet.crtp.drone import Build, SimulatedCrazyflie
-from pluto_fleet.crtp.record import Deed, InMemory
+from pluto_fleet.crtp.flight_log import CommandRecord, MemoryLog
 from pluto_fleet.crtp.server import Server
-from pluto_fleet.drones import DroneEvent, DroneSetup, LinkLost
+from pluto_fleet.drones.errors import LinkLost
+from pluto_fleet.drones.protocol import DroneEvent, DroneSetup
 from plutoc_runtime.domain.model import Point
 
 FAST = 1.0
@@ -32,7 +33,7 @@ class Hangar:
 
     navigation: Crazyflie
     server: Server
-    record: InMemory
+    record: MemoryLog
     id: str
     events: list[DroneEvent] = field(default_factory=list)
     heard: asyncio.Event = field(default_factory=asyncio.Event)
@@ -53,13 +54,13 @@ class Hangar:
         return self.drone.body.airborne
 
     @property
-    def deeds(self) -> list[Deed]:
+    def commands(self) -> list[CommandRecord]:
         """What it was commanded; who only asks what it is commands nothing."""
-        return [deed for deed in self.record.deeds if deed.what != "asked"]
+        return [command for command in self.record.commands if command.what != "asked"]
 
-    def did(self, what: str) -> list[Deed]:
+    def did(self, what: str) -> list[CommandRecord]:
         """Return the commands of one kind."""
-        return [deed for deed in self.deeds if deed.what == what]
+        return [command for command in self.commands if command.what == what]
 
     async def let(self, name: str, value: float | bool = True) -> None:
         """Let something go wrong."""
@@ -100,7 +101,7 @@ async def hangar(
 ) -> AsyncIterator[Hangar]:
     """Make a drone, not connected yet; in the end it is closed, and so is the simulation."""
     build = build or Build(id="cf1", home=(1.0, 2.0, 0.0))
-    record = InMemory()
+    record = MemoryLog()
     server = Server([build], record)
     await server.start()
     setup = DroneSetup(

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from pluto_fleet.crtp.camera import camera, picture, port_of
-from pluto_fleet.drones import ActionNotDone, Rejected
+from pluto_fleet.crtp.equipment import camera, picture, port_of
+from pluto_fleet.drones.errors import ActionNotDone, Rejected
 from plutoc_runtime.domain.model import Item, Photo
 from tests.crazyflie.hangar import FAST, hangar
 
@@ -118,10 +118,10 @@ async def test_it_blinks_and_has_its_lights_back(folder: Path) -> None:
     async with hangar(folder) as one:
         await one.navigation.connect()
         await one.navigation.identify()
-        told = [deed.values["value"] for deed in one.did("set led.bitmask")]
+        told = [command.values["value"] for command in one.did("set led.bitmask")]
         values = [value for value, _ in groupby(told)]  # cflib may say something twice
         assert values == [191.0, 128.0] * 8 + [0.0]
-        assert {deed.what for deed in one.deeds} == {"set led.bitmask"}
+        assert {command.what for command in one.commands} == {"set led.bitmask"}
 
 
 async def test_it_says_what_it_is(folder: Path) -> None:
@@ -130,4 +130,4 @@ async def test_it_says_what_it_is(folder: Path) -> None:
         facts = await one.navigation.facts()
         assert facts["protocol"] == "12" and facts["firmware"] == "2025c0de0ace"
         assert "bcLighthouse4" in facts["decks"] and "bcFlow2" not in facts["decks"]
-        assert one.deeds == []
+        assert one.commands == []

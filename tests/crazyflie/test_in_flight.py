@@ -9,16 +9,8 @@ from pathlib import Path
 import pytest
 
 from pluto_fleet.crtp.drone import Build
-from pluto_fleet.drones import (
-    BATTERY_LOW,
-    CRASHED,
-    LOCKED,
-    Crashed,
-    Locked,
-    NotReady,
-    OutsideArea,
-    Rejected,
-)
+from pluto_fleet.drones.errors import Crashed, Locked, NotReady, OutsideArea, Rejected
+from pluto_fleet.drones.protocol import BATTERY_LOW, CRASHED, LOCKED
 from tests.crazyflie.hangar import FAST, hangar
 
 pytest.importorskip("cflib")
@@ -69,7 +61,7 @@ async def test_hold_and_land_do_nothing_on_the_ground(folder: Path) -> None:
         await one.navigation.connect()
         await one.navigation.hold()
         await one.navigation.land(FAST)
-        assert one.deeds == []
+        assert one.commands == []
 
 
 async def test_what_cannot_be_flown_is_refused_before_anything_moves(folder: Path) -> None:
@@ -86,7 +78,7 @@ async def test_what_cannot_be_flown_is_refused_before_anything_moves(folder: Pat
                 await cf.takeoff(1.0, speed)
         with pytest.raises(OutsideArea):
             await cf.takeoff(-1.0, 1.0)
-        assert one.deeds == []
+        assert one.commands == []
 
 
 async def test_lost_packets_are_sent_again(folder: Path) -> None:

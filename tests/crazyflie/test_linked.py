@@ -11,7 +11,8 @@ import pytest
 
 from pluto_fleet.crazyflie.navigation import Crazyflie
 from pluto_fleet.crtp.drone import Build
-from pluto_fleet.drones import LINK_LOST, DroneSetup, LinkLost, NotReady
+from pluto_fleet.drones.errors import LinkLost, NotReady
+from pluto_fleet.drones.protocol import LINK_LOST, DroneSetup
 from tests.crazyflie.hangar import FAST, PATIENCE, Outcomes, hangar, threads_left
 from tests.kill.lives import eventually
 
@@ -133,7 +134,7 @@ async def test_one_that_was_just_switched_on_is_told_where_it_begins(folder: Pat
     build = Build(id="cf1", home=(0.1, 0.0, 0.0))
     async with hangar(folder, {"starts_at_home": True}, build) as one:
         await one.navigation.connect()
-        assert [(deed.what, deed.values["value"]) for deed in one.deeds] == [
+        assert [(command.what, command.values["value"]) for command in one.commands] == [
             ("set kalman.initialX", pytest.approx(0.1)),
             ("set kalman.initialY", 0.0),
             ("set kalman.initialZ", 0.0),
@@ -146,7 +147,7 @@ async def test_one_that_was_just_switched_on_is_told_where_it_begins(folder: Pat
 async def test_one_that_has_flown_already_keeps_its_place(folder: Path) -> None:
     async with hangar(folder, {"starts_at_home": True}) as one:
         await one.navigation.connect()
-        assert one.deeds == []
+        assert one.commands == []
 
 
 async def test_without_a_uri_it_says_what_is_missing(folder: Path) -> None:

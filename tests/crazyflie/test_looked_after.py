@@ -7,7 +7,8 @@ from pathlib import Path
 import pytest
 
 from pluto_fleet.crtp.drone import Build
-from pluto_fleet.drones import BATTERY_LOW, LOCKED, Locked, NotReady
+from pluto_fleet.drones.errors import Locked, NotReady
+from pluto_fleet.drones.protocol import BATTERY_LOW, LOCKED
 from tests.crazyflie.hangar import FAST, hangar
 
 pytest.importorskip("cflib")
@@ -41,7 +42,7 @@ async def test_one_that_has_not_crashed_is_told_nothing(folder: Path) -> None:
     async with hangar(folder) as one:
         await one.navigation.connect()
         await one.navigation.looked_after()
-        assert one.deeds == []
+        assert one.commands == []
 
 
 async def test_a_deck_that_fails_is_said_by_name(folder: Path) -> None:

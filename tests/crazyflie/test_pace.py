@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from pluto_fleet.drones import NotReady
+from pluto_fleet.drones.errors import NotReady
 from tests.crazyflie.hangar import hangar
 
 pytest.importorskip("cflib")

@@ -14,19 +14,17 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pluto_fleet.crazyflie import borrowed, courses, words
-from pluto_fleet.crazyflie.alarms import Alarms
-from pluto_fleet.crazyflie.battery import Battery, level_at_rest
-from pluto_fleet.crazyflie.certainty import Certainty
+from pluto_fleet.crazyflie import driver, messages, trajectory
+from pluto_fleet.crazyflie.driver import cache_folder
+from pluto_fleet.crazyflie.health import AlarmDetector, BatteryGauge, level_at_rest
 from pluto_fleet.crazyflie.options import LOST_BEYOND, SURE_WITHIN, options_of
-from pluto_fleet.crazyflie.pace import Pace
-from pluto_fleet.crazyflie.state import State, state_of
-from pluto_fleet.crazyflie.tables import kept_in
+from pluto_fleet.crazyflie.state import PositionConfidence, State, state_of
+from pluto_fleet.crazyflie.trajectory import SpeedLimits
 from pluto_fleet.crazyflie.worker import Worker
-from pluto_fleet.crtp.body import Body
-from pluto_fleet.crtp.profile import State as Start
-from pluto_fleet.crtp.profile import profile
-from pluto_fleet.drones import BATTERY_LOW, CRASHED, LOCKED, LinkLost
+from pluto_fleet.crtp.body import AxisState as Start
+from pluto_fleet.crtp.body import Body, profile
+from pluto_fleet.drones.errors import LinkLost
+from pluto_fleet.drones.protocol import BATTERY_LOW, CRASHED, LOCKED
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.model import Point
 
@@ -97,7 +95,7 @@ def test_a_call_that_is_not_waited_for_any_more_is_not_made() -> None:
 def test_no_course_is_faster_than_its_limit_nor_throws_the_drone_over(
     metres: float, speed: float
 ) -> None:
-    seconds = courses.seconds_for(metres, speed)
+    seconds = trajectory.shortest_duration(metres, speed)
     course = profile(Start(0.0), metres, seconds)
     steps = [course.at(seconds * step / 100) for step in range(101)]
     assert max(step.velocity for step in steps) <= speed + 1e-6
@@ -106,7 +104,7 @@ def test_no_course_is_faster_than_its_limit_nor_throws_the_drone_over(
 
 @given(speed=st.floats(0.0, 3.0))
 def test_a_drone_that_is_to_stop_stops_within_its_way_of_a_third_of_a_second(speed: float) -> None:
-    target, seconds = courses.stop(state(0.0), state(0.1, x=speed * 0.1))
+    target, seconds = trajectory.braking(state(0.0), state(0.1, x=speed * 0.1))
     begun = speed * 0.1
     course = profile(Start(begun, speed), target[0], seconds)
     farthest = max(course.at(seconds * step / 100).position for step in range(101))
@@ -115,29 +113,32 @@ def test_a_drone_that_is_to_stop_stops_within_its_way_of_a_third_of_a_second(spe
 
 
 def test_where_it_was_long_ago_says_nothing_of_its_speed() -> None:
-    assert courses.stop(state(0.0), state(5.0, x=3.0)) == ((3.0, 0.0, 1.0), courses.SHORTEST)
-    assert courses.stop(None, state(5.0, x=3.0)) == ((3.0, 0.0, 1.0), courses.SHORTEST)
+    assert trajectory.braking(state(0.0), state(5.0, x=3.0)) == (
+        (3.0, 0.0, 1.0),
+        trajectory.SHORTEST,
+    )
+    assert trajectory.braking(None, state(5.0, x=3.0)) == ((3.0, 0.0, 1.0), trajectory.SHORTEST)
 
 
 @given(sent=st.floats(0.0, 16777.0), passed=st.floats(0.0, 9.0), x=st.floats(-500.0, 500.0))
 def test_it_is_never_sent_far_to_stop_no_matter_what_its_telemetry_makes_believe(
     sent: float, passed: float, x: float
 ) -> None:
-    target, seconds = courses.stop(state(0.0, sent=sent), state(0.1, x=x, sent=sent + passed))
-    assert abs(target[0] - x) <= 1.0 + 1e-9 and courses.SHORTEST <= seconds <= 5.0
+    target, seconds = trajectory.braking(state(0.0, sent=sent), state(0.1, x=x, sent=sent + passed))
+    assert abs(target[0] - x) <= 1.0 + 1e-9 and trajectory.SHORTEST <= seconds <= 5.0
 
 
 def test_two_states_that_arrive_at_one_moment_were_not_sent_at_one() -> None:
     before, now = state(5.0, sent=1.0), state(5.0001, x=0.1, sent=1.1)
-    assert courses.stop(before, now)[0][0] == pytest.approx(0.3)
+    assert trajectory.braking(before, now)[0][0] == pytest.approx(0.3)
     at_once = state(5.0001, x=0.1, sent=1.001)
-    assert courses.stop(before, at_once) == ((0.1, 0.0, 1.0), courses.SHORTEST)
+    assert trajectory.braking(before, at_once) == ((0.1, 0.0, 1.0), trajectory.SHORTEST)
 
 
 def test_the_clock_of_the_log_begins_anew_in_flight() -> None:
     before, now = state(0.0, sent=16777.2), state(0.1, x=0.1, sent=0.084)
     assert now.since(before) == pytest.approx(0.1)
-    assert courses.stop(before, now)[0][0] == pytest.approx(0.3, abs=0.001)
+    assert trajectory.braking(before, now)[0][0] == pytest.approx(0.3, abs=0.001)
 
 
 def near(_: State) -> float:
@@ -148,12 +149,12 @@ def test_a_drone_hovers_once_it_has_not_moved_for_a_moment() -> None:
     """The end of its course says nothing: its commander waits there for the drone."""
     comes = [state(tick / 10, x=0.04 * tick) for tick in range(6)]
     sways = [state(tick / 10, x=0.02 * (tick % 2)) for tick in range(6)]
-    assert not courses.hovers(comes, near) and courses.hovers(sways, near)
-    assert not courses.hovers(sways[:3], near)  # that is not known yet
+    assert not trajectory.hovers(comes, near) and trajectory.hovers(sways, near)
+    assert not trajectory.hovers(sways[:3], near)  # that is not known yet
     stands = [state(0.5 + tick / 10, x=0.2) for tick in (1, 2, 3)]
-    assert not courses.hovers([*comes, *stands[:2]], near)
-    assert courses.hovers([*comes, *stands], near)
-    assert not courses.hovers(sways, lambda _: nan)
+    assert not trajectory.hovers([*comes, *stands[:2]], near)
+    assert trajectory.hovers([*comes, *stands], near)
+    assert not trajectory.hovers(sways, lambda _: nan)
 
 
 def test_a_drone_that_shoots_over_arrives_once_it_stays_near() -> None:
@@ -161,7 +162,7 @@ def test_a_drone_that_shoots_over_arrives_once_it_stays_near() -> None:
     metres = (0.0, 0.05, 0.08, 0.1, 0.11, 0.11, 0.1, 0.09, 0.07, 0.06, 0.05, 0.05)
     flown = [state(tick / 10, x=off) for tick, off in enumerate(metres)]
     told = [flown[: last + 1] for last in range(len(flown))]
-    arrived = [courses.hovers(states, lambda one: one.position[0]) for states in told]
+    arrived = [trajectory.hovers(states, lambda one: one.position[0]) for states in told]
     assert arrived.index(True) == len(flown) - 1
 
 
@@ -173,7 +174,7 @@ def test_what_is_done_at_the_end_of_a_fast_climb_or_descent_is_done_within_a_dec
 ) -> None:
     body = Body((0.0, 0.0, 1.0 + max(0.0, metres)), Random(seed))
     target = (0.0, 0.0, body.position[2] - metres)
-    seconds = Pace((1.0, 1.0, 1.0)).seconds(body.position, target, 1.0)
+    seconds = SpeedLimits((1.0, 1.0, 1.0)).seconds(body.position, target, 1.0)
     body.fly(target, 0.0, seconds, 0.0, landing=False)
     told: list[State] = []
     arrived, ticks = inf, 0
@@ -181,20 +182,20 @@ def test_what_is_done_at_the_end_of_a_fast_climb_or_descent_is_done_within_a_dec
         body.step(now, 0.01)
         if ticks % 10 == seed:  # it tells where it is ten times a second
             told.append(state(now, at=body.position))
-            there = courses.hovers(told[-10:], lambda one: one.distance(target))
+            there = trajectory.hovers(told[-10:], lambda one: one.distance(target))
             arrived = min(arrived, now) if there and now >= seconds else arrived
         if now >= arrived:
             assert dist(body.position, target) <= 0.1
         ticks += 1
-    assert arrived < seconds + courses.SLACK
+    assert arrived < seconds + trajectory.SLACK
 
 
 def test_a_course_is_followed_on_each_axis() -> None:
-    pace = Pace((1.0, 0.8, 0.5))
-    assert pace.seconds((0, 0, 1), (8, 0, 1), 3.0) == pytest.approx(courses.PEAK * 10)
-    assert pace.seconds((0, 0, 0), (0, 0, 2), 3.0) == pytest.approx(courses.PEAK * 4)
-    assert pace.seconds((0, 0, 1), (8, 0, 1), 0.5) == pytest.approx(courses.PEAK * 16)
-    assert list(Pace((inf, inf, inf)).too_slow_for(5.0)) == []
+    pace = SpeedLimits((1.0, 0.8, 0.5))
+    assert pace.seconds((0, 0, 1), (8, 0, 1), 3.0) == pytest.approx(trajectory.PEAK * 10)
+    assert pace.seconds((0, 0, 0), (0, 0, 2), 3.0) == pytest.approx(trajectory.PEAK * 4)
+    assert pace.seconds((0, 0, 1), (8, 0, 1), 0.5) == pytest.approx(trajectory.PEAK * 16)
+    assert list(SpeedLimits((inf, inf, inf)).too_slow_for(5.0)) == []
 
 
 # The battery
@@ -206,7 +207,7 @@ def test_a_battery_with_more_volts_is_fuller(volts: float, more: float) -> None:
 
 
 def test_volts_in_the_air_are_corrected_by_what_flying_costs() -> None:
-    battery = Battery()
+    battery = BatteryGauge()
     battery.hear(state(0.0, volts=3.95))
     resting = battery.level
     for tick in range(1, 100):
@@ -217,22 +218,22 @@ def test_volts_in_the_air_are_corrected_by_what_flying_costs() -> None:
 
 
 def test_a_drone_that_is_met_in_the_air_loses_what_is_usual() -> None:
-    battery = Battery()
+    battery = BatteryGauge()
     battery.hear(state(0.0, volts=3.5, bits=FLYING))
     assert battery.level == level_at_rest(3.8)
 
 
 def test_a_battery_without_volts_says_nothing() -> None:
-    battery = Battery()
+    battery = BatteryGauge()
     battery.hear(state(0.0, volts=0.0))
     assert battery.level == 0.0 and battery.rest is None
 
 
-# Alarms
+# AlarmDetector
 
 
 def heard(states: list[State]) -> list[tuple[float, str]]:
-    alarms = Alarms()
+    alarms = AlarmDetector()
     return [(one.time, event.kind) for one in states for event in alarms.hear(one)]
 
 
@@ -271,8 +272,8 @@ def test_a_state_is_in_radians_and_knows_its_bits() -> None:
     assert not (read.steered or read.crashed or read.locked)
 
 
-def told(*variances: float, every: float = 0.25) -> Certainty:
-    certainty = Certainty()
+def told(*variances: float, every: float = 0.25) -> PositionConfidence:
+    certainty = PositionConfidence()
     for tick, variance in enumerate(variances):
         certainty.hear((1e-5, 1e-5, variance), tick * every)
     return certainty
@@ -296,7 +297,7 @@ def test_one_not_sure_within_the_last_second_is_not_sure() -> None:
 
 
 def test_one_that_only_sees_the_ground_pass_by_is_steady_once_its_variance_stays() -> None:
-    certainty = Certainty()
+    certainty = PositionConfidence()
     for tick in range(8):
         certainty.hear((1e4 - (100 if tick < 3 else 0), 1e4, 1e-5), tick / 4)
         assert certainty.steady(tick / 4) == (tick >= 7)
@@ -313,7 +314,7 @@ def test_a_place_is_lost_once_it_has_been_unknown_for_a_second() -> None:
     assert not told(*growing).lost(LOST_BEYOND) and told(*growing).doubts(LOST_BEYOND)
     assert told(*growing, 0.6).lost(LOST_BEYOND)
     assert not told(*growing, 0.6, 0.04).lost(LOST_BEYOND)
-    assert not told(*growing, 0.6).lost(1.0) and not Certainty().lost(LOST_BEYOND)
+    assert not told(*growing, 0.6).lost(1.0) and not PositionConfidence().lost(LOST_BEYOND)
 
 
 # Options
@@ -372,12 +373,12 @@ def test_tables_are_kept_where_no_other_user_may_write(
     flight.mkdir()
     monkeypatch.setenv("XDG_CACHE_HOME", str(cache))
     ours = cache / "pluto" / "crazyflie"
-    assert kept_in(flight) == str(ours) and ours.stat().st_mode & 0o077 == 0
+    assert cache_folder(flight) == str(ours) and ours.stat().st_mode & 0o077 == 0
     ours.chmod(0o777)
-    assert kept_in(flight) == str(flight / "crazyflie")
+    assert cache_folder(flight) == str(flight / "crazyflie")
     (flight / "crazyflie").chmod(0o777)
-    assert kept_in(flight) is None
-    assert kept_in(tmp_path / "nowhere") is None
+    assert cache_folder(flight) is None
+    assert cache_folder(tmp_path / "nowhere") is None
 
 
 # cflib
@@ -396,14 +397,14 @@ def test_tables_are_kept_where_no_other_user_may_write(
     ],
 )
 def test_cflib_s_tracebacks_become_reasons(cflib: str, we: str) -> None:
-    assert we in words.cause(cflib) and "\n" not in words.cause(cflib)
+    assert we in messages.cause(cflib) and "\n" not in messages.cause(cflib)
 
 
 def test_without_cflib_it_is_said_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(borrowed, "find_spec", lambda _: None)
+    monkeypatch.setattr(driver, "find_spec", lambda _: None)
     with pytest.raises(BadInput, match=r"cflib is needed: pip install 'pluto-fleet\[crazyflie\]'$"):
-        borrowed.require()
-    assert words.no_cflib("alfalfa").endswith("pip install 'alfalfa[crazyflie]'")
+        driver.require()
+    assert messages.no_cflib("alfalfa").endswith("pip install 'alfalfa[crazyflie]'")
 
 
 def test_importing_the_navigation_imports_no_cflib() -> None:
@@ -411,7 +412,7 @@ def test_importing_the_navigation_imports_no_cflib() -> None:
         "import sys; import pluto_fleet.crazyflie.navigation;"
         "print([name for name in sys.modules if name.partition('.')[0] in ('cflib', 'numpy')])"
     )
-    runtime = str(Path(borrowed.__file__).parents[2])
+    runtime = str(Path(driver.__file__).parents[2])
     done = subprocess.run(
         [sys.executable, "-W", "error", "-c", code],
         env={"PYTHONPATH": runtime},

@@ -10,8 +10,9 @@ import pytest
 
 from pluto_fleet.crazyflie.navigation import Crazyflie
 from pluto_fleet.crtp.drone import Build
-from pluto_fleet.crtp.record import InMemory
-from pluto_fleet.drones import LINK_LOST, DroneSetup, LinkLost
+from pluto_fleet.crtp.flight_log import MemoryLog
+from pluto_fleet.drones.errors import LinkLost
+from pluto_fleet.drones.protocol import LINK_LOST, DroneSetup
 from tests.crazyflie.hangar import PATIENCE
 from tests.crtp.radio import Ether, plugged_in
 from tests.kill.lives import eventually
@@ -34,7 +35,7 @@ def navigation(ether: Ether, drone: str, folder: Path) -> Crazyflie:
 
 def ether() -> Ether:
     builds = [Build(id=id, home=(2.0 * at, 1.0, 0.0)) for at, id in enumerate(IDS)]
-    return Ether(builds, InMemory())
+    return Ether(builds, MemoryLog())
 
 
 def left() -> list[str]:

@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 
 from pluto_fleet.crtp.drone import Build
-from pluto_fleet.crtp.ports import Port, unpacked
+from pluto_fleet.crtp.packets import Port, unpacked
 from pluto_fleet.crtp.supervisor import Supervisor
-from pluto_fleet.drones import NotReady, Rejected
+from pluto_fleet.drones.errors import NotReady, Rejected
 from tests.crazyflie.hangar import FAST, Hangar, hangar
 
 pytest.importorskip("cflib")
@@ -24,7 +24,7 @@ async def test_one_that_has_landed_is_disarmed_and_armed_anew(folder: Path) -> N
         for _ in range(2):
             await cf.takeoff(0.5, FAST)
             await cf.land(FAST)
-        told = [deed.what for deed in one.deeds if deed.what != "setpoints end"]
+        told = [command.what for command in one.commands if command.what != "setpoints end"]
         assert told[:4] == ["arm", "takeoff", "land", "down"]
         assert told[4:] == ["disarm", "arm", "takeoff", "land", "down"]
 
@@ -95,7 +95,7 @@ async def test_one_that_is_down_is_not_told_to_land_again(folder: Path) -> None:
         await cf.takeoff(0.3, FAST)
         _loses_answers(one, Port.HIGH_LEVEL)
         await cf.land(FAST)
-        told = [deed.what for deed in one.deeds]
+        told = [command.what for command in one.commands]
         assert told.count("land") > 2 and told[-1] == "down" and told.count("down") == 1
 
 
@@ -136,7 +136,7 @@ async def test_nothing_is_above_its_commander_when_it_takes_off(folder: Path) ->
         await cf.takeoff(0.5, FAST)
         await cf.go_to((1.3, 2.0, 0.5), FAST)
         await cf.land(FAST)
-        told = [deed.what for deed in one.deeds]
+        told = [command.what for command in one.commands]
         before, after = told[: told.index("takeoff")], told[told.index("takeoff") :]
         assert "setpoints end" in before and "setpoints end" not in after
 

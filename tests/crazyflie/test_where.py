@@ -8,7 +8,8 @@ from pathlib import Path
 import pytest
 
 from pluto_fleet.crtp.drone import Build
-from pluto_fleet.drones import POSITION_LOST, NotReady, PositionLost
+from pluto_fleet.drones.errors import NotReady, PositionLost
+from pluto_fleet.drones.protocol import POSITION_LOST
 from tests.crazyflie.hangar import FAST, hangar
 
 pytest.importorskip("cflib")

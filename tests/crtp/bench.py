@@ -5,8 +5,8 @@ from __future__ import annotations
 import struct
 
 from pluto_fleet.crtp.drone import Build, SimulatedCrazyflie
-from pluto_fleet.crtp.ports import Packet, Port, packed, unpacked
-from pluto_fleet.crtp.record import Deed, InMemory
+from pluto_fleet.crtp.flight_log import CommandRecord, MemoryLog
+from pluto_fleet.crtp.packets import Packet, Port, packed, unpacked
 
 CF1 = Build(id="cf1", home=(1.0, 2.0, 0.0))
 _TICK = 0.01
@@ -16,7 +16,7 @@ class Bench:
     """One drone, what it was sent, and what it has sent."""
 
     def __init__(self, build: Build = CF1) -> None:
-        self.record = InMemory()
+        self.record = MemoryLog()
         self.sent: list[Packet] = []
         self.drone = SimulatedCrazyflie(
             build, self.record, lambda raw: self.sent.append(unpacked(raw))
@@ -70,9 +70,9 @@ class Bench:
         return bool(self.drone.info() >> bit & 1)
 
     @property
-    def deeds(self) -> list[Deed]:
+    def commands(self) -> list[CommandRecord]:
         """What is on record."""
-        return self.record.deeds
+        return self.record.commands
 
     @property
     def x(self) -> float:

@@ -16,10 +16,10 @@ from threading import Event, Lock, Thread
 
 import pytest
 
-from pluto_fleet.crtp.air import Air
 from pluto_fleet.crtp.drone import Build, SimulatedCrazyflie
 from pluto_fleet.crtp.faults import Value, let
-from pluto_fleet.crtp.record import Record
+from pluto_fleet.crtp.flight_log import FlightLog
+from pluto_fleet.crtp.packets import LossyChannel
 
 _PACKET, _NO_ANSWER = 0.0008, 0.002
 """Seconds that a packet takes: with an answer, and until the radio gives up."""
@@ -43,9 +43,9 @@ class Ack:
 class OnTheAir:
     """A drone as the radio meets it: it speaks only when it is spoken to."""
 
-    def __init__(self, build: Build, number: int, record: Record) -> None:
+    def __init__(self, build: Build, number: int, record: FlightLog) -> None:
         self.drone = SimulatedCrazyflie(build, record, self._say)
-        self.air = Air(Random(f"radio/{build.seed}/{build.id}"))
+        self.air = LossyChannel(Random(f"radio/{build.seed}/{build.id}"))
         self.lock = Lock()
         self.where: Where = (_CHANNEL, _RATE, (0xE7, 0xE7, 0xE7, 0xE7, number))
         self._waiting: deque[bytes] = deque(maxlen=500)
@@ -84,7 +84,7 @@ class OnTheAir:
 class Ether:
     """All drones in reach of the radio, and what becomes of its dongle."""
 
-    def __init__(self, builds: Sequence[Build], record: Record) -> None:
+    def __init__(self, builds: Sequence[Build], record: FlightLog) -> None:
         made = (OnTheAir(build, number, record) for number, build in enumerate(builds, 1))
         self._by_id: Mapping[str, OnTheAir] = {one.drone.build.id: one for one in made}
         self._by_place = {one.where: one for one in self._by_id.values()}

@@ -10,10 +10,9 @@ from statistics import median
 
 import pytest
 
-from pluto_fleet.crtp.air import Air
 from pluto_fleet.crtp.drone import Build
 from pluto_fleet.crtp.faults import let
-from pluto_fleet.crtp.ports import Port
+from pluto_fleet.crtp.packets import LossyChannel, Port
 from tests.crtp.bench import CF1, Bench
 
 PEAK = 2.19
@@ -51,9 +50,9 @@ def test_by_uwb_it_sways_more_and_stays_within_a_decimetre() -> None:
         bench = Bench(replace(CF1, noise=noise))
         bench.up()
         bench.passes(5.0)
-        bench.record.places.clear()
+        bench.record.positions.clear()
         bench.passes(20.0)
-        return max(dist(place.at, (1.0, 2.0, 1.0)) for place in bench.record.places)
+        return max(dist(place.at, (1.0, 2.0, 1.0)) for place in bench.record.positions)
 
     assert 2.0 * farthest(0.01) < farthest(0.1) < 0.12
 
@@ -70,7 +69,7 @@ def test_without_positions_it_grows_and_the_drone_goes_astray_and_says_nothing_o
     bench = Bench()
     bench.up()
     bench.passes(2.0)
-    let(bench.drone, Air(Random(1)), "fixes", False)
+    let(bench.drone, LossyChannel(Random(1)), "fixes", False)
     info = bench.drone.info()
     bench.passes(2.5)
     assert 0.05 < bench.drone.variance < 0.2
@@ -84,9 +83,9 @@ def test_without_positions_it_grows_and_the_drone_goes_astray_and_says_nothing_o
 def test_once_positions_come_again_it_is_sure_and_flies_back() -> None:
     bench = Bench()
     bench.up()
-    let(bench.drone, Air(Random(1)), "fixes", False)
+    let(bench.drone, LossyChannel(Random(1)), "fixes", False)
     bench.passes(8.0)
-    let(bench.drone, Air(Random(1)), "fixes", True)
+    let(bench.drone, LossyChannel(Random(1)), "fixes", True)
     bench.passes(0.02)
     assert bench.drone.variance < 0.001
     assert bench.drone.body.estimate == bench.drone.body.position
@@ -99,7 +98,7 @@ def test_another_drone_goes_astray_elsewhere_and_the_same_one_where_it_did() -> 
     for id in ("cf1", "cf1", "cf2"):
         bench = Bench(replace(CF1, id=id))
         bench.up()
-        let(bench.drone, Air(Random(1)), "fixes", False)
+        let(bench.drone, LossyChannel(Random(1)), "fixes", False)
         bench.passes(8.0)
         places.append(bench.drone.body.position)
     assert places[0] == places[1] != places[2]

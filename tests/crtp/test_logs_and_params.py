@@ -7,9 +7,9 @@ import struct
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pluto_fleet.crtp.logs import MOST_BLOCKS, Logs
-from pluto_fleet.crtp.ports import Errno, Port, packed
-from pluto_fleet.crtp.variables import parameters, temperature, variables
+from pluto_fleet.crtp.logs import MOST_BLOCKS, Logs, temperature
+from pluto_fleet.crtp.packets import Errno, Port, packed
+from pluto_fleet.crtp.params import parameters
 from tests.crtp.bench import Bench
 
 CREATE, APPEND, START, STOP, DELETE, RESET = 6, 7, 3, 4, 2, 5
@@ -17,7 +17,7 @@ FLOAT = 7
 
 
 def names() -> list[str]:
-    return list(variables(Bench().drone))
+    return list(Bench().drone.variables)
 
 
 def created(bench: Bench, number: int, *wanted: str) -> int:
@@ -90,7 +90,7 @@ def test_a_parameter_is_set_and_read_back() -> None:
     assert bench.told(Port.PARAMETERS, 1, grip) == grip + b"\0\0"
     assert bench.told(Port.PARAMETERS, 2, grip + b"\1") == grip + b"\1"
     assert bench.told(Port.PARAMETERS, 1, grip) == grip + b"\0\1"
-    assert bench.deeds[-1].what == "set gripper.closed"
+    assert bench.commands[-1].what == "set gripper.closed"
 
 
 def test_what_is_read_only_keeps_its_value_and_what_is_not_there_is_said_to_be_so() -> None:

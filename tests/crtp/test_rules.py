@@ -6,9 +6,8 @@ from dataclasses import replace
 
 import pytest
 
-from pluto_fleet.crtp.air import Air
 from pluto_fleet.crtp.faults import let
-from pluto_fleet.crtp.ports import NULL, Port
+from pluto_fleet.crtp.packets import NULL, LossyChannel, Port
 from pluto_fleet.crtp.server import collide
 from tests.crtp.bench import CF1, Bench
 
@@ -36,7 +35,7 @@ def test_it_rises_smoothly_and_stays_near_its_way() -> None:
         bench.passes(0.1)
         heights.append(bench.z)
     assert heights == sorted(heights) and max(heights) < 1.1
-    assert max(abs(place.at[0] - 1.0) for place in bench.record.places) < 0.03
+    assert max(abs(place.at[0] - 1.0) for place in bench.record.positions) < 0.03
 
 
 def test_arming_is_over_three_seconds_after_it_has_landed() -> None:
@@ -124,7 +123,7 @@ def test_what_makes_no_sense_now_is_answered_so_and_changes_nothing() -> None:
     assert bench.land() == 0
     assert bench.land() == WRONG_STATE
     bench.passes(2.1)
-    assert [deed.what for deed in bench.deeds].count("down") == 1
+    assert [command.what for command in bench.commands].count("down") == 1
 
 
 def test_to_land_on_the_ground_is_answered_as_done_and_starts_the_motors() -> None:
@@ -163,7 +162,7 @@ def test_a_zero_setpoint_in_the_air_drops_and_locks_it() -> None:
     bench.told(Port.SETPOINT, 0, ZERO_SETPOINT)
     bench.passes(3.0)
     assert bench.z == 0.0 and bench.has(LOCKED) and not bench.has(CAN_FLY)
-    assert any(deed.what == "setpoint" and deed.flying for deed in bench.deeds)
+    assert any(command.what == "setpoint" and command.flying for command in bench.commands)
     assert not bench.arm()
 
 
@@ -361,7 +360,7 @@ def test_a_fault_that_does_not_exist_is_refused_with_those_that_do() -> None:
         let(Bench().drone, _air(), "meteorite", True)
 
 
-def _air() -> Air:
+def _air() -> LossyChannel:
     from random import Random
 
-    return Air(Random(1))
+    return LossyChannel(Random(1))

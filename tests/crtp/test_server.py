@@ -11,11 +11,11 @@ from pathlib import Path
 import pytest
 
 from pluto_fleet.crtp import process
-from pluto_fleet.crtp.camera import HEIGHT, WIDTH, frames
+from pluto_fleet.crtp.body import AxisState, profile
 from pluto_fleet.crtp.drone import Build
-from pluto_fleet.crtp.ports import NULL
-from pluto_fleet.crtp.profile import State, profile
-from pluto_fleet.crtp.record import InMemory
+from pluto_fleet.crtp.equipment import HEIGHT, WIDTH, frames
+from pluto_fleet.crtp.flight_log import MemoryLog
+from pluto_fleet.crtp.packets import NULL
 from pluto_fleet.crtp.server import HOST, Server
 from plutoc_runtime.domain.errors import BadInput
 from tests.crtp.starting import COMMAND
@@ -70,13 +70,16 @@ async def faults_of(server: Server) -> None:
     assert await answered(uri) is None
 
 
-async def test_each_drone_has_a_port_and_its_own_faults() -> None:
-    server = Server([Build(id=id, home=home) for id, home in HOMES.items()], InMemory())
-    await server.start()
-    try:
-        await faults_of(server)
-    finally:
-        await server.close()
+def test_each_drone_has_a_port_and_its_own_faults() -> None:
+    async def whole() -> None:
+        server = Server([Build(id=id, home=home) for id, home in HOMES.items()], MemoryLog())
+        await server.start()
+        try:
+            await faults_of(server)
+        finally:
+            await server.close()
+
+    asyncio.run(whole())
 
 
 @pytest.fixture
@@ -123,15 +126,15 @@ def test_a_process_streams_pictures_to_a_client_that_asks_for_a_camera(folder: P
 
 
 def test_a_way_from_rest_to_rest_peaks_at_2_19_times_its_mean_speed() -> None:
-    way = profile(State(0.0), 3.0, 2.0)
-    assert way.at(0.0) == State(0.0)
-    assert way.at(2.0) == State(3.0)
+    way = profile(AxisState(0.0), 3.0, 2.0)
+    assert way.at(0.0) == AxisState(0.0)
+    assert way.at(2.0) == AxisState(3.0)
     assert way.at(1.0).position == pytest.approx(1.5)
     assert way.at(1.0).velocity == pytest.approx(2.1875 * 1.5)
 
 
 def test_a_way_begins_as_the_last_one_was_left() -> None:
-    left = profile(State(0.0), 3.0, 2.0).at(0.8)
+    left = profile(AxisState(0.0), 3.0, 2.0).at(0.8)
     begun = profile(left, 1.0, 1.5)
     for one, other in zip(begun.at(0.0), left, strict=True):
         assert one == pytest.approx(other)

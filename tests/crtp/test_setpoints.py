@@ -7,9 +7,8 @@ from random import Random
 
 import pytest
 
-from pluto_fleet.crtp.air import Air
 from pluto_fleet.crtp.faults import let
-from pluto_fleet.crtp.ports import Port
+from pluto_fleet.crtp.packets import LossyChannel, Port
 from tests.crtp.bench import Bench
 
 LOCKED, ACTIVE, PLANNER_OFF = 6, 8, 10
@@ -70,7 +69,7 @@ def test_going_on_sending_setpoints_flies_it() -> None:
 def test_a_drone_in_the_air_locks_two_seconds_after_a_stranger_s_last_setpoint() -> None:
     bench = Bench()
     bench.up()
-    let(bench.drone, Air(Random(1)), "setpoint", 1.0)
+    let(bench.drone, LossyChannel(Random(1)), "setpoint", 1.0)
     assert bench.go_to(3.0, 2.0, 1.0, 5.0) == 0
     bench.passes(1.9)
     assert bench.z > 0.9 and not bench.has(LOCKED)
@@ -82,7 +81,7 @@ def test_a_drone_in_the_air_locks_two_seconds_after_a_stranger_s_last_setpoint()
 def test_a_command_after_the_release_takes_over_in_the_air() -> None:
     bench = Bench()
     bench.up()
-    let(bench.drone, Air(Random(1)), "setpoint", 1.0)
+    let(bench.drone, LossyChannel(Random(1)), "setpoint", 1.0)
     bench.passes(0.3)
     bench.told(*RELEASE)
     assert bench.go_to(2.0, 2.0, 1.0, 5.0) == 0

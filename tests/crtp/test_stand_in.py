@@ -6,8 +6,8 @@ import os
 from pathlib import Path
 
 from pluto_fleet.crazyflie.options import options_of
+from pluto_fleet.crtp.equipment import fitted
 from pluto_fleet.crtp.process import is_flown
-from pluto_fleet.crtp.stand_in import fitted
 from pluto_fleet.gateway.process import taken
 
 CAMERA = "127.0.0.1:5000"

@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 
 from pluto_fleet.crtp.drone import Build
-from pluto_fleet.crtp.record import InMemory
+from pluto_fleet.crtp.flight_log import MemoryLog
 from pluto_fleet.crtp.server import Server
 from tests.crtp.radio import Ether, plugged_in
 
@@ -61,7 +61,7 @@ class Client:
 @contextmanager
 def over_udp() -> Iterator[dict[str, str]]:
     """Let the drones live in a loop of their own."""
-    loop, server = asyncio.new_event_loop(), Server(BUILDS, InMemory())
+    loop, server = asyncio.new_event_loop(), Server(BUILDS, MemoryLog())
     thread = Thread(target=loop.run_forever, daemon=True)
     thread.start()
     asyncio.run_coroutine_threadsafe(server.start(), loop).result(PATIENCE)
@@ -77,7 +77,7 @@ def over_udp() -> Iterator[dict[str, str]]:
 @contextmanager
 def over_the_air() -> Iterator[dict[str, str]]:
     """Let the drones be reached through a dongle."""
-    ether = Ether(BUILDS, InMemory())
+    ether = Ether(BUILDS, MemoryLog())
     with plugged_in(ether):
         yield ether.uris
 
@@ -105,7 +105,7 @@ def test_cflib_connects_logs_sets_and_commands(reach: Any, tmp_path: Path) -> No
 
 
 def test_two_drones_share_a_dongle_and_one_out_of_reach_fails_alone(tmp_path: Path) -> None:
-    ether = Ether(BUILDS, InMemory())
+    ether = Ether(BUILDS, MemoryLog())
     with plugged_in(ether):
         ether.let("cf1", "silent", True)
         lost, near = Client(tmp_path), Client(tmp_path)
@@ -117,7 +117,7 @@ def test_two_drones_share_a_dongle_and_one_out_of_reach_fails_alone(tmp_path: Pa
 
 
 def test_without_a_dongle_the_connection_fails_at_once(tmp_path: Path) -> None:
-    ether = Ether(BUILDS, InMemory())
+    ether = Ether(BUILDS, MemoryLog())
     with plugged_in(ether):
         ether.unplugged = True
         client = Client(tmp_path)

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from plutoc.diff.model import Change, Difference, Importance
-from plutoc.report.changes import markdown, text
+from plutoc.report.change_reports import markdown, text
 from tests.diff.pairs import ROOT, difference
 
 CASES = Path(__file__).parent / "cases"
@@ -65,7 +65,7 @@ def test_the_page_shows_what_is_really_said() -> None:
 
 def test_every_kind_of_change_that_can_be_told_has_a_case(changes: list[Change]) -> None:
     """No sentence goes unread."""
-    words = "".join(_read(path) for path in (ROOT / "plutoc/diff/words").glob("*.py"))
+    words = "".join(_read(path) for path in (ROOT / "plutoc/diff/messages").glob("*.py"))
     told_by = r"(?:kind=|_set\(|_said\(|_fields\(|_library\(|_route\(|_branch\()"
     kinds = re.findall(rf'{told_by}\s*"(\w+)"', words)
     assert len(kinds) > 40

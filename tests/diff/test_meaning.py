@@ -19,7 +19,7 @@ from plutoc.diff.run import compare
 from plutoc.format.run import format_source
 from plutoc.graph.model import END
 from plutoc.plan.show import show
-from plutoc.report.changes import json, markdown, text
+from plutoc.report.change_reports import json, markdown, text
 from plutoc.source import Source
 from tests.diff.pairs import EXAMPLES, difference, sentences, version
 from tests.format.layouts import Liberty, laid_out, words_of

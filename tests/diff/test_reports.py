@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from plutoc.diff.amounts import amount, code
-from plutoc.report.changes import json, markdown, text
+from plutoc.diff.phrases import amount, code
+from plutoc.report.change_reports import json, markdown, text
 from plutoc_runtime.domain.quantities import UNITS, Type, to_si
 from tests.diff.pairs import EXAMPLES, difference, edited
 

@@ -156,7 +156,7 @@ def test_a_wait_that_no_field_describes_is_called_by_its_block() -> None:
     sentences = [change.sentence for change in changes]
     assert (
         "a drone is held during the wait at `rest`: missions come to `rest` with one allocated,"
-        " which nobody else can use"
+        " which no other mission can use"
     ) in sentences
     assert "a new mission no longer waits at `rest`: it waits at `other`" in sentences
 

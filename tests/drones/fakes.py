@@ -6,7 +6,8 @@ import asyncio
 from collections.abc import AsyncIterator, Mapping, Sequence
 from math import dist, inf
 
-from pluto_fleet.drones import CRASHED, Crashed, DroneEvent, DroneTelemetry, LinkLost, Rejected
+from pluto_fleet.drones.errors import Crashed, LinkLost, Rejected
+from pluto_fleet.drones.protocol import CRASHED, DroneEvent, DroneTelemetry
 from plutoc_runtime.domain.actions import Plain
 from plutoc_runtime.domain.model import Item, Point
 from tests.drones.jumping import the_loop

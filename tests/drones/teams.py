@@ -11,9 +11,10 @@ from typing import Any, TypeVar
 
 import pytest
 
-from pluto_fleet.drones.feeding import Feeding
-from pluto_fleet.drones.real_fleet import Wanted
-from pluto_fleet.drones.team import Team, TeamDrone
+from pluto_fleet.drones.localization import LocalizationFeed
+from pluto_fleet.drones.real_fleet import RequiredAction
+from pluto_fleet.drones.team import Team
+from pluto_fleet.drones.vehicle import TeamDrone
 from pluto_fleet.process.realtime import RealTime
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.errors import FlightFailed
@@ -35,8 +36,8 @@ class Flown:
         self,
         folder: Path,
         drones: Sequence[FakeDrone],
-        wanted: Sequence[Wanted] = (),
-        feeding: Feeding | None = None,
+        wanted: Sequence[RequiredAction] = (),
+        feeding: LocalizationFeed | None = None,
         category: Category = SCOUT,
     ) -> None:
         self.kernel, self.log = RealTime(), list[str]()
@@ -98,8 +99,8 @@ class Flown:
 async def flying(
     folder: Path,
     *drones: FakeDrone,
-    wanted: Sequence[Wanted] = (),
-    feeding: Feeding | None = None,
+    wanted: Sequence[RequiredAction] = (),
+    feeding: LocalizationFeed | None = None,
     category: Category = SCOUT,
 ) -> AsyncIterator[Flown]:
     """Begin a team, and close it at the end; no thread is left of it."""

@@ -33,7 +33,7 @@ def test_a_drone_whose_link_is_lost_gets_one_more_chance(tmp_path: Path) -> None
         async with flying(tmp_path) as flown:
             drone = await flown.up()
             drone.goes_silent()
-            await flown.until(lambda: not flown.team._members["cf1"].linked)
+            await flown.until(lambda: not flown.team._vehicles["cf1"].linked)
             drone.answers = back
             before = the_loop().time()
         assert the_loop().time() - before < 60

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from pluto_fleet.drones import Rejected
-from pluto_fleet.drones.real_fleet import Wanted
+from pluto_fleet.drones.errors import Rejected
+from pluto_fleet.drones.real_fleet import RequiredAction
 from plutoc_runtime.domain.errors import Failure, FlightFailed
 from plutoc_runtime.domain.model import Category, Item
 from tests.drones.fakes import FakeDrone
@@ -71,7 +71,7 @@ async def test_a_roll_call_says_what_keeps_a_drone_from_flying(tmp_path: Path) -
     drone = FakeDrone()
     drone.reasons = ("its position is uncertain", "\x1b[2Jlocked")
     drone.lacks = {"take_photo", "pick_item"}
-    wanted = [Wanted(action=name, parameters={}) for name in ("take_photo", "pick_item")]
+    wanted = [RequiredAction(action=name, parameters={}) for name in ("take_photo", "pick_item")]
     async with flying(tmp_path, drone, category=category, wanted=wanted) as flown:
         problems = (await flown.do(flown.team.roll_call("cf1"))).problems
         assert problems == (
@@ -89,7 +89,7 @@ async def test_a_roll_call_says_what_keeps_a_drone_from_flying(tmp_path: Path) -
 
 async def test_a_drone_without_the_hardware_of_the_plan_is_not_handed_out(tmp_path: Path) -> None:
     """After the roll call it is waited for until it has been mended."""
-    drone, wanted = FakeDrone(), [Wanted(action="take_photo", parameters={})]
+    drone, wanted = FakeDrone(), [RequiredAction(action="take_photo", parameters={})]
     drone.lacks = {"take_photo"}
     async with flying(tmp_path, drone, wanted=wanted) as flown:
         standing = await flown.do(flown.team.roll_call("cf1"))
@@ -137,7 +137,7 @@ async def test_a_command_that_is_not_wanted_any_more_ends_in_a_hover(tmp_path: P
         flown.kernel.post(flies.cancel)
         await flown.until(lambda: drone.told[-1] == "hold", 1)
         hovers = flown.begin(flown.team.hold("cf1"))
-        await flown.until(lambda: flown.team._members["cf1"].lane.doing == "hover", 1)
+        await flown.until(lambda: flown.team._vehicles["cf1"].commands.doing == "hover", 1)
         flown.kernel.post(hovers.cancel)
 
 
@@ -207,7 +207,7 @@ async def test_cut_motors_waits_for_nothing(tmp_path: Path, hangs: bool) -> None
         if hangs:
             drone.hangs = drone.clings = {"go_to", "hold"}
         flies = flown.begin(team.go_to("cf1", (5.0, 1.0, 1.0)))
-        await flown.until(lambda: "fly" in team._members["cf1"].lane.doing)
+        await flown.until(lambda: "fly" in team._vehicles["cf1"].commands.doing)
         before = the_loop().time()
         await flown.do(team.cut("cf1"))
         assert the_loop().time() - before < 0.2

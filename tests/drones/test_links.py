@@ -21,7 +21,7 @@ async def test_silence_in_the_air_is_a_lost_link(tmp_path: Path, command: str) -
         flies = flown.begin(
             team.hold("cf1") if command == "hold" else team.go_to("cf1", (5.0, 1.0, 1.0))
         )
-        await flown.until(lambda: team._members["cf1"].lane.doing)
+        await flown.until(lambda: team._vehicles["cf1"].commands.doing)
         drone.goes_silent()
         assert await flown.until(lambda: flies.is_set) == pytest.approx(1.1, abs=0.15)
         failed = await flown.failure(team.go_to("cf1", (5.0, 1.0, 1.0)))
@@ -36,7 +36,7 @@ async def test_a_drone_that_comes_back_can_be_flown_home(tmp_path: Path) -> None
     async with flying(tmp_path) as flown:
         drone, team = await flown.up(), flown.team
         drone.goes_silent()
-        await flown.until(lambda: not team._members["cf1"].linked)
+        await flown.until(lambda: not team._vehicles["cf1"].linked)
         reaches = flown.begin(team.reach("cf1"))
         the_loop().call_later(40, setattr, drone, "answers", True)
         assert await flown.until(lambda: reaches.is_set) < 47
@@ -52,7 +52,7 @@ async def test_a_drone_that_stays_away_is_lost_and_lands_when_it_appears(tmp_pat
     async with flying(tmp_path) as flown:
         drone, team = await flown.up(), flown.team
         drone.goes_silent()
-        await flown.until(lambda: not team._members["cf1"].linked)
+        await flown.until(lambda: not team._vehicles["cf1"].linked)
         reaches = flown.begin(team.reach("cf1"))
         assert await flown.until(lambda: reaches.is_set) == pytest.approx(120, abs=1)
         assert not reaches.result()
@@ -69,10 +69,10 @@ async def test_a_drone_that_was_switched_off_and_on_has_landed(tmp_path: Path) -
         drone, team = await flown.up(), flown.team
         drone.goes_silent()
         drone.falls(tells=False)
-        await flown.until(lambda: not team._members["cf1"].linked)
+        await flown.until(lambda: not team._vehicles["cf1"].linked)
         drone.put((2.0, 2.0, 0.0))
         drone.answers = True
-        await flown.until(lambda: team._members["cf1"].linked)
+        await flown.until(lambda: team._vehicles["cf1"].linked)
         standing = await flown.do(team.roll_call("cf1"))
         assert (standing.landed, standing.boot, standing.location) == (True, 1, (2, 2, 0))
         assert await flown.do(team.reach("cf1"))
@@ -85,7 +85,7 @@ async def test_a_roll_call_tries_a_lost_drone_once_more_and_does_not_hang(tmp_pa
         await flown.do(team.roll_call("cf1"))
         drone.goes_silent()
         drone.hangs = drone.clings = {"connect"}
-        await flown.until(lambda: not team._members["cf1"].linked)
+        await flown.until(lambda: not team._vehicles["cf1"].linked)
         before = the_loop().time()
         standing = await flown.do(team.roll_call("cf1"))
         assert the_loop().time() - before <= 17
@@ -122,9 +122,9 @@ async def test_a_drone_on_the_ground_is_linked_again_quietly(tmp_path: Path) -> 
         drone, team = flown.drones["cf1"], flown.team
         await flown.do(team.roll_call("cf1"))
         drone.goes_silent()
-        await flown.until(lambda: not team._members["cf1"].linked)
+        await flown.until(lambda: not team._vehicles["cf1"].linked)
         drone.answers = True
-        await flown.until(lambda: team._members["cf1"].linked)
+        await flown.until(lambda: team._vehicles["cf1"].linked)
         await flown.do(team.takeoff("cf1", 1.0))
 
 

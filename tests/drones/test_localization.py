@@ -8,10 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from pluto_fleet.drones.feeding import Feeding
-from pluto_fleet.drones.making import make_team
+from pluto_fleet.drones.localization import LocalizationFeed
 from pluto_fleet.drones.real_fleet import RealDrone, RealFleet
-from pluto_fleet.drones.team import TeamDrone
+from pluto_fleet.drones.team import make_team
+from pluto_fleet.drones.vehicle import TeamDrone
 from pluto_fleet.process.realtime import RealTime
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.errors import BadInput, Failure
@@ -44,20 +44,24 @@ class Camera:
 
 async def test_a_drone_that_is_not_seen_lands_and_does_not_take_off(tmp_path: Path) -> None:
     """It does not know where it is."""
-    drone, camera = Located(), Camera()
-    feeding = Feeding("camera", camera, {"cf1": drone}, print, the_loop().time)
-    async with flying(tmp_path, drone, feeding=feeding) as flown:
-        await flown.up()
-        the_loop().call_later(2, setattr, camera, "looks", False)
-        failed = await flown.failure(flown.team.hold("cf1"))
-        assert failed.failure is Failure.LINK
-        why = "cf1 does not know where it is, and lands: no position from camera for 1.0 s"
-        assert str(failed) == why
-        await flown.until(lambda: not drone.motors)
-        failed = await flown.failure(flown.team.takeoff("cf1", 1.0))
-        camera.looks = True
-        assert await flown.do(flown.team.reach("cf1"))
-        await flown.do(flown.team.takeoff("cf1", 1.0))
+
+    async def flight() -> None:
+        drone, camera = Located(), Camera()
+        feeding = LocalizationFeed("camera", camera, {"cf1": drone}, print, the_loop().time)
+        async with flying(tmp_path, drone, feeding=feeding) as flown:
+            await flown.up()
+            the_loop().call_later(2, setattr, camera, "looks", False)
+            failed = await flown.failure(flown.team.hold("cf1"))
+            assert failed.failure is Failure.LINK
+            why = "cf1 does not know where it is, and lands: no position from camera for 1.0 s"
+            assert str(failed) == why
+            await flown.until(lambda: not drone.motors)
+            failed = await flown.failure(flown.team.takeoff("cf1", 1.0))
+            camera.looks = True
+            assert await flown.do(flown.team.reach("cf1"))
+            await flown.do(flown.team.takeoff("cf1", 1.0))
+
+    run(flight())
 
 
 def test_a_drone_that_cannot_be_told_is_refused_before_anything_flies(tmp_path: Path) -> None:

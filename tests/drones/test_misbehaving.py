@@ -9,7 +9,8 @@ from typing import cast
 
 import pytest
 
-from pluto_fleet.drones import BATTERY_LOW, DroneEvent, NavigationError
+from pluto_fleet.drones.errors import NavigationError
+from pluto_fleet.drones.protocol import BATTERY_LOW, DroneEvent
 from plutoc_runtime.domain.errors import Failure, FlightFailed
 from tests.drones.fakes import FakeDrone
 from tests.drones.jumping import the_loop
@@ -219,6 +220,6 @@ async def test_if_the_watch_breaks_all_ends_and_all_land_first(tmp_path: Path) -
     with pytest.raises(ZeroDivisionError):
         async with flying(tmp_path, drone) as flown:
             await flown.up()
-            flown.team._members["cf1"].blind = lambda: str(1 / 0)
+            flown.team._vehicles["cf1"].position_problem = lambda: str(1 / 0)
             await flown.until(lambda: flown.kernel.crashed)
     assert not drone.motors

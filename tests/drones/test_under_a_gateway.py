@@ -10,13 +10,14 @@ from pathlib import Path
 
 import pytest
 
-from pluto_fleet.drones import BATTERY_LOW
+from pluto_fleet.drones.protocol import BATTERY_LOW
 from pluto_fleet.drones.real_fleet import RealFleet
-from pluto_fleet.gateway.ending import LINGERS, Ending
-from pluto_fleet.gateway.file_ledger import FileLedger
 from pluto_fleet.gateway.gateway import Gateway
+from pluto_fleet.gateway.ledger import FileLedger
+from pluto_fleet.gateway.process import LINGERS, Ending
 from pluto_fleet.gateway.server import Server
-from pluto_fleet.gateway.wire import line
+from pluto_fleet.jobs.telemetry import Publisher
+from pluto_fleet.process.ipc import line
 from plutoc_runtime.domain.errors import Failure, FlightFailed
 from plutoc_runtime.domain.model import Point
 from plutoc_runtime.time.future import Future
@@ -173,10 +174,12 @@ async def test_a_goodbye_leaves_none_behind_in_the_air(tmp_path: Path, back: boo
     async with commanded(tmp_path, 2, PATIENCE) as (flown, gateway):
         over, link, lost = Future[None](), gateway.link(1), flown.drones["cf2"]
         ending = Ending(gateway, over, settings(real=NO_DRONES, speed=1.0))
-        server = Server(gateway, flown.log.append, ending.goodbye)
+        server = Server(gateway, Publisher(flown.team.telemetry), flown.log.append, ending.goodbye)
         ending.server = server
         ours, theirs = socket.socketpair()
-        server.accept(*await asyncio.open_unix_connection(sock=ours))
+        serving = asyncio.ensure_future(
+            server.serve(*await asyncio.open_unix_connection(sock=ours))
+        )
         reader, writer = await asyncio.open_unix_connection(sock=theirs)
         flown.kernel.post(ending.look)
         await flown.do(link.call())
@@ -194,4 +197,4 @@ async def test_a_goodbye_leaves_none_behind_in_the_air(tmp_path: Path, back: boo
         assert lost.motors is not back
         assert seconds < 30 if back else seconds > LINGERS - 2
         writer.close()
-        await server.close()
+        await serving

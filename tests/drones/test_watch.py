@@ -6,16 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from pluto_fleet.drones import (
-    BATTERY_LOW,
-    CRASHED,
-    LINK_LOST,
-    LOCKED,
-    POSITION_LOST,
-    LinkLost,
-    Rejected,
-)
-from pluto_fleet.drones.stray import strayed
+from pluto_fleet.drones.errors import LinkLost, Rejected
+from pluto_fleet.drones.protocol import BATTERY_LOW, CRASHED, LINK_LOST, LOCKED, POSITION_LOST
+from pluto_fleet.drones.safety import outside_area
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.errors import Failure
 from tests.drones.fakes import FakeDrone
@@ -91,11 +84,11 @@ async def test_a_drone_that_does_not_know_where_it_is_stops_and_lands_there(tmp_
 def test_a_little_beside_the_permitted_area_is_no_reason_to_land() -> None:
     """Positions are not exact; but a narrow no-fly area is one, too."""
     narrow = Airspace(size=(10, 10), ceiling=3, no_fly=(((2, 2), (2.4, 2), (2.4, 9), (2, 9)),))
-    assert strayed(FIELD, (-0.25, 10.25, 3.25)) is None
-    assert strayed(FIELD, (6.25, 7, 1)) is None
-    assert strayed(FIELD, (6.35, 7, 1)) is not None
-    assert strayed(narrow, (2.1, 5, 1)) is None
-    assert strayed(narrow, (2.2, 5, 1)) is not None
+    assert outside_area(FIELD, (-0.25, 10.25, 3.25)) is None
+    assert outside_area(FIELD, (6.25, 7, 1)) is None
+    assert outside_area(FIELD, (6.35, 7, 1)) is not None
+    assert outside_area(narrow, (2.1, 5, 1)) is None
+    assert outside_area(narrow, (2.2, 5, 1)) is not None
 
 
 async def test_an_empty_battery_lands_where_it_is(tmp_path: Path) -> None:

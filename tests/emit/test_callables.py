@@ -7,7 +7,7 @@ from typing import Any
 
 from plutoc.emit.callables import imports_of, names_of
 from plutoc.emit.embed import Carried
-from plutoc.emit.imports import import_lines
+from plutoc.emit.python import import_lines
 
 
 def carried(package: str, module: str, name: str) -> Carried:

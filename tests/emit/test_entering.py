@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from plutoc.emit.flow_file import flow_file
+from plutoc.emit.render import formatted
 from tests.emit.plans import plan_of
 
 HEAD = """pluto 1
@@ -43,7 +44,7 @@ CASES = f"""{"".join(f"  {name} = Clock" + chr(10) for name in MANY)}
 
 def lines_of(text: str, *, optimise: bool = True) -> list[str]:
     """Return the lines of `flow`, without those that call blocks or quote them."""
-    written = flow_file(plan_of(HEAD + text, optimise=optimise))
+    written = formatted(flow_file(plan_of(HEAD + text, optimise=optimise)))
     body = written.partition("async def flow")[2].partition("\n\n\n")[0].splitlines()[2:]
     calls = ("#", "status = await", "status = create", "status = launch", "return", "raise")
     return [line for line in body if not line.lstrip().startswith(calls)]
@@ -84,5 +85,5 @@ def test_without_structure_it_goes_on_at_a_case() -> None:
 
 def test_the_app_lists_where_missions_go_on_a_name_a_line() -> None:
     """In the order of the source."""
-    written = flow_file(plan_of(HEAD + CLOCK))
-    assert '    resumes=("allocate","wait",),\n' in written
+    written = formatted(flow_file(plan_of(HEAD + CLOCK)))
+    assert '    resumes=(\n        "allocate",\n        "wait",\n    ),\n' in written

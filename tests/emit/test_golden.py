@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from plutoc.emit.package import emit
-from plutoc.report.graph import mermaid
+from plutoc.report.pictures import mermaid
 from tests.emit.plans import plan_of
 
 CASES = Path(__file__).parent.parent / "cases"

@@ -7,8 +7,7 @@ import tomllib
 import hypothesis.strategies as st
 from hypothesis import given
 
-from plutoc.emit.markup import fence, markdown, one_line, toml_text
-from plutoc.emit.python import header
+from plutoc.emit.markup import fence, header, markdown, one_line, toml_text
 
 WHOLE = st.text(st.characters(exclude_categories=["Cs"]))
 

@@ -22,8 +22,8 @@ from plutoc.emit.flow_file import flow_file
 from plutoc.emit.markup import one_line
 from plutoc.emit.package import Package, emit
 from plutoc.emit.project_files import project_file
-from plutoc.emit.python import owned
 from plutoc.emit.readme_file import readme
+from plutoc.emit.render import owned
 from plutoc.graph.app_names import taken_app_name
 from plutoc.plan.model import Plan
 from tests.emit.apps import ODD_NAMES, PARCELS, PLAIN

@@ -13,9 +13,9 @@ from hypothesis import given
 
 from plutoc.block import ANY_SAME, Block, Gate
 from plutoc.emit.embed import Carried
-from plutoc.emit.statements import Scope, body_lines, leaves
-from plutoc.emit.walk import branches
+from plutoc.emit.statements import Scope, body_lines
 from plutoc.graph.model import Node
+from plutoc.plan.bodies import branches, falls
 from plutoc.plan.model import (
     Arm,
     Body,
@@ -133,7 +133,7 @@ def bodies(draw: st.DrawFn, depth: int, jumps: tuple[Step, ...] = ()) -> Body:
             steps.append(draw(st.one_of(*options, joins()) if depth > 2 else st.one_of(*options)))
         else:
             steps.append(draw(NODES))
-        if leaves(tuple(steps)):
+        if not falls(tuple(steps)):
             return tuple(steps)
     ends = st.booleans() if jumps else st.just(False)
     if draw(ends):
@@ -148,7 +148,7 @@ def dispatches(draw: st.DrawFn) -> Dispatch:
     cases = []
     for label in labels:
         inner: list[Step] = [draw(NODES), draw(switches(1, ways))]
-        if not leaves(tuple(inner)):
+        if falls(tuple(inner)):
             inner.append(draw(st.sampled_from(ways)))
         cases.append(Case(label=label, body=tuple(inner)))
     return Dispatch(start="b", cases=tuple(cases))
@@ -237,7 +237,7 @@ def result(call: Any, world: World) -> tuple[Status | None, Trace]:
 
 
 def whole(body: Body) -> Body:
-    return body if leaves(body) else (*body, End())
+    return (*body, End()) if falls(body) else body
 
 
 SCRIPTS = st.lists(st.sampled_from(IN_GRAPH), max_size=30)
@@ -286,7 +286,7 @@ def test_last_block_is_returned_at_once() -> None:
     """What the last block gives is what the function returns."""
     assert list(lines(Call(node=node("a")), End())) == [
         "# a = X",
-        'return step(run, status, block="a")',
+        "return step(run, status, block='a')",
     ]
 
 
@@ -324,11 +324,11 @@ def test_a_plain_switch_asks_for_every_status() -> None:
         "    return status",
         "if status is STANDBY:",
         "    # a = X",
-        '    status = step(run, status, block="a")',
+        "    status = step(run, status, block='a')",
         "elif status not in (RUNNING, COMPLETED):",
         "    raise AssertionError(status)",
         "# b = X",
-        'return step(run, status, block="b")',
+        "return step(run, status, block='b')",
     ]
 
 
@@ -344,16 +344,16 @@ def test_a_jump_at_the_end_of_a_case_is_an_assignment() -> None:
     )
     cases = (Case(label="a", body=(Call(node=node("a")), ways, Goto(label="b"))),)
     assert list(lines(Dispatch(start="a", cases=cases))) == [
-        'at = "a"',
+        "at = 'a'",
         "while True:",
         "    match at:",
-        '        case "a":',
+        "        case 'a':",
         "            # a = X",
-        '            status = step(run, status, block="a")',
+        "            status = step(run, status, block='a')",
         "            if status is FAILED:",
         "                return status",
         "            elif status is STANDBY:",
-        '                at = "a"',
+        "                at = 'a'",
         "            else:",
-        '                at = "b"',
+        "                at = 'b'",
     ]

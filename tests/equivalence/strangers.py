@@ -11,11 +11,11 @@ from plutoc_runtime.domain.quantities import Type
 from plutoc_runtime.domain.status import Status
 from plutoc_runtime.flow.run import watch
 from plutoc_runtime.time.kernel import Kind
+from plutoc_runtime.trips.deadlines import Limit
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Trip
     from plutoc_runtime.flow.run import Run
-    from plutoc_runtime.trips.deadlines import Limit
 
 PACKAGE = "others"
 OUTCOMES = {Status.RUNNING: emits(Status.STANDBY, Status.COMPLETED, Status.FAILED)}
@@ -45,7 +45,7 @@ def deadline_limit(
 ) -> Limit | None:
     """Return the limit of the trip in flight, if it has any."""
     flight, span = run.state.flight, within if deadline is None else deadline
-    return None if flight is None or not span else (flight.launched_at, span, _late)
+    return None if flight is None or not span else Limit(flight.launched_at, span, _late)
 
 
 def _late(trip: Trip, span: float) -> str:

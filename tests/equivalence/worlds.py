@@ -11,8 +11,9 @@ from dataclasses import dataclass, field
 from random import Random
 from typing import Any
 
-from pluto_fleet.files.fleet import DroneEntry, FleetFile
-from plutoc.emit.fields import fields_of
+from pluto_fleet.files.drones import DroneEntry
+from pluto_fleet.files.fleet import FleetFile
+from plutoc.emit.model_file import fields_of
 from plutoc.graph.model import Graph
 from plutoc_runtime.alone.faults import Faults
 from plutoc_runtime.domain.airspace import Airspace

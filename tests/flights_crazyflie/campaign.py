@@ -82,7 +82,7 @@ def _unrefused(scenario: Scenario, flight: Flight, code: int) -> Iterator[str]:
         yield f"exit code {code}"
     if not re.search(scenario.refused, flight.told):
         yield f"nothing is said of {scenario.refused!r}"
-    if any(deed.what in ("arm", "takeoff") for deed in flight.deeds):
+    if any(command.what in ("arm", "takeoff") for command in flight.commands):
         yield "a drone was armed"
 
 
@@ -99,7 +99,7 @@ def _wrong(scenario: Scenario, flight: Flight, code: int) -> Iterator[str]:
         yield f"no trip has failed with {scenario.fails!r}"
     if not scenario.fails and reasons:
         yield "a trip has failed"
-    yield from unmeant(flight.deeds, flight.trace, SIZE, scenario.falls)
+    yield from unmeant(flight.commands, flight.trace, SIZE, scenario.falls)
     if "Traceback" in flight.told:
         yield "a traceback was printed"
 

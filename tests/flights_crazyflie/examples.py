@@ -21,7 +21,7 @@ from pathlib import Path
 from tempfile import mkdtemp
 from typing import Any
 
-from pluto_fleet.crtp.record import Point
+from pluto_fleet.crtp.flight_log import Point
 from pluto_fleet.journal.values import point_of
 from tests.apart import apart
 from tests.flights_crazyflie.campaign import gateway_left
@@ -101,7 +101,7 @@ def _wrong(flight: Flight, code: int) -> Iterator[str]:
         if flown[mission, trip] < times:
             yield f"{mission}/{trip} was completed {flown[mission, trip]} times, and not {times}"
     size = tomllib.loads((flight.folder / "fleet.toml").read_text())["map"]["size"]
-    yield from unmeant(flight.deeds, trace, (size[0], size[1]))
+    yield from unmeant(flight.commands, trace, (size[0], size[1]))
     yield from beside_its_target(events, trace, _targets(events))
     yield from _not_really_done(flight, done)
     if "Traceback" in flight.told:
@@ -137,7 +137,7 @@ def _not_really_done(flight: Flight, done: list[Event]) -> Iterator[str]:
     """Yield which photos are not there, and whether something was picked that no drone picked."""
     actions = {(mission, trip["name"]): trip["action"] for mission, trip in _trips(flight.events)}
     asked = Counter(actions[event["mission"], event["trip"]] for event in done)
-    held = Counter(d.values["value"] for d in flight.deeds if d.what == "set gripper.closed")
+    held = Counter(d.values["value"] for d in flight.commands if d.what == "set gripper.closed")
     if (held[1], held[0]) != (asked["pick_item"], asked["release_item"]):
         yield f"grippers were closed {held[1]} times, and opened {held[0]} times"
     for event in done:

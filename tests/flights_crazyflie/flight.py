@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from pluto_fleet.crtp import process
-from pluto_fleet.crtp.record import Deed, Place, deeds_in, trace_in
+from pluto_fleet.crtp.flight_log import CommandRecord, PositionRecord, commands_in, trace_in
 from pluto_fleet.journal.place import gateway_folder
 from pluto_fleet.journal.reader import Reader
 from plutoc_runtime.domain.errors import BadInput
@@ -101,12 +101,12 @@ class Flight(Lives):
         return {event["mission"]: event["status"] for event in ended}
 
     @property
-    def deeds(self) -> list[Deed]:
+    def commands(self) -> list[CommandRecord]:
         """What the drones were commanded."""
-        return list(deeds_in(self.air))
+        return list(commands_in(self.air))
 
     @property
-    def trace(self) -> list[Place]:
+    def trace(self) -> list[PositionRecord]:
         """Where the drones were in the air."""
         return list(trace_in(self.air))
 

@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import combinations
 from math import dist, inf
 
-from pluto_fleet.crtp.record import Deed, Place, Point
+from pluto_fleet.crtp.flight_log import CommandRecord, Point, PositionRecord
 from tests.flights_crazyflie.flight import Event
 
 NEAR = 0.1
@@ -32,10 +32,12 @@ _WALL = time.time() - time.monotonic()
 
 
 def beside_its_target(
-    events: Sequence[Event], trace: Sequence[Place], targets: Mapping[tuple[str, str], Point]
+    events: Sequence[Event],
+    trace: Sequence[PositionRecord],
+    targets: Mapping[tuple[str, str], Point],
 ) -> Iterator[str]:
     """Yield the trips that were completed where their target was not."""
-    by_drone: dict[str, list[Place]] = defaultdict(list)
+    by_drone: dict[str, list[PositionRecord]] = defaultdict(list)
     for place in trace:
         by_drone[place.drone].append(place)
     for event in events:
@@ -58,52 +60,52 @@ def beside_its_target(
             yield f"{whose}: {event['drone']} was {off:.2f} m off"
 
 
-def dropped(deeds: Sequence[Deed]) -> Iterator[str]:
+def dropped(commands: Sequence[CommandRecord]) -> Iterator[str]:
     """Yield what has cut motors in the air: a link that closed, an emergency stop, a fall."""
     cutting = ("setpoint", "emergency stop", "stop", "switched off", "collision")
-    for deed in deeds:
-        if deed.what in cutting and deed.flying:
-            yield f"{deed.drone}: {deed.what} in the air at {deed.at}"
+    for command in commands:
+        if command.what in cutting and command.flying:
+            yield f"{command.drone}: {command.what} in the air at {command.at}"
 
 
-def left_in_the_air(deeds: Sequence[Deed]) -> Iterator[str]:
+def left_in_the_air(commands: Sequence[CommandRecord]) -> Iterator[str]:
     """Yield the drones that have taken off, and did not come down again."""
     last: dict[str, str] = {}
-    for deed in deeds:
-        if deed.what in ("takeoff", "go_to") and not deed.values.get("answer"):
-            last[deed.drone] = "up"
-        elif deed.what in ("down", "switched off"):
-            last[deed.drone] = "down"
+    for command in commands:
+        if command.what in ("takeoff", "go_to") and not command.values.get("answer"):
+            last[command.drone] = "up"
+        elif command.what in ("down", "switched off"):
+            last[command.drone] = "down"
     yield from (f"{drone} is still in the air" for drone, what in last.items() if what == "up")
 
 
-def astray(deeds: Sequence[Deed], size: tuple[float, float]) -> Iterator[str]:
+def astray(commands: Sequence[CommandRecord], size: tuple[float, float]) -> Iterator[str]:
     """Yield the commands to fly where no drone is wanted: far outside of the floor, or high up."""
-    for deed in deeds:
-        if deed.what == "go_to":
-            x, y, z = (deed.values[axis] for axis in "xyz")
+    for command in commands:
+        if command.what == "go_to":
+            x, y, z = (command.values[axis] for axis in "xyz")
             if not (-1.0 < x < size[0] + 1.0 and -1.0 < y < size[1] + 1.0 and 0.0 < z < _HIGH):
-                yield f"{deed.drone} was told to fly to ({x:.1f}, {y:.1f}, {z:.1f})"
+                yield f"{command.drone} was told to fly to ({x:.1f}, {y:.1f}, {z:.1f})"
 
 
 def unmeant(
-    deeds: Sequence[Deed],
-    trace: Sequence[Place],
+    commands: Sequence[CommandRecord],
+    trace: Sequence[PositionRecord],
     size: tuple[float, float],
     falls: tuple[str, ...] = (),
 ) -> Iterator[str]:
     """Yield what no flight may do; `falls`: the drones that may come down otherwise than by landing."""
-    down = (*dropped(deeds), *left_in_the_air(deeds))
+    down = (*dropped(commands), *left_in_the_air(commands))
     yield from (one for one in down if not one.startswith(falls))
-    yield from astray(deeds, size)
+    yield from astray(commands, size)
     least, who = nearest(trace)
     if least < APART:
         yield f"{least:.2f} m apart: {who}"
 
 
-def nearest(trace: Sequence[Place]) -> tuple[float, str]:
+def nearest(trace: Sequence[PositionRecord]) -> tuple[float, str]:
     """Return how near two drones in the air have come to each other, and which and when."""
-    slots: dict[int, dict[str, Place]] = defaultdict(dict)
+    slots: dict[int, dict[str, PositionRecord]] = defaultdict(dict)
     for place in trace:
         if place.at[2] > _OFF_GROUND:
             slots[round(place.time / _SLOT)][place.drone] = place

@@ -22,9 +22,10 @@ from tempfile import TemporaryDirectory
 
 from pluto_fleet.crazyflie.navigation import Crazyflie
 from pluto_fleet.crtp.drone import Build
-from pluto_fleet.crtp.record import InMemory
+from pluto_fleet.crtp.flight_log import MemoryLog
 from pluto_fleet.crtp.server import Server
-from pluto_fleet.drones import DroneSetup, NavigationError
+from pluto_fleet.drones.errors import NavigationError
+from pluto_fleet.drones.protocol import DroneSetup
 from tests.flights_crazyflie.judge import dropped
 
 FIRST, LAST, STEP, DRONES = 0.0, 6.0, 0.02, 24
@@ -58,7 +59,7 @@ async def sweep(
         Build(id=f"cf{number}", home=(2.0 * number, 0.0, 0.0), auto_arm=auto_arm, seed=number)
         for number in range(min(drones, len(wanted)))
     ]
-    record = InMemory()
+    record = MemoryLog()
     server = Server(builds, record)
     await server.start()
     try:
@@ -74,7 +75,7 @@ async def sweep(
 
 
 async def _chain(
-    server: Server, record: InMemory, build: Build, wanted: Sequence[float], folder: Path
+    server: Server, record: MemoryLog, build: Build, wanted: Sequence[float], folder: Path
 ) -> list[Outcome]:
     """Fly some pauses with one drone, one after the other."""
     flies = Crazyflie(
@@ -93,13 +94,13 @@ async def _chain(
         await _up_and_down(server, flies, build.id)
         for pause in wanted:
             await asyncio.sleep(pause)
-            before = len(record.deeds)
+            before = len(record.commands)
             try:
                 async with asyncio.timeout(_PATIENCE):
                     wrong = await _up_and_down(server, flies, build.id)
             except (NavigationError, TimeoutError) as error:
                 wrong = str(error) or "it does not get on"
-            fell = [deed for deed in record.deeds[before:] if deed.drone == build.id]
+            fell = [command for command in record.commands[before:] if command.drone == build.id]
             outcomes.append(Outcome(pause, wrong or "; ".join(dropped(fell))))
     except NavigationError as error:
         missing = wanted[len(outcomes) :]

@@ -11,11 +11,9 @@ from pathlib import Path
 from time import monotonic
 from typing import Any, TypeVar
 
-from pluto_fleet.drones.making import make_team
 from pluto_fleet.drones.real_fleet import SLACK, RealDrone, RealFleet
-from pluto_fleet.drones.team import Team
-from pluto_fleet.gateway.gateway import Gateway
-from pluto_fleet.gateway.link import Link
+from pluto_fleet.drones.team import Team, make_team
+from pluto_fleet.gateway.gateway import Gateway, Link
 from pluto_fleet.process.realtime import RealTime
 from plutoc_runtime.domain.actions import Plain
 from plutoc_runtime.domain.airspace import Airspace

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from pluto_fleet.crtp.drone import Build
-from pluto_fleet.crtp.record import InMemory
+from pluto_fleet.crtp.flight_log import MemoryLog
 from plutoc_runtime.domain.errors import Failure, FlightFailed
 from plutoc_runtime.domain.model import Point
 from tests.crtp.radio import Ether, plugged_in
@@ -31,7 +31,7 @@ HOMES: dict[str, Point] = {
 
 def test_without_their_dongle_all_hover_and_come_home_when_it_is_back(tmp_path: Path) -> None:
     """Each flight fails with the reason, and nothing hangs; cflib itself would, for ever."""
-    ether = Ether([Build(id=id, home=at) for id, at in HOMES.items()], InMemory())
+    ether = Ether([Build(id=id, home=at) for id, at in HOMES.items()], MemoryLog())
 
     async def fly() -> None:
         async with commanded(tmp_path, HOMES, ether.uris, {}) as flown:

@@ -48,8 +48,8 @@ def test_a_dry_run_says_what_a_drone_is_told(new_flight: NewFlight) -> None:
     meant = printed(flight)
     flight.start()
     assert flight.see_through() == 0, flight.told
-    told = [deed for deed in flight.deeds if deed.what in CALLED]
-    assert [CALLED[deed.what] for deed in told] == [what for what, _ in meant]
-    for deed, (what, place) in zip(told, meant, strict=True):
-        wanted = [deed.values.get(axis, at) for axis, at in zip("xyz", deed.at, strict=True)]
-        assert all(abs(a - b) < 0.1 for a, b in zip(wanted, place, strict=True)), (what, deed)
+    told = [command for command in flight.commands if command.what in CALLED]
+    assert [CALLED[command.what] for command in told] == [what for what, _ in meant]
+    for command, (what, place) in zip(told, meant, strict=True):
+        wanted = [command.values.get(axis, at) for axis, at in zip("xyz", command.at, strict=True)]
+        assert all(abs(a - b) < 0.1 for a, b in zip(wanted, place, strict=True)), (what, command)

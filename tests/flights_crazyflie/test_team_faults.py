@@ -13,7 +13,7 @@ import pytest
 
 from pluto_fleet.crtp.drone import Build
 from pluto_fleet.crtp.faults import Value
-from pluto_fleet.crtp.record import InMemory
+from pluto_fleet.crtp.flight_log import MemoryLog
 from pluto_fleet.crtp.server import Server
 from plutoc_runtime.domain.errors import Failure
 from plutoc_runtime.domain.model import Point
@@ -162,7 +162,7 @@ def test_each_fault_fails_its_own_flight_and_no_other(tmp_path: Path) -> None:
     """In the end all that flew has landed, with its motors never cut, and no thread is left."""
 
     async def fly() -> None:
-        record = InMemory()
+        record = MemoryLog()
         server = Server([Build(id=id, home=home) for id, home in HOMES.items()], record)
         await server.start()
         await server.let("mute", "silent")
@@ -182,7 +182,7 @@ def test_each_fault_fails_its_own_flight_and_no_other(tmp_path: Path) -> None:
             told = zip(stories, ends, strict=True)
             wrong = [f"{story}: {end!r}" for story, end in told if end is not None]
             assert not any(map(hall.flies, HOMES))
-            assert list(dropped(record.deeds)) == []
+            assert list(dropped(record.commands)) == []
             assert not wrong, "\n".join([*wrong, *flown.log])
         finally:
             await server.close()

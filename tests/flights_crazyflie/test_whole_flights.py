@@ -33,9 +33,9 @@ def test_all_trips_are_completed_at_their_targets_and_every_drone_lands_before_i
     assert flight.see_through() == 0, flight.told
     assert set(flight.ends().values()) == {"COMPLETED"}, flight.told
     flight.until(lambda: gateway_of(flight.journal) is None)  # all links are closed
-    events, deeds, trace = flight.events, flight.deeds, flight.trace
+    events, commands, trace = flight.events, flight.commands, flight.trace
     assert list(beside_its_target(events, trace, targets(WARD))) == []
-    assert [*dropped(deeds), *left_in_the_air(deeds), *astray(deeds, SIZE)] == []
+    assert [*dropped(commands), *left_in_the_air(commands), *astray(commands, SIZE)] == []
     least, who = nearest(trace)
     assert least > APART, who
 

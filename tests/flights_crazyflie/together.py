@@ -18,12 +18,12 @@ from math import dist
 from pathlib import Path
 from tempfile import mkdtemp
 
-from pluto_fleet.crazyflie.courses import SHORTEST, seconds_for
-from pluto_fleet.crazyflie.pace import AS_IT_COMES
-from pluto_fleet.crtp.record import Deed, Point
+from pluto_fleet.crazyflie.trajectory import DEFAULT_LIMITS, SHORTEST, shortest_duration
+from pluto_fleet.crtp.flight_log import CommandRecord, Point
 from pluto_fleet.drones.vehicle import CLIMB_LIMIT
+from pluto_fleet.journal.place import commands_note
 from pluto_fleet.journal.values import point_of
-from pluto_fleet.process.asking import ask, note_of
+from pluto_fleet.process.ipc import ask
 from tests.apart import apart
 from tests.flights_crazyflie.flight import Flight
 from tests.flights_crazyflie.judge import astray, dropped, left_in_the_air, nearest
@@ -91,10 +91,10 @@ def stopped(how: str, source: Path, folder: Path, speed: float) -> Figures:
         flight.until(lambda: _all_there(flight), 120.0)
         places = {id: point_of(one["at"]) for id, one in flight.state.items()}
         began = time.monotonic()
-        ask(note_of(flight.journal), {"command": "stop", "how": how}, 90.0)
+        ask(commands_note(flight.journal), {"command": "stop", "how": how}, 90.0)
         code = flight.see_through()
-        deeds = flight.deeds
-        problems = [*dropped(deeds), *left_in_the_air(deeds), *astray(deeds, SIZE)]
+        commands = flight.commands
+        problems = [*dropped(commands), *left_in_the_air(commands), *astray(commands, SIZE)]
         if code != STOPPED:
             problems.append(f"exit code {code}")
         for id, home in homes(TEN).items():
@@ -104,9 +104,13 @@ def stopped(how: str, source: Path, folder: Path, speed: float) -> Figures:
         if least < APART:
             problems.append(f"{least:.2f} m apart: {who}")
         goals = homes(TEN) if how == "rtl" else {}
-        flown = Counter(deed.drone for deed in deeds if deed.what == "go_to" and deed.time > began)
+        flown = Counter(
+            command.drone
+            for command in commands
+            if command.what == "go_to" and command.time > began
+        )
         alone = (_alone(at, goals.get(id), speed, flown[id]) for id, at in places.items())
-        return Figures(how, _last(deeds) - began, max(alone), least, tuple(problems))
+        return Figures(how, _last(commands) - began, max(alone), least, tuple(problems))
     finally:
         flight.end()
 
@@ -122,13 +126,13 @@ def _all_there(flight: Flight) -> bool:
 def _alone(where: Point, home: Point | None, speed: float, courses: int) -> float:
     """Return the seconds that a drone takes to come down with no other in the air."""
     x, y, z = where
-    way = 0.0 if home is None else seconds_for(dist((x, y), home[:2]), speed)
-    return SHORTEST + way + AS_IT_COMES.seconds_down(z, CLIMB_LIMIT) + _SETTLES * courses
+    way = 0.0 if home is None else shortest_duration(dist((x, y), home[:2]), speed)
+    return SHORTEST + way + DEFAULT_LIMITS.seconds_down(z, CLIMB_LIMIT) + _SETTLES * courses
 
 
-def _last(deeds: Sequence[Deed]) -> float:
+def _last(commands: Sequence[CommandRecord]) -> float:
     """Return when the last was down."""
-    return max(deed.time for deed in deeds if deed.what == "down")
+    return max(command.time for command in commands if command.what == "down")
 
 
 def main() -> int:

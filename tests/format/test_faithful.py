@@ -7,8 +7,7 @@ from collections.abc import Callable
 import pytest
 
 from plutoc.format import run
-from plutoc.format.faithful import same_writing
-from plutoc.format.run import Outgrown, Unfaithful
+from plutoc.format.run import Outgrown, Unfaithful, same_writing
 from plutoc.syntax.parse import LARGEST
 from tests.format.promises import formatted
 

@@ -7,7 +7,7 @@ from random import Random
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from plutoc.syntax.newlines import SETTINGS, WORDS
+from plutoc.syntax.tokens import SETTINGS, WORDS
 from tests.format.layouts import Liberty, laid_out, words_of
 from tests.format.promises import keep, meaning
 

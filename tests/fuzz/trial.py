@@ -16,13 +16,13 @@ from plutoc.compile import Compiled, check_hooks, compile_source
 from plutoc.diagnostic import Diagnostic, Rejected
 from plutoc.emit.errors import place_of
 from plutoc.emit.lock import NAME as LOCK
+from plutoc.emit.lock import read_lock
 from plutoc.emit.package import Package
-from plutoc.emit.recorded import read_lock
 from plutoc.emit.write import compare, write
 from plutoc.hooks.add import with_stubs
 from plutoc.report import github
-from plutoc.report.graph import dot, json, mermaid
 from plutoc.report.json import render_line
+from plutoc.report.pictures import dot, json, mermaid
 from plutoc.report.text import render
 from plutoc.source import Source
 from tests.fuzz.apps import grown

@@ -6,10 +6,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from pluto_fleet.gateway.executor import Leaving
-from pluto_fleet.gateway.file_ledger import FileLedger
 from pluto_fleet.gateway.gateway import Gateway
-from pluto_fleet.gateway.ledger import MemoryLedger
-from pluto_fleet.simulation.drones import SimulatedDrone, SimulatedNavigation
+from pluto_fleet.gateway.ledger import FileLedger, MemoryLedger
+from pluto_fleet.simulation.body import SimulatedDrone
+from pluto_fleet.simulation.drones import SimulatedNavigation
 from plutoc_runtime.alone.faults import Faults
 from plutoc_runtime.alone.world import World
 from plutoc_runtime.domain.actions import BUILT_IN, Plain

@@ -9,9 +9,8 @@ from tempfile import TemporaryDirectory
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pluto_fleet.gateway.file_ledger import FileLedger
-from pluto_fleet.gateway.gateway import Gateway
-from pluto_fleet.gateway.link import Link
+from pluto_fleet.gateway.gateway import Gateway, Link
+from pluto_fleet.gateway.ledger import FileLedger
 from pluto_fleet.gateway.lossy_line import LOST, Line
 from pluto_fleet.jobs.reports import Down, JobState
 from pluto_fleet.simulation.drones import Deed

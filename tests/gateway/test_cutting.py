@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from pluto_fleet.gateway.file_ledger import FileLedger
+from pluto_fleet.gateway.ledger import FileLedger
 from pluto_fleet.gateway.process import LEDGER
 from pluto_fleet.gateway.starting import cut_directly
 from pluto_fleet.jobs.reports import Down

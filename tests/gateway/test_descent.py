@@ -32,7 +32,7 @@ def brought_down(field: Field, how: Down) -> None:
 
 def all_landed(field: Field) -> bool:
     """Whether nothing is in the air."""
-    return all(field.navigation.telemetry(drone.id).landed for drone in field.drones)
+    return all(field.navigation.telemetry[drone.id].landed for drone in field.drones)
 
 
 def test_landing_breaks_off_every_flight() -> None:
@@ -77,7 +77,7 @@ def test_who_goes_home_lands_in_the_dock() -> None:
     field.advance(60)
     brought_down(field, Down.HOME)
     for drone in field.drones:
-        assert field.navigation.telemetry(drone.id).location == pytest.approx(drone.home)
+        assert field.navigation.telemetry[drone.id].location == pytest.approx(drone.home)
     assert all_landed(field)
 
 
@@ -95,7 +95,7 @@ def test_who_stands_elsewhere_goes_home_too_if_it_can() -> None:
     low.restore(replace(low.snapshot, charge=Charge(0.03, field.kernel.now)))
     field.navigation.strike("cf3", Failure.CRASH)
     brought_down(field, Down.HOME)
-    at = [field.navigation.telemetry(drone.id).location for drone in field.drones]
+    at = [field.navigation.telemetry[drone.id].location for drone in field.drones]
     assert at == [pytest.approx((1, 1, 0)), pytest.approx((5, 5, 0)), pytest.approx((6, 5, 0))]
     assert field.navigation.carrying("cf1") is not None
     assert all_landed(field)
@@ -113,7 +113,7 @@ def test_landing_is_more_urgent_than_going_home() -> None:
     field.kernel.spawn(link.bring_down(Down.HOME), FLEET, "home after all")
     field.advance(10)
     assert all_landed(field)
-    assert field.navigation.telemetry("cf1").location[0] > 5
+    assert field.navigation.telemetry["cf1"].location[0] > 5
 
 
 def test_it_goes_on_without_the_brain() -> None:
@@ -153,7 +153,7 @@ def test_no_drone_lands_on_another_or_where_it_may_not() -> None:
     field.advance(60)
     field.navigation.bodies["cf3"].move((10, 10.4, 1), field.kernel.now, field.kernel.now)
     brought_down(field, Down.LAND)
-    at = [field.navigation.telemetry(drone.id).location for drone in field.drones]
+    at = [field.navigation.telemetry[drone.id].location for drone in field.drones]
     assert at[0] == (5, 5, 0)
     assert APART <= dist(at[0], at[1]) <= APART + 0.3
     assert field.airspace.problem(at[2]) is None
@@ -217,8 +217,8 @@ def test_who_flies_home_keeps_apart_from_all_others(
     down = field.kernel.spawn(field.gateway.link(9).bring_down(Down.HOME), FLEET, "down")
     while not down.is_set:
         field.advance(0.5)
-        at = [field.navigation.telemetry(drone.id).location for drone in field.drones]
+        at = [field.navigation.telemetry[drone.id].location for drone in field.drones]
         for a, b in combinations(at, 2):
             assert dist(a, b) >= APART - 1e-6
     for drone in field.drones:
-        assert field.navigation.telemetry(drone.id).location == pytest.approx(drone.home)
+        assert field.navigation.telemetry[drone.id].location == pytest.approx(drone.home)

@@ -65,11 +65,11 @@ def test_single_commands_are_late_too_and_can_be_broken_off() -> None:
     radio.break_off("cf1")
     field.advance(10)
     assert isinstance(rising.error, FlightFailed)
-    assert field.navigation.telemetry("cf1").landed
+    assert field.navigation.telemetry["cf1"].landed
     fly(field.kernel, radio.takeoff("cf1", 1.2))
     assert field.kernel.now == 11 + 2 + 4 + 3
     fly(field.kernel, field.gateway.link(1).bring_down(Down.LAND))
-    assert field.navigation.telemetry("cf1").landed
+    assert field.navigation.telemetry["cf1"].landed
 
 
 def test_a_report_that_is_lost_breaks_the_line_and_is_told_to_the_next_who_attaches() -> None:
@@ -111,7 +111,7 @@ def test_a_mishap_can_be_had_at_any_moment(what: Failure) -> None:
     assert isinstance(error, FlightFailed)
     assert error.failure is what
     field.advance(10)
-    assert field.navigation.telemetry("cf1").landed
+    assert field.navigation.telemetry["cf1"].landed
     assert isinstance(field.kernel, VirtualTime)
     assert failure(field.kernel, field.navigation.takeoff("cf1", 1.2)).failure is what
 

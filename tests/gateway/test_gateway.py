@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from pluto_fleet.gateway.link import Busy
+from pluto_fleet.gateway.gateway import Busy
 from pluto_fleet.jobs.reports import Down, FleetReport, JobState
 from plutoc_runtime.alone.faults import Faults
 from plutoc_runtime.domain.errors import BadInput, Failure, FlightFailed
@@ -118,7 +118,7 @@ def test_what_a_drone_did_for_an_older_brain_is_broken_off() -> None:
     new = field.gateway.link(2)
     assert isinstance(field.kernel, VirtualTime)
     fly(field.kernel, new.land("cf1"))
-    telemetry = field.navigation.telemetry("cf1")
+    telemetry = field.navigation.telemetry["cf1"]
     assert telemetry.landed
     assert telemetry.location == pytest.approx((2.5, 3, 0))
     assert not errand.is_set
@@ -137,7 +137,7 @@ def test_a_gateway_that_crashes_leaves_the_drones_hovering_and_the_ledger() -> N
     assert lost == ["gateway"]
     field.another()
     assert states(called(field)) == {Task().id: JobState.DONE}
-    assert not field.navigation.telemetry("cf2").landed
+    assert not field.navigation.telemetry["cf2"].landed
     link = field.gateway.link(99)
     link.fly(Task(id="far", drone="cf2", stops=((18, 18, 1.2),)), heard.append)
     field.advance(100)
@@ -292,4 +292,4 @@ def test_a_drone_that_was_sent_elsewhere_does_not_hover_there_any_more() -> None
     link.fly(job, heard.append)
     field.advance(20)
     assert heard == [None, None]
-    assert not field.navigation.telemetry("cf1").landed
+    assert not field.navigation.telemetry["cf1"].landed

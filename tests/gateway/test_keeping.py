@@ -48,15 +48,15 @@ def test_a_drone_flies_on_while_it_is_not_looked_at(tmp_path: Path) -> None:
     field.gateway.link(1).fly(Task(), lambda _: None)
     field.advance(6)
     field = field.later(tmp_path, 3)
-    telemetry = field.navigation.telemetry("cf1")
+    telemetry = field.navigation.telemetry["cf1"]
     assert telemetry.location == pytest.approx((2.5, 3, 1.2))
     assert telemetry.battery_level == pytest.approx(1 - 9 / 420)
     field = field.later(tmp_path, 60)
-    telemetry = field.navigation.telemetry("cf1")
+    telemetry = field.navigation.telemetry["cf1"]
     assert telemetry.location == pytest.approx(THERE)
     assert not telemetry.landed
     fly(field.virtual, field.navigation.land("cf1"))
-    assert field.later(tmp_path, 5).navigation.telemetry("cf1").landed
+    assert field.later(tmp_path, 5).navigation.telemetry["cf1"].landed
 
 
 def test_what_was_done_and_is_aboard_is_remembered(tmp_path: Path) -> None:
@@ -137,7 +137,7 @@ def test_a_landing_is_seen_through(tmp_path: Path) -> None:
     field.kernel.spawn(field.navigation.land("cf1"), FLEET, "land")
     field.advance(1)
     field = field.later(tmp_path, 1)
-    telemetry = field.navigation.telemetry("cf1")
+    telemetry = field.navigation.telemetry["cf1"]
     assert telemetry.location == pytest.approx((1, 1, 0.6))
     assert not telemetry.landed
     field.advance(10)
@@ -152,7 +152,7 @@ def test_mishaps_stay_what_they_were(tmp_path: Path, what: Failure) -> None:
     fly(field.virtual, field.navigation.takeoff("cf1", 1.2))
     field.navigation.strike("cf1", what)
     field = field.later(tmp_path, 10)
-    assert field.navigation.telemetry("cf1").landed
+    assert field.navigation.telemetry["cf1"].landed
     error = failure(field.virtual, field.navigation.takeoff("cf1", 1.2))
     assert error.failure is what
     assert fly(field.virtual, field.gateway.recover("cf1")) is (what is not Failure.CRASH)
@@ -164,7 +164,7 @@ def test_what_was_drawn_to_go_wrong_goes_wrong_all_the_same(tmp_path: Path) -> N
     field.gateway.link(1).fly(Task(), lambda _: None)
     field.advance(0)
     field = field.later(tmp_path, 30)
-    assert field.navigation.telemetry("cf1").landed
+    assert field.navigation.telemetry["cf1"].landed
     assert failure(field.virtual, field.navigation.takeoff("cf1", 1)).failure is Failure.CRASH
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from pluto_fleet.gateway.file_ledger import FileLedger
+from pluto_fleet.gateway.ledger import FileLedger
 from pluto_fleet.jobs.reports import Entry, JobState
 from plutoc_runtime.domain.errors import Failure, FlightFailed
 from plutoc_runtime.domain.model import Photo

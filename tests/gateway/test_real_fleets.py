@@ -12,8 +12,9 @@ import pytest
 
 from pluto_fleet.cli.flights import Flight, aloft, may_hover
 from pluto_fleet.cli.stand_ins import who_is_missing, with_stand_ins
-from pluto_fleet.drones.real_fleet import RealDrone, Wanted, real_data, real_fleet, real_of
-from pluto_fleet.files.fleet import DroneEntry, FleetFile
+from pluto_fleet.drones.real_fleet import RealDrone, RequiredAction, real_data, real_fleet, real_of
+from pluto_fleet.files.drones import DroneEntry
+from pluto_fleet.files.fleet import FleetFile
 from pluto_fleet.jobs.reports import DroneReport
 from pluto_fleet.simulation.drones import SimulatedNavigation
 from plutoc_runtime.alone.faults import Faults
@@ -67,8 +68,8 @@ def test_each_drone_is_flown_as_the_fleet_file_says() -> None:
 def test_what_the_plan_asks_for_is_told_once() -> None:
     """Only what hardware must do: an action of the app's own is the app's affair."""
     assert real_fleet(FLEET, MISSIONS).wanted == (
-        Wanted(action="measure", parameters={"quantity": "pm10"}),
-        Wanted(action="take_photo", parameters={}),
+        RequiredAction(action="measure", parameters={"quantity": "pm10"}),
+        RequiredAction(action="take_photo", parameters={}),
     )
 
 

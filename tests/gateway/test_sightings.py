@@ -14,8 +14,7 @@ from tests.gateway.flights import Field
 def watched(folder: Path) -> tuple[Field, Sightings]:
     """Return drones at home, and who writes down how they are; no look is taken by itself."""
     field = Field()
-    drones = [drone.id for drone in field.drones]
-    seen = Sightings(folder / SEEN, drones, field.navigation.telemetry, down=field.navigation.down)
+    seen = Sightings(folder / SEEN, field.navigation.telemetry, down=field.navigation.down)
     field.leaving = seen.leaving
     field.another()
     return field, seen
@@ -29,14 +28,14 @@ def test_a_drone_is_said_to_be_in_the_air_before_it_leaves_the_ground(tmp_path: 
     field.advance(0)
     field.kernel.spawn(link.takeoff("cf1", 1.0), 0, "cf1 rises")
     field.advance(0)
-    assert field.navigation.telemetry("cf1").location[2] == 0
+    assert field.navigation.telemetry["cf1"].location[2] == 0
     for _ in range(2):
         assert not sightings_in(tmp_path)["cf1"].landed
         assert sightings_in(tmp_path)["cf2"].landed
-        seen.look()
+        seen.keep()
     field.advance(5)
-    assert field.navigation.telemetry("cf1").location[2] > 0.9
-    seen.look()
+    assert field.navigation.telemetry["cf1"].location[2] > 0.9
+    seen.keep()
     assert not sightings_in(tmp_path)["cf1"].landed
 
 
@@ -45,7 +44,7 @@ def test_a_take_off_that_fails_leaves_the_drone_on_the_ground(tmp_path: Path) ->
     with pytest.raises(FlightFailed), seen.leaving("cf1"):
         assert not sightings_in(tmp_path)["cf1"].landed
         raise FlightFailed(Failure.REFUSED, "cf1 is not ready")
-    seen.look()
+    seen.keep()
     assert sightings_in(tmp_path)["cf1"].landed
 
 
@@ -55,12 +54,12 @@ def test_why_a_drone_takes_no_commands_is_written_down_and_forgotten_once_it_tak
     field, seen = watched(tmp_path)
     field.navigation.strike("cf1", Failure.CRASH)
     field.navigation.strike("cf2", Failure.LINK, "cf2 lost its link")
-    seen.look()
+    seen.keep()
     found = sightings_in(tmp_path)
     assert found["cf1"].why.startswith("cf1 crashed at")
     assert found["cf1"].has_fallen
     assert (found["cf2"].why, found["cf2"].has_fallen) == ("cf2 lost its link", False)
     field.navigation.mended("cf1")
-    seen.look()
+    seen.keep()
     mended = sightings_in(tmp_path)["cf1"]
     assert (mended.why, mended.has_fallen) == ("", False)

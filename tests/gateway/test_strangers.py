@@ -17,10 +17,9 @@ from hypothesis import strategies as st
 
 from pluto_fleet.gateway.process import LOG, NOTE
 from pluto_fleet.gateway.starting import start, stop_directly
-from pluto_fleet.gateway.wire import LONGEST_TOLD
+from pluto_fleet.gateway.wire import MAX_COMMAND
 from pluto_fleet.jobs.reports import Down
-from pluto_fleet.process.asking import Nobody
-from pluto_fleet.process.private import address_in
+from pluto_fleet.process.ipc import NotRunning, address_in
 from tests.gateway.processes import COMMAND, pid
 from tests.gateway.processes import settings as gateway_settings
 
@@ -87,7 +86,7 @@ def test_its_socket_is_where_only_its_owner_goes(folder: Path) -> None:
         ((LINK, message(do="takeoff", drone="cf1", height=10**400, n=1)), "is not complete"),
         ((LINK, message(do="down", how="up", n=1)), "that message is not complete"),
         ((LINK, message(do="somersault", drone="cf1", n=1)), "this gateway cannot 'somersault'"),
-        ((b'{"do": "' + b"x" * LONGEST_TOLD + b'"}\n',), "a line was longer than"),
+        ((b'{"do": "' + b"x" * MAX_COMMAND + b'"}\n',), "a line was longer than"),
     ],
 )
 def test_what_makes_no_sense_is_refused_and_logged(
@@ -160,7 +159,7 @@ def test_after_any_message_the_gateway_goes_on(
 
 def test_it_is_said_when_there_is_no_gateway(tmp_path: Path) -> None:
     """A person who wants the drones down is told so."""
-    with pytest.raises(Nobody):
+    with pytest.raises(NotRunning):
         stop_directly(tmp_path, Down.LAND, 1)
 
 

@@ -11,14 +11,13 @@ from pluto_fleet.gateway.settings import data_of, settings_of
 from pluto_fleet.gateway.wire import (
     job_data,
     job_of,
-    line,
-    message_in,
     result_data,
     result_of,
     roll_data,
     roll_of,
 )
 from pluto_fleet.jobs.reports import DroneReport, Entry, FleetReport, JobState
+from pluto_fleet.process.ipc import line, message_in
 from pluto_fleet.simulation.body import SimulatedDrone
 from plutoc_runtime.alone.faults import Faults
 from plutoc_runtime.domain.airspace import Airspace

@@ -12,9 +12,8 @@ import pytest
 from pygments import token
 
 from plutoc.highlight.pygments_lexer import PlutoLexer
-from plutoc.highlight.rules import RULES
-from plutoc.highlight.textmate import SCOPES, grammar
-from plutoc.syntax.newlines import SETTINGS, WORDS
+from plutoc.highlight.rules import RULES, SCOPES, grammar
+from plutoc.syntax.tokens import SETTINGS, WORDS
 from plutoc_runtime.domain.quantities import UNITS
 
 ROOT = Path(__file__).parents[2]

@@ -99,7 +99,7 @@ def test_a_pipe_into_which_something_is_written_is_read(plutoc: Call, here: Path
         ("pluto 1\napp a {\n" + "x = = y\n" * 10_000 + "}\n", "P0001"),
         ("pluto 1\napp a {\n" + "".join(f"x{i} = Nope\n" for i in range(10_000)) + "}\n", "P1012"),
         ("pluto 1\napp a {\n" + "x = Clock\n" * 10_000 + "}\n", "P1005"),
-        ("pluto 1\n" + "use nobody\n" * 10_000 + "app a {\n}\n", "P1008"),
+        ("pluto 1\n" + "use nothing\n" * 10_000 + "app a {\n}\n", "P1008"),
         (";" * 300_000, "P0"),
         ("pluto 1\napp a {" + "\t" * 500_000 + "}", "P2001"),
         ("pluto 1\napp a {\n" + "}\n" * 60_000, "P0017"),

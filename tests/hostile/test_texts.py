@@ -17,9 +17,9 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from plutoc.emit.package import Package
-from plutoc.report.graph import dot, dot_to_svg, mermaid
-from plutoc.report.graph import json as as_json
-from plutoc.syntax.hidden import HIDDEN
+from plutoc.report.pictures import dot, dot_to_svg, mermaid
+from plutoc.report.pictures import json as as_json
+from plutoc.syntax.characters import HIDDEN
 from tests.fuzz.texts import HOSTILE
 from tests.hostile.apps import checked, package
 

@@ -12,7 +12,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from pluto_fleet.process.asking import note_of
+from pluto_fleet.journal.place import commands_note
 
 PATIENCE = 120.0
 """Seconds until a life that does not end is called a failure."""
@@ -159,7 +159,7 @@ class Flight(Lives):
 
     def _hears(self) -> int:
         """Return when the life, or the one before, has said how commands reach it; 0: none has."""
-        note = note_of(self.journal)
+        note = commands_note(self.journal)
         with suppress(OSError):
             return note.stat().st_mtime_ns
         return 0

@@ -9,21 +9,19 @@ from functools import partial
 from math import inf, isfinite
 from pathlib import Path
 
-from pluto_fleet.drones import (
+from pluto_fleet.drones.conformance.contract import NavigationContract
+from pluto_fleet.drones.conformance.recording import Truth
+from pluto_fleet.drones.errors import BatteryLow, Crashed, LinkLost, OutsideArea, Rejected
+from pluto_fleet.drones.protocol import (
     CRASHED,
-    BatteryLow,
-    Crashed,
     DroneEvent,
     DroneNavigation,
     DroneSetup,
     DroneTelemetry,
-    LinkLost,
-    OutsideArea,
-    Rejected,
 )
-from pluto_fleet.drones.conformance import NavigationContract, Truth
 from pluto_fleet.process.realtime import RealTime
-from pluto_fleet.simulation.drones import SimulatedDrone, SimulatedNavigation
+from pluto_fleet.simulation.body import SimulatedDrone
+from pluto_fleet.simulation.drones import SimulatedNavigation
 from plutoc_runtime.alone.faults import Faults
 from plutoc_runtime.alone.world import World
 from plutoc_runtime.domain.airspace import Airspace

@@ -12,10 +12,11 @@ import pytest
 
 from pluto_fleet.crazyflie.navigation import Crazyflie
 from pluto_fleet.crtp.drone import Build, SimulatedCrazyflie
-from pluto_fleet.crtp.record import InMemory
+from pluto_fleet.crtp.flight_log import MemoryLog
 from pluto_fleet.crtp.server import Server
-from pluto_fleet.drones import DroneNavigation, DroneSetup
-from pluto_fleet.drones.conformance import NavigationContract, Truth
+from pluto_fleet.drones.conformance.contract import NavigationContract
+from pluto_fleet.drones.conformance.recording import Truth
+from pluto_fleet.drones.protocol import DroneNavigation, DroneSetup
 
 pytest.importorskip("cflib")
 
@@ -27,7 +28,7 @@ class Hangar:
 
     def __init__(self, folder: Path) -> None:
         builds = [Build(id=f"cf{at}", home=(float(at), 2.0, 0.0)) for at in range(1, 9)]
-        self.folder, self.server = folder, Server(builds, InMemory())
+        self.folder, self.server = folder, Server(builds, MemoryLog())
         self.fresh = list(reversed(builds))
         self.flown: dict[DroneNavigation, SimulatedCrazyflie] = {}
         self._loop = asyncio.new_event_loop()

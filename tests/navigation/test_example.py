@@ -7,8 +7,9 @@ from pathlib import Path
 
 from wren import Wren
 
-from pluto_fleet.drones import DroneNavigation, DroneSetup
-from pluto_fleet.drones.conformance import NavigationContract, Truth
+from pluto_fleet.drones.conformance.contract import NavigationContract
+from pluto_fleet.drones.conformance.recording import Truth
+from pluto_fleet.drones.protocol import DroneNavigation, DroneSetup
 
 HERE = Path(__file__).parents[2] / "docs/navigation"
 

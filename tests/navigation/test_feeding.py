@@ -8,8 +8,8 @@ from typing import cast
 
 import pytest
 
-from pluto_fleet.drones import feeding
-from pluto_fleet.drones.feeding import Feeding
+from pluto_fleet.drones import localization
+from pluto_fleet.drones.localization import LocalizationFeed
 from plutoc_runtime.domain.model import Point
 
 
@@ -55,7 +55,7 @@ class Scene:
         self.eyes, self.cf1, self.cf2 = Eyes(), Drone(), Drone()
         self.said: list[str] = []
         self.now = 100.0
-        self.feeding = Feeding(
+        self.feeding = LocalizationFeed(
             "eyes",
             self.eyes,
             {"cf1": self.cf1, "cf2": self.cf2},
@@ -176,7 +176,7 @@ def test_a_drone_that_cannot_hear_is_told_of_once_and_tried_again() -> None:
 def test_eyes_that_close_are_opened_again(
     end: object, why: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(feeding, "PAUSE", 0.0)
+    monkeypatch.setattr(localization, "PAUSE", 0.0)
 
     async def play(scene: Scene) -> None:
         await scene.sees(("cf1", (1, 1, 1)), end, ("cf1", (2, 2, 2)))

@@ -7,8 +7,8 @@ import socket
 
 from lines import Lines
 
-from pluto_fleet.drones.feeding import Feeding
 from pluto_fleet.drones.loading import make_localization
+from pluto_fleet.drones.localization import LocalizationFeed
 from plutoc_runtime.domain.model import Point
 
 
@@ -33,7 +33,7 @@ def test_what_is_sent_is_fed_and_what_is_no_line_is_told() -> None:
         source = make_localization("lines:Lines", {"port": port})
         assert isinstance(source, Lines)
         drone = Drone()
-        feeding = Feeding("lines:Lines", source, {"cf1": drone}, said.append)
+        feeding = LocalizationFeed("lines:Lines", source, {"cf1": drone}, said.append)
         feeding.start()
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as camera:
             while drone.heard.empty():  # until it listens

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from pluto_fleet.drones import trial
+from pluto_fleet.drones import inspection
 from pluto_fleet.drones.loading import (
     load_localization,
     load_navigation,
@@ -142,7 +142,7 @@ def test_a_module_that_hangs_is_not_waited_for(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """It is named, and there is a limit."""
-    monkeypatch.setattr(trial, "LIMIT", 0.5)
+    monkeypatch.setattr(inspection, "IMPORT_LIMIT", 0.5)
     (tmp_path / "hanging_drones.py").write_text(f"while True: pass\n{CLASSES}")
     monkeypatch.syspath_prepend(tmp_path)
     assert refused("hanging_drones:Drone") == (

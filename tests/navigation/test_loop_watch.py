@@ -7,7 +7,7 @@ import threading
 import time
 from collections.abc import Callable
 
-from pluto_fleet.drones.conformance.loop import LoopWatch
+from pluto_fleet.drones.conformance.probes import LoopWatch
 
 LONG = 0.2
 """Seconds: four times what is found."""

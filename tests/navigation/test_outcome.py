@@ -8,7 +8,7 @@ from math import inf, nan
 
 import pytest
 
-from pluto_fleet.drones.outcome import outcome_of
+from pluto_fleet.drones.commands import result_of
 from plutoc_runtime.domain.errors import FlightFailed
 from plutoc_runtime.domain.model import Photo, Point
 
@@ -24,22 +24,22 @@ class Picture:
 
 def test_a_number_is_a_float() -> None:
     for gave in (21, 21.0, Fraction(21)):
-        measured = outcome_of("cf1", "measure", gave)
+        measured = result_of("cf1", "measure", gave)
         assert measured == 21.0 and type(measured) is float
 
 
 def test_a_photo_is_one_of_this_copy() -> None:
     gave = Picture((1, 2, 3), 2, 1.5)
-    assert outcome_of("cf1", "take_photo", gave) == Photo(
+    assert result_of("cf1", "take_photo", gave) == Photo(
         position=(1.0, 2.0, 3.0), width=2.0, height=1.5
     )
     whole = Photo(position=(1, 2, 3), width=2, height=1, sees=("bloom",), sharpness=0.5, file="a")
-    assert outcome_of("cf1", "take_photo", whole) == whole
+    assert result_of("cf1", "take_photo", whole) == whole
 
 
 def test_what_is_carried_gives_nothing() -> None:
-    assert outcome_of("cf1", "pick_item", True) is None
-    assert outcome_of("cf1", "release_item", "ok") is None
+    assert result_of("cf1", "pick_item", True) is None
+    assert result_of("cf1", "release_item", "ok") is None
 
 
 @pytest.mark.parametrize(
@@ -54,4 +54,4 @@ def test_what_is_carried_gives_nothing() -> None:
 )
 def test_anything_else_is_a_mistake_of_the_navigation(action: str, gave: object) -> None:
     with pytest.raises(FlightFailed, match=f"navigation of cf1 made a mistake: {action} gave"):
-        outcome_of("cf1", action, gave)
+        result_of("cf1", action, gave)

@@ -11,8 +11,8 @@ from pathlib import Path
 import pytest
 
 import plutoc_runtime
-from pluto_fleet.drones import errors, kinds
-from pluto_fleet.drones.conformance import NavigationContract
+from pluto_fleet.drones import errors, plugins
+from pluto_fleet.drones.conformance.contract import NavigationContract
 
 DOCS = Path(__file__).parents[2] / "docs"
 PAGE = (DOCS / "navigation.md").read_text()
@@ -53,10 +53,10 @@ def test_the_test_file_that_the_page_shows_is_one(tmp_path: Path) -> None:
 
 
 def test_the_page_has_every_method_that_is_called() -> None:
-    groups = [kinds.NAVIGATION_METHODS, *kinds.CAPABILITIES, kinds.LOCALIZATION_METHODS]
+    groups = [plugins.NAVIGATION_METHODS, *plugins.CAPABILITIES, plugins.LOCALIZATION_METHODS]
     for method in [method for group in groups for method in group]:
         called = f"{method.name}({', '.join(method.takes)})"
-        if method.shape is kinds.Shape.PROPERTY:
+        if method.shape is plugins.CallStyle.PROPERTY:
             called = method.name
         assert f"`{called}`" in PAGE or f"`await {called}`" in PAGE or f"def {method.name}(" in PAGE
 

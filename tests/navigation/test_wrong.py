@@ -6,8 +6,8 @@ from unittest import SkipTest
 
 import pytest
 
-from pluto_fleet.drones import DroneNavigation
-from pluto_fleet.drones.conformance import NavigationContract
+from pluto_fleet.drones.conformance.contract import NavigationContract
+from pluto_fleet.drones.protocol import DroneNavigation
 from tests.navigation.simulated import SPEED, Simulated, SimulatedContract, setup
 from tests.navigation.wrong import Wrong
 

@@ -11,7 +11,8 @@ from dataclasses import replace
 from math import degrees, isfinite
 from typing import ClassVar
 
-from pluto_fleet.drones import DroneEvent, DroneSetup, DroneTelemetry, LinkLost, Rejected
+from pluto_fleet.drones.errors import LinkLost, Rejected
+from pluto_fleet.drones.protocol import DroneEvent, DroneSetup, DroneTelemetry
 from pluto_fleet.simulation.body import SimulatedDrone
 from plutoc_runtime.domain.model import Category, Point
 from tests.navigation.simulated import SPEED, Simulated

@@ -7,7 +7,7 @@ from functools import partial
 
 import pytest
 
-from plutoc.emit.walk import steps
+from plutoc.plan.bodies import steps
 from plutoc.plan.errors import BadPlan
 from plutoc.plan.model import (
     Arm,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -25,9 +26,11 @@ def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def builders(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A folder with the wheels that pip builds others with; these alone are fetched."""
+    """A folder with the wheels that pip builds others with, or the library needs; these alone are fetched."""
     wheels = tmp_path_factory.mktemp("builders")
-    succeed(sys.executable, "-m", "pip", "wheel", "-q", "-w", wheels, "hatchling")
+    project = tomllib.loads((LIBRARY / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    needed = "hatchling", *project["dependencies"]
+    succeed(sys.executable, "-m", "pip", "wheel", "-q", "-w", wheels, *needed)
     return wheels
 
 

@@ -135,7 +135,9 @@ def test_a_package_that_carries_the_library_flies_alone(tmp_path: Path) -> None:
     programs = fresh(tmp_path / "venv")
     before = installed(programs)
     succeed(programs / "pip", "install", "--quiet", f"{package}[fleet]")
-    assert installed(programs) - before == {"drugs-distribution"}
+    there = installed(programs) - before
+    assert "drugs-distribution" in there
+    assert "pluto-fleet" not in there
     program = programs / "drugs_distribution"
     assert "pluto-fleet 1.0.0" in succeed(program, "--version")
     plan: list[str | Path] = [example / "missions.toml", "--fleet", example / "fleet.toml"]

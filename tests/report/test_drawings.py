@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from plutoc.check.run import check
-from plutoc.report.graph import NoGraphviz, dot, dot_to_svg, json, mermaid
+from plutoc.report.pictures import NoGraphviz, dot, dot_to_svg, json, mermaid
 from tests.check.graphs import BASIC, GATED, build
 
 APP = f"""{GATED}

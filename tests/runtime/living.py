@@ -14,7 +14,8 @@ from pluto_fleet.gateway.ledger import MemoryLedger
 from pluto_fleet.jobs.reports import Down
 from pluto_fleet.journal.fold import Records
 from pluto_fleet.journal.memory import Memory
-from pluto_fleet.simulation.drones import Deed, SimulatedDrone, SimulatedNavigation
+from pluto_fleet.simulation.body import SimulatedDrone
+from pluto_fleet.simulation.drones import Deed, SimulatedNavigation
 from plutoc_runtime.alone.faults import Faults
 from plutoc_runtime.alone.world import World
 from plutoc_runtime.domain.app import App

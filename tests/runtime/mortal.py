@@ -87,9 +87,9 @@ class Mortal(Kernel):
         """Run a hook of the app's as the host does."""
         return await self._host.call_hook(hook, *args, **named)
 
-    def offer(self, signal: Future[T]) -> Coroutine[Any, Any, T]:
-        """Return what a hook may await for this signal."""
-        return self._host.offer(signal)
+    def offer(self, future: Future[T]) -> Coroutine[Any, Any, T]:
+        """Return what a hook may await for this future."""
+        return self._host.offer(future)
 
     def crash(self, error: BaseException) -> None:
         """An error that no coroutine caught stops the host as well: it is a mistake of ours."""

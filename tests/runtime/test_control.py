@@ -10,9 +10,9 @@ import pytest
 from pluto_fleet.flight.live_engine import live_engine
 from pluto_fleet.jobs.reports import Down
 from pluto_fleet.trials.invariants import violations
-from plutoc_runtime.domain.actions import Action
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.model import Drone, Trip
+from plutoc_runtime.flow.own_action import OwnAction
 from plutoc_runtime.hooks.context import Context
 
 from . import apps
@@ -159,7 +159,7 @@ async def _spray(drone: Drone, trip: Trip, context: Context) -> None:
 
 
 def spraying(repeat: str, *others: apps.Mission) -> Living:
-    spray = Action(name="spray", repeat=repeat, hook=_spray)
+    spray = OwnAction(name="spray", repeat=repeat, hook=_spray)
     mission = apps.mission("a", apps.trip("1", 3, action="spray"), apps.trip("2", 3))
     homes = ((0.5, 0.5, 0.0), (1.5, 0.5, 0.0))
     return Living(enterable(actions=(spray,)), mission, *others, on=apps.fleet(*homes))

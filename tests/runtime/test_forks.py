@@ -8,10 +8,10 @@ from typing import Any
 
 import pytest
 
-from plutoc_runtime.domain.actions import Action
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.model import Category
 from plutoc_runtime.domain.status import Status
+from plutoc_runtime.flow.own_action import OwnAction
 from plutoc_runtime.hooks.context import Context
 from tests.runtime import apps, in_real_time
 
@@ -65,7 +65,7 @@ def _app(hook: Callable[..., object]) -> Any:
     return apps.app(
         apps.flow(),
         categories=[Category(name="scout", speed=200.0)],
-        actions=[Action(name="act", hook=hook)],
+        actions=[OwnAction(name="act", hook=hook)],
     )
 
 

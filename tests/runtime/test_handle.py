@@ -9,12 +9,12 @@ from functools import partial, wraps
 import pytest
 
 from pluto_fleet.simulation.drones import SimulatedNavigation
-from plutoc_runtime.domain.actions import Action
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.errors import ActionFailed, Failure, FlightFailed
 from plutoc_runtime.domain.fleet_data import WorldData
 from plutoc_runtime.domain.model import Category, Drone
 from plutoc_runtime.domain.status import Status
+from plutoc_runtime.flow.own_action import OwnAction
 from plutoc_runtime.hooks.context import Context
 from plutoc_runtime.hooks.live_drone import LiveDrone, can_wait
 from plutoc_runtime.time.future import Future
@@ -27,7 +27,7 @@ FAST = Category(name="scout", speed=200.0)
 
 def flown(hook: Hook, *, real: bool = False) -> apps.Outcome:
     """Return what comes of a mission with this action, in virtual or in real time."""
-    action = Action(name="grip", hook=hook)
+    action = OwnAction(name="grip", hook=hook)
     height = 0.003 if real else 1.2
     trip = apps.Trip(name="A", action="grip", target=(3.0, 0.5, height))
     fleet = apps.fleet((0.5, 0.5, 0.0), (1.5, 0.5, 0.0), airspace=Airspace(cruise_height=height))
@@ -127,7 +127,7 @@ def test_only_its_own_drone_is_live() -> None:
         others.append(drone)
 
     trips = [apps.Trip(name=name, action="grip", target=(3.0, 0.5, 1.2)) for name in "AB"]
-    app = apps.app(apps.flow(), actions=[Action(name="grip", hook=grip)])
+    app = apps.app(apps.flow(), actions=[OwnAction(name="grip", hook=grip)])
     fleet = apps.fleet((0.5, 0.5, 0.0), (9.5, 9.5, 0.0))
     outcome = apps.fly(app, apps.mission("1", trips[0]), apps.mission("2", trips[1]), on=fleet)
     failed = [one for one in outcome.missions if one.status is Status.FAILED]
@@ -227,7 +227,7 @@ def test_the_world_says_what_was_not_set() -> None:
     async def grip(drone: Drone, trip: apps.Trip, context: Context) -> None:
         gave.append(await context.live(drone).read("humidity"))
 
-    app = apps.app(apps.flow(), actions=[Action(name="grip", hook=grip)])
+    app = apps.app(apps.flow(), actions=[OwnAction(name="grip", hook=grip)])
     trip = apps.Trip(name="A", action="grip", target=(3.0, 0.5, 1.2))
     fleet = apps.fleet()
     object.__setattr__(fleet, "world", WorldData(background={"humidity": 40.0}))

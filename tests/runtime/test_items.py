@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from plutoc_runtime.alone.faults import Faults
-from plutoc_runtime.domain.actions import Action
 from plutoc_runtime.domain.errors import ActionFailed
 from plutoc_runtime.domain.model import Drone
 from plutoc_runtime.domain.status import Status
+from plutoc_runtime.flow.own_action import OwnAction
 from plutoc_runtime.hooks.context import Context
 from tests.runtime import apps
 
@@ -38,7 +38,7 @@ def test_a_failure_with_an_item_aboard_ends_the_mission_against_the_graph() -> N
     async def fails(drone: object, trip: object, context: object) -> None:
         raise ActionFailed("the door is shut")
 
-    knock = Action(name="knock", hook=fails)
+    knock = OwnAction(name="knock", hook=fails)
     trips = (apps.pick("A", 3.0), apps.trip("B", 6.0, action="knock"), apps.release("C", 9.0))
     outcome = apps.fly(apps.app(apps.flow(attempts=5), actions=[knock]), apps.mission("m", *trips))
     (mission,) = outcome.missions
@@ -89,7 +89,7 @@ def test_a_drone_that_fails_as_it_waits_with_an_item_is_lost_to_its_mission() ->
     async def lingers(drone: Drone, trip: apps.Trip, context: Context) -> None:
         await context.sleep(drone.battery_level * drone.category.flight_time - 2.0)
 
-    linger = Action(name="linger", hook=lingers)
+    linger = OwnAction(name="linger", hook=lingers)
     trips = (apps.pick("A", 3.0), apps.trip("B", 3.0, action="linger"), apps.release("C", 9.0))
     trips[2].delay = 1000.0
     outcome = apps.fly(

@@ -14,16 +14,17 @@ import pytest
 
 from pluto_fleet.flight.config import End, Lived, Setting, Stops
 from pluto_fleet.flight.fly import live
-from pluto_fleet.gateway.gateway import Gateway
+from pluto_fleet.gateway.gateway import Gateway, Link
 from pluto_fleet.gateway.ledger import MemoryLedger
-from pluto_fleet.gateway.link import Link
 from pluto_fleet.jobs.reports import Down
 from pluto_fleet.journal import header
 from pluto_fleet.journal.errors import JournalError
+from pluto_fleet.journal.place import commands_note
 from pluto_fleet.journal.store import Store
-from pluto_fleet.process.asking import Nobody, ask, note_of
+from pluto_fleet.process.ipc import NotRunning, ask
 from pluto_fleet.process.realtime import RealTime
-from pluto_fleet.simulation.drones import SimulatedDrone, SimulatedNavigation
+from pluto_fleet.simulation.body import SimulatedDrone
+from pluto_fleet.simulation.drones import SimulatedNavigation
 from plutoc_runtime.alone.faults import Faults
 from plutoc_runtime.alone.world import World
 from plutoc_runtime.domain.airspace import Airspace
@@ -96,7 +97,7 @@ class Tried:
             missions=self.missions,
             fleet=self.fleet,
             connect=self.connect,
-            note=note_of(self.path),
+            note=commands_note(self.path),
             tell=self.tell,
             speed=1000.0,
         )
@@ -208,7 +209,7 @@ def test_commands_reach_a_living_app(tried: Tried) -> None:
     said: list[object] = []
 
     async def client() -> None:
-        note = note_of(tried.path)
+        note = commands_note(tried.path)
         for request in (
             {"command": "pause", "mission": "m"},
             {"command": "decide", "mission": "m", "answer": "done"},
@@ -233,8 +234,8 @@ def test_commands_reach_a_living_app(tried: Tried) -> None:
         'mission "m": going on',
     ]
     assert tried.kinds.count("mission.paused") == tried.kinds.count("mission.resumed") == 1
-    with pytest.raises(Nobody):
-        ask(note_of(tried.path), {"command": "pause", "mission": None}, 5.0)
+    with pytest.raises(NotRunning):
+        ask(commands_note(tried.path), {"command": "pause", "mission": None}, 5.0)
 
 
 def test_what_an_app_has_answered_is_on_record(tried: Tried, durable: list[str]) -> None:
@@ -242,7 +243,7 @@ def test_what_an_app_has_answered_is_on_record(tried: Tried, durable: list[str])
 
     async def client() -> None:
         request = {"command": "cancel", "mission": "m"}
-        await asyncio.to_thread(ask, note_of(tried.path), request, 5.0)
+        await asyncio.to_thread(ask, commands_note(tried.path), request, 5.0)
         assert "mission.ended" in durable
 
     async def whole() -> Lived:

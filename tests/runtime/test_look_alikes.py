@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from pluto_fleet.files.drones import DroneEntry
-from pluto_fleet.files.look_alikes import look_alikes
+from pluto_fleet.files.plan_check import look_alikes
 from tests.runtime import apps
 
 

@@ -16,11 +16,11 @@ from plutoc_blocks.mission_creator.step import create_mission
 from plutoc_blocks.mission_evaluator.step import evaluate_mission
 from plutoc_blocks.mission_modifier.step import modify_mission
 from plutoc_blocks.priority_manager.step import raise_priority
-from plutoc_runtime.domain.actions import Action
 from plutoc_runtime.domain.errors import ActionFailed, Cancelled
 from plutoc_runtime.domain.model import Mission
 from plutoc_runtime.domain.status import Status
 from plutoc_runtime.flow import mission as state
+from plutoc_runtime.flow.own_action import OwnAction
 from plutoc_runtime.flow.run import Run
 from plutoc_runtime.flow.verdict import Verdict
 from plutoc_runtime.hooks.context import Context
@@ -379,7 +379,8 @@ class Thing:
 def test_what_an_action_gives_stands_in_the_trace_the_same_in_every_run() -> None:
     values = iter((Thing(), {"b", "a"}, [Thing()]))
     tested = apps.app(
-        apps.flow(), actions=[Action(name="look", hook=lambda drone, trip, context: next(values))]
+        apps.flow(),
+        actions=[OwnAction(name="look", hook=lambda drone, trip, context: next(values))],
     )
     trips = [apps.trip(name, 2.0, action="look") for name in "ABC"]
     outcome = apps.fly(tested, apps.mission("m", *trips))

@@ -13,11 +13,11 @@ from hypothesis import strategies as st
 
 from pluto_fleet.journal.fold import Records
 from pluto_fleet.journal.values import value_data, value_of
-from plutoc_runtime.domain.actions import Action
 from plutoc_runtime.domain.errors import ActionFailed
 from plutoc_runtime.domain.model import Mission, Photo
 from plutoc_runtime.domain.status import Status
 from plutoc_runtime.domain.text import LONGEST_VALUE, shown
+from plutoc_runtime.flow.own_action import OwnAction
 from plutoc_runtime.flow.verdict import Verdict
 from plutoc_runtime.hooks.context import Context
 from plutoc_runtime.hooks.keepable import keepable
@@ -168,7 +168,7 @@ def lived(hook: Callable[..., object]) -> Mission[Any]:
     def act(drone: Any, trip: Any, context: Context) -> object:
         return hook(trip) if trip.name == "odd" else 1
 
-    tested = enterable(actions=[Action(name="look", hook=act)])
+    tested = enterable(actions=[OwnAction(name="look", hook=act)])
     living = Living(
         tested,
         apps.mission("odd", apps.trip("odd", 3.0, action="look"), apps.trip("B", 4.0)),

@@ -14,12 +14,12 @@ import pytest
 
 from pluto_fleet.process.realtime import RealTime
 from plutoc_blocks.mission_modifier.step import modify_mission
-from plutoc_runtime.domain.actions import Action
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.model import Category, Drone, Mission
 from plutoc_runtime.domain.status import Status
 from plutoc_runtime.domain.trace import Event
 from plutoc_runtime.flow import mission as state
+from plutoc_runtime.flow.own_action import OwnAction
 from plutoc_runtime.flow.run import Run
 from plutoc_runtime.hooks.context import Context
 from plutoc_runtime.time.kernel import FLEET
@@ -44,7 +44,7 @@ def fly(*missions: apps.Mission) -> tuple[apps.Outcome, list[Event]]:
         apps.app(
             apps.flow(watch=apps.timed),
             categories=[FAST],
-            actions=[Action(name="blink", hook=blink, seconds=0.01)],
+            actions=[OwnAction(name="blink", hook=blink, seconds=0.01)],
         ),
         missions,
         apps.fleet((0.5, 0.5, 0.0), (1.5, 0.5, 0.0), airspace=LOW),
@@ -77,7 +77,7 @@ def hooked(hook: Callable[..., object]) -> str:
         apps.app(
             apps.flow(),
             categories=[FAST],
-            actions=[Action(name="blink", hook=hook, seconds=0.01)],
+            actions=[OwnAction(name="blink", hook=hook, seconds=0.01)],
         ),
         [mission],
         apps.fleet(airspace=LOW),

@@ -12,10 +12,10 @@ import pytest
 from pluto_fleet.jobs.reports import Down
 from pluto_fleet.journal.fold import Records
 from plutoc_runtime.alone.faults import Faults
-from plutoc_runtime.domain.actions import Action
 from plutoc_runtime.domain.model import Drone, Trip
 from plutoc_runtime.domain.results import Results
 from plutoc_runtime.domain.status import Status
+from plutoc_runtime.flow.own_action import OwnAction
 from plutoc_runtime.flow.verdict import Verdict
 from plutoc_runtime.hooks.context import Context
 
@@ -157,7 +157,7 @@ def test_a_mission_whose_action_is_gone_is_held_and_can_only_be_cancelled() -> N
     async def spray(drone: Drone, trip: Trip, context: Context) -> None:
         await context.sleep(1.0)
 
-    app = enterable(actions=(Action(name="spray", hook=spray),))
+    app = enterable(actions=(OwnAction(name="spray", hook=spray),))
     living = Living(app, apps.mission("a", apps.trip("1", 3), apps.trip("2", 3, action="spray")))
     living.crash(3.0, app=enterable())
     assert living.run() == ["HELD"]
@@ -212,7 +212,7 @@ def test_a_drone_whose_flight_was_over_for_its_dead_brain_is_called_off() -> Non
 def test_the_apps_own_probe_may_know_what_nothing_else_does(
     seen: object, end: str, flights: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    spray = Action(name="spray", hook=_spray)
+    spray = OwnAction(name="spray", hook=_spray)
     monkeypatch.setattr(
         sys.modules[__name__], "spray_done", lambda drone, trip: seen, raising=False
     )
@@ -232,7 +232,7 @@ def test_a_probe_that_fails_leaves_it_to_a_person(monkeypatch: pytest.MonkeyPatc
         raise OSError("no camera")
 
     monkeypatch.setattr(sys.modules[__name__], "spray_done", broken, raising=False)
-    app = enterable(actions=(Action(name="spray", hook=_spray),))
+    app = enterable(actions=(OwnAction(name="spray", hook=_spray),))
     living = Living(app, apps.mission("a", apps.trip("1", 3, action="spray")))
     living.crash(10.0)
     assert living.run() == ["UNCERTAIN"]
@@ -255,7 +255,7 @@ def test_a_drone_that_is_lost_in_every_life_is_counted_once() -> None:
 
 def test_a_held_mission_that_is_let_go_on_may_still_be_uncertain() -> None:
     """Its action was under way when the app died, and the block it came from is gone."""
-    app = enterable(clock=True, actions=(Action(name="spray", hook=_spray),))
+    app = enterable(clock=True, actions=(OwnAction(name="spray", hook=_spray),))
     living = Living(app, apps.mission("a", apps.trip("1", 3, action="spray", delay=1.0)))
     changed = replace(app, resumes=("somewhere",))
     living.crash(12.0, app=changed)

@@ -7,15 +7,28 @@ import errno
 import json
 import socket
 import stat
+from asyncio import StreamReader, StreamWriter
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
 
-from pluto_fleet.flight.commands import listening, perform
+from pluto_fleet.flight.commands import hear_commands, perform
 from pluto_fleet.jobs.reports import Down
-from pluto_fleet.process.asking import LONGEST, Ended, Nobody, Silent, ask, note_of
-from pluto_fleet.process.private import address_in, new_address, publish, withdraw
+from pluto_fleet.journal.place import commands_note
+from pluto_fleet.process.ipc import (
+    MAX_LINE,
+    AnswerLost,
+    NoAnswer,
+    NotRunning,
+    address_in,
+    ask,
+    listening,
+    new_address,
+    publish,
+    withdraw,
+)
 from plutoc_runtime.domain.errors import BadInput
 
 
@@ -68,7 +81,7 @@ def talk(
         return answer(request)
 
     async def scenario() -> object:
-        async with listening(note, answered):
+        async with hear_commands(note, answered):
             return await asyncio.to_thread(client)
 
     return asyncio.run(scenario())
@@ -76,7 +89,7 @@ def talk(
 
 @pytest.fixture
 def note(tmp_path: Path) -> Path:
-    return note_of(tmp_path / "a.journal")
+    return commands_note(tmp_path / "a.journal")
 
 
 @pytest.mark.parametrize(
@@ -147,7 +160,7 @@ def test_the_words_of_a_refusal_arrive(note: Path) -> None:
         b"[1]\n",
         b"\xff\xfe\n",
         b"[" * 50_000 + b"\n",
-        b"x" * (LONGEST + 10) + b"\n",
+        b"x" * (MAX_LINE + 10) + b"\n",
     ],
     ids=lambda line: repr(line[:8]),
 )
@@ -163,9 +176,9 @@ def test_a_strangers_line_is_answered_and_does_no_harm(line: bytes, note: Path) 
             stranger.connect(str(address))
             try:
                 stranger.sendall(line)
-                assert json.loads(stranger.recv(LONGEST))["ok"] is False
+                assert json.loads(stranger.recv(MAX_LINE))["ok"] is False
             except ConnectionError:  # it has hung up on who talks too much
-                assert len(line) > LONGEST
+                assert len(line) > MAX_LINE
         return ask(note, {"command": "pause", "mission": None}, 5)
 
     assert talk(note, lambda asked: perform(told, asked), client) == "did pause"
@@ -186,11 +199,11 @@ def test_who_hangs_up_early_does_no_harm(note: Path) -> None:
 
 def test_without_an_app_it_is_said_that_none_is_there(note: Path) -> None:
     """Nor after it has ended."""
-    with pytest.raises(Nobody):
+    with pytest.raises(NotRunning):
         ask(note, {}, 5)
     talk(note, lambda asked: "", lambda: None)
     assert not note.exists()
-    with pytest.raises(Nobody):
+    with pytest.raises(NotRunning):
         ask(note, {}, 5)
 
 
@@ -200,11 +213,53 @@ def test_an_app_that_says_nothing_is_not_waited_for(note: Path, tmp_path: Path) 
         deaf.bind(str(tmp_path / "f" / "s"))
         deaf.listen()
         publish(note, tmp_path / "f" / "s")
-        with pytest.raises(Silent):
+        with pytest.raises(NoAnswer):
             ask(note, {"command": "pause", "mission": None}, 0.01)
 
 
-async def test_an_app_that_ends_first_leaves_one_in_doubt(note: Path) -> None:
+@pytest.mark.parametrize(
+    "answer",
+    [
+        b"",
+        b"[]\n",
+        b'{"ok": true, "said": 1}\n',
+        b"\xff" * (2 * MAX_LINE),
+        b"half",
+    ],
+)
+def test_an_answer_that_makes_no_sense_leaves_one_in_doubt(note: Path, answer: bytes) -> None:
+    async def strange(reader: StreamReader, writer: StreamWriter) -> None:
+        await reader.readline()
+        writer.write(answer)
+        writer.close()
+
+    async def scenario() -> None:
+        async with listening(note, strange):
+            with pytest.raises(AnswerLost):
+                await asyncio.to_thread(ask, note, {}, 5.0)
+
+    asyncio.run(scenario())
+
+
+def test_an_answer_that_comes_byte_by_byte_is_not_waited_for(note: Path) -> None:
+    """The time is that of the whole answer, and not of each piece."""
+
+    async def slow(reader: StreamReader, writer: StreamWriter) -> None:
+        with suppress(OSError):
+            while True:
+                writer.write(b" ")
+                await writer.drain()
+                await asyncio.sleep(0.02)
+
+    async def scenario() -> None:
+        async with listening(note, slow, last_words=0.0):
+            with pytest.raises(NoAnswer):
+                await asyncio.to_thread(ask, note, {}, 0.2)
+
+    asyncio.run(scenario())
+
+
+def test_an_app_that_ends_first_leaves_one_in_doubt(note: Path) -> None:
     """That is told, and not that all went well."""
     asked, over = asyncio.Event(), asyncio.Event()
 
@@ -213,11 +268,14 @@ async def test_an_app_that_ends_first_leaves_one_in_doubt(note: Path) -> None:
         await over.wait()
         return "done"
 
-    async with listening(note, never):
-        doubt = asyncio.create_task(asyncio.to_thread(ask, note, {"command": "pause"}, 5.0))
-        await asked.wait()
-    with pytest.raises(Ended, match="before it could say whether that was done"):
-        await doubt
+    async def scenario() -> None:
+        async with hear_commands(note, never):
+            doubt = asyncio.create_task(asyncio.to_thread(ask, note, {"command": "pause"}, 5.0))
+            await asked.wait()
+        with pytest.raises(AnswerLost, match="before it could say whether that was done"):
+            await doubt
+
+    asyncio.run(scenario())
 
 
 def test_nothing_flies_that_could_not_be_stopped(

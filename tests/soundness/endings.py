@@ -15,7 +15,8 @@ from random import Random
 from types import SimpleNamespace
 from typing import Any
 
-from pluto_fleet.files.fleet import DroneEntry, FleetFile
+from pluto_fleet.files.drones import DroneEntry
+from pluto_fleet.files.fleet import FleetFile
 from pluto_fleet.flight.simulate import Simulation, simulate
 from pluto_fleet.process.realtime import RealTime
 from plutoc.block import HookKind

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import os
-import stat
 from pathlib import Path
 
 import pytest
 
 from plutoc.source import Source
-from plutoc.syntax import grammar
-from plutoc.syntax.newlines import SETTINGS, WORDS
 from plutoc.syntax.parse import parse
+from plutoc.syntax.tokens import SETTINGS, WORDS
 from plutoc.syntax.tree import (
     ActionDecl,
     BlockDecl,
@@ -202,83 +199,10 @@ def test_byte_order_mark_is_tolerated() -> None:
 
 
 def test_spans_are_places_in_the_source() -> None:
-    """Of every statement, whatever stands before it."""
+    """Of every statement, with all that stands before it."""
     source = Source("a", "\ufeffpluto 1\r\n# ü 日本\r\napp demo {\r\n  a = K(x: 5 min)  # x\r\n}")
     (block,) = parse(source).app.statements
     assert source.quote(block.span) == "a = K(x: 5 min)"
     assert isinstance(block, BlockDecl)
     assert source.quote(block.arguments[0].value.span) == "5 min"
     assert source.quote(parse(source).app.span).endswith("}")
-
-
-@pytest.fixture
-def cache_home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Another cache folder, and no parser made yet."""
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    monkeypatch.setattr(grammar, "parser", grammar.parser.__wrapped__)
-    return tmp_path
-
-
-def test_parser_is_cached_for_the_user_alone(cache_home: Path) -> None:
-    """What is unpickled must be nobody else's to write."""
-    grammar.parser()
-    folder = cache_home / "pluto"
-    assert stat.S_IMODE(folder.stat().st_mode) == 0o700
-    assert [path.name.startswith("grammar-") for path in folder.iterdir()] == [True]
-    assert grammar.parser().parse("pluto 1\napp demo {}") == grammar.parser().parse(
-        "pluto 1\napp demo {}"
-    )
-
-
-@pytest.mark.skipif(os.name != "posix", reason="permissions are otherwise elsewhere")
-def test_cache_that_others_can_write_is_not_used(cache_home: Path) -> None:
-    """Nothing is read from it, nothing is written to it."""
-    folder = cache_home / "pluto"
-    folder.mkdir()
-    folder.chmod(0o777)
-    grammar.parser()
-    assert not list(folder.iterdir())
-
-
-def test_cache_folder_that_cannot_be_made_is_no_error(cache_home: Path) -> None:
-    """A read-only home compiles too."""
-    (cache_home / "pluto").write_text("in the way")
-    assert grammar.parser()
-
-
-def test_a_parser_that_is_not_as_it_was_written_is_made_anew(cache_home: Path) -> None:
-    """A flipped bit could be unpickled, and make another language of it."""
-    grammar.parser()
-    (file,) = (cache_home / "pluto").iterdir()
-    good = file.read_bytes()
-    for bad in (
-        b"",
-        good[:40],
-        good[: len(good) // 2],
-        good[:-1],
-        good + b".",
-        bytes(len(good)),
-        *(
-            good[:i] + bytes([good[i] ^ 1]) + good[i + 1 :]
-            for i in (0, 64, 65, 6162, len(good) - 1)
-        ),
-    ):
-        file.write_bytes(bad)
-        assert grammar.parser().parse("pluto 1\napp demo {}")
-        anew = file.read_bytes()
-        assert anew != bad
-        assert grammar.parser().parse("pluto 1\napp demo {}")
-        assert file.read_bytes() == anew
-    assert list((cache_home / "pluto").iterdir()) == [file]
-
-
-def test_a_parser_of_another_grammar_is_not_used(
-    cache_home: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Nor one of other options: of whatever it was made, all of it counts."""
-    grammar.parser()
-    (file,) = (cache_home / "pluto").iterdir()
-    good = file.read_bytes()
-    monkeypatch.setattr(grammar, "_OPTIONS", (*grammar._OPTIONS, ("debug", True)))
-    grammar.parser()
-    assert file.read_bytes().partition(b"\n")[0] != good.partition(b"\n")[0]

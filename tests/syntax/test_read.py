@@ -93,7 +93,7 @@ def test_broken_first_line_of_an_app_costs_nothing_else() -> None:
     ],
     ids=lambda text: repr(text[:20]),
 )
-def test_what_nobody_means_has_a_tree_too(text: str) -> None:
+def test_what_is_never_meant_has_a_tree_too(text: str) -> None:
     """An empty one at worst, and at least one finding."""
     file, codes = read_text(text)
     assert codes
@@ -122,7 +122,7 @@ def test_every_edit_has_a_tree_with_places_in_the_text(place: tuple[int, int], b
 @settings(max_examples=100, deadline=None, derandomize=True)
 @given(st.text(max_size=80))
 def test_any_text_has_a_tree(text: str) -> None:
-    """Whatever stands in an app, or in the place of one."""
+    """All that stands in an app, or in the place of one."""
     for whole in (text, f"pluto 1\n{text}", f"pluto 1\napp a {{\n{text}\n}}\n"):
         assert isinstance(read_text(whole)[0], File)
 

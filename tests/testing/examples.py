@@ -12,7 +12,7 @@ from pluto_fleet.files.fleet import FleetFile, load_fleet
 from pluto_fleet.files.missions import load_missions
 from plutoc.check.model import Checked
 from plutoc.compile import analyse, planned
-from plutoc.emit.exports import EXPORTS
+from plutoc.emit.stubs import EXPORTS
 from plutoc.plan.build import build
 from plutoc.source import Source
 from plutoc_runtime.domain.model import Mission

@@ -14,9 +14,8 @@ from pluto_fleet.flight import restore as rebuilding
 from pluto_fleet.flight.live_engine import LiveEngine
 from pluto_fleet.flight.live_fleet import LiveFleet
 from pluto_fleet.flight.reconcile import Fate
-from pluto_fleet.gateway.gateway import Gateway
-from pluto_fleet.gateway.job import Given
-from pluto_fleet.gateway.link import Link
+from pluto_fleet.gateway.gateway import Gateway, Link
+from pluto_fleet.gateway.jobs import Given
 from pluto_fleet.jobs.reports import JobState
 from pluto_fleet.journal import values
 from pluto_fleet.journal.durable_link import Careful

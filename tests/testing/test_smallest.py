@@ -20,7 +20,7 @@ from pluto_fleet.trials.explore import Tally, small_case
 from pluto_fleet.trials.options import Options
 from pluto_fleet.trials.report import report
 from pluto_fleet.trials.rule import Say, at
-from plutoc_runtime.alone import bound as enough
+from plutoc_runtime.alone import simulate as enough
 from plutoc_runtime.domain.app import App
 from plutoc_runtime.domain.model import Drone
 from plutoc_runtime.domain.trace import Event

@@ -21,8 +21,8 @@ from dataclasses import replace
 from functools import cache
 
 from plutoc.block import Gate
-from plutoc.plan.arriving import Brought, arriving
 from plutoc.plan.model import Body, Branch, End, Join, Plan, Step
+from plutoc.plan.reaching_statuses import Brought, reaching_statuses
 from plutoc.plan.rewrite import rewritten
 from plutoc_runtime.domain.status import IN_GRAPH, WORST_FIRST
 
@@ -32,7 +32,7 @@ def clones(plan: Plan) -> Plan:
 
     @cache
     def brought() -> Brought:
-        return arriving(plan).brought
+        return reaching_statuses(plan).brought
 
     def spared(step: Step, before: Step) -> Body:
         if not isinstance(step, Join) or not isinstance(before, Join):
@@ -49,7 +49,7 @@ def clones(plan: Plan) -> Plan:
 
 def _idle(join: Join, arrows: list[int], brought: Callable[[], Brought]) -> Sequence[int]:
     """Return the numbers of the branches that need no clone."""
-    if join.gate.block.asks:  # somebody else's, who may count them
+    if join.gate.block.asks:  # a gate of another package may count them
         return ()
     if join.gate.block.gate is Gate.FIRST:
         return range(arrows[0] + 1, len(join.branches))

@@ -16,15 +16,15 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from plutoc.plan.arriving import arriving
 from plutoc.plan.bodies import breaks, continues, falls
 from plutoc.plan.model import Body, Loop, Plan, Step, Switch
+from plutoc.plan.reaching_statuses import reaching_statuses
 from plutoc.plan.rewrite import rewritten
 
 
 def impossible(plan: Plan) -> Plan:
     """Ask for no status that cannot arrive."""
-    found = arriving(plan).switches
+    found = reaching_statuses(plan).switches
 
     def narrowed(step: Step, before: Step) -> Body:
         if isinstance(step, Loop) and not any(

@@ -27,11 +27,10 @@ to be written for each of them.
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import takewhile
 
 from plutoc.check.model import Checked
-from plutoc.frozen import frozen_one
 from plutoc.plan.bodies import falls, without_last_continue
 from plutoc.plan.model import (
     Arm,
@@ -50,7 +49,7 @@ from plutoc.plan.model import (
 )
 from plutoc.plan.rewrite import rewritten
 
-COPIES = 3
+MOST_CALLS = 3
 """How many more calls there may be."""
 
 _JUMPS: tuple[type[Step], ...] = (End, Goto, Break, Continue)
@@ -74,7 +73,11 @@ def _straightened(step: Step, checked: Checked) -> Body:
     onward = _changed(tuple(behind), Continue, round_again)
     if falls(onward):
         onward += round_again
-    if not ways or (behind and ways > 1) or ways * _count(onward, Continue) * len(first) > COPIES:
+    if (
+        not ways
+        or (behind and ways > 1)
+        or ways * _count(onward, Continue) * len(first) > MOST_CALLS
+    ):
         return (step,)
     body = _changed(loop.body, Break, onward)
     settled = _settled((*body, Continue()) if falls(body) else body, checked)
@@ -95,7 +98,7 @@ def _change(step: Step, jump: type[Step], onward: Body) -> Body:
     return (step,)
 
 
-@frozen_one
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class _Way:
     """A way of a switch, all of it."""
 

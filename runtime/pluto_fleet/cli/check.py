@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 from plutoc_runtime import output
 from plutoc_runtime.domain.text import counted
 
+from ..files.fleet import too_fast
 from ..files.plan_check import idle_actions
-from ..files.real import too_fast
 from .plans import load
 
 if TYPE_CHECKING:

@@ -12,7 +12,7 @@ from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.text import in_shell, printable, quoted
 
 from ..journal.store import Store
-from ..process.asking import Nobody
+from ..process.ipc import NotRunning
 from .flown import ANSWERS, records_in, waiting, waiting_lines
 from .tell import asked as asked_of_app
 
@@ -45,7 +45,7 @@ def decide(app: App, options: Options) -> int:
     try:
         request = {"command": "decide", "mission": mission, "answer": answer}
         output.line(asked_of_app(app, options, request))
-    except Nobody:
+    except NotRunning:
         _put_down(journal, mission, answer, records.time)
         output.line(
             f"mission {quoted(mission)}: {answer}; it is on record, and "

@@ -17,20 +17,19 @@ from typing import TYPE_CHECKING, Protocol, TypeVar, cast
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.text import number, of, printable, quoted
 
-from ..drones.feeding import Feeding
 from ..drones.loading import load_navigation, make_localization
-from ..drones.making import make_one
+from ..drones.localization import LocalizationFeed
 from ..drones.protocol import Identifiable, Locatable, Scannable
 from ..drones.real_fleet import RealDrone
-from ..files.behaviour import OWN
+from ..drones.team import make_one
+from ..files.fleet import OWN
 from ..gateway.drone_lock import Held, holding
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Point
 
-    from ..drones.protocol import DroneNavigation
-    from ..drones.telemetry import DroneTelemetry
-    from ..files.free_tables import Options
+    from ..drones.protocol import DroneNavigation, DroneTelemetry
+    from ..files.options import Options
 
 CONNECT, ANSWER, CLOSE, SCAN = 15.0, 12.0, 10.0, 90.0
 """Seconds that each may take."""
@@ -103,11 +102,11 @@ async def answers(
 ) -> list[Answer]:
     """Return what each drone answers, told meanwhile where it is if the fleet has somebody for that."""
     navigations = {one.id: _made(one, folder) for one in asked}
-    feeding: Feeding | None = None
+    feeding: LocalizationFeed | None = None
     if localization != OWN:
         source = make_localization(localization, options or {})
         told = {id: one for id, one in navigations.items() if isinstance(one, Locatable)}
-        feeding = Feeding(localization, source, told, lambda _: None)
+        feeding = LocalizationFeed(localization, source, told, lambda _: None)
         feeding.start()
     try:
         return await asyncio.gather(*(_answer(one, navigations[one.id], feeding) for one in asked))
@@ -157,7 +156,9 @@ class _Heard:
     facts: Mapping[str, str] = field(default_factory=dict)
 
 
-async def _answer(asked: Asked, navigation: DroneNavigation, feeding: Feeding | None) -> Answer:
+async def _answer(
+    asked: Asked, navigation: DroneNavigation, feeding: LocalizationFeed | None
+) -> Answer:
     so_far = _Heard()
     try:
         with holding({asked.id: asked.uri or asked.id}):

@@ -11,7 +11,7 @@ from .drone_answers import heard
 from .report import table
 
 if TYPE_CHECKING:
-    from ..drones.telemetry import DroneTelemetry
+    from ..drones.protocol import DroneTelemetry
     from .drone_answers import Answer
 
 ONLY_IN_JSON = ("protocol",)

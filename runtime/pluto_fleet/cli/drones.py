@@ -12,13 +12,11 @@ from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.text import counted, quoted
 from plutoc_runtime.domain.trace import dumped
 
-from ..crazyflie.borrowed import require
-from ..files.behaviour import CRAZYFLIE
+from ..crazyflie.driver import require
 from ..files.drones import which
 from ..files.errors import near
-from ..files.fleet import load_fleet
+from ..files.fleet import CRAZYFLIE, load_fleet, navigation_of, not_real, options_of
 from ..files.reading import shortened
-from ..files.real import navigation_of, not_real, options_of
 from ..journal import place
 from .drone_answers import Asked, answers, found, identified
 from .drone_file import write_fleet
@@ -28,7 +26,7 @@ if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
 
     from ..files.fleet import FleetFile
-    from ..files.free_tables import Options
+    from ..files.options import Options
     from .drone_answers import Answer
     from .options import Options as Command
 

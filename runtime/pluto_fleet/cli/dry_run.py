@@ -37,7 +37,7 @@ if TYPE_CHECKING:
     from plutoc_runtime.flow.session import Outcome
     from plutoc_runtime.time.kernel import Kernel
 
-    from ..drones.real_fleet import Wanted
+    from ..drones.real_fleet import RequiredAction
     from ..files.drones import DroneEntry
     from ..jobs.controls import Controls
     from .given import Command
@@ -100,7 +100,7 @@ def _refused(app: App, options: Options, plan: Plan) -> Iterator[str]:
             yield f"{drone.id} would not be flown: {reason}"
 
 
-def _unfit(plan: Plan, drone: DroneEntry, wanted: Sequence[Wanted]) -> Iterator[str]:
+def _unfit(plan: Plan, drone: DroneEntry, wanted: Sequence[RequiredAction]) -> Iterator[str]:
     """Yield what a drone's navigation says it cannot do, before there is any drone."""
     with TemporaryDirectory() as folder:
         navigation = made(plan.app, plan.fleet, drone, Path(folder))

@@ -20,10 +20,9 @@ from ..flight.config import End, Lived, Setting, Stops
 from ..flight.fly import Recovered, live
 from ..gateway.settings import settings_for
 from ..gateway.starting import connect
-from ..journal.place import gateway_folder
+from ..journal.place import commands_note, gateway_folder
 from ..journal.store import Store
 from ..process import respawn as again
-from ..process.asking import note_of
 from . import leaving, stop_mark
 from .events import line_of
 from .flown import finished, has_ended, records_in, report_of, waiting_lines
@@ -159,7 +158,7 @@ async def lives(
         missions=flight.missions,
         fleet=flight.fleet,
         connect=lambda kernel, epoch, lost: connect(folder, settings, kernel, epoch, lost),
-        note=note_of(flight.journal),
+        note=commands_note(flight.journal),
         tell=watcher.tell,
         speed=flight.speed,
         sim=flight.sim,
@@ -194,8 +193,8 @@ async def _real(flight: Flight, folder: Path, known: Recovered | None) -> RealFl
     real = real_fleet(flight.fleet, flight.missions, records=records)
     if not flight.crtp:
         return real
+    from ..crtp.equipment import fitted
     from ..crtp.process import start, told  # few want them
-    from ..crtp.stand_in import fitted
 
     homes = {drone.id: drone.home for drone in flight.fleet.drones}
     uris = await asyncio.to_thread(start, folder, homes)

@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from ..files.toml_text import text, value
+import tomlkit
+
 from ..jobs.controls import Before
 
 if TYPE_CHECKING:
@@ -48,7 +49,7 @@ class Given(Before):
         )
 
     def _here(self, drone: str, height: float) -> Point:
-        x, y, _ = self._controls.telemetry(drone).location
+        x, y, _ = self._controls.telemetry[drone].location
         return x, y, height
 
     def _climb(self, drone: str) -> float:
@@ -56,7 +57,7 @@ class Given(Before):
 
     async def takeoff(self, drone: str, height: float) -> None:
         """Rise straight up to a height; does nothing for a drone that flies."""
-        if self._controls.telemetry(drone).landed:
+        if self._controls.telemetry[drone].landed:
             self._note(drone, "take off", self._here(drone, height), self._climb(drone))
         await self._controls.takeoff(drone, height)
 
@@ -67,7 +68,7 @@ class Given(Before):
 
     async def land(self, drone: str) -> None:
         """Land here; does nothing for a drone that stands on the ground."""
-        if not self._controls.telemetry(drone).landed:
+        if not self._controls.telemetry[drone].landed:
             self._note(drone, "land", self._here(drone, 0.0), self._climb(drone))
         await self._controls.land(drone)
 
@@ -85,8 +86,8 @@ class Given(Before):
         job: str | None,
     ) -> object:
         """Do one of the built-in actions here, and return what came of it."""
-        given = [f"{name} = {value(one)}" for name, one in parameters.items()]
-        what = [*([text(item.name)] if item is not None else []), *given]
+        given = [f"{name} = {tomlkit.item(one).as_string()}" for name, one in parameters.items()]
+        what = [*([tomlkit.item(item.name).as_string()] if item is not None else []), *given]
         self._note(drone, f"{action}, {', '.join(what)}" if what else action)
         return await self._controls.act(drone, action, parameters, item, job)
 
@@ -102,7 +103,7 @@ class Given(Before):
 
     def break_off(self, drone: str) -> None:
         """Stop whatever a drone does, and hover; a command under way raises `FlightFailed`."""
-        if not self._controls.telemetry(drone).landed:
+        if not self._controls.telemetry[drone].landed:
             self._note(drone, "stop, and hover")
         self._controls.break_off(drone)
 

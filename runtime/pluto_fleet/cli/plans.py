@@ -9,12 +9,10 @@ from typing import TYPE_CHECKING, Any
 from plutoc_runtime import output
 from plutoc_runtime.domain.errors import BadInput
 
-from ..files.fleet import DEFAULT_SIZE, FleetFile, default_fleet, fleet_of
-from ..files.look_alikes import look_alikes
+from ..files.fleet import DEFAULT_SIZE, FleetFile, as_flown, default_fleet, fleet_of
 from ..files.missions import missions_of
-from ..files.plan_check import endless, problems
+from ..files.plan_check import endless, look_alikes, problems
 from ..files.reading import parsed, shortened, text_of
-from ..files.real import as_flown
 from .stand_ins import who_is_missing, with_stand_ins
 
 if TYPE_CHECKING:

@@ -8,14 +8,13 @@ from typing import TYPE_CHECKING
 
 from plutoc_runtime.domain.errors import BadInput
 
-from ..crazyflie.borrowed import require
-from ..drones import refusals
+from ..crazyflie.driver import require
+from ..drones import plugins
 from ..drones.loading import hears, load_localization, load_navigation
-from ..drones.making import make_one, top_speed
 from ..drones.real_fleet import real_fleet
-from ..files.behaviour import CRAZYFLIE, OWN
+from ..drones.team import make_one, top_speed
+from ..files.fleet import CRAZYFLIE, OWN, navigation_of, not_real
 from ..files.reading import shortened
-from ..files.real import navigation_of, not_real
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
@@ -42,7 +41,7 @@ def check_real(app: App, fleet: FleetFile, where: str, *, stand_ins: bool) -> No
         load_localization(fleet.localization)
         deaf = [one.id for one in fleet.drones if not hears(navigation_of(fleet, one))]
         if deaf:
-            raise refusals.deaf(fleet.localization, deaf)
+            raise plugins.deaf(fleet.localization, deaf)
     _check_options(app, fleet, where)
 
 

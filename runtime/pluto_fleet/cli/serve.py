@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING
 from plutoc_runtime import output
 from plutoc_runtime.domain.errors import BadInput
 
+from ..files.fleet import as_flown
 from ..files.reading import text_of
-from ..files.real import as_flown
 from ..jobs.reports import Down
 from ..journal import place
 from ..process import respawn as again

@@ -7,10 +7,9 @@ from itertools import count
 from typing import TYPE_CHECKING
 
 from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.fleet.landing_sites import free_spots
 
-from ..files.behaviour import CRAZYFLIE, OWN
-from ..files.real import navigation_of
+from ..files.fleet import CRAZYFLIE, OWN, navigation_of
+from ..jobs.landing_sites import free_spots
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.alone.faults import Faults
 
-from ..files.real import as_flown
+from ..files.fleet import as_flown
 from ..flight.fly import Recovered, recovered
 from ..gateway.process import NOTE
 from ..gateway.starting import speed_in

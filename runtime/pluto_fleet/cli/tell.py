@@ -17,8 +17,8 @@ from ..gateway.starting import cut_directly, stop_directly
 from ..jobs.reports import Down
 from ..journal.errors import missing
 from ..journal.lock import holder
-from ..journal.place import gateway_folder
-from ..process.asking import Ended, Nobody, Silent, ask, note_of
+from ..journal.place import commands_note, gateway_folder
+from ..process.ipc import AnswerLost, NoAnswer, NotRunning, ask
 from . import stop_mark
 from .looked_after import looked_after
 
@@ -52,7 +52,7 @@ def _bring_back(app: App, options: Options, request: Mapping[str, object]) -> st
     """Tell the running app, or its journal, that a person has looked after a drone."""
     try:
         return asked(app, options, request)
-    except Nobody:
+    except NotRunning:
         return looked_after(app, options.the_journal, str(request["drone"]))
 
 
@@ -60,20 +60,20 @@ def asked(app: App, options: Options, request: Mapping[str, object]) -> str:
     """Return what the running app says to a request."""
     journal = options.the_journal
     try:
-        return ask(note_of(journal), request, PATIENCE)
-    except Nobody:
+        return ask(commands_note(journal), request, PATIENCE)
+    except NotRunning:
         if not journal.exists():
             raise missing(journal) from None
-        raise Nobody(
+        raise NotRunning(
             f"{journal}: {app.name} is not running, so there is nobody to tell; "
             f"{app.name} resume {in_shell(journal)} goes on"
         ) from None
-    except Ended as error:
-        raise Ended(
+    except AnswerLost as error:
+        raise AnswerLost(
             f"{journal}: {error}; {app.name} resume {in_shell(journal)} does that"
         ) from None
-    except Silent as error:
-        raise Silent(
+    except NoAnswer as error:
+        raise NoAnswer(
             f"{journal}: {error}; a hook may keep it busy. "
             f"{app.name} tell {in_shell(journal)} stop brings the drones down all the same"
         ) from None
@@ -134,17 +134,17 @@ def _stop(app: App, options: Options, request: dict[str, object]) -> str:
     until = time.monotonic() + PATIENCE
     while True:
         try:
-            return ask(note_of(journal), request, AT_ONCE)
-        except (Nobody, Silent) as nobody:
-            with suppress(Nobody):
+            return ask(commands_note(journal), request, AT_ONCE)
+        except (NotRunning, NoAnswer) as error:
+            with suppress(NotRunning):
                 said = stop_directly(gateway_folder(journal), how, PATIENCE)
-                return f"{nobody}: {said} without it; {again} goes on"
+                return f"{error}: {said} without it; {again} goes on"
         if holder(journal) is None:
             if not journal.exists():
                 raise missing(journal)
-            raise Nobody(f"{journal}: {app.name} is not running, and no drone flies")
+            raise NotRunning(f"{journal}: {app.name} is not running, and no drone flies")
         if time.monotonic() > until:
-            raise Silent(f"{journal}: {app.name} runs, but has come to no drones: end it")
+            raise NoAnswer(f"{journal}: {app.name} runs, but has come to no drones: end it")
         stop_mark.leave(journal, how)  # it has only just begun: it shall not fly
         time.sleep(0.1)
 
@@ -156,18 +156,18 @@ def cut_motors(app: App, journal: Path, drone: str | None) -> str:
     while True:
         try:
             return cut_directly(gateway_folder(journal), drone, PATIENCE)
-        except Nobody:
+        except NotRunning:
             if time.monotonic() > until:
                 break
-        except Silent:
-            raise Silent(
+        except NoAnswer:
+            raise NoAnswer(
                 f"{journal}: what commands the drones does not answer, so nobody can say whether"
                 " their motors are cut"
             ) from None
         time.sleep(0.05)  # it may have died this moment, and be started again
     if not journal.exists():
         raise missing(journal)
-    raise Nobody(
+    raise NotRunning(
         f"{journal}: nobody commands its drones, so no motor can be cut from here;"
         f" {app.name} resume {in_shell(journal)} reaches them again"
     )

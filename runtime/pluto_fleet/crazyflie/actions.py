@@ -1,4 +1,10 @@
-"""What a Crazyflie can do at the end of a trip, as the fleet file says how; nothing is pretended."""
+"""What a Crazyflie does at the end of a trip, as the fleet file says how; and how it shows which it is.
+
+A picture comes from the streamer of an AI-deck, which sends all that its camera sees by TCP. Each
+packet has its length, two bytes for its way, and a part of what is sent: first the head of a picture,
+then its bytes. What the camera sees raw becomes a picture of grey levels that any viewer shows; else it
+is a JPEG as it comes.
+"""
 
 from __future__ import annotations
 
@@ -8,21 +14,87 @@ from dataclasses import dataclass
 from itertools import count
 from math import radians, tan
 from pathlib import Path
+from struct import Struct
 from typing import TYPE_CHECKING
 
 from plutoc_runtime.domain.actions import PICK, RELEASE
 from plutoc_runtime.domain.model import Photo
 
 from ..drones.errors import ActionNotDone, PositionLost, Rejected
-from . import logs, parameters, words
-from .camera import NoPicture, Picture, picture
+from . import logs, messages, parameters
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.actions import Plain
 
-    from .options import Options
-    from .session import Session
+    from .options import CrazyflieOptions
+    from .session import CrazyflieSession
     from .worker import Worker
+
+
+_PACKET = Struct("<HBB")
+_WAY = 2
+"""Bytes of the length that are not part of what is sent."""
+_HEAD = Struct("<BHHBBI")
+_MAGIC = 0xBC
+_RAW = 0
+_LARGEST = 1 << 20
+"""Bytes: its camera has a tenth of that."""
+
+LIMIT = 6.0
+"""Seconds; it sends some pictures a second."""
+
+
+class NoPicture(Exception):
+    """What came is no picture."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Picture:
+    """A picture as a file has it."""
+
+    data: bytes
+    suffix: str
+
+
+async def picture(where: tuple[str, int]) -> Picture:
+    """Return the next whole picture; raise `OSError`, `TimeoutError` or `NoPicture`.
+
+    Each time anew: on a line that stays open, old pictures wait.
+    """
+    async with asyncio.timeout(LIMIT):
+        reader, writer = await asyncio.open_connection(*where)
+        try:
+            return await _next(reader)
+        except asyncio.IncompleteReadError:
+            raise NoPicture("it ended within a picture") from None
+        finally:
+            writer.transport.abort()
+
+
+async def _next(reader: asyncio.StreamReader) -> Picture:
+    while True:
+        head = await _part(reader)
+        if len(head) != _HEAD.size or head[0] != _MAGIC:
+            continue  # the middle of a picture, or something else that the deck says
+        _, width, height, depth, kind, size = _HEAD.unpack(head)
+        if not 0 < size <= _LARGEST:
+            raise NoPicture(f"a picture of {size} bytes was announced")
+        data = bytearray()
+        while len(data) < size:
+            data += await _part(reader)
+        if kind != _RAW:
+            return Picture(data=bytes(data), suffix=".jpg")
+        if len(data) != width * height * max(1, depth // 8):
+            raise NoPicture(f"{len(data)} bytes are no picture of {width} by {height}")
+        grey = f"P5 {width} {height} 255\n".encode()
+        return Picture(data=grey + data, suffix=".pgm")
+
+
+async def _part(reader: asyncio.StreamReader) -> bytes:
+    """Return what one packet has."""
+    length, _, _ = _PACKET.unpack(await reader.readexactly(_PACKET.size))
+    return await reader.readexactly(max(0, length - _WAY))
+
 
 MEASURE, PHOTO = "measure", "take_photo"
 _DOUBTS = 2.0
@@ -31,8 +103,8 @@ _DOUBTS = 2.0
 
 def why_not(
     drone: str,
-    options: Options,
-    session: Session | None,
+    options: CrazyflieOptions,
+    session: CrazyflieSession | None,
     action: str,
     parameters_: Mapping[str, Plain],
 ) -> str | None:
@@ -42,35 +114,31 @@ def why_not(
         quantity = _quantity(parameters_)
         name = options.variable_of(quantity)
         if name is None:
-            return words.no_quantity(drone, quantity, tuple(options.measure))
+            return messages.no_quantity(drone, quantity, tuple(options.measure))
         if cf is not None and not logs.has(cf, name):
-            return words.no_variable(drone, name)
+            return messages.no_variable(drone, name)
         return None
     if action == PHOTO:
-        return words.no_camera(drone) if options.camera is None else None
+        return messages.no_camera(drone) if options.camera is None else None
     if action in (PICK, RELEASE):
         if options.grip is None:
-            return words.no_grip(drone)
+            return messages.no_grip(drone)
         name = options.grip.parameter
         if cf is not None and parameters.element_of(cf, name) is None:
-            return words.no_parameter(drone, name)
+            return messages.no_parameter(drone, name)
         return None
-    return words.no_action(drone, action)
+    return messages.no_action(drone, action)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Hands:
-    """What a drone needs to do something."""
-
-    session: Session
-    readings: logs.Readings
-    options: Options
-    folder: Path
-
-
-async def act(hands: Hands, action: str, parameters_: Mapping[str, Plain]) -> object:
+async def act(
+    session: CrazyflieSession,
+    readings: logs.LogReader,
+    options: CrazyflieOptions,
+    folder: Path,
+    action: str,
+    parameters_: Mapping[str, Plain],
+) -> object:
     """Do an action, and return what came of it; raise `ActionNotDone` if it was not done."""
-    session, options = hands.session, hands.options
     reason = why_not(session.drone, options, session, action, parameters_)
     if reason is not None:
         raise ActionNotDone(reason)
@@ -79,11 +147,11 @@ async def act(hands: Hands, action: str, parameters_: Mapping[str, Plain]) -> ob
         if action == MEASURE:
             name = options.variable_of(_quantity(parameters_))
             assert name is not None  # or there is a reason why not
-            value = await hands.readings.mean(name, options.measure_seconds)
+            value = await readings.mean(name, options.measure_seconds)
             await _check_place(session)
             return value
         if action == PHOTO and options.camera is not None:
-            return await _photo(hands, options.camera)
+            return await _photo(session, options.camera, options.camera_view, folder)
         if options.grip is not None:
             value = options.grip.pick if action == PICK else options.grip.release
             await parameters.write(session, options.grip.parameter, value)
@@ -93,36 +161,37 @@ async def act(hands: Hands, action: str, parameters_: Mapping[str, Plain]) -> ob
     return None
 
 
-async def _check_place(session: Session) -> None:
-    """Raise `PositionLost` for what would be done, or was measured, nobody knows where.
+async def _check_place(session: CrazyflieSession) -> None:
+    """Raise `PositionLost` for what would be done, or was measured, at an unknown place.
 
-    Who doubts it for a moment has not lost it, and is waited for.
+    One that doubts it for a moment has not lost it, and is waited for.
     """
     await session.until(lambda _: session.adrift or not session.doubts, _DOUBTS)
-    variance = session.certainty.variance
+    variance = session.confidence.variance
     if session.doubts and variance is not None:
-        raise PositionLost(words.lost_its_place(session.drone, variance))
+        raise PositionLost(messages.lost_its_place(session.drone, variance))
 
 
 def _quantity(parameters_: Mapping[str, Plain]) -> str:
     return str(parameters_.get("quantity", "temperature"))
 
 
-async def _photo(hands: Hands, camera: tuple[str, int]) -> Photo:
+async def _photo(
+    session: CrazyflieSession, camera: tuple[str, int], view: tuple[float, float], folder: Path
+) -> Photo:
     """Take a picture straight down and keep it as a file."""
-    session = hands.session
     before = session.now().position
     try:
         taken = await picture(camera)
     except (OSError, TimeoutError, NoPicture) as error:
         why = str(error) or "nothing came in time"
         where = f"{camera[0]}:{camera[1]}"
-        raise ActionNotDone(words.no_photo(session.drone, where, why)) from error
+        raise ActionNotDone(messages.no_photo(session.drone, where, why)) from error
     await _check_place(session)
     after = session.now().position
     x, y, z = (round((a + b) / 2, 3) for a, b in zip(before, after, strict=True))
-    across, along = (2.0 * z * tan(radians(angle) / 2.0) for angle in hands.options.camera_view)
-    file = await _kept(session.worker, hands.folder, session.drone, taken)
+    across, along = (2.0 * z * tan(radians(angle) / 2.0) for angle in view)
+    file = await _kept(session.worker, folder, session.drone, taken)
     return Photo(position=(x, y, z), width=round(across, 3), height=round(along, 3), file=str(file))
 
 
@@ -143,4 +212,25 @@ async def _kept(worker: Worker, folder: Path, drone: str, taken: Picture) -> Pat
     try:
         return await worker.call(write, 5.0)
     except OSError as error:
-        raise ActionNotDone(words.not_kept(drone, str(folder), str(error))) from error
+        raise ActionNotDone(messages.not_kept(drone, str(folder), str(error))) from error
+
+
+_LIGHTS = "led.bitmask"
+_OURS, _ALL = 0x80, 0x3F
+"""This bit takes the lights from the firmware; these are all of them."""
+_TIMES, _SECONDS = 8, 0.25
+
+
+async def blink(session: CrazyflieSession) -> None:
+    """Blink for four seconds, or beep once where its firmware does not give the lights away."""
+    if parameters.element_of(session.cf, _LIGHTS) is None:
+        await session.call(lambda cf: cf.platform.send_user_notification(True))
+        return
+    before = await parameters.read(session, _LIGHTS)
+    try:
+        for _ in range(_TIMES):
+            for value in (_OURS | _ALL, _OURS):
+                await parameters.write(session, _LIGHTS, value)
+                await asyncio.sleep(_SECONDS)
+    finally:
+        await asyncio.shield(parameters.write(session, _LIGHTS, before))

@@ -1,6 +1,6 @@
 """Commands that surely arrive: each is acknowledged, and sent again until it is.
 
-Twice is no harm: a course to a place is the same course, a landing goes on, and a take-off is refused
+Twice is no harm: a trajectory to a place is the same trajectory, a landing goes on, and a take-off is refused
 by a drone that has begun one, which is then seen by its state.
 """
 
@@ -11,12 +11,13 @@ from math import inf
 from typing import TYPE_CHECKING
 
 from ..drones.errors import LinkLost, Rejected
-from . import words
-from .borrowed import HIGH_LEVEL
+from . import messages
+from .driver import HIGH_LEVEL
 
 if TYPE_CHECKING:
-    from .borrowed import Cf
-    from .session import Session
+    from cflib.crazyflie import Crazyflie as Cf
+
+    from .session import CrazyflieSession
     from .state import State
 
 _ACKNOWLEDGED = 0.25
@@ -25,10 +26,10 @@ _TIMES = 8
 _STOP, _TAKEOFF, _LAND, _GO_TO = 3, 7, 8, 12
 _DONE, _WRONG_STATE, _BLOCKED = 0, 1, 16
 _SEEN = 0.6
-"""Seconds until a course that was begun shows in what it tells."""
+"""Seconds until a trajectory that was begun shows in what it tells."""
 
 
-async def let_commander_rule(session: Session) -> None:
+async def enable_high_level(session: CrazyflieSession) -> None:
     """Let set-points count no longer that were sent to it since it was switched on; on the ground only.
 
     They are above its high-level commander, whose commands are then acknowledged and not obeyed.
@@ -38,8 +39,8 @@ async def let_commander_rule(session: Session) -> None:
         await session.call(lambda cf: cf.commander.send_notify_setpoint_stop())
 
 
-async def forget_course(session: Session) -> None:
-    """Let it forget a course that its supervisor has cancelled, and by which no motor turns."""
+async def drop_trajectory(session: CrazyflieSession) -> None:
+    """Let it forget a trajectory that its supervisor has cancelled, and by which no motor turns."""
 
     def send(cf: Cf) -> None:
         cf.high_level_commander.stop()
@@ -47,8 +48,8 @@ async def forget_course(session: Session) -> None:
     await answered(session, (HIGH_LEVEL, _STOP), send, "stop", well=False)
 
 
-async def takeoff(session: Session, height: float, seconds: float) -> None:
-    """Begin to rise, the nose where it points; whoever is disarmed meanwhile does not."""
+async def takeoff(session: CrazyflieSession, height: float, seconds: float) -> None:
+    """Begin to rise, the nose where it points; one that is disarmed meanwhile does not."""
 
     def begin(cf: Cf) -> None:
         cf.high_level_commander.takeoff(height, seconds, yaw=None)
@@ -58,17 +59,17 @@ async def takeoff(session: Session, height: float, seconds: float) -> None:
 
     key = (HIGH_LEVEL, _TAKEOFF)
     for _ in range(3):
-        await let_commander_rule(session)  # a setpoint may have been sent while it was armed
+        await enable_high_level(session)  # a setpoint may have been sent while it was armed
         code = (await answered(session, key, begin, "takeoff"))[3]
         if code == _WRONG_STATE and await session.until(begun, _SEEN) is not None:
             return  # it was the answer to the same command, sent twice
         _check(session, "takeoff", code)
         if await session.until(begun, _SEEN) is not None:
             return
-    raise Rejected(words.not_begun(session.drone, "takeoff"))
+    raise Rejected(messages.not_begun(session.drone, "takeoff"))
 
 
-async def land(session: Session, seconds: float) -> None:
+async def land(session: CrazyflieSession, seconds: float) -> None:
     """Begin to come down, the nose where it points.
 
     It is not told so once more when it may be down: its motors would start again. Then it counts
@@ -85,7 +86,7 @@ async def land(session: Session, seconds: float) -> None:
 
 
 async def go_to(
-    session: Session, target: tuple[float, float, float], seconds: float, near: float
+    session: CrazyflieSession, target: tuple[float, float, float], seconds: float, near: float
 ) -> None:
     """Begin to fly to a place, the nose where it points.
 
@@ -106,11 +107,11 @@ async def go_to(
         _check(session, "go_to", code)
         if await session.until(begun, _SEEN) is not None:
             return
-    raise Rejected(words.not_begun(session.drone, "go_to"))
+    raise Rejected(messages.not_begun(session.drone, "go_to"))
 
 
 async def answered(
-    session: Session,
+    session: CrazyflieSession,
     key: tuple[int, int],
     send: Callable[[Cf], None],
     name: str,
@@ -136,16 +137,16 @@ async def answered(
             session.acknowledged.drop(key, hearing)
         if answer is not None:
             return answer.ljust(4, b"\0")
-    raise LinkLost(words.not_acknowledged(session.drone, name))
+    raise LinkLost(messages.not_acknowledged(session.drone, name))
 
 
-def _check(session: Session, name: str, code: int) -> None:
+def _check(session: CrazyflieSession, name: str, code: int) -> None:
     """Raise what an acknowledgement says."""
     if code == _DONE:
         return
     state = session.well()
     if code == _BLOCKED:
-        raise Rejected(words.blocked(session.drone, name, state.said))
+        raise Rejected(messages.blocked(session.drone, name, state.said))
     if code == _WRONG_STATE:
-        raise Rejected(words.wrong_state(session.drone, name))
-    raise Rejected(words.refused(session.drone, name, code))
+        raise Rejected(messages.wrong_state(session.drone, name))
+    raise Rejected(messages.refused(session.drone, name, code))

@@ -14,14 +14,21 @@ from ..drones.errors import (
     Rejected,
     TargetTimeout,
 )
-from . import arming, commander, words
-from .courses import NEAR, SLACK, hovers, is_speed, is_target, stop
-from .pace import pace_of
+from . import commander, messages, supervisor
+from .trajectory import (
+    NEAR,
+    SLACK,
+    braking,
+    hovers,
+    is_speed,
+    is_target,
+    speed_limits_of,
+)
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Point
 
-    from .session import Session
+    from .session import CrazyflieSession
     from .state import State
 
 _SETTLES = 6.0
@@ -33,33 +40,33 @@ _SEEN = 1.0
 def check(drone: str, target: Point, speed: float) -> None:
     """Refuse, before anything moves, what cannot be flown."""
     if not is_target(target):
-        raise OutsideArea(words.outside(drone, target))
+        raise OutsideArea(messages.outside(drone, target))
     check_speed(drone, speed)
 
 
 def check_speed(drone: str, speed: float) -> None:
     """Refuse what is no speed."""
     if not is_speed(speed):
-        raise Rejected(words.no_speed(drone, speed))
+        raise Rejected(messages.no_speed(drone, speed))
 
 
-def knows_its_place(session: Session) -> None:
+def knows_its_place(session: CrazyflieSession) -> None:
     """Raise `PositionLost` for one that does not know any more where it is."""
-    variance = session.certainty.variance
+    variance = session.confidence.variance
     if session.adrift and variance is not None:
-        raise PositionLost(words.lost_its_place(session.drone, variance))
+        raise PositionLost(messages.lost_its_place(session.drone, variance))
 
 
-async def takeoff(session: Session, height: float, speed: float) -> None:
+async def takeoff(session: CrazyflieSession, height: float, speed: float) -> None:
     """Arm, rise straight up, and return when it hovers at this height."""
     x, y, z = session.well().position
     session.commanded = True
-    seconds = pace_of(session).seconds((x, y, z), (x, y, height), speed)
+    seconds = speed_limits_of(session).seconds((x, y, z), (x, y, height), speed)
     try:
         if not await _begun(session, height, seconds) and not await _begun(
             session, height, seconds
         ):
-            raise Rejected(words.disarmed(session.drone))
+            raise Rejected(messages.disarmed(session.drone))
     except (NotReady, Rejected):
         with suppress(NavigationError):
             await _disarm(session)
@@ -73,15 +80,15 @@ async def takeoff(session: Session, height: float, speed: float) -> None:
         return abs(state.position[2] - height)
 
     if await session.until(risen, seconds + SLACK) is None:
-        raise TargetTimeout(words.not_arrived(session.drone, "risen", off(session.now())))
+        raise TargetTimeout(messages.not_arrived(session.drone, "risen", off(session.now())))
 
 
-async def _begun(session: Session, height: float, seconds: float) -> bool:
-    """Begin to rise; False: it was disarmed just then, by whatever has done that."""
+async def _begun(session: CrazyflieSession, height: float, seconds: float) -> bool:
+    """Begin to rise; False: it was disarmed just then."""
     await session.fresh()
     if await session.until(lambda state: not state.flies, _SETTLES) is None:
-        raise Rejected(words.still_flies(session.drone))
-    await arming.arm_anew(session)
+        raise Rejected(messages.still_flies(session.drone))
+    await supervisor.rearm(session)
     session.took_off_at = session.loop.time()
     try:
         await commander.takeoff(session, height, seconds)
@@ -92,47 +99,47 @@ async def _begun(session: Session, height: float, seconds: float) -> bool:
     return not await _is_disarmed(session)
 
 
-async def _is_disarmed(session: Session) -> bool:
+async def _is_disarmed(session: CrazyflieSession) -> bool:
     """Say whether it is disarmed within a moment: what it then does not do it was not told."""
     return await session.until(lambda state: not state.armed, _SEEN) is not None
 
 
-async def _disarm(session: Session) -> None:
-    """Leave nobody armed on the ground that does not take off."""
+async def _disarm(session: CrazyflieSession) -> None:
+    """Disarm a drone that stays on the ground."""
     if not (await session.fresh()).flies:
-        await arming.disarm(session)
+        await supervisor.disarm(session)
 
 
-async def go_to(session: Session, target: Point, speed: float) -> None:
+async def go_to(session: CrazyflieSession, target: Point, speed: float) -> None:
     """Fly straight to a place, and return when it hovers there."""
     if not session.well().steered:
-        raise Rejected(words.not_flying(session.drone))
-    if not session.now().finished:  # two courses in one make a third that nobody has asked for
+        raise Rejected(messages.not_flying(session.drone))
+    if not session.now().finished:  # two trajectories in one blend into a third
         await hold(session)
-    seconds = pace_of(session).seconds(session.now().position, target, speed)
-    await _course(session, target, seconds, "arrived")
+    seconds = speed_limits_of(session).seconds(session.now().position, target, speed)
+    await _fly_to(session, target, seconds, "arrived")
 
 
-async def hold(session: Session) -> None:
+async def hold(session: CrazyflieSession) -> None:
     """Stop, and return when it hovers; nothing, if it does not fly."""
     await _may_rise(session)
     if session.well().steered:
-        target, seconds = stop(session.before, session.now())
+        target, seconds = braking(session.before, session.now())
         if not session.doubts:
-            await _course(session, target, seconds, "stopped")
-        else:  # where that is nobody knows, and it is the best that can be done
+            await _fly_to(session, target, seconds, "stopped")
+        else:  # an unknown place, and the best that can be done
             await commander.go_to(session, target, seconds, NEAR)
             await session.until(lambda state: state.finished, seconds + SLACK)
 
 
-async def _may_rise(session: Session) -> None:
+async def _may_rise(session: CrazyflieSession) -> None:
     """Wait until one that was just told to take off says that it does, or until it has not."""
     since = session.loop.time() - session.took_off_at
     if since < _SEEN:
         await session.until(lambda state: state.steered, _SEEN - since)
 
 
-async def land(session: Session, speed: float) -> None:
+async def land(session: CrazyflieSession, speed: float) -> None:
     """Come down straight, and return when the motors are off; nothing, if it does not fly.
 
     One that has just come down would start its motors again for that: what it tells now counts.
@@ -140,7 +147,7 @@ async def land(session: Session, speed: float) -> None:
     await _may_rise(session)
     state = await session.fresh()
     if state.steered:
-        seconds = pace_of(session).seconds_down(max(0.0, state.position[2]), speed)
+        seconds = speed_limits_of(session).seconds_down(max(0.0, state.position[2]), speed)
         session.commanded = True
         await commander.land(session, seconds)
         await _down(session, lambda state: not state.steered, seconds + SLACK)
@@ -149,7 +156,7 @@ async def land(session: Session, speed: float) -> None:
     session.commanded = False
 
 
-async def _course(session: Session, target: Point, seconds: float, what: str) -> None:
+async def _fly_to(session: CrazyflieSession, target: Point, seconds: float, what: str) -> None:
     """Send it somewhere, and wait until it is there and hovers."""
     session.commanded = True
     await commander.go_to(session, target, seconds, NEAR)
@@ -162,14 +169,14 @@ async def _course(session: Session, target: Point, seconds: float, what: str) ->
         return state.distance(target)
 
     if await session.until(there, seconds + SLACK) is None:
-        raise TargetTimeout(words.not_arrived(session.drone, what, off(session.now())))
+        raise TargetTimeout(messages.not_arrived(session.drone, what, off(session.now())))
 
 
-def _hovers(session: Session, state: State, off: Callable[[State], float]) -> bool:
-    """Whether it is at the end of its course, near and at rest, and knows where that is."""
+def _hovers(session: CrazyflieSession, state: State, off: Callable[[State], float]) -> bool:
+    """Whether it is at the end of its trajectory, near and at rest, and knows where that is."""
     return state.finished and not session.doubts and hovers(session.recent, off)
 
 
-async def _down(session: Session, ready: Callable[[State], bool], limit: float) -> None:
+async def _down(session: CrazyflieSession, ready: Callable[[State], bool], limit: float) -> None:
     if await session.until(ready, limit) is None:
-        raise TargetTimeout(words.not_landed(session.drone))
+        raise TargetTimeout(messages.not_landed(session.drone))

@@ -12,36 +12,38 @@ from statistics import fmean
 from typing import TYPE_CHECKING
 
 from ..drones.errors import Rejected
-from . import words
-from .state import CERTAINTY, STATE, state_of
+from . import messages
+from .state import STATE, VARIANCES, state_of
 
 if TYPE_CHECKING:
-    from .borrowed import Borrowed, Cf, LogConfig
-    from .session import Session
+    from cflib.crazyflie import Crazyflie as Cf
+    from cflib.crazyflie.log import LogConfig
 
-_STATE_MS, _CERTAINTY_MS, _ONE_MS = 100, 250, 100
+    from .session import CrazyflieSession
+
+_STATE_MS, _VARIANCE_MS, _ONE_MS = 100, 250, 100
 
 
-def begin(session: Session) -> None:
+def begin(session: CrazyflieSession) -> None:
     """Let it tell how it is, from now on; called in the worker, once the tables are there."""
-    borrowed, cf = session.borrowed, session.cf
+    cf = session.cf
 
     def state(sent: int, values: Mapping[str, float], _: object) -> None:
         session.tell(session.hear, state_of(values, time.monotonic(), sent / 1000.0))
 
-    def certainty(_: int, values: Mapping[str, float], __: object) -> None:
-        told = tuple(values[name] for name in CERTAINTY if name in values)
-        session.tell(session.hear_certainty, told, time.monotonic())
+    def variances(_: int, values: Mapping[str, float], __: object) -> None:
+        told = tuple(values[name] for name in VARIANCES if name in values)
+        session.tell(session.hear_variances, told, time.monotonic())
 
     wanted = (
         ("state", STATE, _STATE_MS, state),
-        ("certainty", CERTAINTY, _CERTAINTY_MS, certainty),
+        ("variances", VARIANCES, _VARIANCE_MS, variances),
     )
     for name, variables, period, hear in wanted:
         there = [variable for variable in variables if has(cf, variable)]
         session.lacks += tuple(variable for variable in variables if variable not in there)
         if there:
-            _block(borrowed, cf, name, there, period, hear).start()
+            _block(cf, name, there, period, hear).start()
 
 
 def has(cf: Cf, name: str) -> bool:
@@ -52,14 +54,15 @@ def has(cf: Cf, name: str) -> bool:
 
 
 def _block(
-    borrowed: Borrowed,
     cf: Cf,
     name: str,
     variables: list[str],
     period: int,
     hear: Callable[[int, Mapping[str, float], object], None],
 ) -> LogConfig:
-    block = borrowed.log_config(name, period)
+    from cflib.crazyflie.log import LogConfig
+
+    block = LogConfig(name, period)
     for variable in variables:
         block.add_variable(variable)
     block.data_received_cb.add_callback(hear)
@@ -67,10 +70,10 @@ def _block(
     return block
 
 
-class Readings:
-    """Single log variables, read when somebody asks: each has a block while it is read."""
+class LogReader:
+    """Single log variables, read when asked for: each has a block while it is read."""
 
-    def __init__(self, session: Session) -> None:
+    def __init__(self, session: CrazyflieSession) -> None:
         self._session = session
         self._blocks: dict[str, LogConfig] = {}
         self._hearing: dict[str, Callable[[float], None]] = {}
@@ -80,7 +83,7 @@ class Readings:
         """Return what a variable is, over some time; 0: its next value."""
         session = self._session
         if not has(session.cf, name):
-            raise Rejected(words.no_variable(session.drone, name))
+            raise Rejected(messages.no_variable(session.drone, name))
         values: list[float] = []
         enough = asyncio.Event()
         began = session.loop.time()
@@ -101,11 +104,11 @@ class Readings:
             except TimeoutError:
                 session.now()  # it may be silent altogether
                 if not values:
-                    raise Rejected(words.not_read(session.drone, name)) from None
+                    raise Rejected(messages.not_read(session.drone, name)) from None
             finally:
                 del self._hearing[name]
                 self._stop(name)
-        return fmean(values)
+        return float(fmean(values))
 
     def _start(self, cf: Cf, name: str) -> None:
         block = self._blocks.get(name)
@@ -114,7 +117,7 @@ class Readings:
             def hear(_: int, values: Mapping[str, float], __: object) -> None:
                 self._session.tell(self._heard, name, float(values[name]))
 
-            block = _block(self._session.borrowed, cf, name, [name], _ONE_MS, hear)
+            block = _block(cf, name, [name], _ONE_MS, hear)
             self._blocks[name] = block
         block.start()
 
@@ -132,7 +135,7 @@ class Readings:
             await asyncio.sleep(0.02)
 
     def _stop(self, name: str) -> None:
-        """Take the block back, some time: nobody waits for that."""
+        """Take the block back, some time."""
         block = self._blocks.get(name)
         if block is not None:
             self._session.worker.post(block.delete)

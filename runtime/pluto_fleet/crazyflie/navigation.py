@@ -9,38 +9,35 @@ from math import inf
 from typing import TYPE_CHECKING
 
 from ..drones.errors import LinkLost, NavigationError, NotReady, Rejected
-from ..drones.telemetry import LINK_LOST, DroneEvent, DroneTelemetry
+from ..drones.protocol import LINK_LOST, DroneEvent, DroneTelemetry
 from . import (
     actions,
+    connection,
     flying,
-    lights,
     logs,
+    messages,
     parameters,
     preflight,
-    recovery,
-    starting,
-    words,
+    supervisor,
 )
-from .alarms import Alarms
-from .battery import Battery
-from .emergency import cut
-from .facts import facts_of
-from .opening import open_session
+from .connection import open_session, scan
+from .health import AlarmDetector, BatteryGauge
 from .options import options_of
-from .scan import scan
+from .preflight import firmware_facts
+from .supervisor import stop_motors
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.actions import Plain
     from plutoc_runtime.domain.model import Item, Point
 
-    from ..drones.setup import DroneSetup
-    from .session import Session
+    from ..drones.protocol import DroneSetup
+    from .session import CrazyflieSession
     from .state import State
 
 _AWAY = 4.0
 """Seconds that letting go of links may take."""
 _LANDING = 0.3
-"""Metres per second, where nobody says how fast."""
+"""Metres per second, where no speed was given."""
 
 
 class Crazyflie:
@@ -49,10 +46,10 @@ class Crazyflie:
     def __init__(self, setup: DroneSetup) -> None:
         self._setup, self._id = setup, setup.id
         self._options = options_of(setup.options)
-        self._session: Session | None = None
-        self._readings: logs.Readings | None = None
+        self._session: CrazyflieSession | None = None
+        self._readings: logs.LogReader | None = None
         cells = self._options.cells
-        self._battery, self._alarms = Battery(cells), Alarms(cells)
+        self._battery, self._alarms = BatteryGauge(cells), AlarmDetector(cells)
         self._state: State | None = None
         self._events: asyncio.Queue[DroneEvent | None] = asyncio.Queue()
         self._commanded = False
@@ -67,11 +64,11 @@ class Crazyflie:
         """Reach it, or reach it anew: what is left of an earlier link is put away.
 
         The first time takes long, as it tells all its tables, and longer with many others on the
-        air. Who does not wait so long finds it further on the next time.
+        air. A caller that gives up finds it further on the next time.
         """
         uri = self._setup.uri
         if uri is None:
-            raise NotReady(words.no_uri(self._id))
+            raise NotReady(messages.no_uri(self._id))
         if self._session is not None and self._session.alive:
             return
         if self._opening is None or self._opening.done():
@@ -82,21 +79,21 @@ class Crazyflie:
     async def _open(self, uri: str) -> None:
         if self._session is not None:
             self._commanded = self._session.commanded
-            self._session.let_go()
+            self._session.release()
             self._session = None
         await self._left()  # two links to one drone would take each other's packets
         session = await open_session(self._id, uri, self._setup.folder, self)
         session.commanded = self._commanded
         if not self._options.starts_at_home:  # else it never knows its place, only its way
             session.lost_beyond = self._options.lost_beyond
-        self._session, self._readings = session, logs.Readings(session)
+        self._session, self._readings = session, logs.LogReader(session)
         if self._options.starts_at_home:
-            await starting.begin_at(session, self._setup.home)
+            await connection.set_initial_position(session, self._setup.home)
 
     async def close(self) -> None:
         """Let go of it. What flies by a command of this object is landed first, if it listens.
 
-        What does not listen, and what somebody else has sent up, hovers on: the link ends without a
+        What does not listen, and what another program has sent up, hovers on: the link ends without a
         command to the drone.
         """
         if self._opening is not None:
@@ -108,7 +105,7 @@ class Crazyflie:
                 with suppress(NavigationError):
                     await flying.land(session, _LANDING)
             self._session = None
-            session.let_go()
+            session.release()
         await self._left()
         if not self._closed:
             self._closed = True
@@ -131,7 +128,7 @@ class Crazyflie:
         """It tells nothing any more."""
         self._events.put_nowait(DroneEvent(kind=LINK_LOST, reason=why))
 
-    def leaves(self, gone: asyncio.Future[None]) -> None:
+    def releasing(self, gone: asyncio.Future[None]) -> None:
         """A link to it is being put away."""
         self._leaving = {one for one in self._leaving if not one.done()} | {gone}
 
@@ -158,10 +155,10 @@ class Crazyflie:
         while (event := await self._events.get()) is not None:
             yield event
 
-    def _linked(self) -> Session:
+    def _linked(self) -> CrazyflieSession:
         """Return the connection; raise `LinkLost` if there is none, or nothing comes by it."""
         if self._session is None:
-            raise LinkLost(words.not_connected(self._id))
+            raise LinkLost(messages.not_connected(self._id))
         self._session.now()
         return self._session
 
@@ -174,7 +171,7 @@ class Crazyflie:
         except LinkLost as error:
             return [str(error)]
 
-    async def _problems(self, session: Session) -> list[str]:
+    async def _problems(self, session: CrazyflieSession) -> list[str]:
         return await preflight.problems(session, self._battery, self._options, self._setup.speed)
 
     async def takeoff(self, height: float, speed: float) -> None:
@@ -208,8 +205,8 @@ class Crazyflie:
     async def emergency_stop(self) -> None:
         """Switch the motors off: it falls."""
         if self._session is None:
-            raise LinkLost(words.not_connected(self._id))
-        await cut(self._session)
+            raise LinkLost(messages.not_connected(self._id))
+        await stop_motors(self._session)
 
     # What only some drones can do
 
@@ -219,13 +216,8 @@ class Crazyflie:
 
     async def act(self, action: str, parameters: Mapping[str, Plain], item: Item | None) -> object:
         """Do an action where it hovers."""
-        hands = actions.Hands(
-            session=self._linked(),
-            readings=self._reader(),
-            options=self._options,
-            folder=self._setup.folder,
-        )
-        return await actions.act(hands, action, parameters)
+        session, folder = self._linked(), self._setup.folder
+        return await actions.act(session, self._reader(), self._options, folder, action, parameters)
 
     async def read(self, name: str) -> float:
         """Return a log variable, or else a parameter."""
@@ -233,34 +225,34 @@ class Crazyflie:
         if logs.has(session.cf, name):
             return await self._reader().mean(name, 0.0)
         if parameters.element_of(session.cf, name) is None:
-            raise Rejected(words.no_such(self._id, name))
+            raise Rejected(messages.no_such(self._id, name))
         return await parameters.read(session, name)
 
     async def write(self, name: str, value: float) -> None:
         """Set a parameter, and see that it is so."""
         await parameters.write(self._linked(), name, value)
 
-    def _reader(self) -> logs.Readings:
+    def _reader(self) -> logs.LogReader:
         if self._readings is None:
-            raise LinkLost(words.not_connected(self._id))
+            raise LinkLost(messages.not_connected(self._id))
         return self._readings
 
     async def locate(self, position: Point) -> None:
-        """Tell it where somebody else sees it; nothing, while it is not connected."""
+        """Tell it its position as measured from outside; nothing, while it is not connected."""
         if self._session is not None and self._session.alive:
-            await starting.be_located(self._session, position)
+            await connection.send_external_position(self._session, position)
 
     async def looked_after(self) -> None:
         """Forget a crash: a person has looked after it."""
-        await recovery.recover(self._linked())
+        await supervisor.recover_from_crash(self._linked())
 
     async def identify(self) -> None:
         """Blink."""
-        await lights.blink(self._linked())
+        await actions.blink(self._linked())
 
     async def facts(self) -> Mapping[str, str]:
         """Return what it is, for people: its firmware and its decks."""
-        return await facts_of(self._linked())
+        return await firmware_facts(self._linked())
 
     @staticmethod
     async def scan(options: Mapping[str, object]) -> Sequence[str]:
@@ -269,6 +261,6 @@ class Crazyflie:
 
 
 def _heard(opening: asyncio.Task[None]) -> None:
-    """Take note of how it ended: it may be that nobody waits for it any more."""
+    """Take note of how it ended: its caller may have given up."""
     if not opening.cancelled():
         opening.exception()

@@ -10,11 +10,11 @@ from sys import float_info
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.text import number
 
-from . import words
+from . import messages
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Grip:
+class Gripper:
     """A deck that holds things, by one of its parameters."""
 
     parameter: str
@@ -25,7 +25,7 @@ class Grip:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Options:
+class CrazyflieOptions:
     """All of it, checked."""
 
     measure: Mapping[str, str]
@@ -36,7 +36,7 @@ class Options:
     """Where the AI-deck sends its pictures."""
     camera_view: tuple[float, float]
     """How much it sees, in degrees: across and along."""
-    grip: Grip | None
+    grip: Gripper | None
     decks: tuple[str, ...]
     """The decks that it must have, as the firmware names them."""
     cells: int
@@ -62,7 +62,7 @@ class Options:
 ANY_OTHER = "*"
 """What stands in `measure` for every quantity that is not named there."""
 
-_KNOWN = tuple(field.name for field in fields(Options))
+_KNOWN = tuple(field.name for field in fields(CrazyflieOptions))
 _VIEW = (65.0, 50.0)
 _LEAST_VOLTAGE = 3.7
 SURE_WITHIN = 0.07
@@ -74,17 +74,17 @@ _CELLS = 6
 _ADDRESS = "E7E7E7E7E7"
 
 
-def options_of(given: Mapping[str, object]) -> Options:
+def options_of(given: Mapping[str, object]) -> CrazyflieOptions:
     """Return what the fleet file says; raise `BadInput` naming the key that cannot be used."""
     for key in given:
         if key not in _KNOWN:
-            raise BadInput(words.unknown_option(key, _KNOWN))
-    reading = _Reading(given)
+            raise BadInput(messages.unknown_option(key, _KNOWN))
+    reading = _OptionReader(given)
     sure_within = reading.length("sure_within", SURE_WITHIN)
     lost_beyond = reading.length("lost_beyond", max(LOST_BEYOND, sure_within))
     if lost_beyond < sure_within:
         raise reading.bad("lost_beyond", f"at least sure_within, which is {number(sure_within)}")
-    return Options(
+    return CrazyflieOptions(
         measure=reading.names("measure"),
         measure_seconds=reading.number("measure_seconds", 1.0, least=0.0),
         camera=reading.address("camera"),
@@ -102,13 +102,13 @@ def options_of(given: Mapping[str, object]) -> Options:
 
 
 @dataclass(frozen=True, slots=True)
-class _Reading:
+class _OptionReader:
     """A table of options."""
 
     given: Mapping[str, object]
 
     def bad(self, key: str, wanted: str) -> BadInput:
-        return BadInput(words.bad_option(key, wanted))
+        return BadInput(messages.bad_option(key, wanted))
 
     def number(self, key: str, default: float, *, least: float) -> float:
         value = _number(self.given.get(key, default))
@@ -168,7 +168,7 @@ class _Reading:
                     return angles
         raise self.bad(key, "two angles in degrees, such as [65, 50]")
 
-    def grip(self, key: str) -> Grip | None:
+    def grip(self, key: str) -> Gripper | None:
         wanted = 'a table, such as { parameter = "gripper.closed", pick = 1, release = 0 }'
         given = self.given.get(key)
         if given is None:
@@ -189,7 +189,7 @@ class _Reading:
                 and seconds is not None
                 and seconds >= 0.0
             ):
-                return Grip(parameter=name, pick=pick, release=release, seconds=seconds)
+                return Gripper(parameter=name, pick=pick, release=release, seconds=seconds)
         raise self.bad(key, wanted)
 
 

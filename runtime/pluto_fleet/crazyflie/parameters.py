@@ -9,11 +9,13 @@ from math import isclose, isfinite
 from typing import TYPE_CHECKING
 
 from ..drones.errors import LinkLost, Rejected
-from . import words
+from . import messages
 
 if TYPE_CHECKING:
-    from .borrowed import Cf, Element
-    from .session import Session
+    from cflib.crazyflie import Crazyflie as Cf
+    from cflib.crazyflie.param import ParamTocElement as Element
+
+    from .session import CrazyflieSession
 
 _ALL, _ONE = 12.0, 3.0
 """Seconds until all parameters have been read after connecting, and until one is."""
@@ -28,14 +30,14 @@ def element_of(cf: Cf, name: str) -> Element | None:
     return cf.param.toc.toc.get(group, {}).get(variable)
 
 
-async def complete(session: Session, limit: float = _ALL) -> bool:
+async def complete(session: CrazyflieSession, limit: float = _ALL) -> bool:
     """Wait until all parameters have been read once, or can be no more; say whether they were."""
     with suppress(LinkLost):
         await session.until(lambda _: session.complete.is_set(), limit, well=False)
     return session.complete.is_set()
 
 
-def known(session: Session) -> dict[str, float]:
+def known(session: CrazyflieSession) -> dict[str, float]:
     """Return all values as they were last told: those of decks, for example, never change."""
     return {
         f"{group}.{name}": float(value)
@@ -44,48 +46,48 @@ def known(session: Session) -> dict[str, float]:
     }
 
 
-async def read(session: Session, name: str) -> float:
+async def read(session: CrazyflieSession, name: str) -> float:
     """Return what a parameter is now."""
     _element(session, name)
     return await _asked(session, name, lambda cf: cf.param.request_param_update(name))
 
 
-async def write(session: Session, name: str, value: float, *, stays: bool = True) -> None:
+async def write(session: CrazyflieSession, name: str, value: float, *, stays: bool = True) -> None:
     """Set a parameter, and see that it is so; one that does not stay is a command in disguise."""
     element = _element(session, name)
     whole = element.pytype not in _FLOATS
     if not isfinite(value) or (whole and not float(value).is_integer()):
-        raise Rejected(words.bad_value(session.drone, name, value, element.ctype))
+        raise Rejected(messages.bad_value(session.drone, name, value, element.ctype))
     number = int(value) if whole else float(value)
 
     def send(cf: Cf) -> None:
         try:
             cf.param.set_value(name, number)
         except Exception as error:  # out of its range, or one that can only be read
-            wrong = words.bad_value(session.drone, name, value, element.ctype)
+            wrong = messages.bad_value(session.drone, name, value, element.ctype)
             raise Rejected(f"{wrong} ({error})") from error
 
     # What it answers to the first is what it was sent; what it has is asked for.
     has = await _asked(session, name, send, lambda cf: cf.param.request_param_update(name))
     if stays and not isclose(has, value, rel_tol=_EXACT, abs_tol=_EXACT):
-        raise Rejected(words.not_taken(session.drone, name, value, has))
+        raise Rejected(messages.not_taken(session.drone, name, value, has))
 
 
-def _element(session: Session, name: str) -> Element:
+def _element(session: CrazyflieSession, name: str) -> Element:
     element = element_of(session.cf, name)
     if element is None:
-        raise Rejected(words.no_parameter(session.drone, name))
+        raise Rejected(messages.no_parameter(session.drone, name))
     return element
 
 
-async def _asked(session: Session, name: str, *questions: Callable[[Cf], None]) -> float:
+async def _asked(session: CrazyflieSession, name: str, *questions: Callable[[Cf], None]) -> float:
     """Ask one after the other, each when the one before is answered; return the last answer.
 
     One exchange at a time: an answer does not say what it is to.
     """
     if not await complete(session):  # until then, what comes may be what cflib has asked for
         session.now()
-        raise LinkLost(f"{session.drone}: {words.UNREAD}")
+        raise LinkLost(f"{session.drone}: {messages.UNREAD}")
     group, _, variable = name.partition(".")
     told: asyncio.Queue[float] = asyncio.Queue()
 
@@ -101,7 +103,7 @@ async def _asked(session: Session, name: str, *questions: Callable[[Cf], None]) 
                     answer = await told.get()
         except TimeoutError:
             session.now()
-            raise LinkLost(words.not_read(session.drone, name)) from None
+            raise LinkLost(messages.not_read(session.drone, name)) from None
         finally:
             if not session.lost:
                 known = session.cf.param

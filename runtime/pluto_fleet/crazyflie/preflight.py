@@ -1,50 +1,55 @@
-"""Why a Crazyflie must not take off now. Nothing of this arms or moves it."""
+"""Why a Crazyflie must not take off now, and what it is. Nothing of this arms or moves it."""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from math import ceil
 from typing import TYPE_CHECKING
 
-from . import parameters, words
-from .battery import FULLEST
-from .certainty import LONG
-from .pace import USUAL, pace_of
+from . import messages, parameters
+from .health import FULLEST
+from .state import SETTLED_FOR
+from .trajectory import DEFAULT_LIMIT, speed_limits_of
 
 if TYPE_CHECKING:
-    from .battery import Battery
-    from .options import Options
-    from .session import Session
+    from .health import BatteryGauge
+    from .options import CrazyflieOptions
+    from .session import CrazyflieSession
     from .state import State
+
 
 _DECK = "deck."
 _SETTLING = 1.5
 """Seconds that an estimate may take to settle, after it began anew."""
 _PATIENCE = 5.0
-"""Seconds for which one is waited for that is only not sure where it is: somebody may just pass."""
+"""Seconds for which one is waited for that is only not sure where it is: a person may just pass."""
 _BETWEEN = 2.0
 """Seconds in which one that has landed has disarmed itself, and can be armed again."""
 _READ = 8.0
 """Seconds until its parameters must have been read."""
 
 
-async def problems(session: Session, battery: Battery, options: Options, speed: float) -> list[str]:
+async def problems(
+    session: CrazyflieSession, battery: BatteryGauge, options: CrazyflieOptions, speed: float
+) -> list[str]:
     """Return all reasons."""
     version = session.cf.platform.get_protocol_version()
-    if version < words.PROTOCOL:
-        return [words.old_firmware(version)]  # what else it says need not be so
+    if version < messages.PROTOCOL:
+        return [messages.old_firmware(version)]  # what else it says need not be so
     if session.lacks:
-        return [words.lacks_variables(session.lacks)]
+        return [messages.lacks_variables(session.lacks)]
     began = session.loop.time()
     lacking = await _of_parameters(session, options, speed)
     state = await session.until(_is_settled, _BETWEEN, well=False) or session.now()
     found = [*_of_state(state), *_of_battery(state, battery, options), *lacking]
-    patience = LONG + _SETTLING if found else _PATIENCE
+    patience = SETTLED_FOR + _SETTLING if found else _PATIENCE
     if not await _sure(session, options, began + patience):
-        variance = session.certainty.variance
+        variance = session.confidence.variance
         by_beacons = not options.starts_at_home
-        unsure = words.uncertain(variance, options.sure_within) if by_beacons else words.UNSETTLED
+        unsure = (
+            messages.uncertain(variance, options.sure_within) if by_beacons else messages.UNSETTLED
+        )
         found.append(unsure)
     return found
 
@@ -56,27 +61,27 @@ def _is_settled(state: State) -> bool:
 
 def _of_state(state: State) -> Iterator[str]:
     if state.deck_failed:
-        yield words.DECK_FAILED
+        yield messages.DECK_FAILED
     if state.locked:
-        yield words.IS_LOCKED
+        yield messages.IS_LOCKED
     elif state.crashed:
-        yield words.LIES if state.lies else words.HAS_CRASHED
+        yield messages.LIES if state.lies else messages.HAS_CRASHED
     elif state.deck_failed:
         return  # that is why
     elif not (state.can_arm or state.can_fly):
-        yield words.cannot_fly(state.said)
+        yield messages.cannot_fly(state.said)
 
 
-def _of_battery(state: State, battery: Battery, options: Options) -> Iterator[str]:
+def _of_battery(state: State, battery: BatteryGauge, options: CrazyflieOptions) -> Iterator[str]:
     rest = battery.cell(state) if battery.rest is None else battery.rest
     if rest > FULLEST:
         volts = rest * options.cells
-        yield words.more_cells(volts, options.cells, ceil(volts / FULLEST))
+        yield messages.more_cells(volts, options.cells, ceil(volts / FULLEST))
     elif not state.flies and rest < options.least_voltage:
-        yield words.little(rest, options.least_voltage, options.cells)
+        yield messages.little(rest, options.least_voltage, options.cells)
 
 
-async def _sure(session: Session, options: Options, end: float) -> bool:
+async def _sure(session: CrazyflieSession, options: CrazyflieOptions, end: float) -> bool:
     """Say whether it knows where it is; just after connecting, that takes a second to find out."""
     while not _knows_where(session, options):
         if session.loop.time() > end:
@@ -86,26 +91,50 @@ async def _sure(session: Session, options: Options, end: float) -> bool:
     return True
 
 
-def _knows_where(session: Session, options: Options) -> bool:
-    now, certainty = time.monotonic(), session.certainty
+def _knows_where(session: CrazyflieSession, options: CrazyflieOptions) -> bool:
+    now, confidence = time.monotonic(), session.confidence
     if options.starts_at_home:
-        return certainty.steady(now)
-    return certainty.sure(now, options.sure_within)
+        return confidence.steady(now)
+    return confidence.sure(now, options.sure_within)
 
 
-async def _of_parameters(session: Session, options: Options, speed: float) -> list[str]:
-    asks = bool(options.decks) or speed > USUAL  # else what cannot be read is as it always is
+async def _of_parameters(
+    session: CrazyflieSession, options: CrazyflieOptions, speed: float
+) -> list[str]:
+    asks = (
+        bool(options.decks) or speed > DEFAULT_LIMIT
+    )  # else what cannot be read is as it always is
     if not await parameters.complete(session, _READ) and asks:
-        return [words.UNREAD]
+        return [messages.UNREAD]
     there = decks(session)
-    lacks = [words.no_deck(deck, there) for deck in options.decks if deck not in there]
-    return [*lacks, *pace_of(session).too_slow_for(speed)]
+    lacks = [messages.no_deck(deck, there) for deck in options.decks if deck not in there]
+    return [*lacks, *speed_limits_of(session).too_slow_for(speed)]
 
 
-def decks(session: Session) -> list[str]:
+def decks(session: CrazyflieSession) -> list[str]:
     """Return the decks that it has, as its firmware names them."""
     return [
         name.removeprefix(_DECK)
         for name, value in sorted(parameters.known(session).items())
         if name.startswith(_DECK) and value > 0.0
     ]
+
+
+async def firmware_facts(session: CrazyflieSession) -> Mapping[str, str]:
+    """Return its firmware and its decks, as far as it tells them."""
+    found = {"protocol": str(session.cf.platform.get_protocol_version())}
+    if await parameters.complete(session):
+        known = parameters.known(session)
+        revision = _revision(known)
+        if revision:
+            found["firmware"] = revision
+        found["decks"] = ", ".join(decks(session)) or "none"
+    return found
+
+
+def _revision(known: Mapping[str, float]) -> str:
+    high, low = known.get("firmware.revision0"), known.get("firmware.revision1", 0.0)
+    if high is None:
+        return ""
+    changed = ", changed by hand" if known.get("firmware.modified") else ""
+    return f"{int(high):08x}{int(low):04x}{changed}"

@@ -1,7 +1,8 @@
 """One connection to one Crazyflie, from the opening of its link to its end; never used again.
 
 cflib calls back from threads of its own. What it says there is only carried over to the event loop;
-everything in this class happens in the loop, but for what `Worker` calls.
+everything in this module happens in the loop, but for what `Worker` calls. Acknowledgements are what a
+Crazyflie answers to commands: cflib takes them from the radio and drops them.
 """
 
 from __future__ import annotations
@@ -15,15 +16,68 @@ from math import inf
 from typing import TYPE_CHECKING, Protocol
 
 from ..drones.errors import Crashed, LinkLost, Locked, NavigationError
-from . import words
-from .acknowledgements import Acknowledgements
-from .certainty import Certainty
-from .letting_go import let_go
-from .state import State
+from . import messages
+from .driver import HIGH_LEVEL, SUPERVISOR, release_link
+from .state import PositionConfidence, State
 from .worker import Worker
 
 if TYPE_CHECKING:
-    from .borrowed import Borrowed, Cf
+    from cflib.crazyflie import Crazyflie as Cf
+    from cflib.crtp.crtpstack import CRTPPacket
+
+
+_ANSWER = 0x80
+"""The supervisor sets this bit in its answers."""
+_COMMANDS = 1
+"""The channel on which it takes commands."""
+
+Key = tuple[int, int]
+"""The port, and the number of the command."""
+
+
+class Acknowledgements:
+    """Answers that are waited for."""
+
+    def __init__(self) -> None:
+        self._waiting: dict[Key, asyncio.Future[bytes]] = {}
+
+    def listen(self, cf: Cf, tell: Callable[..., None]) -> None:
+        """Hear all answers; called in the worker, as they come in a thread of cflib's."""
+
+        def high_level(packet: CRTPPacket) -> None:
+            tell(self._hear, HIGH_LEVEL, packet.channel, bytes(packet.data))
+
+        def supervisor(packet: CRTPPacket) -> None:
+            tell(self._hear, SUPERVISOR, packet.channel, bytes(packet.data))
+
+        cf.add_port_callback(HIGH_LEVEL, high_level)
+        cf.add_port_callback(SUPERVISOR, supervisor)
+
+    def expect(self, key: Key) -> asyncio.Future[bytes]:
+        """Begin to listen for the next answer to a command: before the command is sent."""
+        answer: asyncio.Future[bytes] = asyncio.get_running_loop().create_future()
+        self._waiting[key] = answer
+        return answer
+
+    async def heard(self, answer: asyncio.Future[bytes], limit: float) -> bytes | None:
+        """Return the answer, or None if it does not come in time."""
+        await asyncio.wait({answer}, timeout=limit)
+        return answer.result() if answer.done() else None
+
+    def drop(self, key: Key, answer: asyncio.Future[bytes]) -> None:
+        """Listen no longer."""
+        answer.cancel()
+        if self._waiting.get(key) is answer:
+            del self._waiting[key]
+
+    def _hear(self, port: int, channel: int, data: bytes) -> None:
+        if not data or (port == SUPERVISOR and channel != _COMMANDS):
+            return
+        number = data[0] & ~_ANSWER if port == SUPERVISOR else data[0]
+        answer = self._waiting.get((port, number))
+        if answer is not None and not answer.done():
+            answer.set_result(data)
+
 
 SILENCE = 1.0
 """Seconds without a word, after which a link counts as lost; a word is expected ten times a second."""
@@ -32,8 +86,8 @@ FRESH = 0.5
 """Seconds for which a new word is waited for before something is decided by it."""
 
 
-class Observer(Protocol):
-    """Who is told what happens to a connection."""
+class SessionObserver(Protocol):
+    """Told what happens to a connection."""
 
     def told(self, state: State) -> None:
         """The drone told how it is."""
@@ -47,15 +101,15 @@ class Observer(Protocol):
         """It tells nothing any more."""
         ...
 
-    def leaves(self, gone: asyncio.Future[None]) -> None:
+    def releasing(self, gone: asyncio.Future[None]) -> None:
         """The link is being put away, until this is done."""
         ...
 
 
-class Session:
+class CrazyflieSession:
     """What is known of a drone while it is connected, and the one way to call cflib for it."""
 
-    def __init__(self, drone: str, uri: str, observer: Observer) -> None:
+    def __init__(self, drone: str, uri: str, observer: SessionObserver) -> None:
         self.drone, self.uri = drone, uri
         self.loop = asyncio.get_running_loop()
         self.worker = Worker(drone)
@@ -66,9 +120,9 @@ class Session:
         self.complete = asyncio.Event()
         """Set when all parameters have been read."""
         self.asking = asyncio.Lock()
-        """Held by whoever asks for a parameter."""
+        """Held while a parameter is asked for."""
         self.acknowledged = Acknowledgements()
-        self.certainty = Certainty()
+        self.confidence = PositionConfidence()
         self.lost_beyond = inf
         """Metres to which it must know where it is in the air."""
         self.state: State | None = None
@@ -79,7 +133,7 @@ class Session:
         self.commanded = False
         """Whether it flies because of what was said through this."""
         self.located = False
-        """Whether somebody else tells it where it is."""
+        """Whether it is told its position from outside."""
         self.lost = ""
         """Why the link has ended, once it has."""
         self.lacks: tuple[str, ...] = ()
@@ -88,7 +142,6 @@ class Session:
         self._since = time.monotonic()
         self._silent = False
         self._next = asyncio.Event()
-        self._borrowed: Borrowed | None = None
         self._cf: Cf | None = None
         self._looking = self.loop.call_later(SILENCE, self._look)
 
@@ -96,12 +149,12 @@ class Session:
 
     def tell(self, call: Callable[..., None], *args: object) -> None:
         """Carry something over to the event loop, from any thread."""
-        with suppress(RuntimeError):  # the loop is closed: nobody listens any longer
+        with suppress(RuntimeError):  # the loop is closed
             self.loop.call_soon_threadsafe(call, *args)
 
-    def listen(self, borrowed: Borrowed, cf: Cf) -> None:
+    def listen(self, cf: Cf) -> None:
         """Hear what happens to the link; called in the worker, before it is opened."""
-        self._borrowed, self._cf = borrowed, cf
+        self._cf = cf
         loses = self.uri.startswith("udp://")
         cf.connected.add_callback(lambda _: self.tell(self.established.set))
         cf.fully_connected.add_callback(lambda _: self.tell(self.complete.set))
@@ -127,7 +180,7 @@ class Session:
         """The link is gone, for good."""
         self.established.set()
         if not self.lost:
-            self.lost = words.cause(why)
+            self.lost = messages.cause(why)
             if self.state is not None and not self._silent:  # else it never came to be
                 self._observer.gone(self.lost)
         self._wake()
@@ -140,10 +193,10 @@ class Session:
             self._observer.told(state)
             self._wake()
 
-    def hear_certainty(self, variances: tuple[float, ...], at: float) -> None:
+    def hear_variances(self, variances: tuple[float, ...], at: float) -> None:
         """It told how sure it is of its place."""
         if not self.lost and variances:
-            self.certainty.hear(variances, at)
+            self.confidence.hear(variances, at)
             self._observer.doubted(max(variances))
             self._wake()
 
@@ -152,7 +205,7 @@ class Session:
         if not self.lost:
             if self.state is not None and not self._silent and self.silent_for > SILENCE:
                 self._silent = True
-                self._observer.gone(words.silence(self.silent_for))
+                self._observer.gone(messages.silence(self.silent_for))
                 self._wake()
             self._looking = self.loop.call_later(SILENCE / 10, self._look)
 
@@ -162,15 +215,8 @@ class Session:
     def cf(self) -> Cf:
         """What cflib has of it; for calls in the worker."""
         if self._cf is None:
-            raise LinkLost(words.not_connected(self.drone))
+            raise LinkLost(messages.not_connected(self.drone))
         return self._cf
-
-    @property
-    def borrowed(self) -> Borrowed:
-        """What cflib has besides."""
-        if self._borrowed is None:
-            raise LinkLost(words.not_connected(self.drone))
-        return self._borrowed
 
     @property
     def silent_for(self) -> float:
@@ -196,34 +242,34 @@ class Session:
     def adrift(self) -> bool:
         """Whether it flies, and has not known for long enough where it is."""
         flies = self.state is not None and self.state.flies
-        return flies and self.certainty.lost(self.lost_beyond)
+        return flies and self.confidence.lost(self.lost_beyond)
 
     @property
     def doubts(self) -> bool:
         """Whether it does not know where it is at this moment: what it says of that counts nothing."""
-        return self.certainty.doubts(self.lost_beyond)
+        return self.confidence.doubts(self.lost_beyond)
 
     def now(self) -> State:
         """Return how it is; raise why nothing can be commanded."""
         if self.lost:
-            raise LinkLost(words.ended(self.drone, self.lost))
+            raise LinkLost(messages.ended(self.drone, self.lost))
         if self.state is None or self.silent_for > SILENCE:
-            raise LinkLost(words.silent(self.drone, self.silent_for))
+            raise LinkLost(messages.silent(self.drone, self.silent_for))
         return self.state
 
     def well(self) -> State:
         """Return how it is; raise why it cannot fly on."""
         state = self.now()
         if state.locked:
-            raise Locked(words.locked(self.drone, state.deck_failed))
+            raise Locked(messages.locked(self.drone, state.deck_failed))
         if state.crashed:
-            raise Crashed(words.crashed(self.drone))
+            raise Crashed(messages.crashed(self.drone))
         return state
 
     async def fresh(self) -> State:
         """Return how it is by what it tells from now on; raise why it cannot fly on.
 
-        Who has become silent is taken at its last word, for as long as that counts.
+        One that has become silent is taken at its last word, for as long as that counts.
         """
         last, end = self.state, self.loop.time() + FRESH
         while self.state is last and (left := end - self.loop.time()) > 0.0:
@@ -242,7 +288,9 @@ class Session:
             # a link that is lost while something is sent is None in cflib, and falls over that
             if cf.link is not None and not self.lost:
                 raise
-            raise LinkLost(words.ended(self.drone, self.lost or words.WHILE_SENDING)) from error
+            raise LinkLost(
+                messages.ended(self.drone, self.lost or messages.WHILE_SENDING)
+            ) from error
 
     async def until(
         self, ready: Callable[[State], bool], limit: float, *, well: bool = True
@@ -279,9 +327,9 @@ class Session:
 
     # Its end
 
-    def let_go(self) -> None:
+    def release(self) -> None:
         """End it in a thread of its own: never by a command to the drone."""
-        self.lost = self.lost or "it was let go"
+        self.lost = self.lost or "it was closed"
         self._looking.cancel()
         self._wake()
         gone: asyncio.Future[None] = self.loop.create_future()
@@ -292,5 +340,5 @@ class Session:
 
         self.worker.end()
         cf, self._cf = self._cf, None
-        let_go(self.drone, cf, lambda: self.tell(told))
-        self._observer.leaves(gone)
+        release_link(self.drone, cf, lambda: self.tell(told))
+        self._observer.releasing(gone)

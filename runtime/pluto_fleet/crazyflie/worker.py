@@ -1,4 +1,4 @@
-"""The one thread that calls cflib for a drone, so that nobody else waits when a call hangs.
+"""The one thread that calls cflib for a drone, so that no other drone waits when a call hangs.
 
 A thread cannot be stopped from outside. One that hangs is given up: it is a daemon, so the process
 can end in spite of it, and the drone gets another one when it is connected to again.
@@ -17,20 +17,20 @@ from typing import Generic, TypeVar
 from plutoc_runtime.domain.errors import ANY_ERROR
 
 from ..drones.errors import LinkLost
-from . import words
+from . import messages
 
 T = TypeVar("T")
 
 
 @dataclass(slots=True, eq=False)
-class _Job(Generic[T]):
-    """A call that waits for its turn, and whoever waits for the call."""
+class _Call(Generic[T]):
+    """A call that waits for its turn, and the future of its caller."""
 
     call: Callable[[], T]
     loop: asyncio.AbstractEventLoop
     answer: asyncio.Future[T]
     dropped: bool = False
-    """Nobody waits any more: it need not begin."""
+    """Its caller has given up: it need not begin."""
 
     def run(self) -> None:
         if self.dropped:
@@ -69,23 +69,23 @@ class Worker:
     async def call(self, call: Callable[[], T], limit: float) -> T:
         """Return what a call gives; raise `LinkLost` if it is not back within the limit."""
         if self.stuck:
-            raise LinkLost(words.stuck(self._drone, limit))
+            raise LinkLost(messages.stuck(self._drone, limit))
         loop = asyncio.get_running_loop()
         answer: asyncio.Future[T] = loop.create_future()
-        job = _Job(call, loop, answer)
+        job = _Call(call, loop, answer)
         self._jobs.put(job.run)
         try:
             await asyncio.wait({answer}, timeout=limit)
             if answer.done():
                 return answer.result()
-        finally:  # given up by whoever waited, too
+        finally:  # cancelled, too
             job.dropped = True
             answer.cancel()
         self.stuck = True
-        raise LinkLost(words.stuck(self._drone, limit))
+        raise LinkLost(messages.stuck(self._drone, limit))
 
     def post(self, call: Callable[[], object]) -> None:
-        """Call this some time; nobody waits for it, and nobody hears how it ends."""
+        """Call this some time; how it ends is not told."""
 
         def run() -> None:
             with suppress(Exception):

@@ -35,7 +35,7 @@ ON_BATTERY, CHARGING, CHARGED, LOW_POWER = 0, 1, 2, 3
 
 
 @dataclass(slots=True)
-class Battery:
+class SimulatedBattery:
     """What is left of it."""
 
     level: float = 1.0

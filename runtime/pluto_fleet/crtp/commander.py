@@ -1,4 +1,9 @@
-"""The firmware's high-level commander: take off, go to, land, each a packet that is answered."""
+"""What moves a simulated Crazyflie: its high-level commander, and low-level setpoints.
+
+Take off, go to, land: each a packet that is answered. Low-level setpoints are sent by a gamepad, a
+script or the end of a UDP link; only what they make of the drone's place is read from them: where it
+is to be, or that its motors stop.
+"""
 
 from __future__ import annotations
 
@@ -9,14 +14,69 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 from .body import Body
-from .ports import Errno
+from .flight_log import Point
+from .packets import Errno, Port
 from .supervisor import Supervisor
+
+META, RELEASE = 1, 0
+"""Channel and command of `send_notify_setpoint_stop`: the high-level commander may fly again."""
+
+
+class Setpoint(IntEnum):
+    """Setpoints of the generic port that say where a drone is to be."""
+
+    STOP = 0
+    Z_DISTANCE_LEGACY = 2
+    HOVER_LEGACY = 5
+    FULL_STATE = 6
+    POSITION = 7
+    Z_DISTANCE = 9
+    HOVER = 10
+
+
+_WITH_HEIGHT = (
+    Setpoint.Z_DISTANCE_LEGACY,
+    Setpoint.HOVER_LEGACY,
+    Setpoint.Z_DISTANCE,
+    Setpoint.HOVER,
+)
+
+STOP = bytes(14)
+"""A setpoint of the older port without thrust: cflib's goodbye over UDP."""
+
+
+def hover(height: float) -> bytes:
+    """Return the setpoint of somebody who lets it hover where it is."""
+    return struct.pack("<Bffff", Setpoint.HOVER, 0.0, 0.0, 0.0, height)
+
+
+def target_of(port: int, data: bytes, here: Point) -> Point | None:
+    """Return where a setpoint wants a drone that is here; None: its motors stop."""
+    if port == Port.SETPOINT:
+        return here if any(data[12:14]) else None
+    kind = data[0] if data else Setpoint.STOP
+    if kind == Setpoint.STOP:
+        return None
+    try:
+        if kind == Setpoint.POSITION:
+            x, y, z, _ = struct.unpack("<ffff", data[1:])
+            return x, y, z
+        if kind == Setpoint.FULL_STATE:
+            x, y, z = struct.unpack("<hhh", data[1:7])
+            return x / 1000.0, y / 1000.0, z / 1000.0
+        if kind in _WITH_HEIGHT:
+            *_, height = struct.unpack("<ffff", data[1:])
+            return here[0], here[1], height
+    except struct.error:
+        pass
+    return here
+
 
 WRONG_STATE = 1
 """The answer to what makes no sense now: to land where it lands, to take off where it flies."""
 
 
-class Command(IntEnum):
+class FlightCommand(IntEnum):
     """What can be commanded."""
 
     GROUP = 0
@@ -28,7 +88,7 @@ class Command(IntEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Told:
+class Answered:
     """A command, as it goes on record."""
 
     what: str
@@ -36,7 +96,7 @@ class Told:
     answer: int
 
 
-def command(data: bytes, body: Body, supervisor: Supervisor, now: float, busy: bool) -> Told:
+def command(data: bytes, body: Body, supervisor: Supervisor, now: float, busy: bool) -> Answered:
     """Do what a packet says, and return what it was with the answer to it.
 
     While low-level setpoints come first, that is the same answer, and nothing moves.
@@ -53,7 +113,7 @@ def command(data: bytes, body: Body, supervisor: Supervisor, now: float, busy: b
         answer = Errno.EBUSY if blocked else _fly(what, values, body, now)
         if answer == Errno.OK and not body.preempted:
             supervisor.setpoint_at = None
-    return Told(what or f"unknown {data[0]}", values, answer)
+    return Answered(what or f"unknown {data[0]}", values, answer)
 
 
 def _fly(what: str, values: Mapping[str, float], body: Body, now: float) -> int:
@@ -79,16 +139,16 @@ def _read(data: bytes) -> tuple[str | None, Mapping[str, float]]:
     """Return what a packet says; None: nothing that is understood."""
     try:
         match data[0]:
-            case Command.GROUP:
+            case FlightCommand.GROUP:
                 return "group", {}
-            case Command.STOP:
+            case FlightCommand.STOP:
                 return "stop", {}
-            case Command.TAKEOFF | Command.LAND:
+            case FlightCommand.TAKEOFF | FlightCommand.LAND:
                 z, yaw, current, duration = struct.unpack("<ff?f", data[2:])
-                what = "takeoff" if data[0] == Command.TAKEOFF else "land"
+                what = "takeoff" if data[0] == FlightCommand.TAKEOFF else "land"
                 return what, {"z": z, "yaw": yaw, "current_yaw": current, "duration": duration}
-            case Command.GO_TO | Command.GO_TO_2:
-                place = 3 if data[0] == Command.GO_TO else 4
+            case FlightCommand.GO_TO | FlightCommand.GO_TO_2:
+                place = 3 if data[0] == FlightCommand.GO_TO else 4
                 x, y, z, yaw, duration = struct.unpack("<fffff", data[place:])
                 way = {"x": x, "y": y, "z": z, "yaw": yaw, "duration": duration}
                 return "go_to", {**way, "relative": data[2]}

@@ -7,16 +7,14 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from random import Random
 
-from . import variables
-from .battery import FLIGHT, Battery
+from .battery import FLIGHT, SimulatedBattery
 from .body import Body
-from .commander import command
+from .commander import META, RELEASE, command, target_of
 from .estimator import NOISE, RATE, Estimator
-from .logs import Logs
-from .params import Parameters
-from .ports import NULL, PROTOCOL, Port, packed, unpacked
-from .record import Deed, Place, Point, Record
-from .setpoints import META, RELEASE, wanted
+from .flight_log import CommandRecord, FlightLog, Point, PositionRecord
+from .logs import Logs, variables
+from .packets import NULL, PROTOCOL, Port, packed, unpacked
+from .params import Parameters, parameters
 from .supervisor import Supervisor
 
 _UNSURE = 0.5
@@ -68,8 +66,8 @@ class Build:
 class SimulatedCrazyflie:
     """A drone; whatever it sends goes to `send`. Times are those of `time.monotonic`."""
 
-    def __init__(self, build: Build, record: Record, send: Callable[[bytes], None]) -> None:
-        self.build, self._record, self._send = build, record, send
+    def __init__(self, build: Build, log: FlightLog, send: Callable[[bytes], None]) -> None:
+        self.build, self._log, self._send = build, log, send
         random = Random(f"{build.seed}/{build.id}")
         self.body = Body(build.home, random)
         self.estimator = Estimator(
@@ -78,15 +76,24 @@ class SimulatedCrazyflie:
             noise=build.noise,
             rate=build.rate,
         )
-        self.battery = Battery(
+        self.battery = SimulatedBattery(
             level=build.level,
             flight=build.flight,
             cells=build.cells,
             shuts_down=build.shuts_down,
         )
         self.supervisor = Supervisor(auto_arm=build.auto_arm)
-        self.parameters = Parameters(variables.parameters(build.cells), self._changed)
-        self._logs = Logs(variables.variables(self))
+        self.parameters = Parameters(parameters(build.cells), self._changed)
+        self.variables = variables(
+            self.body,
+            self.battery,
+            self.supervisor,
+            variance=lambda: self.variance,
+            info=self.info,
+            holds=lambda: self.parameters["gripper.closed"],
+        )
+        """What can be logged of it."""
+        self._logs = Logs(self.variables)
         self.on, self.busy, self.unsure = True, False, False
         self._boots_until = self._settles_at = -1e9
         self._now = self._traced = 0.0
@@ -131,7 +138,7 @@ class SimulatedCrazyflie:
             self.switch(False)
         if now - self._traced >= _TRACED and (was_flying or self.body.airborne):
             self._traced = now
-            self._record.was(Place(now, self.build.id, self.body.position))
+            self._log.position(PositionRecord(now, self.build.id, self.body.position))
         if was_flying and not self.body.airborne:
             self.note("down")
         if self.answers:
@@ -179,7 +186,9 @@ class SimulatedCrazyflie:
         """Put something on record."""
         body = self.body
         flying = body.airborne
-        self._record.did(Deed(self._now, self.build.id, what, flying, body.position, values))
+        self._log.command(
+            CommandRecord(self._now, self.build.id, what, flying, body.position, values)
+        )
 
     def _link(self, channel: int, data: bytes) -> None:
         if channel == 1:
@@ -246,7 +255,7 @@ class SimulatedCrazyflie:
             return
         self.note("setpoint", port=port)
         self.supervisor.setpoint_at = now
-        place = wanted(port, data, self.body.estimate)
+        place = target_of(port, data, self.body.estimate)
         self.body.obey(place if self.supervisor.can_fly else None)
 
     def _changed(self, name: str, value: float) -> None:

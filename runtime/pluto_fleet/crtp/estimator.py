@@ -18,7 +18,7 @@ from dataclasses import dataclass, field
 from math import cos, pi, sin, sqrt
 from random import Random
 
-from .record import Point
+from .flight_log import Point
 
 NOISE, RATE = 0.01, 100.0
 """Metres that a fix is off, usually; fixes a second."""

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from .air import Air
+from .commander import STOP, hover
 from .drone import SimulatedCrazyflie
-from .ports import Port, packed
-from .setpoints import STOP, hover
+from .packets import LossyChannel, Port, packed
 
 Value = float | bool | list[float]
 
@@ -22,55 +21,11 @@ def _fetch(drone: SimulatedCrazyflie, _: float) -> None:
     drone.restart()
 
 
-def _volts(drone: SimulatedCrazyflie, volts: float) -> None:
-    drone.battery.set_volts(volts)
-
-
-def _level(drone: SimulatedCrazyflie, level: float) -> None:
-    drone.battery.level = level
-
-
-def _busy(drone: SimulatedCrazyflie, on: float) -> None:
-    drone.busy = bool(on)
-
-
-def _unsure(drone: SimulatedCrazyflie, on: float) -> None:
-    drone.unsure = bool(on)
-
-
-def _upright(drone: SimulatedCrazyflie, _: float) -> None:
-    drone.body.place(drone.body.position)
-
-
-def _fixes(drone: SimulatedCrazyflie, on: float) -> None:
-    drone.estimator.lose(not on)
-
-
-def _noise(drone: SimulatedCrazyflie, metres: float) -> None:
-    drone.estimator.noise = metres
-
-
-def _rate(drone: SimulatedCrazyflie, hertz: float) -> None:
-    drone.estimator.rate = hertz
-
-
-def _deck(drone: SimulatedCrazyflie, on: float) -> None:
-    drone.supervisor.faulty = bool(on)
-
-
 def _setpoint(drone: SimulatedCrazyflie, height: float) -> None:
     if height is True:
         drone.hear(packed(Port.SETPOINT, 0, STOP))
     else:
         drone.hear(packed(Port.GENERIC_SETPOINT, 0, hover(height)))
-
-
-def _lock(drone: SimulatedCrazyflie, _: float) -> None:
-    drone.supervisor.lock()
-
-
-def _restart(drone: SimulatedCrazyflie, _: float) -> None:
-    drone.restart()
 
 
 def _on(drone: SimulatedCrazyflie, on: float) -> None:
@@ -83,18 +38,18 @@ def _on(drone: SimulatedCrazyflie, on: float) -> None:
 _OF_DRONES: Mapping[str, Callable[[SimulatedCrazyflie, float], None]] = {
     "tumble": _tumble,
     "fetch": _fetch,
-    "volts": _volts,
-    "level": _level,
-    "busy": _busy,
-    "unsure": _unsure,
-    "upright": _upright,
-    "fixes": _fixes,
-    "noise": _noise,
-    "rate": _rate,
-    "deck": _deck,
+    "volts": lambda drone, volts: drone.battery.set_volts(volts),
+    "level": lambda drone, level: setattr(drone.battery, "level", level),
+    "busy": lambda drone, on: setattr(drone, "busy", bool(on)),
+    "unsure": lambda drone, on: setattr(drone, "unsure", bool(on)),
+    "upright": lambda drone, _: drone.body.place(drone.body.position),
+    "fixes": lambda drone, on: drone.estimator.lose(not on),
+    "noise": lambda drone, metres: setattr(drone.estimator, "noise", metres),
+    "rate": lambda drone, hertz: setattr(drone.estimator, "rate", hertz),
+    "deck": lambda drone, on: setattr(drone.supervisor, "faulty", bool(on)),
     "setpoint": _setpoint,
-    "lock": _lock,
-    "restart": _restart,
+    "lock": lambda drone, _: drone.supervisor.lock(),
+    "restart": lambda drone, _: drone.restart(),
     "on": _on,
 }
 _OF_AIR = ("silent", "loss", "latency")
@@ -107,7 +62,7 @@ lets it hover so high, or stops its motors. `deck`: whether one has a fault.
 """
 
 
-def let(drone: SimulatedCrazyflie, air: Air, name: str, value: Value) -> None:
+def let(drone: SimulatedCrazyflie, air: LossyChannel, name: str, value: Value) -> None:
     """Let something go wrong, or right again; ValueError: there is no such fault."""
     if name == "place" and isinstance(value, list):
         x, y, z = value

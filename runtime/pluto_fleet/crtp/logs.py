@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import math
 import struct
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from enum import IntEnum
 
-from .ports import Errno, Port, packed
-from .tables import TABLE, Table
+from .battery import SimulatedBattery
+from .body import Body
+from .packets import TABLE_CHANNEL, Errno, Port, TableOfContents, packed
+from .supervisor import Supervisor
 
 LOG_TYPES = {"B": 1, "H": 2, "L": 3, "b": 4, "h": 5, "i": 6, "f": 7, "e": 8}
 _LETTERS = {kind: letter for letter, kind in LOG_TYPES.items()}
@@ -22,7 +25,7 @@ _TICK = 0.01
 Reader = Callable[[], float]
 
 
-class Command(IntEnum):
+class BlockCommand(IntEnum):
     """What is done with a block."""
 
     DELETE = 2
@@ -51,7 +54,7 @@ class Logs:
     def __init__(self, variables: Mapping[str, tuple[str, Reader]]) -> None:
         self._readers = [reader for _, reader in variables.values()]
         kinds = [(name, LOG_TYPES[letter]) for name, (letter, _) in variables.items()]
-        self._table = Table(Port.LOG, kinds, bytes([MOST_BLOCKS, MOST_VARIABLES]))
+        self._table = TableOfContents(Port.LOG, kinds, bytes([MOST_BLOCKS, MOST_VARIABLES]))
         self._blocks: dict[int, _Block] = {}
 
     def reset(self) -> None:
@@ -60,7 +63,7 @@ class Logs:
 
     def take(self, channel: int, data: bytes, now: float) -> bytes | None:
         """Return the answer to a packet."""
-        if channel == TABLE:
+        if channel == TABLE_CHANNEL:
             return self._table.answer(data)
         if channel != _CONTROL or not data:
             return None
@@ -79,24 +82,24 @@ class Logs:
 
     def _do(self, data: bytes, number: int, now: float) -> Errno:
         command = data[0]
-        if command == Command.RESET:
+        if command == BlockCommand.RESET:
             self.reset()
             return Errno.OK
-        if command == Command.CREATE:
+        if command == BlockCommand.CREATE:
             return self._create(number, data[2:])
         block = self._blocks.get(number)
         if block is None:
             return Errno.ENOENT
         match command:
-            case Command.APPEND:
+            case BlockCommand.APPEND:
                 return self._append(block, data[2:])
-            case Command.DELETE:
+            case BlockCommand.DELETE:
                 del self._blocks[number]
-            case Command.START:
+            case BlockCommand.START:
                 if len(data) < 3 or not data[2]:
                     return Errno.EINVAL
                 block.period, block.due = data[2] * _TICK, now
-            case Command.STOP:
+            case BlockCommand.STOP:
                 block.period = 0.0
             case _:
                 return Errno.ENOEXEC
@@ -142,3 +145,72 @@ def _written(letter: str, value: float) -> bytes:
         low, high = _WHOLE[letter]
         return struct.pack("<" + letter, min(high, max(low, int(value))))
     return struct.pack("<" + letter, value)
+
+
+_FAR = 4.0
+"""Metres that a range sensor says where there is nothing."""
+
+
+def variables(
+    body: Body,
+    battery: SimulatedBattery,
+    supervisor: Supervisor,
+    *,
+    variance: Reader,
+    info: Reader,
+    holds: Reader,
+) -> Mapping[str, tuple[str, Reader]]:
+    """Return what can be logged: the type of each, and how it is read."""
+    return {
+        "stateEstimate.x": ("f", lambda: body.estimate[0]),
+        "stateEstimate.y": ("f", lambda: body.estimate[1]),
+        "stateEstimate.z": ("f", lambda: body.estimate[2]),
+        "stateEstimate.vx": ("f", lambda: body.velocity[0]),
+        "stateEstimate.vy": ("f", lambda: body.velocity[1]),
+        "stateEstimate.vz": ("f", lambda: body.velocity[2]),
+        "stateEstimate.roll": ("f", lambda: 175.0 if body.tumbled else 0.0),
+        "stateEstimate.pitch": ("f", lambda: 0.0),
+        "stateEstimate.yaw": ("f", lambda: math.degrees(body.yaw)),
+        "kalman.stateX": ("f", lambda: body.estimate[0]),
+        "kalman.stateY": ("f", lambda: body.estimate[1]),
+        "kalman.stateZ": ("f", lambda: body.estimate[2]),
+        "kalman.varPX": ("f", variance),
+        "kalman.varPY": ("f", variance),
+        "kalman.varPZ": ("f", variance),
+        "pm.vbat": ("f", lambda: battery.volts),
+        "pm.vbatMV": ("H", lambda: battery.volts * 1000.0),
+        "pm.batteryLevel": ("B", lambda: min(100.0, max(0.0, (battery.volts - 3.0) / 1.2 * 100.0))),
+        "pm.state": ("b", lambda: battery.state),
+        "pm.chargeCurrent": ("f", lambda: 0.4 if battery.charging else 0.0),
+        "supervisor.info": ("H", info),
+        "sys.canfly": ("B", lambda: supervisor.can_fly),
+        "sys.isFlying": ("B", lambda: supervisor.flying),
+        "sys.isTumbled": ("B", lambda: body.tumbled),
+        "sys.armed": ("B", lambda: supervisor.armed),
+        "radio.rssi": ("B", lambda: 45),
+        "radio.isConnected": ("B", lambda: 1),
+        "lighthouse.status": ("B", lambda: 2),
+        "acc.x": ("f", lambda: 0.0),
+        "acc.y": ("f", lambda: 0.0),
+        "acc.z": ("f", lambda: -1.0 if body.tumbled else 1.0),
+        "gyro.z": ("f", lambda: 0.0),
+        "baro.temp": ("f", lambda: 24.0),
+        "baro.pressure": ("f", lambda: 1013.25 - 0.12 * body.position[2]),
+        "baro.asl": ("f", lambda: body.position[2]),
+        "bme.temp": ("f", lambda: temperature(body.position)),
+        "bme.humidity": ("f", lambda: 40.0),
+        "range.front": ("H", lambda: _FAR * 1000.0),
+        "range.back": ("H", lambda: _FAR * 1000.0),
+        "range.left": ("H", lambda: _FAR * 1000.0),
+        "range.right": ("H", lambda: _FAR * 1000.0),
+        "range.up": ("H", lambda: _FAR * 1000.0),
+        "range.zrange": ("H", lambda: min(_FAR, body.position[2]) * 1000.0),
+        "sim.measured": ("f", lambda: temperature(body.position)),
+        "gripper.holds": ("B", holds),
+    }
+
+
+def temperature(position: tuple[float, float, float]) -> float:
+    """Return how warm it is somewhere, in degrees: a little warmer to the east, and above."""
+    x, _, z = position
+    return 20.0 + 0.5 * x + 0.25 * z

@@ -7,8 +7,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import IntEnum
 
-from .ports import Errno, Port, packed
-from .tables import TABLE, Table
+from .battery import EMPTY, LOW
+from .packets import TABLE_CHANNEL, Errno, Port, TableOfContents, packed
+from .supervisor import LANDED
 
 PARAM_TYPES = {"b": 0x00, "h": 0x01, "i": 0x02, "f": 0x06, "B": 0x08, "H": 0x09, "L": 0x0A}
 _LETTERS = {kind: letter for letter, kind in PARAM_TYPES.items()}
@@ -68,7 +69,7 @@ class Parameters:
             one.default = one.value
         self._by_name = {one.name: one for one in parameters}
         self._changed = changed
-        self._table = Table(Port.PARAMETERS, [(one.name, one.kind) for one in parameters])
+        self._table = TableOfContents(Port.PARAMETERS, [(one.name, one.kind) for one in parameters])
 
     def __getitem__(self, name: str) -> float:
         return self._by_name[name].value
@@ -88,7 +89,7 @@ class Parameters:
 
     def take(self, channel: int, data: bytes) -> Sequence[bytes]:
         """Return the answers to a packet."""
-        if channel == TABLE:
+        if channel == TABLE_CHANNEL:
             answer = self._table.answer(data)
             return [] if answer is None else [answer]
         if channel == _MISC:
@@ -162,3 +163,57 @@ def _about(one: Parameter, command: int) -> bytes:
             return bytes([0 if one.stored is None else 1]) + one.packed(one.default) + kept
         case _:
             return bytes([Errno.ENOENT])
+
+
+def parameters(cells: int = 1) -> list[Parameter]:
+    """Return the parameters, as they are after a start."""
+    numbers = [
+        ("stabilizer.estimator", "B", 2),
+        ("stabilizer.controller", "B", 1),
+        ("stabilizer.stop", "B", 0),
+        ("kalman.resetEstimation", "B", 0),
+        ("kalman.initialX", "f", 0.0),
+        ("kalman.initialY", "f", 0.0),
+        ("kalman.initialZ", "f", 0.0),
+        ("kalman.robustTdoa", "B", 0),
+        ("commander.enHighLevel", "B", 1),
+        ("hlCommander.vtoff", "f", 0.5),
+        ("hlCommander.vland", "f", 0.5),
+        ("pm.lowVoltage", "f", LOW * cells),
+        ("pm.criticalLowVoltage", "f", EMPTY * cells),
+        ("supervisor.landedTimeout", "H", LANDED * 1000.0),
+        ("posCtlPid.xVelMax", "f", 1.0),
+        ("posCtlPid.yVelMax", "f", 1.0),
+        ("posCtlPid.zVelMax", "f", 1.0),
+        ("sound.effect", "B", 0),
+        ("sound.freq", "H", 4000),
+        ("led.bitmask", "B", 0),
+        ("ring.effect", "B", 1),
+        ("ring.solidRed", "B", 20),
+        ("gripper.closed", "B", 0),
+        ("gripper.force", "f", 0.5),
+        ("motorPowerSet.enable", "B", 0),
+    ]
+    fixed = [
+        ("cpu.flash", "H", 1024),
+        ("cpu.id0", "L", 0x2A0034),
+        ("deck.bcLighthouse4", "B", 1),
+        ("deck.bcFlow2", "B", 0),
+        ("deck.bcZRanger2", "B", 0),
+        ("deck.bcLoco", "B", 0),
+        ("deck.bcLedRing", "B", 1),
+        ("deck.bcBuzzer", "B", 1),
+        ("deck.bcAI", "B", 1),
+        ("deck.bcMultiranger", "B", 1),
+        ("firmware.revision0", "L", 0x2025C0DE),
+        ("firmware.revision1", "H", 0x0ACE),
+        ("firmware.modified", "B", 0),
+        ("imu_sensors.BMP388", "B", 1),
+        ("system.selftestPassed", "B", 1),
+    ]
+    kept = [("health.startPropTest", "B", 0), ("ring.ledIntensity", "B", 100)]
+    return [
+        *(Parameter(name, letter, value) for name, letter, value in numbers),
+        *(Parameter(name, letter, value, read_only=True) for name, letter, value in fixed),
+        *(Parameter(name, letter, value, persistent=True) for name, letter, value in kept),
+    ]

@@ -20,13 +20,12 @@ from typing import Any
 
 from plutoc_runtime.domain.errors import BadInput
 
-from ..flight.commands import listening
 from ..process import respawn as again
-from ..process.asking import Nobody, ask
 from ..process.forked import deaf, in_children, not_for_children
-from .camera import camera, port_of
+from ..process.ipc import NotRunning, answering, ask, listening
 from .drone import Build, SimulatedCrazyflie
-from .record import InFiles, Point
+from .equipment import camera, port_of
+from .flight_log import FileLog, Point
 from .server import HOST, Server
 
 NOTE, DRONES, LOCK, LOG = "crtp", "crtp.json", "crtp.lock", "crtp.log"
@@ -75,7 +74,7 @@ def start(
     _STARTED[folder] = process
     until = time.monotonic() + _PATIENCE
     while time.monotonic() < until and process.poll() is None:
-        with suppress(Nobody):
+        with suppress(NotRunning):
             return uris_in(folder)
         time.sleep(0.01)
     raise BadInput(f"the simulated drones did not start; what they said is in {folder / LOG}")
@@ -121,10 +120,8 @@ def main(arguments: Sequence[str]) -> int:
 
 
 async def _run(folder: Path) -> None:
-    kept, record = _kept(folder), InFiles(folder)
-    server = Server(
-        [_build(id, number, one) for number, (id, one) in enumerate(kept.items())], record
-    )
+    kept, log = _kept(folder), FileLog(folder)
+    server = Server([_build(id, number, one) for number, (id, one) in enumerate(kept.items())], log)
     for id, drone in server.drones.items():
         _restore(drone, kept[id])
     over = asyncio.Event()
@@ -135,9 +132,9 @@ async def _run(folder: Path) -> None:
     await server.start({id: int(one.get("port", 0)) for id, one in kept.items()})
     desk = _Desk(server, over)
     try:
-        async with listening(folder / NOTE, desk.answer):
+        async with listening(folder / NOTE, answering(desk.answer)):
             while not over.is_set():
-                record.flush()
+                log.flush()
                 _write(folder, _state(server))
                 if server.quiet > _IDLE and not server.airborne and not is_flown(folder):
                     break
@@ -148,7 +145,7 @@ async def _run(folder: Path) -> None:
         no_more()
         await desk.close()
         await server.close()
-        record.close()
+        log.close()
         _write(folder, _state(server))
 
 

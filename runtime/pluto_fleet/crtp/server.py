@@ -10,11 +10,10 @@ from random import Random
 from time import monotonic
 from typing import Any
 
-from .air import Air
 from .drone import Build, SimulatedCrazyflie
 from .faults import Value, let
-from .ports import NULL
-from .record import Record
+from .flight_log import FlightLog
+from .packets import NULL, LossyChannel
 
 HOST = "127.0.0.1"
 _TICK = 0.01
@@ -28,9 +27,9 @@ Address = tuple[str | Any, int]
 class Endpoint(asyncio.DatagramProtocol):
     """A drone behind a UDP port."""
 
-    def __init__(self, build: Build, record: Record) -> None:
-        self.drone = SimulatedCrazyflie(build, record, self._send)
-        self.air = Air(Random(f"air/{build.seed}/{build.id}"))
+    def __init__(self, build: Build, log: FlightLog) -> None:
+        self.drone = SimulatedCrazyflie(build, log, self._send)
+        self.air = LossyChannel(Random(f"air/{build.seed}/{build.id}"))
         self.talked = monotonic()
         self._client: Address | None = None
         self._transport: asyncio.DatagramTransport | None = None
@@ -97,8 +96,8 @@ class Endpoint(asyncio.DatagramProtocol):
 class Server:
     """Simulated drones; to be started and closed in a running loop."""
 
-    def __init__(self, builds: Sequence[Build], record: Record) -> None:
-        self._endpoints = {build.id: Endpoint(build, record) for build in builds}
+    def __init__(self, builds: Sequence[Build], log: FlightLog) -> None:
+        self._endpoints = {build.id: Endpoint(build, log) for build in builds}
         self._ticking: asyncio.Task[None] | None = None
 
     async def start(self, ports: Mapping[str, int] | None = None) -> None:

@@ -16,25 +16,23 @@ from .errors import (
     TargetTimeout,
 )
 from .protocol import (
-    Acts,
-    CaredFor,
-    DroneNavigation,
-    Identifiable,
-    Locatable,
-    Readable,
-    Scannable,
-)
-from .reports import Reports
-from .setup import DroneSetup
-from .telemetry import (
     BATTERY_LOW,
     CRASHED,
     LINK_LOST,
     LOCKED,
     POSITION_LOST,
+    Acts,
+    CaredFor,
     DroneEvent,
+    DroneNavigation,
+    DroneSetup,
     DroneTelemetry,
+    Identifiable,
+    Locatable,
+    Readable,
+    Scannable,
 )
+from .telemetry import Reports
 
 __all__ = [
     "BATTERY_LOW",

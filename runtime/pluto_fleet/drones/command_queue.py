@@ -11,11 +11,11 @@ from plutoc_runtime.domain.errors import Failure, FlightFailed
 
 T = TypeVar("T")
 
-_NO_HOLDING = frozenset({Failure.LINK, Failure.CRASH})
+_CANNOT_HOVER = frozenset({Failure.LINK, Failure.CRASH})
 """Who has failed so cannot be told to hover."""
 
 
-class Lane:
+class CommandQueue:
     """The commands of one drone."""
 
     def __init__(self, hold: Callable[[], Coroutine[Any, Any, None]]) -> None:
@@ -44,7 +44,7 @@ class Lane:
                     over.result()
                 return task.result()
             except FlightFailed as error:
-                self._stop(task, error.failure not in _NO_HOLDING)
+                self._stop(task, error.failure not in _CANNOT_HOVER)
                 raise
             except asyncio.CancelledError:
                 self._stop(task, True)

@@ -1,6 +1,6 @@
 """Finds the class that a fleet file names to fly its drones, or to see them; nothing of it is called.
 
-Its module is imported once it is known that it has such a class (`looking_up.py`).
+Its module is imported once it is known that it has such a class (`inspection.py`).
 
 A name is one of ours (`crazyflie`), one that an installed package offers by an entry point, or
 `module:Class`. Only what is installed is found: a fleet file is data, and the folder that it lies in
@@ -20,38 +20,29 @@ from typing import TYPE_CHECKING, TypeVar, cast
 
 from plutoc_runtime.domain.errors import ANY_ERROR, BadInput
 
-from . import refusals
-from .checking import problems
-from .kinds import CAPABILITIES, LOCALIZATION_METHODS, NAVIGATION_METHODS, Kind
-from .looking_up import look_up
+from . import plugins
+from .inspection import look_up, problems, try_import
+from .plugins import CAPABILITIES, LOCALIZATION_METHODS, NAVIGATION_METHODS, PluginKind
 from .timeouts import shortened
-from .trial import tried
 
 if TYPE_CHECKING:
     from .localization import Localization
-    from .protocol import DroneNavigation
-    from .setup import DroneSetup
+    from .protocol import DroneNavigation, DroneSetup
 
 S = TypeVar("S")
 T = TypeVar("T")
 
 
-def _crazyflie() -> object:
-    from ..crazyflie.navigation import Crazyflie  # few look at it
-
-    return Crazyflie
-
-
-NAVIGATION = Kind(
+NAVIGATION = PluginKind(
     word="navigation",
-    ours=(("crazyflie", _crazyflie),),
+    ours=(("crazyflie", "..crazyflie.navigation:Crazyflie"),),
     group="plutoc.navigations",
     argument="setup",
     such_as="my_drones.parrot:Parrot",
     methods=NAVIGATION_METHODS,
     together=CAPABILITIES,
 )
-LOCALIZATION = Kind(
+LOCALIZATION = PluginKind(
     word="localization",
     group="plutoc.localizations",
     argument="options",
@@ -85,20 +76,21 @@ def make_localization(name: str, options: Mapping[str, object]) -> Localization:
     return _made(LOCALIZATION, name, load_localization(name), options, "")
 
 
-def _made(kind: Kind, name: str, of: Callable[[S], T], argument: S, whose: str) -> T:
+def _made(kind: PluginKind, name: str, of: Callable[[S], T], argument: S, whose: str) -> T:
     try:
         return of(argument)
     except KeyboardInterrupt:
         raise
     except ANY_ERROR as error:  # an option that it cannot use, mostly
-        raise refusals.not_made(kind, name, whose, _said(error)) from error
+        raise plugins.not_made(kind, name, whose, _said(error)) from error
 
 
 @cache
-def _loaded(kind: Kind, name: str) -> object:
+def _loaded(kind: PluginKind, name: str) -> object:
     ours = dict(kind.ours)
     if name in ours:
-        return ours[name]()
+        module, path = ours[name].split(":")
+        return getattr(import_module(module, __package__), path)
     written = name if ":" in name else _offered(kind, name)
     module, path = _apart(kind, name, written)
     if written is name:
@@ -106,14 +98,14 @@ def _loaded(kind: Kind, name: str) -> object:
             look_up(kind, name, module, path)
     found = _imported(kind, name, module, path)
     if not inspect.isclass(found):
-        raise refusals.not_a_class(kind, name)
+        raise plugins.not_a_class(kind, name)
     wrong = problems(kind, found)
     if wrong:
-        raise refusals.lacks(kind, name, wrong)
+        raise plugins.lacks(kind, name, wrong)
     return found
 
 
-def _offered(kind: Kind, name: str) -> str:
+def _offered(kind: PluginKind, name: str) -> str:
     """Return the `module:Class` that an installed package offers under a name."""
     from importlib.metadata import entry_points
 
@@ -121,39 +113,39 @@ def _offered(kind: Kind, name: str) -> str:
     values = sorted({point.value for point in points if point.name == name})
     if not values:
         others = sorted({point.name for point in points} - set(dict(kind.ours)))
-        raise refusals.no_such_name(kind, name, [*dict(kind.ours), *others])
+        raise plugins.no_such_name(kind, name, [*dict(kind.ours), *others])
     if len(values) > 1:
-        raise refusals.several(kind, name, values)
+        raise plugins.several(kind, name, values)
     return values[0]
 
 
-def _apart(kind: Kind, name: str, written: str) -> tuple[str, str]:
+def _apart(kind: PluginKind, name: str, written: str) -> tuple[str, str]:
     module, _, path = (part.strip() for part in written.partition(":"))
     if not all(part.isidentifier() for part in [*module.split("."), *path.split(".")]):
-        raise refusals.no_class_written(kind, name)
+        raise plugins.no_class_written(kind, name)
     return module, path
 
 
-def _imported(kind: Kind, name: str, module: str, path: str) -> object:
+def _imported(kind: PluginKind, name: str, module: str, path: str) -> object:
     with _only_what_is_installed():
-        tried(kind, name, module)
+        try_import(kind, name, module)
     try:
         with _only_what_is_installed():
             found: object = import_module(module)
     except ModuleNotFoundError as error:
         missing = error.name or module
         if f"{module}.".startswith(f"{missing}."):
-            raise refusals.no_such_module(kind, name, missing) from error
-        raise refusals.needs(kind, name, missing) from error
+            raise plugins.no_such_module(kind, name, missing) from error
+        raise plugins.needs(kind, name, missing) from error
     except KeyboardInterrupt:
         raise
     except ANY_ERROR as error:
-        raise refusals.not_imported(kind, name, _said(error)) from error
+        raise plugins.not_imported(kind, name, _said(error)) from error
     for part in path.split("."):
         classes = [word for word, value in vars(found).items() if inspect.isclass(value)]
         found = getattr(found, part, None)
         if found is None:
-            raise refusals.no_such_class(kind, name, part, classes)
+            raise plugins.no_such_class(kind, name, part, classes)
     return found
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.domain.actions import BUILT_IN, Plain
 
-from ..files.real import navigation_of, options_of
+from ..files.fleet import navigation_of, options_of
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Mission
@@ -31,7 +31,7 @@ class RealDrone:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Wanted:
+class RequiredAction:
     """A built-in action that the plan asks for: who cannot do it is not ready."""
 
     action: str
@@ -46,7 +46,7 @@ class RealFleet:
     localization: str
     """Who tells them where they are: `own`, a name, or `module:Class`."""
     localization_options: Mapping[str, object]
-    wanted: tuple[Wanted, ...] = ()
+    wanted: tuple[RequiredAction, ...] = ()
 
 
 def real_fleet(
@@ -77,22 +77,22 @@ def real_fleet(
     )
 
 
-def _planned(missions: Iterable[Mission[Any]]) -> Iterator[Wanted]:
+def _planned(missions: Iterable[Mission[Any]]) -> Iterator[RequiredAction]:
     for mission in missions:
         for trip in mission.trips:
-            yield Wanted(action=trip.action, parameters=dict(trip.parameters))
+            yield RequiredAction(action=trip.action, parameters=dict(trip.parameters))
 
 
-def _recorded(records: Iterable[Mapping[str, Any]]) -> Iterator[Wanted]:
+def _recorded(records: Iterable[Mapping[str, Any]]) -> Iterator[RequiredAction]:
     """Yield what is asked for by what goes on: in another round, by what was done already, too."""
     for record in records:
         for trip in () if record["ended"] else (*record["done"], *record["todo"]):
-            yield Wanted(action=trip["action"], parameters=trip.get("parameters", {}))
+            yield RequiredAction(action=trip["action"], parameters=trip.get("parameters", {}))
 
 
-def _wanted(trips: Iterable[Wanted]) -> tuple[Wanted, ...]:
+def _wanted(trips: Iterable[RequiredAction]) -> tuple[RequiredAction, ...]:
     """Return what the trips ask for, each once, in their order."""
-    found: list[Wanted] = []
+    found: list[RequiredAction] = []
     for wanted in trips:
         if wanted.action in BUILT_IN and wanted not in found:
             found.append(wanted)
@@ -110,5 +110,5 @@ def real_of(data: Mapping[str, Any]) -> RealFleet:
         drones=tuple(RealDrone(**drone) for drone in data["drones"]),
         localization=data["localization"],
         localization_options=data["localization_options"],
-        wanted=tuple(Wanted(**wanted) for wanted in data["wanted"]),
+        wanted=tuple(RequiredAction(**wanted) for wanted in data["wanted"]),
     )

@@ -1,7 +1,7 @@
 """A team of real drones: each flown by a navigation of its own, none kept waiting by another.
 
-The gateway's kernel commands, and asyncio flies: a command of the kernel is a task beside it, under
-a limit, and whatever becomes of the task becomes of the command.
+The gateway's kernel commands, and asyncio flies: a command of the kernel is a task beside it, under a
+limit, and ends as the task does.
 """
 
 from __future__ import annotations
@@ -10,31 +10,35 @@ import asyncio
 import time
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
-from typing import TYPE_CHECKING, NoReturn
+from typing import TYPE_CHECKING, NoReturn, Protocol
 
 from plutoc_runtime.domain.actions import BUILT_IN, Plain
+from plutoc_runtime.domain.errors import ANY_ERROR
 
 from ..jobs.reports import DroneReport
-from . import acting, flying
-from .cargo import Cargo
-from .closing import close
-from .linking import Linking
-from .listening import listen
-from .reaching import fetched, reach
-from .vehicle import Member, TeamDrone
-from .watch import Watch
+from ..jobs.telemetry import Publisher
+from . import commands, plugins
+from .connection import Connection, close
+from .loading import make_localization, make_navigation
+from .localization import OWN, LocalizationFeed
+from .protocol import DroneSetup, Locatable
+from .recovery import recover, wait_until_home
+from .safety import EACH, SafetyMonitor, follow_events
+from .vehicle import Cargo, TeamDrone, Vehicle
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from plutoc_runtime.domain.airspace import Airspace
     from plutoc_runtime.domain.errors import FlightFailed
-    from plutoc_runtime.domain.model import Item, Point, Telemetry
+    from plutoc_runtime.domain.model import Category, Item, Point, Telemetry
     from plutoc_runtime.time.kernel import Kernel
 
     from ..jobs.job import Job
-    from .feeding import Feeding
-    from .real_fleet import Wanted
+    from ..jobs.telemetry import Subscription
+    from .protocol import DroneNavigation
+    from .real_fleet import RealDrone, RealFleet, RequiredAction
+
 
 __all__ = ["Team", "TeamDrone"]
 
@@ -50,81 +54,95 @@ class Team:
         *,
         folder: Path,
         say: Callable[[str], object],
-        wanted: Sequence[Wanted] = (),
-        feeding: Feeding | None = None,
+        wanted: Sequence[RequiredAction] = (),
+        feeding: LocalizationFeed | None = None,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self._kernel, self._wanted = kernel, tuple(wanted)
-        self._cargo, self._feeding = Cargo(folder, say), feeding
-        self._members = {drone.id: Member(drone, self._cargo, say, clock) for drone in drones}
-        self._links = {id: Linking(member) for id, member in self._members.items()}
-        self._watch = Watch(tuple(self._members.values()), airspace, say, clock)
+        self._cargo, self._feed = Cargo(folder, say), feeding
+        self._vehicles = {drone.id: Vehicle(drone, self._cargo, say, clock) for drone in drones}
+        self.telemetry: Mapping[str, Telemetry] = {
+            id: vehicle.telemetry for id, vehicle in self._vehicles.items()
+        }
+        """What is known of each drone; the values stay current."""
+        self._links = {id: Connection(vehicle) for id, vehicle in self._vehicles.items()}
+        self._monitor = SafetyMonitor(tuple(self._vehicles.values()), airspace, say, clock)
         self._tasks: list[asyncio.Task[None]] = []
-        for member in self._members.values():
-            member.lacks = partial(self._lacks, member)
+        self._monitoring: Subscription[float] | None = None
+        for vehicle in self._vehicles.values():
+            vehicle.missing_actions = partial(self._lacks, vehicle)
             if feeding is not None:
-                member.blind = partial(feeding.silent, member.id)
+                vehicle.position_problem = partial(feeding.silent, vehicle.id)
 
     def begin(self) -> None:
         """Connect to all drones at once, and watch them; waits for none of them."""
-        if self._feeding is not None:
-            self._feeding.start()
-        self._tasks.append(asyncio.ensure_future(self._watch.run()))
-        for member in self._members.values():
-            self._tasks.append(asyncio.ensure_future(listen(member)))
-            self._tasks.append(self._links[member.id].start())
+        if self._feed is not None:
+            self._feed.start()
+        self._monitoring = Publisher(self.telemetry).subscribe(
+            self._look, every=EACH, view=lambda _, known: known.silence
+        )
+        for vehicle in self._vehicles.values():
+            self._tasks.append(asyncio.ensure_future(follow_events(vehicle)))
+            self._tasks.append(self._links[vehicle.id].start())
         for task in self._tasks:
             task.add_done_callback(self._ended)
 
+    def _look(self, _: Mapping[str, float], late: float) -> None:
+        """Let the monitor look; without it no drone may fly: if it breaks, all ends, and all land."""
+        try:
+            self._monitor.hear(late)
+        except ANY_ERROR as error:
+            if self._monitoring is not None:
+                self._monitoring.cancel()
+            self._kernel.post(_raise, error)
+
     def _ended(self, task: asyncio.Task[None]) -> None:
-        """Nobody may fly where nobody watches: if that breaks, all ends, and all land first."""
+        """If what keeps a link or hears events breaks, all ends, and all land first."""
         error = None if task.cancelled() else task.exception()
         if error is not None:
             self._kernel.post(_raise, error)
 
     async def close(self) -> None:
         """Land what flies, wait until it has, and let go of all drones; nothing is left of it."""
-        await close([(member, self._links[id]) for id, member in self._members.items()])
-        tasks = [*self._tasks, *self._watch.stop()]
+        await close([(vehicle, self._links[id]) for id, vehicle in self._vehicles.items()])
+        if self._monitoring is not None:
+            self._monitoring.cancel()
+        tasks = [*self._tasks, *self._monitor.stop()]
         for task in tasks:
             task.cancel()
         await asyncio.gather(*tasks, return_exceptions=True)
-        if self._feeding is not None:
-            await self._feeding.close()
+        if self._feed is not None:
+            await self._feed.close()
 
     # What the gateway's kernel commands
 
-    def telemetry(self, drone: str) -> Telemetry:
-        """Return what is known of a drone; the value stays current."""
-        return self._members[drone].seen
-
     def down(self, drone: str) -> FlightFailed | None:
         """Return why a drone takes no commands though it can be reached; None: it takes them."""
-        return self._members[drone].down
+        return self._vehicles[drone].down
 
     def why_not(self, drone: str, action: str, parameters: Mapping[str, Plain]) -> str | None:
         """Return why a drone's hardware cannot do a built-in action, or None."""
-        return acting.why_not(self._members[drone], action, parameters)
+        return commands.why_not(self._vehicles[drone], action, parameters)
 
     def begins(self, drone: str, job: Job | None, seconds: float) -> None:
         """A flight begins: raise `FlightFailed` where the drone takes no commands."""
-        self._members[drone].check()
+        self._vehicles[drone].check()
 
     async def takeoff(self, drone: str, height: float) -> None:
         """Rise straight up to a height, if it is ready; does nothing for a drone that flies."""
-        await self._kernel.call_hook(flying.takeoff, self._members[drone], height)
+        await self._kernel.call_hook(commands.takeoff, self._vehicles[drone], height)
 
     async def go_to(self, drone: str, target: Point) -> None:
         """Fly straight to a point."""
-        await self._kernel.call_hook(flying.go_to, self._members[drone], target)
+        await self._kernel.call_hook(commands.go_to, self._vehicles[drone], target)
 
     async def land(self, drone: str) -> None:
         """Land here; does nothing for a drone that stands on the ground."""
-        await self._kernel.call_hook(flying.land, self._members[drone])
+        await self._kernel.call_hook(commands.land, self._vehicles[drone])
 
     async def hold(self, drone: str) -> None:
         """Hover, for as long as an action of the app's own takes; never returns by itself."""
-        await self._kernel.call_hook(flying.hold, self._members[drone])
+        await self._kernel.call_hook(commands.hold, self._vehicles[drone])
 
     async def act(
         self,
@@ -136,40 +154,42 @@ class Team:
     ) -> object:
         """Do one of the built-in actions here, and return what came of it."""
         return await self._kernel.call_hook(
-            acting.act, self._members[drone], action, parameters, item
+            commands.act, self._vehicles[drone], action, parameters, item
         )
 
     async def read(self, drone: str, name: str) -> float:
         """Return what a drone measures under this name."""
-        value = await self._kernel.call_hook(acting.read, self._members[drone], name)
+        value = await self._kernel.call_hook(commands.read, self._vehicles[drone], name)
         return float(str(value))
 
     async def write(self, drone: str, name: str, value: float) -> None:
         """Set what a drone has under this name."""
-        await self._kernel.call_hook(acting.write, self._members[drone], name, value)
+        await self._kernel.call_hook(commands.write, self._vehicles[drone], name, value)
 
     def break_off(self, drone: str) -> None:
         """Stop whatever a drone does, and hover; a command under way raises `FlightFailed`."""
-        self._members[drone].break_off()
+        self._vehicles[drone].break_off()
 
     async def cut(self, drone: str) -> None:
         """Switch its motors off now, wherever it is."""
-        await self._kernel.call_hook(flying.cut, self._members[drone])
+        await self._kernel.call_hook(commands.cut, self._vehicles[drone])
 
     def mended(self, drone: str) -> None:
         """A person has looked after a lost drone: it may be asked anew."""
-        member = self._members[drone]
-        if not member.must_land:
-            member.is_well()
-            member.looked_after = True
+        vehicle = self._vehicles[drone]
+        if not vehicle.must_land:
+            vehicle.clear_failure()
+            vehicle.looked_after = True
 
     async def reach(self, drone: str) -> bool:
         """Wait, after a failed flight, until a drone takes commands again; False: it is lost."""
-        return bool(await self._kernel.call_hook(reach, self._members[drone], self._links[drone]))
+        return bool(
+            await self._kernel.call_hook(recover, self._vehicles[drone], self._links[drone])
+        )
 
     async def fetched(self, drone: str) -> bool:
         """Wait until somebody has put a drone back into its dock, well; False: nobody does."""
-        return bool(await self._kernel.call_hook(fetched, self._members[drone]))
+        return bool(await self._kernel.call_hook(wait_until_home, self._vehicles[drone]))
 
     def unload(self, drone: str) -> None:
         """Whoever meets it takes off what it carries."""
@@ -178,40 +198,40 @@ class Team:
     async def roll_call(self, drone: str) -> DroneReport:
         """Ask a drone where it is, and whether it may fly; say so if it does not answer."""
         await self._kernel.call_hook(self._links[drone].once)
-        member = self._members[drone]
-        problems: object = await self._kernel.call_hook(self._problems, member)
-        return self._standing(member, problems if isinstance(problems, tuple) else ())
+        vehicle = self._vehicles[drone]
+        problems: object = await self._kernel.call_hook(self._problems, vehicle)
+        return self._standing(vehicle, problems if isinstance(problems, tuple) else ())
 
-    def _standing(self, member: Member, problems: tuple[str, ...]) -> DroneReport:
-        seen = member.seen
+    def _standing(self, vehicle: Vehicle, problems: tuple[str, ...]) -> DroneReport:
+        telemetry = vehicle.telemetry
         return DroneReport(
-            drone=member.id,
-            reached=member.linked,
-            location=seen.location,
-            landed=seen.landed,
-            battery_level=seen.battery_level,
-            boot=member.boot,
-            carrying=self._cargo.of(member.id),
+            drone=vehicle.id,
+            reached=vehicle.linked,
+            location=telemetry.location,
+            landed=telemetry.landed,
+            battery_level=telemetry.battery_level,
+            boot=vehicle.boot,
+            carrying=self._cargo.of(vehicle.id),
             done=None,
             problems=problems,
         )
 
-    async def _problems(self, member: Member) -> tuple[str, ...]:
+    async def _problems(self, vehicle: Vehicle) -> tuple[str, ...]:
         """Return why a drone may not fly: none for one that does."""
-        if not member.linked:
-            return (member.out_of_reach,)
-        if not member.seen.landed:
+        if not vehicle.linked:
+            return (vehicle.out_of_reach,)
+        if not vehicle.telemetry.landed:
             return ()
-        down = () if member.down is None else (str(member.down),)
-        news = [why for why in await member.preflight() if not any(why in one for one in down)]
-        return (*down, *news, *member.lacks())
+        down = () if vehicle.down is None else (str(vehicle.down),)
+        news = [why for why in await vehicle.preflight() if not any(why in one for one in down)]
+        return (*down, *news, *vehicle.missing_actions())
 
-    def _lacks(self, member: Member) -> tuple[str, ...]:
+    def _lacks(self, vehicle: Vehicle) -> tuple[str, ...]:
         """Return which actions its category can do, and its hardware cannot."""
         lacks: list[str] = []
         for wanted in self._wanted:
-            if wanted.action in BUILT_IN and member.drone.category.can(wanted.action):
-                why = acting.why_not(member, wanted.action, wanted.parameters)
+            if wanted.action in BUILT_IN and vehicle.drone.category.can(wanted.action):
+                why = commands.why_not(vehicle, wanted.action, wanted.parameters)
                 if why is not None and why not in lacks:
                     lacks.append(why)
         return tuple(lacks)
@@ -219,3 +239,96 @@ class Team:
 
 def _raise(error: BaseException) -> NoReturn:
     raise error
+
+
+FILES = "files"
+"""The folder, in the gateway's, where navigations keep photos and the like."""
+
+
+class FleetDrone(Protocol):
+    """What must be known of a drone."""
+
+    @property
+    def id(self) -> str:
+        """Its name in the fleet."""
+        ...
+
+    @property
+    def category(self) -> Category:
+        """How fast it flies, and for how long."""
+        ...
+
+    @property
+    def home(self) -> Point:
+        """Where its dock is."""
+        ...
+
+
+def make_one(how: RealDrone, home: Point, speed: float, folder: Path) -> DroneNavigation:
+    """Return what flies one drone, at this speed at most; nothing is reached yet.
+
+    `BadInput`: its options are wrong.
+    """
+    setup = DroneSetup(
+        id=how.id, uri=how.uri, home=home, speed=speed, options=how.options, folder=folder
+    )
+    return make_navigation(how.navigation, setup)
+
+
+def top_speed(category: Category) -> float:
+    """Return how fast drones of a category may fly at most."""
+    return category.top_speed or category.speed
+
+
+def make_team(
+    kernel: Kernel,
+    drones: Sequence[FleetDrone],
+    real: RealFleet,
+    airspace: Airspace,
+    folder: Path,
+    say: Callable[[str], object],
+) -> Team:
+    """Return the team of a fleet; raise `BadInput` where it cannot be flown as its file says."""
+    files = folder / FILES
+    files.mkdir(mode=0o700, parents=True, exist_ok=True)
+    how = {drone.id: drone for drone in real.drones}
+    navigations: dict[str, DroneNavigation] = {}
+    for drone in drones:
+        speed = top_speed(drone.category)
+        navigations[drone.id] = make_one(how[drone.id], drone.home, speed, files)
+    return Team(
+        kernel,
+        [
+            TeamDrone(
+                id=drone.id,
+                category=drone.category,
+                home=drone.home,
+                navigation=navigations[drone.id],
+            )
+            for drone in drones
+        ],
+        airspace,
+        folder=folder,
+        say=say,
+        wanted=real.wanted,
+        feeding=_feeding(real, navigations, say),
+    )
+
+
+def _feeding(
+    real: RealFleet, navigations: Mapping[str, DroneNavigation], say: Callable[[str], object]
+) -> LocalizationFeed | None:
+    """Return what tells the drones where they are; None: they know it by themselves."""
+    if real.localization == OWN:
+        return None
+    fed: dict[str, Locatable] = {}
+    deaf: list[str] = []
+    for id, navigation in navigations.items():
+        if isinstance(navigation, Locatable):
+            fed[id] = navigation
+        else:
+            deaf.append(id)
+    if deaf:
+        raise plugins.deaf(real.localization, deaf)
+    source = make_localization(real.localization, real.localization_options)
+    return LocalizationFeed(real.localization, source, fed, say)

@@ -1,51 +1,207 @@
-"""What one drone tells of itself: where and how it is, and what happens to it."""
+"""What one drone has told, at both ends: kept by its navigation, and known to the team."""
 
 from __future__ import annotations
 
+import asyncio
+import time
+from collections.abc import AsyncIterator, Callable
+from contextlib import suppress
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from math import inf, isfinite
+from typing import TYPE_CHECKING, TypeVar
+
+from .errors import Crashed, LinkLost, OutsideArea, Rejected, TargetTimeout
+from .protocol import CRASHED, DroneEvent, DroneTelemetry
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Point
 
-LINK_LOST = "link lost"
-"""It does not answer any more."""
-CRASHED = "crashed"
-"""It fell, hit something or lies on its back."""
-LOCKED = "locked"
-"""It will not fly until somebody switches it off and on."""
-BATTERY_LOW = "battery low"
-"""It must come down now, where it is."""
-POSITION_LOST = "position lost"
-"""It does not know any more where it is: it must come down now, wherever that is."""
+    from .protocol import DroneSetup
+    from .timeouts import NavigationCalls
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class DroneTelemetry:
-    """One drone at one moment; a new value each time that it tells something."""
+T = TypeVar("T")
+
+SILENCE = 1.0
+"""Seconds without a word, after which a link is lost."""
+_LOOK = 0.02
+
+
+class Reports:
+    """What one drone tells; used within the event loop only."""
+
+    def __init__(self, setup: DroneSetup) -> None:
+        self._id = setup.id
+        self.telemetry = DroneTelemetry(
+            time=-inf, position=setup.home, yaw=0.0, voltage=0.0, battery_level=1.0, flying=False
+        )
+        """The last it told."""
+        self.crashed = ""
+        """Why it is said to have crashed, if it has."""
+        self._events: asyncio.Queue[DroneEvent | None] = asyncio.Queue()
+
+    def tell(
+        self,
+        *,
+        position: Point,
+        flying: bool,
+        yaw: float = 0.0,
+        voltage: float = 0.0,
+        battery_level: float = 1.0,
+        crashed: str = "",
+    ) -> None:
+        """Hear what it tells, at this moment; `crashed` is the reason, or nothing."""
+        self.telemetry = DroneTelemetry(
+            time=time.monotonic(),
+            position=position,
+            yaw=yaw,
+            voltage=voltage,
+            battery_level=battery_level,
+            flying=flying,
+        )
+        if crashed and not self.crashed:
+            self.happened(CRASHED, crashed)
+        self.crashed = crashed
+
+    def from_thread(self, hear: Callable[[T], object]) -> Callable[[T], object]:
+        """Return what any thread may call, for `hear` to be called within the event loop."""
+        loop = asyncio.get_running_loop()
+
+        def hand_over(told: T) -> None:
+            with suppress(RuntimeError):  # the loop is closed: nobody wants to hear any more
+                loop.call_soon_threadsafe(hear, told)
+
+        return hand_over
+
+    def happened(self, kind: str, reason: str) -> None:
+        """Tell of something that nobody has asked for, once."""
+        self._events.put_nowait(DroneEvent(kind=kind, reason=reason))
+
+    def refuse(self, target: Point, speed: float) -> None:
+        """Raise if it cannot be told to go there: no such place or speed, or it does not fly."""
+        if not all(map(isfinite, target)) or target[2] < 0:
+            raise OutsideArea(f"{self._id} cannot go to {target}")
+        if not 0 < speed < inf:
+            raise Rejected(f"{self._id} cannot fly at {speed} m/s")
+        if not self.telemetry.flying:
+            raise Rejected(f"{self._id} stands on the ground")
+
+    async def until(self, done: Callable[[DroneTelemetry], bool], seconds: float) -> None:
+        """Wait until this holds of something that is told from now on.
+
+        Raises `LinkLost` when it tells nothing, `Crashed` when it tells just that, and
+        `TargetTimeout` after so many seconds.
+        """
+        began = time.monotonic()
+        while self.telemetry.time <= began or not done(self.telemetry):
+            now = time.monotonic()
+            if self.crashed:
+                raise Crashed(f"{self._id} has crashed: {self.crashed}")
+            if now - max(began, self.telemetry.time) > SILENCE:
+                raise LinkLost(f"{self._id} has told nothing for {SILENCE:.0f} s")
+            if now - began > seconds:
+                raise TargetTimeout(f"{self._id} is not there after {seconds:.0f} s")
+            await asyncio.sleep(_LOOK)
+
+    async def events(self) -> AsyncIterator[DroneEvent]:
+        """Yield what happens, until `close`."""
+        while (event := await self._events.get()) is not None:
+            yield event
+
+    def close(self) -> None:
+        """Tell nothing more."""
+        self._events.put_nowait(None)
+
+
+RISING = 3.0
+"""Seconds after a take-off that was broken off until a drone is believed to stand on the ground."""
+
+EMPTY = 1.2
+"""Nothing flies for longer than so many times its flight time."""
+
+
+@dataclass(frozen=True, slots=True)
+class Sample:
+    """What a drone told at one moment, all of it checked."""
 
     time: float
-    """When it told this, by `time.monotonic()`; minus infinity: it has not told anything yet.
-
-    This is how silence is seen: it must not be the time at which somebody asks.
-    """
     position: Point
-    """Metres, in the map's frame: x and y along the map, z up from its ground."""
-    yaw: float
-    """Where its nose points: radians, 0 along x, counter-clockwise."""
-    voltage: float
-    """Volts, as they are now, or 0 where it cannot tell."""
     battery_level: float
-    """What is left of the battery, from 0 to 1, corrected for its load; 1 where it cannot tell."""
     flying: bool
-    """Whether its motors carry it: from when it leaves the ground until they are off."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class DroneEvent:
-    """Something that happened to a drone, which nobody has asked for."""
+class VehicleTelemetry:
+    """A drone's telemetry, for all who want to know: it stays current.
 
-    kind: str
-    """`LINK_LOST`, `CRASHED`, `LOCKED`, `BATTERY_LOW` or `POSITION_LOST`; others are only put into the log."""
-    reason: str
-    """A sentence for a person, without the drone's name: "it lies on its back"."""
+    Before its first word it stands at home, with nothing in its battery.
+    """
+
+    def __init__(
+        self,
+        home: Point,
+        flight_time: float,
+        ask: Callable[[], DroneTelemetry],
+        calls: NavigationCalls,
+    ) -> None:
+        self._home, self._flight_time = home, flight_time
+        self._ask, self._calls = ask, calls
+        self._raw: DroneTelemetry | None = None
+        self._last: Sample | None = None
+        self.flew = -inf
+        """When it was last seen in the air."""
+        self.rises_until = -inf
+        """Until when it may be rising though it has not said so."""
+
+    def look(self) -> Sample | None:
+        """Return the last it told; None: nothing yet."""
+        raw = self._calls.ask("telemetry", self._ask, None)
+        if raw is not None and raw is not self._raw:
+            self._raw = raw
+            sample = self._calls.ask("telemetry", lambda: _sample(raw), None)
+            if sample is not None:
+                self._last = sample
+                if sample.flying:
+                    self.flew = max(self.flew, sample.time)
+                    self.rises_until = -inf
+        return self._last
+
+    @property
+    def location(self) -> Point:
+        """Where it is."""
+        last = self.look()
+        return self._home if last is None else last.position
+
+    @property
+    def battery_level(self) -> float:
+        """What is left in its battery, from 0 to 1."""
+        last = self.look()
+        return 0.0 if last is None else last.battery_level
+
+    @property
+    def is_rising(self) -> bool:
+        """Whether it may have taken off, and has not said so yet."""
+        self.look()
+        return self._calls.clock() < self.rises_until
+
+    @property
+    def landed(self) -> bool:
+        """Whether it is on the ground; who was silent for longer than it can fly must be."""
+        last, now = self.look(), self._calls.clock()
+        if now < self.rises_until:
+            return False
+        return last is None or not last.flying or now - last.time > EMPTY * self._flight_time
+
+    @property
+    def silence(self) -> float:
+        """Seconds since it last told anything that made sense."""
+        last = self.look()
+        return inf if last is None else self._calls.clock() - last.time
+
+
+def _sample(raw: DroneTelemetry) -> Sample | None:
+    """Return what makes sense of it; a drone that does not know where it is has told nothing."""
+    x, y, z = map(float, raw.position)
+    time, level = float(raw.time), float(raw.battery_level)
+    if not all(map(isfinite, (x, y, z, time, level))):
+        return None
+    return Sample(time, (x, y, z), min(1.0, max(0.0, level)), bool(raw.flying))

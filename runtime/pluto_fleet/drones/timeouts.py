@@ -1,20 +1,51 @@
-"""Calls to a drone's navigation: none takes for ever, and whatever one raises becomes a failure."""
+"""Calls to a drone's navigation: each has a limit, and every exception becomes a failure."""
 
 from __future__ import annotations
 
 import asyncio
 import traceback
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Generator
 from contextlib import suppress
 from functools import partial
-from typing import Any, NoReturn, TypeVar
+from typing import Any, Generic, NoReturn, TypeVar
 
 from plutoc_runtime.domain.errors import ANY_ERROR, Failure, FlightFailed
 from plutoc_runtime.domain.text import duration, printable
 
-from .timed import Timed
-
 T = TypeVar("T")
+
+
+class _Timed(Generic[T]):
+    """Stands for what is awaited; `told` hears of every step of it, in seconds."""
+
+    def __init__(
+        self, awaited: Awaitable[T], clock: Callable[[], float], told: Callable[[float], object]
+    ) -> None:
+        self._awaited, self._clock, self._told = awaited, clock, told
+
+    def __await__(self) -> Generator[Any, Any, T]:
+        steps = _awaiting(self._awaited)
+        thrown: BaseException | None = None
+        while True:
+            began = self._clock()
+            try:
+                waits_for = steps.send(None) if thrown is None else steps.throw(thrown)
+            except StopIteration as end:
+                returned: T = end.value
+                return returned
+            finally:
+                self._told(self._clock() - began)
+            thrown = None
+            try:
+                yield waits_for
+            except ANY_ERROR as error:
+                thrown = error
+
+
+async def _awaiting(awaited: Awaitable[T]) -> T:
+    """Whatever it is, a coroutine can be driven by hand."""
+    return await awaited
+
 
 BLOCKED = 0.1
 """Seconds for which a navigation may keep all drones waiting before it is named in the log."""
@@ -26,7 +57,7 @@ _RARELY, _MANY = 10.0, 100
 """Seconds between two lines of the log about the same mistake; how many of these are told apart."""
 
 
-class Calls:
+class NavigationCalls:
     """All that is asked of one drone's navigation."""
 
     def __init__(
@@ -34,7 +65,7 @@ class Calls:
     ) -> None:
         self.drone, self.say, self.clock = drone, say, clock
         self._strays: set[asyncio.Task[Any]] = set()
-        """Calls that nobody waits for any more, and that have not ended."""
+        """NavigationCalls that nobody waits for any more, and that have not ended."""
         self._said: dict[str, float] = {}
 
     async def call(
@@ -71,6 +102,10 @@ class Calls:
         finally:
             self.took(self.clock() - began)
 
+    def timed(self, awaited: Awaitable[T]) -> _Timed[T]:
+        """Return what to await instead, so that the log says how long each of its steps blocked."""
+        return _Timed(awaited, self.clock, self.took)
+
     def mistake(self, what: str, error: BaseException) -> FlightFailed:
         """Put a mistake of the navigation into the log, and return what becomes of a flight."""
         said = shortened(f"{type(error).__name__}: {_text(error)}".removesuffix(": "))
@@ -101,7 +136,7 @@ class Calls:
 
     async def _outcome(self, what: str, method: Callable[[], Awaitable[T]]) -> Callable[[], T]:
         try:
-            value = await Timed(method(), self.clock, self.took)
+            value = await self.timed(method())
         except (asyncio.CancelledError, KeyboardInterrupt):
             raise
         except ANY_ERROR as error:  # even SystemExit: it would end the flights of all others

@@ -7,18 +7,18 @@ from functools import partial
 from math import dist
 from typing import TYPE_CHECKING
 
+from plutoc_runtime.alone.files import HOME_SIZE
 from plutoc_runtime.domain.fleet_data import DroneData
 from plutoc_runtime.domain.text import quoted
-from plutoc_runtime.fleet.landing_sites import HOME_SIZE
 
 from . import errors, values
-from .free_tables import Options, options_under
+from .options import Options, options_under
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.airspace import Airspace
     from plutoc_runtime.domain.app import App
 
-    from .table import Table
+    from .reading import Table
 
 Cell = tuple[int, int]
 """A square of the map with sides of that length."""

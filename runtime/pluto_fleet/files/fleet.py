@@ -3,26 +3,189 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from functools import partial
 from itertools import cycle, islice
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from plutoc_runtime.domain.airspace import Airspace
-from plutoc_runtime.domain.fleet_data import FleetData
+from plutoc_runtime.domain.fleet_data import Feature, FleetData, Source, WorldData
+from plutoc_runtime.domain.geometry import covers_ground
+from plutoc_runtime.domain.model import AfterTrip
+from plutoc_runtime.domain.quantities import Type
 
-from . import errors
-from .behaviour import APART, CRAZYFLIE, OWN, read_behaviour
+from . import errors, values
 from .drones import DroneEntry, named_navigations, read_drones
-from .free_tables import Options, navigation_options, options_under
-from .map import read_map
-from .reading import Document, read
-from .table import Table
-from .world import read_world
+from .options import Options, navigation_options, options_under
+from .reading import Document, Table, read
+from .values import HEIGHT, RADIUS, SIDE
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
+    from plutoc_runtime.domain.geometry import Corner
     from plutoc_runtime.domain.model import Point
+
+    from .options import Options
+
+
+APART = 0.5
+"""Metres: two Crazyflies nearer than that blow each other off course."""
+
+CRAZYFLIE = "crazyflie"
+"""How drones are flown where the file names nothing else."""
+
+OWN = "own"
+"""Localization is the drones' own affair."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Behaviour:
+    """`[fleet]`."""
+
+    after_trip: AfterTrip = AfterTrip.HOME
+    apart: float = APART
+    max_airborne: int | None = None
+    navigation: str = CRAZYFLIE
+    localization: str = OWN
+
+
+def read_behaviour(top: Table) -> Behaviour:
+    """Return it, with what goes without saying."""
+    table = top.table("fleet")
+    if table is None:
+        return Behaviour()
+    table.only(("after_trip", "apart", "max_airborne", "navigation", "localization"), "[fleet]")
+    apart = table.read("apart", partial(values.quantity, kind=Type.LENGTH, limit=values.APART))
+    return Behaviour(
+        after_trip=table.read("after_trip", _after_trip) or AfterTrip.HOME,
+        apart=APART if apart is None else apart,
+        max_airborne=table.read("max_airborne", partial(values.integer, least=1)),
+        navigation=table.read("navigation", values.name) or CRAZYFLIE,
+        localization=table.read("localization", values.name) or OWN,
+    )
+
+
+def _after_trip(value: object) -> AfterTrip:
+    for choice in AfterTrip:
+        if value == choice.value:
+            return choice
+    raise values.Wrong(f"is none of: {', '.join(choice.value for choice in AfterTrip)}")
+
+
+def read_map(top: Table) -> tuple[Airspace | None, str | None]:
+    """Return the map and its picture; no map where it cannot be read."""
+    table = top.table("map")
+    if table is None:
+        return (None if "map" in top.data else Airspace()), None
+    table.only(("size", "image", "cruise_height", "ceiling", "no_fly"), "[map]")
+    image = table.read("image", values.name)
+    plain = Airspace()
+    size = table.read("size", _size) if "size" in table.data else plain.size
+    cruise = _height(table, "cruise_height", plain.cruise_height)
+    ceiling = _height(table, "ceiling", max(plain.ceiling, cruise or 0.0))
+    no_fly = _no_fly(table)
+    if cruise is not None and ceiling is not None and cruise > ceiling:
+        table.problem(errors.cruise_above_ceiling(cruise, ceiling), "cruise_height")
+    if size is None or cruise is None or ceiling is None or no_fly is None:
+        return None, image
+    airspace = Airspace(size=size, cruise_height=cruise, ceiling=ceiling, no_fly=no_fly)
+    return airspace, image
+
+
+def _height(table: Table, key: str, default: float) -> float | None:
+    if key not in table.data:
+        return default
+    return table.read(key, partial(values.quantity, kind=Type.LENGTH, limit=HEIGHT))
+
+
+def _size(value: object) -> Corner:
+    width, depth = values.numbers(value, (2,), SIDE)
+    return width, depth
+
+
+def _no_fly(table: Table) -> tuple[tuple[Corner, ...], ...] | None:
+    given = table.read("no_fly", _list)
+    areas: list[tuple[Corner, ...]] = []
+    bad = given is None and "no_fly" in table.data
+    for index, element in enumerate(given or ()):
+        try:
+            areas.append(_area(element))
+        except ValueError as error:
+            table.problem(errors.no_fly_area(index + 1, str(error)), "no_fly", index)
+            bad = True
+    return None if bad else tuple(areas)
+
+
+def _list(value: object) -> list[object]:
+    if not isinstance(value, list):
+        raise values.Wrong("is not a list of areas, each a list of corners [x, y]")
+    return value
+
+
+def _area(value: object) -> tuple[Corner, ...]:
+    if not isinstance(value, list) or len(value) < 3:
+        raise values.Wrong("is not a list of at least three corners [x, y]")
+    corners: list[Corner] = []
+    for place, element in enumerate(value, start=1):
+        try:
+            corners.append(values.corner(element))
+        except ValueError as error:
+            raise values.Wrong(f"has a corner {place} that {error}") from None
+    if not covers_ground(corners):
+        raise values.Wrong("covers no ground: its corners lie on one line")
+    return tuple(corners)
+
+
+def read_world(top: Table) -> WorldData | None:
+    """Return the world that the file describes, if it does."""
+    table = top.table("world")
+    if table is None:
+        return None
+    table.only(("background", "feature", "source"), "[world]")
+    features = [_feature(entry) for entry in table.tables("feature", "world.feature")]
+    sources = [_source(entry) for entry in table.tables("source", "world.source")]
+    return WorldData(
+        features=tuple(feature for feature in features if feature is not None),
+        sources=tuple(source for source in sources if source is not None),
+        background=_background(table),
+    )
+
+
+def _background(table: Table) -> dict[str, float]:
+    given = table.table("background")
+    if given is None:
+        return {}
+    read = {quantity: given.read(quantity, values.real) for quantity in given.data}
+    return {quantity: value for quantity, value in read.items() if value is not None}
+
+
+def _feature(entry: Table) -> Feature | None:
+    entry.who = "[[world.feature]]"
+    entry.only(("kind", "at", "radius"), "a feature")
+    kind = entry.read("kind", values.name, required=True)
+    at = entry.read("at", values.corner, required=True)
+    if "radius" not in entry.data:
+        return None if kind is None or at is None else Feature(kind=kind, at=at)
+    radius = entry.read("radius", partial(values.quantity, kind=Type.LENGTH, limit=RADIUS))
+    if kind is None or at is None or radius is None:
+        return None
+    return Feature(kind=kind, at=at, radius=radius)
+
+
+def _source(entry: Table) -> Source | None:
+    entry.who = "[[world.source]]"
+    entry.only(("quantity", "at", "peak", "radius"), "a source")
+    quantity = entry.read("quantity", values.name, required=True)
+    at = entry.read("at", values.corner, required=True)
+    peak = entry.read("peak", values.real, required=True)
+    radius = entry.read(
+        "radius", partial(values.quantity, kind=Type.LENGTH, limit=RADIUS), required=True
+    )
+    if quantity is None or at is None or peak is None or radius is None:
+        return None
+    return Source(quantity=quantity, at=at, peak=peak, radius=radius)
+
 
 __all__ = ["DroneEntry", "FleetFile", "default_fleet", "fleet_of", "load_fleet"]
 
@@ -94,3 +257,62 @@ def fleet_of(document: Document, app: App) -> FleetFile:
         drones=drones,
         world=world,
     )
+
+
+FOLLOWED = 1.0
+"""Metres per second: no course is followed faster, as the firmware comes (`posCtlPid.xVelMax`)."""
+PACE = 16 / 35
+"""A Crazyflie's mean speed on a course, as a share of its peak speed."""
+
+
+def navigation_of(fleet: FleetFile, drone: DroneEntry) -> str:
+    """Return how a drone is flown: a name, or `module:Class`."""
+    return drone.navigation or fleet.navigation
+
+
+def options_of(fleet: FleetFile, drone: DroneEntry) -> Options:
+    """Return what is for its navigation: the fleet's options, and the drone's own on top."""
+    return {**fleet.options.get(navigation_of(fleet, drone), {}), **drone.options}
+
+
+def not_real(fleet: FleetFile) -> list[str]:
+    """Return why this fleet cannot be flown with real drones, a sentence each."""
+    if all(drone.line is None for drone in fleet.drones):
+        return [errors.no_fleet_file()]
+    return [
+        errors.no_uri(drone.id, drone.line)
+        for drone in fleet.drones
+        if drone.uri is None and navigation_of(fleet, drone) == CRAZYFLIE
+    ]
+
+
+def too_fast(app: App, fleet: FleetFile) -> list[str]:
+    """Return which categories are faster than a Crazyflie follows as it comes, a sentence each."""
+    flown = {
+        d.category
+        for d in fleet.drones
+        if d.line is not None and navigation_of(fleet, d) == CRAZYFLIE
+    }
+    return [
+        errors.too_fast(category.name, speed, FOLLOWED)
+        for category in app.categories
+        if category.name in flown and (speed := category.top_speed or category.speed) > FOLLOWED
+    ]
+
+
+def as_flown(app: App, fleet: FleetFile) -> App:
+    """Return the app with its categories as slow as this fleet's real drones are on average.
+
+    A Crazyflie's courses begin and end at rest: their peak speed, which a category limits, is 35/16 of
+    their mean one.
+    """
+    slow = {d.category for d in fleet.drones if navigation_of(fleet, d) == CRAZYFLIE}
+    categories = tuple(
+        (
+            replace(category, speed=category.speed * PACE, top_speed=category.speed)
+            if category.name in slow and category.top_speed is None
+            else category
+        )
+        for category in app.categories
+    )
+    return replace(app, categories=categories)

@@ -6,34 +6,16 @@ kernel in one go, whatever else the app waits for. Only the answer may have to w
 
 from __future__ import annotations
 
-import asyncio
-import json
-from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
-from contextlib import asynccontextmanager, suppress
+from collections.abc import AsyncIterator, Mapping
+from contextlib import AsyncExitStack, asynccontextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Protocol
+from typing import Protocol
 
 from plutoc_runtime.domain.errors import BadInput
 
 from ..jobs.reports import Down
 from ..journal.errors import why
-from ..process.asking import LONGEST
-from ..process.forked import not_for_children
-from ..process.private import new_address, publish, withdraw
-
-if TYPE_CHECKING:
-    from asyncio import StreamReader, StreamWriter
-
-_AT_ONCE = 32
-"""Who may be connected at the same time."""
-
-_PATIENCE = 5.0
-"""Seconds within which a request must be there, and an answer be read."""
-
-_LAST_WORDS = 0.5
-"""Seconds for answers that are on their way when the app ends."""
-
-Answer = Callable[[Mapping[str, object]], Awaitable[str]]
+from ..process.ipc import Answer, answering, listening
 
 
 class Control(Protocol):
@@ -116,74 +98,14 @@ def stop_in(request: Mapping[str, object]) -> Down | None:
 
 
 @asynccontextmanager
-async def listening(note: Path, answer: Answer) -> AsyncIterator[None]:
-    """Answer whoever finds the note; `answer` does what is asked before it waits for anything."""
-    address = new_address(note)
-    served: set[asyncio.Task[None]] = set()
-
-    def serve(reader: StreamReader, writer: StreamWriter) -> None:
-        if len(served) >= _AT_ONCE:
-            writer.transport.abort()
-            return
-        task = asyncio.ensure_future(_serve(reader, writer, answer))
-        served.add(task)
-        task.add_done_callback(served.discard)
-
-    server = await asyncio.start_unix_server(serve, address, limit=LONGEST)
-    for one in server.sockets:
-        not_for_children(one.fileno())
-    try:
-        _publish(note, address)
+async def hear_commands(note: Path, answer: Answer) -> AsyncIterator[None]:
+    """Answer every process that finds the note; nothing flies that could not be stopped."""
+    async with AsyncExitStack() as stack:
+        try:
+            await stack.enter_async_context(listening(note, answering(answer)))
+        except OSError as error:
+            raise BadInput(
+                f"{note}: it cannot be written that commands are heard, and so nothing flies:"
+                f" {why(error)}; mend that, then resume"
+            ) from None
         yield
-    finally:
-        server.close()
-        withdraw(note)
-        if served:  # an answer that is on its way still arrives
-            _, idle = await asyncio.wait(list(served), timeout=_LAST_WORDS)
-            for task in idle:
-                task.cancel()
-            await asyncio.gather(*idle, return_exceptions=True)
-
-
-def _publish(note: Path, address: Path) -> None:
-    """Say where commands are heard; nothing flies that nobody could stop."""
-    try:
-        publish(note, address)
-    except OSError as error:
-        raise BadInput(
-            f"{note}: it cannot be written that commands are heard, and so nothing flies:"
-            f" {why(error)}; mend that, then resume"
-        ) from None
-
-
-async def _serve(reader: StreamReader, writer: StreamWriter, answer: Answer) -> None:
-    try:
-        with suppress(OSError, TimeoutError):
-            async with asyncio.timeout(_PATIENCE):
-                try:
-                    line = await reader.readline()
-                except ValueError:  # it is too long
-                    line = b""
-            writer.write(await _said(line, answer))
-            async with asyncio.timeout(_PATIENCE):
-                await writer.drain()
-    finally:
-        with suppress(OSError):
-            writer.close()
-
-
-async def _said(line: bytes, answer: Answer) -> bytes:
-    try:
-        request = json.loads(line)
-    except (ValueError, RecursionError):
-        request = None
-    if not isinstance(request, dict):
-        return _reply(ok=False, said="that is not a line of JSON with an object")
-    try:
-        return _reply(ok=True, said=await answer(request))
-    except BadInput as error:
-        return _reply(ok=False, said=str(error))
-
-
-def _reply(*, ok: bool, said: str) -> bytes:
-    return json.dumps({"ok": ok, "said": said}).encode() + b"\n"

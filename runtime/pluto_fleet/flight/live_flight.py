@@ -21,7 +21,7 @@ from ..jobs.reports import Down
 from ..journal.errors import JournalError
 from ..journal.writer import Writer
 from ..process.realtime import RealTime
-from .commands import listening, perform, stop_in
+from .commands import hear_commands, perform, stop_in
 from .config import End, Lived
 from .live_engine import live_engine
 from .live_fleet import live_fleet
@@ -90,7 +90,7 @@ class OneLife:
         live_fleet(life.session.core).somebody_comes = setting.sim
         life.control.stopped.watch(lambda _: self._end.set(End.STOPPED))
         stops.stop_now = self._stop
-        async with listening(setting.note, self.answer):
+        async with hear_commands(setting.note, self.answer):
             looks = asyncio.create_task(self._looks())
             try:
                 end = await self._lived(life, stops)

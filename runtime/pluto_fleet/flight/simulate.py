@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.alone.bound import Bound, see_through
+from plutoc_runtime.alone.simulate import Bound, see_through
 from plutoc_runtime.alone.world import World
 from plutoc_runtime.domain.model import Mission
 from plutoc_runtime.domain.trace import Event
@@ -15,7 +15,8 @@ from plutoc_runtime.time.virtual import VirtualTime
 
 from ..gateway.gateway import Gateway
 from ..process.signal_guard import guard_hooks
-from ..simulation.drones import SimulatedDrone, SimulatedNavigation
+from ..simulation.body import SimulatedDrone
+from ..simulation.drones import SimulatedNavigation
 from .live_engine import LiveEngine
 from .live_fleet import LiveFleet
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Coroutine, Sequence
 from functools import partial
 from itertools import islice
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.domain.errors import FlightFailed
 from plutoc_runtime.fleet.energy import docked
@@ -18,15 +18,15 @@ from ..jobs.reports import Down
 from .traffic.choosing import Goer
 from .traffic.courses import Course, course
 from .traffic.timetable import Timetable, timetable
-from .traffic.ways_home import ways_home
+from .traffic.ways import ways_home
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.airspace import Airspace
-    from plutoc_runtime.domain.model import Category, Point
 
+    from ..jobs.controls import Craft
     from .executor import Pilots
-    from .traffic.detours import Section
     from .traffic.traffic import Traffic
+    from .traffic.ways import Section
 
 _LOOK = 0.1
 """Seconds between two looks at those who are to pass first."""
@@ -34,30 +34,6 @@ _NEAR = 60
 """How many ways to the ground are looked at, where it is not straight below."""
 
 _Command = Callable[[], Coroutine[Any, Any, None]]
-
-
-class Craft(Protocol):
-    """What must be known of a drone."""
-
-    @property
-    def id(self) -> str:
-        """Its name in the fleet."""
-        ...
-
-    @property
-    def category(self) -> Category:
-        """How fast it flies, and for how long."""
-        ...
-
-    @property
-    def home(self) -> Point:
-        """Where its dock is."""
-        ...
-
-    @property
-    def index(self) -> int:
-        """Its place in the fleet file."""
-        ...
 
 
 class Descent:
@@ -128,7 +104,7 @@ class Descent:
 
     def _ways_home(self, drone: Craft) -> list[Section]:
         """Return ways home; none where it is there, or cannot get there."""
-        telemetry, traffic = self._pilots.telemetry(drone.id), self._traffic
+        telemetry, traffic = self._pilots.telemetry[drone.id], self._traffic
         if telemetry.landed and docked(telemetry.location, drone.home):
             return []
         if traffic is not None and traffic.ground.below(drone.id, drone.home) is None:
@@ -168,7 +144,7 @@ class Descent:
     async def _follows(self, drone: str) -> None:
         """Fly as far as nobody is in the way who was to pass before; and so on, to the end."""
         last = len(self._plan.courses[drone].pieces) - 1
-        telemetry, at = self._pilots.telemetry(drone), 0
+        telemetry, at = self._pilots.telemetry[drone], 0
         try:
             self._pilots.begins(drone)
             while at < last:
@@ -190,7 +166,7 @@ class Descent:
     def _stretch(self, drone: str) -> Section:
         """Return what a drone flies next, from where it is: it may have been stopped on the way."""
         (first, last), one = self._at[drone], self._plan.courses[drone]
-        telemetry = self._pilots.telemetry(drone)
+        telemetry = self._pilots.telemetry[drone]
         here = telemetry.location
         first = max(first, one.piece_at(here, first, last) - 1)
         return one.stretch(here, telemetry.landed, first, last)
@@ -215,7 +191,7 @@ class Descent:
             return first > piece
         if last <= piece and first == last:
             return False
-        here = self._pilots.telemetry(drone).location
+        here = self._pilots.telemetry[drone].location
         return self._plan.courses[drone].piece_at(here, first, last) > piece
 
     def _send(self, drone: str, command: _Command) -> None:
@@ -223,7 +199,7 @@ class Descent:
         self._tasks.append(self._kernel.spawn(_well(command), key, f"{drone} comes down"))
 
     def _is_landed(self, drone: Craft) -> bool:
-        return self._pilots.telemetry(drone.id).landed
+        return self._pilots.telemetry[drone.id].landed
 
 
 async def _well(command: _Command) -> bool:

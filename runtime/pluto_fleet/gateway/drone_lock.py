@@ -19,7 +19,7 @@ from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.text import quoted
 
 from ..process.forked import not_for_children
-from ..process.private import is_private
+from ..process.ipc import is_private
 
 LEAVING = 8.0
 """Seconds that a gateway whose drones are down may take to let go of them."""

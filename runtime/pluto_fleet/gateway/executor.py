@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Coroutine, Sequence
+from collections.abc import Callable, Coroutine, Mapping, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import replace
 from functools import partial
@@ -14,17 +14,16 @@ from plutoc_runtime.time.kernel import FLEET, Kernel, Task
 
 from ..jobs.job import motors_cut
 from .envelope import Envelope
-from .motor_stop import CutMotors
-from .traffic.detours import Section
+from .ledger import CutMotors
+from .traffic.ways import Section
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.airspace import Airspace
     from plutoc_runtime.domain.model import Point, Telemetry
 
-    from ..jobs.controls import Controls
+    from ..jobs.controls import Controls, Craft
     from ..jobs.job import Job
     from ..jobs.reports import DroneReport
-    from .descent import Craft
     from .ledger import Ledger
     from .traffic.traffic import Traffic, Ways
 
@@ -66,22 +65,20 @@ class Pilots:
         """The jobs under way, by the drones' ids."""
         self._rescues: dict[str, Task[bool]] = {}
         """The latest rescue of each drone."""
-        self._cut = CutMotors(ledger, lambda drone: not controls.telemetry(drone).landed)
-
-    def telemetry(self, drone: str) -> Telemetry:
-        """Return what is known of a drone; the value stays current."""
-        return self._controls.telemetry(drone)
+        self.telemetry: Mapping[str, Telemetry] = controls.telemetry
+        """What is known of each drone; the values stay current."""
+        self._cut = CutMotors(ledger, lambda drone: not controls.telemetry[drone].landed)
 
     # Jobs
 
-    def fly(self, job: Job, report: Callable[[object], None]) -> None:
+    def fly(self, job: Job, report: Callable[[object], object]) -> None:
         """Take off, fly to the job's stops and do its action; then report."""
         name = f"{job.drone} flies {job.id}"
         self._jobs[job.drone] = self._kernel.spawn(
             self._done(job, report), self._key(job.drone), name
         )
 
-    async def _done(self, job: Job, report: Callable[[object], None]) -> None:
+    async def _done(self, job: Job, report: Callable[[object], object]) -> None:
         try:
             result = await self._flown(job)
         except FlightFailed as error:
@@ -95,7 +92,7 @@ class Pilots:
         self._check(job)
 
         def begins() -> None:
-            here, category = controls.telemetry(drone).location, self._drones[drone].category
+            here, category = controls.telemetry[drone].location, self._drones[drone].category
             seconds = flight_seconds(category, airspace, here, job.stops, job.seconds)
             controls.begins(drone, job, seconds)
 
@@ -138,7 +135,7 @@ class Pilots:
     async def takeoff(self, drone: str, height: float) -> None:
         """Rise to a height; does nothing for a drone that flies."""
         begins = partial(self.begins, drone)
-        if self._controls.telemetry(drone).landed:
+        if self._controls.telemetry[drone].landed:
             await self._travel(drone, partial(self._up, drone, height), begins)
         else:
             begins()
@@ -146,7 +143,7 @@ class Pilots:
     async def go_to(self, drone: str, target: Point) -> None:
         """Fly straight to a point."""
         self._refuse_if_cut(drone)
-        if self._controls.telemetry(drone).landed:
+        if self._controls.telemetry[drone].landed:
             await self._controls.go_to(drone, target)  # says why not
         else:
             await self._travel(drone, partial(self._straight, drone, target))
@@ -154,7 +151,7 @@ class Pilots:
     async def land(self, drone: str) -> None:
         """Land here, or beside it where another stands."""
         self._refuse_if_cut(drone)
-        if self._controls.telemetry(drone).landed:
+        if self._controls.telemetry[drone].landed:
             await self._controls.land(drone)
         else:
             await self.travels(drone, partial(self.way_down, drone), anywhere=True)
@@ -228,7 +225,7 @@ class Pilots:
         return True
 
     async def _flies_home(self, drone: str) -> bool:
-        telemetry, home = self._controls.telemetry(drone), self._drones[drone].home
+        telemetry, home = self._controls.telemetry[drone], self._drones[drone].home
         begins = partial(self.begins, drone)
         try:
             if telemetry.landed and docked(telemetry.location, home):
@@ -354,7 +351,7 @@ class Pilots:
 
     def way_down(self, drone: str) -> Section:
         """Return the way straight down, or beside it."""
-        here = self._controls.telemetry(drone).location
+        here = self._controls.telemetry[drone].location
         if self._traffic is not None:
             return self._traffic.ground.way_down(drone)
         points = [here]
@@ -375,7 +372,7 @@ class Pilots:
 
     def _start(self, drone: str, height: float) -> tuple[list[Point], bool]:
         """Return where a drone is, and where it is when it has taken off; whether it must."""
-        telemetry = self._controls.telemetry(drone)
+        telemetry = self._controls.telemetry[drone]
         here = telemetry.location
         if not telemetry.landed:
             return [here], False

@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING
 from plutoc_runtime.time.kernel import FLEET, Kind
 
 if TYPE_CHECKING:
-    from .gateway import Gateway
-    from .job import Report
-    from .link import Link
+    from ..jobs.job import Report
+    from .gateway import Gateway, Link
 
 LOST = -1.0
 """The fate of a report that never arrives."""

@@ -1,4 +1,4 @@
-"""The gateway as a process of its own: it starts nothing of the app, and ends when nobody needs it."""
+"""The gateway as a process of its own: it starts nothing of the app, and ends when it is not needed."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ import time
 from collections.abc import Sequence
 from contextlib import suppress
 from errno import EDQUOT, EFBIG, ENOSPC
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -19,25 +20,101 @@ from plutoc_runtime.alone.world import World
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.text import printable
 from plutoc_runtime.time.future import Future
+from plutoc_runtime.time.kernel import FLEET, Kind
 
 from ..drones.real_fleet import SLACK
+from ..jobs.reports import Down
+from ..jobs.telemetry import Publisher
 from ..process.forked import deaf, in_children, not_for_children
-from ..process.private import new_address, publish, withdraw
+from ..process.ipc import listening
 from ..process.realtime import RealTime
 from ..simulation.drones import SimulatedNavigation
 from ..simulation.keeping import Keeper
 from ..simulation.moments import this_moment
 from .drone_lock import LEAVING, holding
-from .ending import Ending
-from .file_ledger import FileLedger
 from .gateway import Gateway
+from .ledger import FileLedger
 from .server import Server
 from .settings import Settings, settings_of
 from .sightings import SEEN, Sightings
-from .wire import LONGEST_TOLD
+from .wire import MAX_COMMAND
 
 if TYPE_CHECKING:
     from ..jobs.controls import Controls
+    from .settings import Settings
+
+
+LINGERS = 120.0
+"""Seconds for which one that may hover, unheard, is waited for when nobody needs the gateway else."""
+
+
+class Ending:
+    """Sees to it that the process ends, and only when all drones are down.
+
+    A real drone that does not answer may still be in the air: it lands if it is back in time. No
+    brain is kept waiting for that.
+    """
+
+    def __init__(self, gateway: Gateway, over: Future[None], settings: Settings) -> None:
+        self._gateway, self._over = gateway, over
+        self._second = settings.speed
+        self._idle, self._patience = settings.idle, settings.patience
+        self.server: Server | None = None
+        self._alone = -1.0
+        """Seconds without a brain and without a drone in the air."""
+        self._told: float | None = None
+        """Seconds since somebody wants it to end."""
+        self._lingers = 0.0 if settings.real is None else LINGERS
+        self._left: float | None = None
+        """Seconds that are left to a drone that may hover."""
+
+    def goodbye(self) -> None:
+        """End, once all drones are down."""
+        gateway = self._gateway
+        if gateway.flies:
+            gateway.fail_safe(Down.LAND).watch(lambda _: self._down())
+        else:
+            self._over.set(None)
+
+    def _down(self) -> None:
+        """All that can be told are down: end, or wait for who cannot, but keep no brain waiting."""
+        if not self._gateway.flies or self._lingers <= 0.0:
+            self._over.set(None)
+        elif self._left is None:
+            self._left = self._lingers
+            if self.server is not None:
+                self.server.hang_up()
+
+    def _linger(self, brain: bool) -> None:
+        """Wait a second more for a drone that may hover: without a brain it is landed when heard."""
+        if brain:
+            self._left = None
+        elif self._left is not None:
+            self._left -= 1.0
+            gateway = self._gateway
+            if self._left <= 0.0 or not (gateway.flies or gateway.descent is not None):
+                self._over.set(None)
+
+    def told_to_end(self) -> None:
+        """End as if told goodbye, but give a brain that was told the same the time to stop."""
+        if self._told is None:
+            self._told = 0.0
+
+    def look(self) -> None:
+        """End when nobody has come for a while; look again a second later."""
+        gateway, kernel = self._gateway, self._gateway.kernel
+        brain = self.server is not None and self.server.has_a_brain
+        busy = brain or gateway.flies or gateway.descent is not None
+        self._alone = -1.0 if busy else self._alone + 1.0
+        self._linger(brain)
+        if self._told is not None:
+            self._told += 1.0
+            if self._told > self._patience and gateway.descent is None and self._left is None:
+                self.goodbye()
+        if self._alone > (self._idle if self._told is None else 0.0):
+            self._over.set(None)
+        kernel.schedule(kernel.now + self._second, Kind.CLOCK, FLEET, self.look)
+
 
 NOTE, SETTINGS, LEDGER, LOCK, LOG = "gateway", "settings.json", "ledger", "lock", "log"
 """What lies in its folder; NOTE says where it listens."""
@@ -95,21 +172,18 @@ def taken(folder: Path) -> int | None:
 async def run(folder: Path, settings: Settings) -> None:
     """Reach the drones, or let the simulated world go on, and let brains command until all is over."""
     kernel = RealTime(settings.speed)
-    drones = [drone.id for drone in settings.drones]
     if settings.real is None:
         simulated = _simulated(folder, settings, kernel)
-        seen = Sightings(
-            folder / SEEN, drones, simulated.telemetry, down=simulated.down, speed=settings.speed
-        )
+        seen = Sightings(folder / SEEN, simulated.telemetry, down=simulated.down)
         await _command(folder, settings, kernel, simulated, seen)
         return
-    from ..drones.making import make_team  # a simulation does without
+    from ..drones.team import make_team  # a simulation does without
 
     uris = {drone.id: drone.uri or drone.id for drone in settings.real.drones}
     with holding(uris, patience=LEAVING):
         team = make_team(kernel, settings.drones, settings.real, settings.airspace, folder, _say)
         team.begin()
-        seen = Sightings(folder / SEEN, drones, team.telemetry, down=team.down)
+        seen = Sightings(folder / SEEN, team.telemetry, down=team.down)
         try:
             await _command(folder, settings, kernel, team, seen)
         finally:
@@ -152,28 +226,32 @@ async def _command(
     )
     over: Future[None] = Future()
     ending = Ending(gateway, over, settings)
-    server = Server(gateway, _say, ending.goodbye)
+    publisher = Publisher(controls.telemetry)
+    server = Server(gateway, publisher, _say, ending.goodbye)
     ending.server = server
     for number in (signal.SIGTERM, signal.SIGINT):
         asyncio.get_running_loop().add_signal_handler(number, kernel.post, ending.told_to_end)
     no_more = in_children(deaf)
     signal.signal(signal.SIGHUP, signal.SIG_IGN)
-    note = folder / NOTE
-    address = new_address(note)
-    listening = await asyncio.start_unix_server(server.accept, address, limit=LONGEST_TOLD)
-    watching = asyncio.ensure_future(seen.watch())
+    turned_away = partial(_say, "a client was turned away: too many are connected")
     try:
-        publish(note, address)
-        _say("the gateway is ready")
-        kernel.post(ending.look)
-        await kernel.run(over)
+        async with listening(
+            folder / NOTE,
+            server.serve,
+            max_line=MAX_COMMAND,
+            last_words=0.0,
+            turned_away=turned_away,
+        ):
+            watching = seen.subscribe(publisher, settings.speed)
+            try:
+                _say("the gateway is ready")
+                kernel.post(ending.look)
+                await kernel.run(over)
+            finally:
+                watching.cancel()
+                seen.keep()
     finally:
         no_more()
-        watching.cancel()
-        seen.keep()
-        listening.close()
-        withdraw(note)
-        await server.close()
     _say("the gateway ends: all drones are down")
 
 

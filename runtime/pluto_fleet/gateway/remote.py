@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, Any
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.time.future import Future
 
-from .wire import Message, job_data, line, message_in, result_of, roll_of, standing_of
+from ..process.ipc import Message, line, message_in
+from .wire import job_data, result_of, roll_of, standing_of
 
 if TYPE_CHECKING:
     from asyncio import StreamReader, StreamWriter
@@ -20,9 +21,8 @@ if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Point, Telemetry
     from plutoc_runtime.time.kernel import Kernel
 
-    from ..jobs.job import Job
+    from ..jobs.job import Job, Report
     from ..jobs.reports import Down, DroneReport, FleetReport
-    from .job import Report
 
 SILENCE = 5.0
 """Seconds on the wall without a word from the gateway after which it is lost."""

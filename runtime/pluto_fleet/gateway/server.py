@@ -6,7 +6,6 @@ the socket may land the drones, whether the brain answers or not.
 
 from __future__ import annotations
 
-import asyncio
 from collections.abc import Callable, Coroutine, Sequence
 from contextlib import suppress
 from functools import partial
@@ -17,34 +16,24 @@ from plutoc_runtime.domain.text import quoted, shown
 from plutoc_runtime.time.kernel import FLEET, Task
 
 from ..jobs.reports import Down
-from .link import Busy
-from .requests import asked
-from .wire import (
-    LONGEST_TOLD,
-    Message,
-    job_of,
-    line,
-    message_in,
-    result_data,
-    seen,
-)
+from ..process.ipc import Message, line, message_in
+from .gateway import Busy
+from .wire import MAX_COMMAND, job_of, result_data, roll_data, seen, standing_data
 
 if TYPE_CHECKING:
     from asyncio import StreamReader, StreamWriter
 
-    from .gateway import Gateway
-    from .link import Link
+    from ..jobs.telemetry import Publisher, Subscription
+    from .gateway import Gateway, Link
 
-_AT_ONCE = 32
-"""Who may be connected at the same time."""
 _PENDING = 10_000
 """Commands of one brain that may be under way."""
 _UNREAD = 64 * 1024 * 1024
 """Bytes that a brain may leave unread before it is given up."""
 _EACH = 0.1
 """Seconds on the wall between two looks at the drones."""
-_ALIVE = 10
-"""After so many looks without any change something is said all the same."""
+_ALIVE = 1.0
+"""Seconds without any change after which something is said all the same."""
 
 Say = Callable[[str], object]
 
@@ -52,40 +41,32 @@ Say = Callable[[str], object]
 class Server:
     """Everybody who is connected."""
 
-    def __init__(self, gateway: Gateway, say: Say, on_goodbye: Callable[[], object]) -> None:
-        self.gateway, self.say, self.on_goodbye = gateway, say, on_goodbye
-        self.connected: dict[asyncio.Task[None], Connection] = {}
+    def __init__(
+        self, gateway: Gateway, publisher: Publisher, say: Say, on_goodbye: Callable[[], object]
+    ) -> None:
+        self.gateway, self.publisher = gateway, publisher
+        self.say, self.on_goodbye = say, on_goodbye
+        self.connected: list[Connection] = []
 
     @property
     def has_a_brain(self) -> bool:
-        """Whether somebody commands."""
-        return any(
-            connection.link is not None and not connection.leaves
-            for connection in self.connected.values()
-        )
+        """Whether a brain commands."""
+        return any(one.link is not None and not one.leaves for one in self.connected)
 
-    def accept(self, reader: StreamReader, writer: StreamWriter) -> None:
-        """Serve somebody, unless there are too many."""
-        if len(self.connected) >= _AT_ONCE:
-            self.say("somebody was turned away: too many are connected")
-            writer.transport.abort()
-            return
+    async def serve(self, reader: StreamReader, writer: StreamWriter) -> None:
+        """Serve a connection, until it ends."""
         connection = Connection(self, writer)
-        task = asyncio.ensure_future(connection.serve(reader))
-        self.connected[task] = connection
-        task.add_done_callback(self.connected.pop)
+        self.connected.append(connection)
+        try:
+            await connection.serve(reader)
+        finally:
+            self.connected.remove(connection)
 
     def hang_up(self) -> None:
         """Let those go who have said goodbye: whatever is still to be done, they need not wait."""
-        for connection in self.connected.values():
+        for connection in self.connected:
             if connection.leaves:
                 connection.hang_up()
-
-    async def close(self) -> None:
-        """Say goodbye to everybody."""
-        for task in list(self.connected):
-            task.cancel()
-        await asyncio.gather(*self.connected, return_exceptions=True)
 
 
 class Connection:
@@ -97,8 +78,8 @@ class Connection:
         self._was_cut = False
         self._under_way: dict[int, Task[Any]] = {}
         """Commands that are not answered yet, by their numbers."""
-        self._seen: dict[str, tuple[object, ...]] = {}
-        """What was told of the drones last."""
+        self._telemetry: Subscription[tuple[object, ...]] | None = None
+        """None: it has never commanded."""
         self.leaves = False
         """Whether it has said goodbye."""
 
@@ -109,15 +90,14 @@ class Connection:
 
     async def serve(self, reader: StreamReader) -> None:
         """Do what is asked, line by line, until nothing more comes."""
-        watch = asyncio.ensure_future(self._watch())
         try:
             with suppress(OSError):
                 while told := await reader.readline():
                     self._gateway.kernel.post(self._hear, told)
         except ValueError:  # no line may be so long
-            self._refuse(f"a line was longer than {LONGEST_TOLD} bytes")
+            self._refuse(f"a line was longer than {MAX_COMMAND} bytes")
         finally:
-            watch.cancel()
+            self._tell_no_telemetry()
             self._gateway.kernel.post(self._leave)
             with suppress(OSError):
                 self._writer.close()
@@ -141,26 +121,17 @@ class Connection:
 
     # What drones look like
 
-    async def _watch(self) -> None:
-        """Tell what has changed, some times a second."""
-        quiet = 0
-        while True:
-            await asyncio.sleep(_EACH)
-            if self.link is not None:
-                changed = self._changed()
-                quiet = 0 if changed else quiet + 1
-                if changed or quiet >= _ALIVE:
-                    quiet = 0
-                    self._tell({"seen": changed})
+    def _tell_seen(self, changed: Message, late: float) -> None:
+        if self.link is not None:
+            self._tell({"seen": changed})
 
-    def _changed(self) -> dict[str, tuple[object, ...]]:
+    def _tell_no_telemetry(self) -> None:
+        if self._telemetry is not None:
+            self._telemetry.cancel()
+
+    def _changed(self) -> Message:
         """Return what has changed of the drones since it was told last."""
-        telemetry, changed = self._gateway.navigation.telemetry, {}
-        for drone, before in self._seen.items():
-            now = seen(telemetry(drone))
-            if now != before:
-                self._seen[drone] = changed[drone] = now
-        return changed
+        return {} if self._telemetry is None else self._telemetry.changed()
 
     # What is asked
 
@@ -228,10 +199,11 @@ class Connection:
 
     def _link(self, epoch: int) -> None:
         self.link = self._gateway.link(epoch, self._lost)
-        drones = self._gateway.drones
-        telemetry = self._gateway.navigation.telemetry
-        self._seen = {drone.id: seen(telemetry(drone.id)) for drone in drones}
-        self._tell({"linked": self._seen})
+        self._tell_no_telemetry()  # this connection may have commanded before
+        self._telemetry = self._server.publisher.subscribe(
+            self._tell_seen, every=_EACH, view=seen, unchanged=_ALIVE
+        )
+        self._tell({"linked": self._changed()})
         self._server.say(f"a brain commands, number {epoch}")
 
     def _lost(self) -> None:
@@ -271,7 +243,7 @@ class Connection:
                 self.leaves = True
                 self._server.on_goodbye()
             case _:
-                self._begin(int(message["n"]), what, asked(link, what, message, self._known))
+                self._begin(int(message["n"]), what, _asked(link, what, message, self._known))
 
     def _begin(self, number: int, what: str, command: Coroutine[Any, Any, object]) -> None:
         if number in self._under_way or len(self._under_way) >= _PENDING:
@@ -293,7 +265,7 @@ class Connection:
             self._gateway.kernel.crash(error)
 
     def _known(self, drone: str) -> str:
-        if drone not in self._seen:
+        if drone not in self._server.publisher.drones:
             raise BadInput(f"there is no drone {shown(drone)}")
         return drone
 
@@ -302,6 +274,43 @@ class Connection:
 
     def _report(self, number: int, result: object) -> None:
         self._tell({"report": number, **result_data(result), "seen": self._changed()})
+
+
+def _asked(
+    link: Link, what: str, message: Message, known: Callable[[Any], str]
+) -> Coroutine[Any, Any, object]:
+    """Return what answers a message; `known` refuses drones that there are not."""
+    if what == "call":
+        return _as_data(roll_data, link.call)
+    if what == "down":
+        return link.bring_down(Down(message["how"]))
+    drone = known(message["drone"])
+    match what:
+        case "hold":
+            return link.hold(drone)
+        case "read":
+            return link.read(drone, str(message["name"]))
+        case "write":
+            return link.write(drone, str(message["name"]), float(message["value"]))
+        case "takeoff":
+            return link.takeoff(drone, float(message["height"]))
+        case "go_to":
+            x, y, z = map(float, message["target"])
+            return link.go_to(drone, (x, y, z))
+        case "land":
+            return link.land(drone)
+        case "recover":
+            return link.recover(drone)
+        case "roll_call":
+            return _as_data(standing_data, partial(link.roll_call, drone))
+        case _:
+            raise BadInput(f"this gateway cannot {shown(what)}")
+
+
+async def _as_data(
+    write: Callable[[Any], object], ask: Callable[[], Coroutine[Any, Any, object]]
+) -> object:
+    return write(await ask())
 
 
 def _call_off(task: Task[Any]) -> None:

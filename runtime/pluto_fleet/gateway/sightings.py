@@ -1,15 +1,14 @@
-"""Where each drone was heard of last: kept on the disk, for who looks when nobody commands them.
+"""Where each drone was heard of last: kept on the disk, for a look when no brain commands them.
 
 A brain knows where its drones are while it lives. After a Stop, a crash or a kill the gateway is the
-last that hears of them: so it is the gateway that writes it down, also while no brain is there.
+last that hears of them, so it writes that down, also while no brain is there.
 """
 
 from __future__ import annotations
 
-import asyncio
 import json
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from math import isfinite
@@ -23,6 +22,8 @@ from ..journal.values import point_of
 if TYPE_CHECKING:
     from plutoc_runtime.domain.errors import FlightFailed
     from plutoc_runtime.domain.model import Point, Telemetry
+
+    from ..jobs.telemetry import Publisher, Subscription
 
 SEEN = "seen.json"
 """The file, in the gateway's folder."""
@@ -56,23 +57,19 @@ def _well(drone: str) -> None:
 
 
 class Sightings:
-    """Writes down how all drones are, as long as somebody hears of them."""
+    """Writes down how all drones are, as long as one of them is heard of."""
 
     def __init__(
         self,
         path: Path,
-        drones: Sequence[str],
-        telemetry: Callable[[str], Telemetry],
+        drones: Mapping[str, Telemetry],
         *,
         down: Callable[[str], FlightFailed | None] = _well,
-        speed: float = 1.0,
         clock: Callable[[], float] = time.time,
     ) -> None:
         """Begin; `down` says why a drone takes no commands, if it takes none."""
-        self._path, self._drones, self._telemetry = path, tuple(drones), telemetry
-        self._down = down
-        self._clock, self._quiet, self._kept = clock, 0, dict[str, list[Any]]()
-        self._before, self._each = _told(path), max(SHORTEST, EACH / speed)
+        self._path, self._drones, self._down, self._clock = path, drones, down, clock
+        self._before = _told(path)
         self._leaving: set[str] = set()
         """The drones that take off: what they said of themselves before is not so any more."""
 
@@ -86,42 +83,35 @@ class Sightings:
         finally:
             self._leaving.discard(drone)
 
-    async def watch(self) -> None:
-        """Look again and again, until nobody wants that any longer."""
-        while True:
-            self.look()
-            await asyncio.sleep(self._each)
-
-    def look(self) -> None:
-        """Write down what has changed, if anything has."""
-        self._quiet += 1
-        if self._quiet >= ANEW or self._now() != self._kept:
-            self.keep()
+    def subscribe(self, publisher: Publisher, speed: float) -> Subscription[object]:
+        """Write down what changes, from now on, and now and then that nothing has."""
+        every = max(SHORTEST, EACH / speed)
+        return publisher.subscribe(
+            lambda *_: self.keep(), every=every, view=self._state, unchanged=ANEW * every
+        )
 
     def keep(self) -> None:
         """Write down how all drones are; of one that is not heard of, what was known before."""
-        now, clock = self._now(), self._clock()
-        drones = self._before | {
-            drone: [*how, round(clock - self._telemetry(drone).silence, 1), *down]
-            for drone, (*how, down) in now.items()
-        }
+        clock, drones = self._clock(), dict(self._before)
+        for drone, known in self._drones.items():
+            state = self._state(drone, known)
+            if state is not None:
+                *how, down = state
+                drones[drone] = [*how, round(clock - known.silence, 1), *down]
         part = self._path.with_name(f".{self._path.name}.part")
         with suppress(OSError):  # on a full disk drones fly on; the next look is another chance
             part.write_text(json.dumps(drones), encoding="utf-8")
             part.replace(self._path)
-            self._kept, self._quiet = now, 0
 
-    def _now(self) -> dict[str, list[Any]]:
-        found: dict[str, list[Any]] = {}
-        for drone in self._drones:
-            one = self._telemetry(drone)
-            if isfinite(one.silence):
-                place = [round(metres, 3) for metres in one.location]
-                landed = one.landed and drone not in self._leaving
-                down = self._down(drone)
-                why = [] if down is None else [down.failure.value, str(down)]
-                found[drone] = [place, round(one.battery_level, 3), landed, why]
-        return found
+    def _state(self, drone: str, known: Telemetry) -> list[Any] | None:
+        """Return what is written down of a drone, but for when; None: it was never heard of."""
+        if not isfinite(known.silence):
+            return None
+        place = [round(metres, 3) for metres in known.location]
+        landed = known.landed and drone not in self._leaving
+        down = self._down(drone)
+        why = [] if down is None else [down.failure.value, str(down)]
+        return [place, round(known.battery_level, 3), landed, why]
 
 
 def sightings_in(folder: Path) -> dict[str, Sighting]:

@@ -17,13 +17,12 @@ from plutoc_runtime.domain.errors import BadInput
 
 from ..jobs.reports import Down
 from ..process import respawn as again
-from ..process.asking import ask
-from ..process.forked import not_for_children
-from ..process.private import address_in
+from ..process.ipc import ask
+from ..process.ipc import connect as open_connection
 from .process import ANOTHER_RUNS, LOCK, LOG, NO_ROOM, NOTE, SETTINGS
 from .remote import SILENCE, RemoteLink
 from .settings import Settings, data_of
-from .wire import LONGEST_HEARD
+from .wire import MAX_REPORT
 
 if TYPE_CHECKING:
     from plutoc_runtime.time.kernel import Kernel
@@ -87,11 +86,7 @@ async def _linked(
     lost: Callable[[], object] | None,
 ) -> RemoteLink:
     """Link to the gateway that runs; OSError: none does; TimeoutError: it does not answer."""
-    address = address_in(folder / NOTE)
-    if address is None:
-        raise FileNotFoundError(folder / NOTE)
-    reader, writer = await asyncio.open_unix_connection(address, limit=LONGEST_HEARD)
-    not_for_children(writer.get_extra_info("socket").fileno())
+    reader, writer = await open_connection(folder / NOTE, MAX_REPORT)
     link = RemoteLink(kernel, reader, writer, lost)
     try:
         async with asyncio.timeout(SILENCE):

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import json
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import isinf
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from plutoc_runtime.domain.errors import Failure, FlightFailed
 
@@ -21,29 +20,14 @@ if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Item, Point, Telemetry
 
     from ..jobs.job import Job
+    from ..process.ipc import Message
 
 SILENT = 2.0
 """Seconds without a word after which a drone's place is no longer news."""
-LONGEST_TOLD = 256 * 1024
+MAX_COMMAND = 256 * 1024
 """Bytes of a line that the gateway reads."""
-LONGEST_HEARD = 256 * 1024 * 1024
-"""Bytes of a line that the brain reads: a roll call has all jobs of a large plan."""
-
-Message = Mapping[str, Any]
-
-
-def line(message: Message) -> bytes:
-    """Write a message."""
-    return json.dumps(message).encode() + b"\n"
-
-
-def message_in(told: bytes) -> Message | None:
-    """Read a message; None: it is none."""
-    try:
-        message = json.loads(told)
-    except (ValueError, RecursionError):
-        return None
-    return message if isinstance(message, dict) else None
+MAX_REPORT = 256 * 1024 * 1024
+"""Bytes of a line that the brain reads: a fleet's report has all jobs of a large plan."""
 
 
 @dataclass(slots=True, kw_only=True)
@@ -105,7 +89,7 @@ def result_of(data: Message) -> object:
     return value_of(data["value"])
 
 
-def seen(telemetry: Telemetry) -> tuple[object, ...]:
+def seen(drone: str, telemetry: Telemetry) -> tuple[object, ...]:
     """Return what is known of a drone, in short.
 
     Last comes since when it is silent, in seconds since 1970: None where it is not, 0 where it was

@@ -2,7 +2,7 @@
 
 Metres, seconds. Each command returns when it is done: on arrival, when landed; it raises
 `FlightFailed` when the drone cannot finish. A command that is cancelled leaves the drone hovering
-where it is. Where a drone may fly, and who flies there now, is not known here: see `gateway/pilots.py`.
+where it is. Where a drone may fly, and which other drones fly there now, is not known here: see `gateway/executor.py`.
 """
 
 from __future__ import annotations
@@ -12,17 +12,42 @@ from typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.actions import Plain
-    from plutoc_runtime.domain.model import Item, Point, Telemetry
+    from plutoc_runtime.domain.model import Category, Item, Point, Telemetry
 
     from .job import Job
     from .reports import DroneReport
 
 
+class Craft(Protocol):
+    """What the gateway must know of a drone."""
+
+    @property
+    def id(self) -> str:
+        """Its name in the fleet."""
+        ...
+
+    @property
+    def category(self) -> Category:
+        """How fast it flies, and for how long."""
+        ...
+
+    @property
+    def home(self) -> Point:
+        """Where its dock is."""
+        ...
+
+    @property
+    def index(self) -> int:
+        """Its place in the fleet file."""
+        ...
+
+
 class Controls(Protocol):
     """A team of drones, by their ids, one command at a time for each."""
 
-    def telemetry(self, drone: str) -> Telemetry:
-        """Return what is known of a drone; the value stays current."""
+    @property
+    def telemetry(self) -> Mapping[str, Telemetry]:
+        """What is known of each drone; the values stay current."""
         ...
 
     def why_not(self, drone: str, action: str, parameters: Mapping[str, Plain]) -> str | None:
@@ -108,10 +133,8 @@ class Before:
 
     def __init__(self, controls: Controls) -> None:
         self._controls = controls
-
-    def telemetry(self, drone: str) -> Telemetry:
-        """Return what is known of a drone; the value stays current."""
-        return self._controls.telemetry(drone)
+        self.telemetry = controls.telemetry
+        """What is known of each drone."""
 
     def why_not(self, drone: str, action: str, parameters: Mapping[str, Plain]) -> str | None:
         """Return why a drone's hardware cannot do a built-in action, or None."""

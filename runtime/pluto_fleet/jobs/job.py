@@ -15,6 +15,10 @@ if TYPE_CHECKING:
     from .reports import Down, DroneReport, FleetReport
 
 
+Report = Callable[[object], object]
+"""Hears what an action gave, or the `FlightFailed` that ended the job."""
+
+
 class Job(Protocol):
     """What a drone is to do for a trip."""
 
@@ -76,7 +80,7 @@ class Commanding(Navigation[Job], Protocol):
         """Ask all drones and the ledger how everything stands; from now on the brain is heard."""
         ...
 
-    def attach(self, id: str, report: Callable[[object], None]) -> None:
+    def attach(self, id: str, report: Report) -> None:
         """Hear of a job that was given before: when it ends, or now if it has."""
         ...
 

@@ -22,6 +22,11 @@ def gateway_folder(path: Path) -> Path:
     return beside(path, ".gateway")
 
 
+def commands_note(journal: Path) -> Path:
+    """Return the note that says where the app of a journal hears commands."""
+    return gateway_folder(Path(os.path.realpath(journal))) / "brain"
+
+
 def new(app: str, now: float) -> Path:
     """Return where a flight that begins now is written down, so that nobody flies without.
 

@@ -21,7 +21,6 @@ from plutoc_runtime.time.kernel import Call, Kernel, Key, Kind
 
 from .forked import end_if_forked
 from .signal_guard import by_a_person, guard_hooks
-from .straight import never_waits
 
 T = TypeVar("T")
 
@@ -124,12 +123,7 @@ class RealTime(Kernel):
     async def call_hook(
         self, hook: Callable[..., object], /, *args: object, **named: object
     ) -> object:
-        """Run a hook beside the missions: `async def` as a task, `def` in a thread.
-
-        One that never waits needs no task: it is over as soon as it is called, as in virtual time.
-        """
-        if never_waits(hook):
-            return await _alone(cast("Coroutine[Any, Any, object]", hook(*args, **named)))
+        """Run a hook beside the missions: `async def` as a task, `def` in a thread."""
         result: Future[object] = Future()
         running = asyncio.ensure_future(self._answer(hook, partial(hook, *args, **named), result))
         try:
@@ -179,19 +173,19 @@ class RealTime(Kernel):
         Thread(target=work, name="hook", daemon=True).start()
         return (await ended)()
 
-    async def offer(self, signal: Future[T]) -> T:
-        """Return what a hook, an asyncio task here, may await for this signal."""
+    async def offer(self, future: Future[T]) -> T:
+        """Return what a hook, an asyncio task here, may await for this future."""
         happened = asyncio.Event()
 
         def tell(_: object) -> None:
             happened.set()
 
-        signal.watch(tell)
+        future.watch(tell)
         try:
             await happened.wait()
         finally:
-            signal.unwatch(tell)
-        return signal.result()
+            future.unwatch(tell)
+        return future.result()
 
 
 def _nothing() -> None:

@@ -19,8 +19,8 @@ from plutoc_runtime.alone.faults import (
 from plutoc_runtime.domain.actions import BUILT_IN, PICK, RELEASE, Plain
 from plutoc_runtime.domain.errors import Failure, FlightFailed
 from plutoc_runtime.domain.text import place
-from plutoc_runtime.fleet.capability import grip_problem
 from plutoc_runtime.fleet.energy import CLIMB_SPEED
+from plutoc_runtime.fleet.reach import grip_problem
 from plutoc_runtime.time.future import Future
 from plutoc_runtime.time.kernel import Kernel, Kind
 
@@ -73,10 +73,8 @@ class SimulatedNavigation:
         self.record = record
         """Told of everything that drones do to the world, right before it is so."""
         self.bodies = {drone.id: Body(drone, kernel.time) for drone in drones}
-
-    def telemetry(self, drone: str) -> Telemetry:
-        """Return what is known of a drone; the value stays current."""
-        return self.bodies[drone]
+        self.telemetry: Mapping[str, Telemetry] = self.bodies
+        """What is known of each drone; the values stay current."""
 
     def down(self, drone: str) -> FlightFailed | None:
         """Return why a drone takes no commands; None: it takes them."""

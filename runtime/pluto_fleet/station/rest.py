@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from plutoc_runtime.domain.app import App
 
-    from ..files.fleet import DroneEntry
+    from ..files.drones import DroneEntry
     from ..journal.fold import Records
 
 FRESH = 4.0

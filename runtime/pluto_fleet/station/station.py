@@ -26,7 +26,7 @@ from ..journal import lock, place
 from ..journal.fold import Records
 from ..journal.header import header
 from ..journal.store import Store
-from ..process.asking import Nobody, Silent
+from ..process.ipc import NoAnswer, NotRunning
 from . import leftover
 from .commands import checked
 from .describe import described
@@ -323,9 +323,9 @@ class Station:
         folder = place.gateway_folder(self.outing.journal)
         try:
             said = await asyncio.to_thread(cut_directly, folder, drone, STOP_WITHIN)
-        except Nobody:
+        except NotRunning:
             raise BadInput("nobody commands the drones now") from None
-        except Silent:
+        except NoAnswer:
             raise BadInput("what commands the drones does not answer") from None
         if not self.outing.lives:
             with suppress(BadInput):  # what is on record then, whoever flies it writes

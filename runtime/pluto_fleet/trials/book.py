@@ -9,7 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.alone.bound import Bound
+from plutoc_runtime.alone.simulate import Bound
 
 from ..journal.fold import Records
 from .acts import Act, Once

@@ -17,7 +17,8 @@ from plutoc_runtime.domain.fields import Entity, FieldType
 from plutoc_runtime.domain.text import counted
 from plutoc_runtime.domain.trace import dumped
 
-from ..files.fleet import DroneEntry, FleetFile, default_fleet, load_fleet
+from ..files.drones import DroneEntry
+from ..files.fleet import FleetFile, default_fleet, load_fleet
 from ..files.fleet_text import fleet_text
 from ..files.missions import load_missions
 from ..files.plan_check import idle_actions, problems

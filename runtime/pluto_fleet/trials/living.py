@@ -231,7 +231,7 @@ class Living:
 
     def flies(self, drone: str) -> bool:
         """Whether a drone is in the air: nobody can fall from the ground."""
-        return not self.rig.navigation.telemetry(drone).landed
+        return not self.rig.navigation.telemetry[drone].landed
 
     def by_hand(self, kind: Kind, events: list[Event]) -> None:
         named = [str(event["mission"]) for event in events if event.get("mission")]

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
+
+import tomlkit
 
 from plutoc_runtime.domain.fields import Entity, FieldType
 from plutoc_runtime.domain.model import Mission, Trip
-
-from ..files.toml_text import numbers, text, value
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
@@ -16,36 +16,34 @@ if TYPE_CHECKING:
 
 def missions_text(app: App, missions: Sequence[Mission[Any]]) -> str:
     """Return the missions file."""
-    return "\n".join(line for mission in missions for line in _mission(app, mission)) + "\n"
+    return tomlkit.dumps({"mission": [_mission(app, mission) for mission in missions]})
 
 
-def _mission(app: App, mission: Mission[Any]) -> Iterator[str]:
-    yield "[[mission]]"
-    yield f"name = {text(mission.name)}"
-    yield from _fields(app, Entity.MISSION, mission)
-    for trip in mission.trips:
-        yield ""
-        yield "[[mission.trip]]"
-        yield f"name = {text(trip.name)}"
-        yield f"action = {text(trip.action)}"
-        if trip.source is not None:
-            yield f"source = {numbers(trip.source)}"
-        yield f"target = {numbers(trip.target)}"
-        if trip.parameters:
-            yield f"parameters = {value(trip.parameters)}"
-        if trip.item is not None:
-            yield f"item = {value({'name': trip.item.name, 'mass': trip.item.mass})}"
-        yield from _fields(app, Entity.TRIP, trip)
-    yield ""
+def _mission(app: App, mission: Mission[Any]) -> dict[str, Any]:
+    trips = [_trip(app, trip) for trip in mission.trips]
+    return {"name": mission.name, **_fields(app, Entity.MISSION, mission), "trip": trips}
 
 
-def _fields(app: App, entity: Entity, of: Mission[Any] | Trip) -> Iterator[str]:
+def _trip(app: App, trip: Trip) -> dict[str, Any]:
+    table: dict[str, Any] = {"name": trip.name, "action": trip.action}
+    if trip.source is not None:
+        table["source"] = [float(along) for along in trip.source]
+    table["target"] = [float(along) for along in trip.target]
+    table.update(_fields(app, Entity.TRIP, trip))
+    if trip.parameters:
+        table["parameters"] = {**trip.parameters}
+    if trip.item is not None:
+        table["item"] = {"name": trip.item.name, "mass": trip.item.mass}
+    return table
+
+
+def _fields(app: App, entity: Entity, of: Mission[Any] | Trip) -> dict[str, Any]:
+    fields: dict[str, Any] = {}
     for field in app.fields:
         given = getattr(of, field.name) if field.on is entity else None
-        if given is None:
-            continue
-        if field.type is FieldType.TIME_OF_DAY:
+        if given is not None and field.type is FieldType.TIME_OF_DAY:
             minutes = round(given / 60)
-            yield f'{field.name} = "{minutes // 60:02}:{minutes % 60:02}"'
-        else:
-            yield f"{field.name} = {value(given)}"
+            fields[field.name] = f"{minutes // 60:02}:{minutes % 60:02}"
+        elif given is not None:
+            fields[field.name] = given
+    return fields

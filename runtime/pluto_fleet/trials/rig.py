@@ -22,7 +22,8 @@ from ..gateway.ledger import MemoryLedger
 from ..gateway.lossy_line import LOST, Line
 from ..jobs.reports import Down
 from ..process.signal_guard import by_a_person
-from ..simulation.drones import SimulatedDrone, SimulatedNavigation
+from ..simulation.body import SimulatedDrone
+from ..simulation.drones import SimulatedNavigation
 from ..simulation.radio import Radio
 from .blows import Blow, Kind
 from .book import Book, Trial

@@ -11,15 +11,14 @@ from plutoc_runtime.domain.errors import Cancelled, FlightFailed
 from plutoc_runtime.time.future import Future
 from plutoc_runtime.time.kernel import FLEET, Kind, Task
 
-from ..gateway.link import Link
+from ..gateway.gateway import Link
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Point
     from plutoc_runtime.time.kernel import Kernel
 
     from ..gateway.gateway import Gateway
-    from ..gateway.job import Report
-    from ..jobs.job import Job
+    from ..jobs.job import Job, Report
     from ..jobs.reports import Down, DroneReport, FleetReport
 
 T = TypeVar("T")

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import re
+import tomllib
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
+from math import dist
 from typing import TYPE_CHECKING, Any
 
 from ..domain.actions import PICK, RELEASE
@@ -15,9 +18,7 @@ from ..domain.geometry import covers_ground
 from ..domain.model import NOTHING, AfterTrip, Item
 from ..domain.quantities import QUANTITIES, Type, number_from
 from ..domain.text import cut_off, number, quoted, shown
-from ..fleet.capability import wrong_aboard
-from ..fleet.landing_sites import HOME_SIZE, first_crowded
-from .toml import read_toml
+from ..fleet.reach import wrong_aboard
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -26,6 +27,9 @@ if TYPE_CHECKING:
     from ..domain.geometry import Corner
     from ..domain.model import Mission, Point, Trip
 
+HOME_SIZE = 0.1
+"""Metres that a drone takes up where it stands."""
+
 _Read = Callable[[Any], Any]
 """Converts a value; or raises a `ValueError` that goes on after the key and the value."""
 
@@ -33,7 +37,7 @@ _Read = Callable[[Any], Any]
 def load_fleet(path: Path, app: App) -> FleetData:
     """Return what a fleet file says, but for what only real flights need."""
     schema = "map:table? fleet:table? drone:tables world:table? navigation:any? localization:any?"
-    top = _table(read_toml(path), f"{path}", schema)
+    top = _table(_read_toml(path), f"{path}", schema)
     schema = "size:size? image:any? cruise_height:height? ceiling:height? no_fly:areas?"
     area, plain = _table(top.get("map", {}), f"{path}: map", schema), Airspace()
     cruise = area.get("cruise_height", plain.cruise_height)
@@ -54,7 +58,7 @@ def load_missions(path: Path, app: App, airspace: Airspace) -> list[Mission[Any]
     """Return the missions of a file, each of the app's own class."""
     missions, evaluator = list[Any](), _one_of(app.evaluators)
     schema = f"name:name? trip:tables {_fields(app, Entity.MISSION)}"
-    for index, entry in enumerate(_table(read_toml(path), f"{path}", "mission:tables")["mission"]):
+    for index, entry in enumerate(_table(_read_toml(path), f"{path}", "mission:tables")["mission"]):
         name = entry.get("name") if isinstance(entry, dict) else None
         who = f"{path}: mission {quoted(name) if isinstance(name, str) else index + 1}"
         given = {"name": f"{index + 1}", **_table(entry, who, schema, EVALUATOR=evaluator)}
@@ -99,7 +103,7 @@ def _drones(entries: list[Any], who: str, app: App, airspace: Airspace) -> list[
         for place, entry in enumerate(entries, 1)
     ]
     _differ(who, (drone.id for drone in drones))
-    if (found := first_crowded([drone.home for drone in drones], HOME_SIZE)) is not None:
+    if (found := _first_crowded([drone.home for drone in drones], HOME_SIZE)) is not None:
         raise BadInput(f"{who} {found + 1}: home is where another drone has its own")
     return drones
 
@@ -214,3 +218,37 @@ _KINDS: dict[str, _Read] = {
     "count": _whole(1),
     "after": lambda value: AfterTrip(_one_of([one.value for one in AfterTrip])(value)),
 }
+
+
+def _first_crowded(places: Sequence[Point], apart: float) -> int | None:
+    """Return which place is the first that is too near to one before it; None: there is none."""
+    cells: dict[tuple[int, int], list[Point]] = {}
+    for index, place in enumerate(places):
+        x, y = int(place[0] // apart), int(place[1] // apart)
+        around = [cells.get((x + i, y + j), []) for i in (-1, 0, 1) for j in (-1, 0, 1)]
+        if any(dist(place, other) < apart for others in around for other in others):
+            return index
+        cells.setdefault((x, y), []).append(place)
+    return None
+
+
+_LARGEST = 1 << 20
+"""Bytes. A plan is written by people: anything larger is another file."""
+
+_LONG_KEY = re.compile(r"""(?<![\w"'-])(?:[\w"'-]+[ \t]*\.[ \t]*){100}""")
+"""For each part of such a key `tomllib` copies all before it."""
+
+
+def _read_toml(path: Path) -> dict[str, Any]:
+    """Return what a plan file says; raise `BadInput` if it is no TOML text of a sane size."""
+    try:
+        with path.open("rb") as file:
+            content = file.read(_LARGEST + 1)
+        text = content.decode("utf-8-sig")
+        if len(content) > _LARGEST or _LONG_KEY.search(text):
+            raise ValueError("it is larger than 1 MiB, or nested too deep")
+        return tomllib.loads(text)
+    except OSError as error:
+        raise BadInput(f"{path}: cannot be read: {error.strerror or error}") from None
+    except (ValueError, RecursionError) as error:
+        raise BadInput(f"{path}: is no plan file: {error}") from None

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING
 
 from ..domain.actions import BUILT_IN, PICK, RELEASE
 from ..domain.errors import Failure, FlightFailed
-from ..fleet.capability import grip_problem
 from ..fleet.energy import CLIMB_SPEED, docked, flight_seconds
 from ..fleet.navigation import way_from
+from ..fleet.reach import grip_problem
 from ..time.future import Future
 from ..time.kernel import FLEET, Kernel, Key, Kind, Task
 from .faults import CARRYING_HOME, OUTAGE, Drawn, Faults, Order, befell, draw, failed

@@ -29,7 +29,7 @@ _NOISE = 0.001
 
 _KINDS = ("bloom", "pest", "disease")
 _GROUND_EACH = 4.0
-"""Square metres for each feature of a world that nobody described."""
+"""Square metres for each feature of a world that is made up."""
 _AT_MOST = 10_000
 """Features of such a world: more would take longer to make than the missions to fly."""
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Coroutine
 from dataclasses import dataclass
 from typing import Any
 
@@ -32,6 +32,10 @@ class Action:
     """How long it is expected to take, for planning; it may take longer."""
     hook: Callable[..., Any] | None = None
     """The app's own code; None: the drone's navigation knows how."""
+
+    def act(self, state: Any, flight: Any) -> Coroutine[Any, Any, None]:
+        """Do it by its hook; only an action of the app's own can be done so (flow/own_action.py)."""
+        raise NotImplementedError(f"{self.name} is done by the drone's navigation")
 
 
 PICK, RELEASE = "pick_item", "release_item"

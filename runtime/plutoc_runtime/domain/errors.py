@@ -21,7 +21,7 @@ class Failure(Enum):
     BATTERY = "battery"
     ACTION = "action"
     REFUSED = "refused"
-    UNKNOWN = "unknown"  # it was under way, and nobody can say how it ended
+    UNKNOWN = "unknown"  # it was under way, and how it ended is not known
 
 
 class FlightFailed(PlutoError):
@@ -37,7 +37,7 @@ class ActionFailed(PlutoError):
 
 
 class MissionFailed(PlutoError):
-    """A failure that no retry can mend: the mission ends at once, whatever its graph says."""
+    """A failure that no retry can mend: the mission ends at once, even if its graph would go on."""
 
 
 def nothing_to_fly(reason: str) -> MissionFailed:

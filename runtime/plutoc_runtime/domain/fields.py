@@ -83,7 +83,7 @@ def number_of(value: object) -> float | None:
         elif kind is not bool and hasattr(kind, "__float__"):
             number = float.__pos__(float(cast("SupportsFloat", value)))
         return number if isfinite(number) and abs(number) < _LARGEST else None
-    except ANY_ERROR as error:  # its own, whatever its class makes of it
+    except ANY_ERROR as error:  # an error of its own class
         unless_by_a_person(error)
         return None
 

@@ -101,7 +101,7 @@ class Telemetry(Protocol):
 
 @dataclass(slots=True, kw_only=True, eq=False)
 class Drone:
-    """A drone of the fleet. Nobody addresses one: the system chooses."""
+    """A drone of the fleet. The system chooses one: no user addresses it."""
 
     id: str
     category: Category
@@ -129,7 +129,7 @@ class Drone:
 
 
 class Nothing(dict[str, "Plain"]):
-    """No parameters: one mapping for the many trips that have none, so nobody may fill it."""
+    """No parameters: one mapping for the many trips that have none, so it must not be filled."""
 
     __slots__ = ()
 

@@ -101,10 +101,10 @@ def text_of(value: object, otherwise: str = "") -> str:
             if len(given) != 1:
                 return shown(given) if given else ""
             return text_of(given[0], otherwise) if kind.__str__ is _AN_ERRORS else shown(given[0])
-        if kind.__str__ is object.__str__:  # a list, and whatever has no words of its own
+        if kind.__str__ is object.__str__:  # a list, and all that has no text of its own
             return shown(value)
         return str.__str__(str(value))  # which may be of a class of its own
-    except ANY_ERROR as error:  # its own, whatever it is
+    except ANY_ERROR as error:  # an error of its own class
         unless_by_a_person(error)
         return otherwise
 
@@ -118,7 +118,7 @@ def shown(value: object) -> str:
         if value is None or type(value) in (bool, float):
             return repr(value)
         return bounded(_ADDRESS.sub("", _Everything().repr(value)), LONGEST_VALUE)
-    except ANY_ERROR as error:  # its own, whatever it is
+    except ANY_ERROR as error:  # an error of its own class
         unless_by_a_person(error)
         return f"<{class_of(value)} that cannot be shown>"
 

@@ -19,11 +19,11 @@ class Clock(Protocol):
 
 
 class Trace:
-    """The events of one run, told to whoever listens; with nobody, they cost nothing."""
+    """The events of one run, told to its listeners; without any, they cost nothing."""
 
     def __init__(self, clock: Clock, listeners: Sequence[Callable[[Event], object]]) -> None:
         self.live = bool(listeners)
-        """Whether anybody listens: ask before you put an event together."""
+        """Whether there is a listener: ask before you put an event together."""
         self._clock, self._listeners = clock, tuple(listeners)
         self._now = self._t = 0.0
         """The instant of the last event, and how it is written: several happen at one."""

@@ -46,13 +46,13 @@ class Fleet:
         self.errands: dict[Drone, Task[None]] = {}
         """What drones do for themselves."""
         self._change: Future[None] | None = None
-        """The next change of any drone, if anybody waits for it."""
+        """The next change of any drone, if it is waited for."""
         self.unready: dict[Drone, str] = {}
         """Those that are lost, or could not fly when they were asked, and why."""
         queue.served = self._fetch_what_is_low
 
     def engage(self, drone: Drone) -> None:
-        """A drone is about to fly for a mission: whatever it was doing for itself is over."""
+        """A drone is about to fly for a mission: what it was doing for itself is over."""
         self.unready.pop(drone, None)
         errand = self.errands.pop(drone, None)
         if errand is not None:

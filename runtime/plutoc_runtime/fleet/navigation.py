@@ -1,4 +1,4 @@
-"""How drones are flown: the protocol between the fleet and whatever moves the drones (thesis 4.4).
+"""How drones are flown: the protocol between the fleet and what moves its drones (thesis 4.4).
 
 Metres, seconds. A trip is one job, given once and reported once. What a drone does for itself
 (return, land, recover) are single commands, which return when they are done: on arrival, when
@@ -41,7 +41,7 @@ class Navigation(Protocol[J_contra]):
         ...
 
     def break_off(self, drone: str) -> None:
-        """Stop whatever a drone does, and hover.
+        """Stop what a drone does, and hover.
 
         Nothing of its job is reported any more; a single command raises `FlightFailed`.
         """

@@ -19,7 +19,7 @@ from ..domain.status import DroneStatus
 from ..time.kernel import FLEET, Kernel, Kind, Timer
 from .energy import docked
 from .policy import Batch, Choice, Policy
-from .request import Reach, Request
+from .reach import Reach, Request
 
 if TYPE_CHECKING:
     from ..domain.model import Drone, Trip

@@ -10,7 +10,7 @@ from ..domain.errors import ANY_ERROR, HookFault
 from ..domain.guard import by_a_person
 from ..domain.status import COMPLETED, FAILED, STANDBY, Status, TripStatus
 from ..domain.text import class_of, shown, text_of
-from ..fleet.capability import why_not
+from ..fleet.reach import why_not
 from ..hooks.calls import hook_name, said
 from ..hooks.soundness import unsound, unsound_mission
 from .verdict import Verdict

@@ -3,20 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Protocol
 
 from ..domain.actions import PICK, RELEASE
-from ..domain.errors import FlightFailed, HookFault
+from ..domain.errors import FlightFailed
 from ..domain.status import Status, TripStatus
 from ..domain.text import bounded
-from ..hooks.calls import LONGEST_LOG, Hook, look
-from ..hooks.context import Context
-from ..hooks.keepable import keepable
-from ..hooks.live_drone import LiveDrone, can_wait
+from ..hooks.calls import LONGEST_LOG
 from ..time.kernel import mission_key
 from ..trips.flight import Flight
-from ..trips.own_action import done_while_hovering
 
 if TYPE_CHECKING:
     from ..domain.airspace import Airspace
@@ -28,7 +24,6 @@ if TYPE_CHECKING:
     from ..fleet.navigation import Navigation
     from ..fleet.queue import Queue
     from ..time.kernel import Kernel, Task
-    from ..trips.deadlines import Deadlines
     from ..trips.transitions import Transitions
 
 
@@ -57,7 +52,7 @@ class Supervisor(Protocol):
         ...
 
     def doomed(self, state: MissionState) -> None:
-        """Hear that a mission must end, whatever its graph says."""
+        """Hear that a mission must end, even if its graph would go on."""
         ...
 
 
@@ -78,7 +73,8 @@ class Core:
     transitions: Transitions
     queue: Queue
     fleet: Fleet
-    deadlines: Deadlines
+    limits: dict[float, Any] = field(default_factory=dict)
+    """The limits on flights that are watched, by length (trips/deadlines.py)."""
     fail_later: FailLater | None = None
     """None: drones are in this process, and what was not reported was not done."""
     recorder: Recorder | None = None
@@ -132,7 +128,7 @@ class MissionState:
     first_start: float | None = None
     """When its first trip was let go."""
     doom: str | None = None
-    """Why it must end whatever its graph says: a failure that no retry can mend."""
+    """Why it must end at once: a failure that no retry can mend."""
 
     def __call__(self, task: Task[Status]) -> None:
         """Hear that its coroutine is over."""
@@ -154,11 +150,6 @@ class MissionState:
         """The flight that is not over yet."""
         flight = self.flight
         return flight if flight and flight.trip.status is _EXECUTING else None
-
-    def context(self, live: LiveDrone | None = None) -> Context:
-        """Return what a hook gets of the running app."""
-        core = self.core
-        return Context(core.kernel, core.results, core.log, self.mission, lambda: self.flight, live)
 
     # Its trips
 
@@ -190,37 +181,10 @@ class MissionState:
             self.complete(flight, result)
         elif not flight.called_off and flight.own_action is None:
             flight.own_action = self.core.kernel.spawn(
-                self._act(flight, flight.hook),
+                self.core.app.actions[flight.trip.action].act(self, flight),
                 mission_key(self.mission.index),
                 f"{self.mission.name}: {flight.trip.action}",
             )
-
-    async def _act(self, flight: Flight, hook: Hook) -> None:
-        """Let the drone do an action of the app's own while it hovers."""
-        try:
-            value = await self._own_action(flight, hook)
-        except FlightFailed as error:
-            self.fail(flight, str(error))
-        except HookFault as fault:
-            self.core.log(fault.detail, self.mission.name)
-            self.fail(flight, str(fault), mends=False)
-        else:
-            self.complete(flight, keepable(value))
-
-    async def _own_action(self, flight: Flight, hook: Hook) -> object:
-        core, key = self.core, mission_key(self.mission.index)
-        core.transitions.begin_action(self.mission, flight.trip, flight.flier)
-        if core.recorder is not None:
-            await core.recorder.on_record()
-        live = None
-        if can_wait(hook):
-            live = LiveDrone(core.kernel, core.navigation, flight.flier, key)
-        value = await done_while_hovering(
-            core.kernel, core.navigation, flight, hook, self.context(live), key
-        )
-        if core.recorder is not None:
-            look(hook, core.recorder.look, self.mission)
-        return value
 
     def break_off(self, flight: Flight) -> None:
         """Stop a flight where it is; what it has done is still heard, and nothing more begins."""

@@ -11,12 +11,20 @@ from ..domain.mission_data import change_data
 from ..domain.status import Status, TripStatus
 from ..domain.text import bounded, class_of, shown
 from ..hooks.calls import hook_name, look
+from ..hooks.context import Context
 from ..hooks.soundness import unsound, unsound_mission
 
 if TYPE_CHECKING:
     from ..domain.model import Mission, Trip
     from .mission import Core, MissionState
     from .run import Run
+
+
+def context_of(run: Run[Any]) -> Context:
+    """Return what a modifier gets of the running app."""
+    core, state = run.core, run.state
+    return Context(core.kernel, core.results, core.log, run.mission, lambda: state.flight)
+
 
 Standing = tuple[Sequence[tuple["Trip", str, int]], int]
 

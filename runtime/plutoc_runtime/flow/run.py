@@ -14,7 +14,6 @@ from ..time.kernel import branch_key
 from .mission import MOST_CALLS, MissionState
 
 if TYPE_CHECKING:
-    from ..hooks.context import Context
     from ..time.kernel import Key, Task
     from ..trips.deadlines import Limit
     from ..trips.flight import Flight
@@ -83,11 +82,6 @@ class Run(Generic[M]):
         trips = self.mission.trips
         return trips[0] if trips else self.mission.current
 
-    @property
-    def context(self) -> Context:
-        """What a hook gets of it."""
-        return self.state.context()
-
     def abort(self, reason: str) -> None:
         """Fail the trip that flies now."""
         self.state.abort(reason)
@@ -115,12 +109,12 @@ def watch(run: Run[Any], *limits: Limit | None) -> Flight:
     A limit fails the trip; a trip that ends at that very instant has ended first. Nothing is watched
     any longer once the branch that asked for it is over.
     """
-    flight = run.state.flight
+    core, flight = run.core, run.state.flight
     if flight is None:
         raise RuntimeError(f"mission {run.mission.name} has no flight to watch")
     for number, limit in enumerate(limits, 1):
         if limit is not None:
-            run.core.deadlines.watch(run, flight, number, limit)
+            limit.set(core.kernel, core.limits, run, flight, number)
     return flight
 
 

@@ -13,9 +13,8 @@ from ..domain.status import DroneStatus, Status
 from ..domain.trace import Event, Trace
 from ..fleet.fleet import Fleet
 from ..fleet.queue import Queue
-from ..fleet.request import Reach
+from ..fleet.reach import Reach
 from ..time.kernel import FLEET, Kernel, Task
-from ..trips.deadlines import Deadlines
 from ..trips.transitions import Transitions
 from .engine import Engine
 from .mission import Core, FailLater, Recorder
@@ -45,7 +44,7 @@ class Outcome:
 
     @property
     def crashed(self) -> int:
-        """How many drones have crashed: nobody brings them back in a simulation."""
+        """How many drones have crashed: none is brought back in a simulation."""
         return sum(drone.status is DroneStatus.LOST for drone in self.drones)
 
     @property
@@ -106,7 +105,6 @@ class Session:
             fleet=kind_of_fleet(
                 kernel, trace, fleet.airspace, navigation, self.drones, queue, fleet.after_trip
             ),
-            deadlines=Deadlines(kernel),
             recorder=recorder,
             fail_later=fail_later,
         )
@@ -137,7 +135,7 @@ class Session:
             await engine.done
             ended = self._kernel.now
             await self.core.fleet.all_down()
-            if engine.done.is_set:  # and nobody has let a mission go on meanwhile
+            if engine.done.is_set:  # and no mission has been let go on meanwhile
                 return ended
 
 

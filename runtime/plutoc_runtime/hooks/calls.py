@@ -20,7 +20,7 @@ Hook = Callable[..., object]
 
 
 async def call_action(kernel: Kernel, hook: Hook, /, *args: object, **named: object) -> object:
-    """Call an action; whatever it raises, `ActionFailed` aside, is a fault of the hook."""
+    """Call an action; all that it raises, `ActionFailed` aside, is a fault of the hook."""
     try:
         return await kernel.call_hook(hook, *args, **named)
     except (ActionFailed, *NOT_ITS_OWN):

@@ -109,11 +109,6 @@ class Context:
                 timer.cancel()
         return flight.is_set
 
-    def release_drone(self) -> None:
-        """The action is over: its drone is not the action's any more."""
-        if self._live is not None:
-            self._live.release()
-
     @property
     def _key(self) -> Key:
         return mission_key(self._mission.index)

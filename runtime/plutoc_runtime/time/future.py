@@ -1,4 +1,4 @@
-"""Something that happens once, and whoever waits for it."""
+"""A value or an error that comes once, and what waits for it."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from typing import Any, Generic, Protocol, TypeVar
 T = TypeVar("T")
 
 Watcher = Callable[[Any], object]
-"""What is called, with the signal, when it has happened."""
+"""What is called, with the future, when it has happened."""
 
 
 class Waiter(Protocol):
-    """Who awaits a signal: a task."""
+    """What awaits a future: a task."""
 
     def wake(self, _: object = None) -> None:
         """It has happened: go on."""
@@ -20,7 +20,7 @@ class Waiter(Protocol):
 
 
 class Future(Generic[T]):
-    """Something that happens once. Await it for its value; any number of coroutines may."""
+    """A value that comes once. Await it; any number of coroutines may."""
 
     __slots__ = ("_value", "_watchers", "error", "is_set", "waiter")
 
@@ -28,7 +28,7 @@ class Future(Generic[T]):
         self.is_set = False
         self.error: BaseException | None = None
         self.waiter: Waiter | None = None
-        """Who awaits it; most signals are awaited by one task, and the others watch."""
+        """Who awaits it; most futures are awaited by one task, and the others watch."""
         self._value: Any = None
         self._watchers: list[Watcher] | None = None
 
@@ -42,7 +42,7 @@ class Future(Generic[T]):
                 self._tell()
 
     def fail(self, error: BaseException) -> None:
-        """It will never happen: whoever awaits it gets the error."""
+        """It will never happen: its waiters get the error."""
         if not self.is_set:
             self.is_set, self.error = True, error
             if self.waiter is not None:
@@ -56,7 +56,7 @@ class Future(Generic[T]):
             watcher(self)
 
     def watch(self, watcher: Watcher) -> None:
-        """Call this with the signal when it happens; at once if it has."""
+        """Call this with the future when it happens; at once if it has."""
         if self.is_set:
             watcher(self)
         elif self._watchers is None:
@@ -71,7 +71,7 @@ class Future(Generic[T]):
 
     @property
     def watched(self) -> bool:
-        """Whether anybody waits for it."""
+        """Whether anything waits for it."""
         return self.waiter is not None or bool(self._watchers)
 
     def result(self) -> T:

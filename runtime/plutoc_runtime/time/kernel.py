@@ -10,11 +10,11 @@ to the instant that is being taken: they need not pass through the heap of all t
 
 from __future__ import annotations
 
-from collections.abc import Callable, Coroutine, Iterator, Sequence
+from collections.abc import Callable, Coroutine, Sequence
 from enum import IntEnum
 from gc import unfreeze
 from heapq import heappop, heappush
-from typing import Any, Generic, Protocol, TypeVar
+from typing import Any, TypeVar
 
 from ..domain.errors import ANY_ERROR, Cancelled
 from .future import Future
@@ -40,7 +40,7 @@ def mission_key(index: int) -> Key:
 
 
 def branch_key(key: Key, number: int, depth: int) -> Key:
-    """Return the key of a branch, at a depth of forks, of whoever has this key."""
+    """Return the key of a branch, at a depth of forks, of what has this key."""
     room = (1 << _BRANCH) - 1
     return key + (min(number + 1, room) << (_BRANCH * (_DEPTH - depth))) if depth <= _DEPTH else key
 
@@ -76,68 +76,12 @@ class Timer:
 
     @property
     def cancelled(self) -> bool:
-        """Whether nobody wants it any more."""
+        """Whether it was cancelled."""
         return self._call is None
 
     def cancel(self) -> None:
         """Do not call after all."""
         self._call = None
-
-
-class Link(Protocol):
-    """What can be in a chain: it knows its neighbours."""
-
-    before: Any
-    after: Any
-
-
-L = TypeVar("L", bound=Link)
-
-
-class Chain(Generic[L]):
-    """All that have come and not left."""
-
-    __slots__ = ("_first", "_last")
-
-    def __init__(self) -> None:
-        self._first: L | None = None
-        self._last: L | None = None
-
-    def add(self, link: L) -> None:
-        """Take one in, behind all others; it is in no chain yet."""
-        last = self._last
-        link.before, link.after = last, None
-        if last is None:
-            self._first = link
-        else:
-            last.after = link
-        self._last = link
-
-    def remove(self, link: L) -> None:
-        """Let one go, if it has not left already."""
-        before, after = link.before, link.after
-        if before is not None:
-            before.after = after
-        elif self._first is link:
-            self._first = after
-        else:
-            return
-        if after is not None:
-            after.before = before
-        else:
-            self._last = before
-        link.before = link.after = None
-
-    def __len__(self) -> int:
-        return sum(1 for _ in self)
-
-    def __iter__(self) -> Iterator[L]:
-        """Give all that are here now, whoever comes or leaves meanwhile."""
-        here, link = [], self._first
-        while link is not None:
-            here.append(link)
-            link = link.after
-        return iter(here)
 
 
 class Task(Future[T]):
@@ -147,8 +91,6 @@ class Task(Future[T]):
         "_coroutine",
         "_kernel",
         "_waits_for",
-        "after",
-        "before",
         "key",
         "name",
         "over",
@@ -166,14 +108,12 @@ class Task(Future[T]):
         """The number of its next turn; another one is not its any longer. 0: it waits for none."""
         self.key, self.name = key, name
         self.over: Callable[[Task[T]], None] | None = None
-        """Told when it has ended, however it has; without anybody an error stops the run."""
-        self.before: Task[Any] | None
-        self.after: Task[Any] | None
-        kernel.tasks.add(self)
+        """Told when it has ended, however it has; without a listener an error stops the run."""
+        kernel.tasks[self] = None
 
     @property
     def coroutine(self) -> Coroutine[Any, Any, T]:
-        """What it is that goes on: for whoever wants to see where it waits."""
+        """What it is that goes on: to see where it waits."""
         return self._coroutine
 
     def wake(self, _: object = None) -> None:
@@ -241,7 +181,7 @@ class Task(Future[T]):
 
     def _leave(self) -> None:
         self.turn, self._waits_for = 0, None
-        self._kernel.tasks.remove(self)
+        self._kernel.tasks.pop(self, None)
 
     def cancel(self) -> None:
         """Stop it where it waits, now."""
@@ -268,7 +208,7 @@ class Task(Future[T]):
     def drop(self) -> None:
         """Forget it where it waits: the run is over, for it at least."""
         self._wait_no_longer()
-        self._kernel.tasks.remove(self)
+        self._kernel.tasks.pop(self, None)
         self._coroutine.close()
 
 
@@ -278,7 +218,8 @@ class Kernel:
     def __init__(self) -> None:
         self.now = 0.0
         """Seconds since the start, of the instant whose events are being taken."""
-        self.tasks: Chain[Task[Any]] = Chain()
+        self.tasks: dict[Task[Any], None] = {}
+        """The coroutines that have not ended, in the order in which they set out."""
         self.crashed: BaseException | None = None
         self.over = False
         """What is run for is done, or something crashed: no further event is taken."""
@@ -333,7 +274,7 @@ class Kernel:
         finally:
             timer.cancel()
 
-    async def within(self, signal: Future[Any], until: float, kind: Kind, key: Key) -> bool:
+    async def within(self, future: Future[Any], until: float, kind: Kind, key: Key) -> bool:
         """Wait until it happens or the time comes; say whether it has happened."""
         either: Future[None] = Future()
 
@@ -341,13 +282,13 @@ class Kernel:
             either.set(None)
 
         timer = self.at(until, kind, key, over)
-        signal.watch(over)
+        future.watch(over)
         try:
             await either
         finally:
             timer.cancel()
-            signal.unwatch(over)
-        return signal.is_set
+            future.unwatch(over)
+        return future.is_set
 
     async def call_hook(
         self, hook: Callable[..., object], /, *args: object, **named: object
@@ -355,8 +296,8 @@ class Kernel:
         """Run a hook of the app's, `def` or `async def`, and return what it returns."""
         raise NotImplementedError
 
-    def offer(self, signal: Future[T]) -> Coroutine[Any, Any, T]:
-        """Return what a hook may await for this signal."""
+    def offer(self, future: Future[T]) -> Coroutine[Any, Any, T]:
+        """Return what a hook may await for this future."""
         raise NotImplementedError
 
     def post(self, call: Callable[..., object], *args: object) -> None:
@@ -371,7 +312,7 @@ class Kernel:
 
     def close(self) -> None:
         """Drop what still waits; nothing of it runs on."""
-        for task in self.tasks:
+        for task in self.under_way():
             task.drop()
         unfreeze()
 

@@ -68,9 +68,9 @@ class VirtualTime(Kernel):
                 ) from error
             raise
 
-    async def offer(self, signal: Future[T]) -> T:
-        """Return what a hook may await for this signal."""
-        return await signal
+    async def offer(self, future: Future[T]) -> T:
+        """Return what a hook may await for this future."""
+        return await future
 
 
 @coroutine

@@ -22,6 +22,7 @@ class Flight(Future[Status]):
         "_reported",
         "called_off",
         "flier",
+        "hook",
         "launched_at",
         "mission",
         "own_action",
@@ -39,8 +40,11 @@ class Flight(Future[Status]):
         retry: bool,
         reported: Callable[[Flight, object], None],
     ) -> None:
-        super().__init__()
+        self.is_set = False
+        self.error = self.waiter = self._value = self._watchers = None
         self.mission, self.trip, self.flier, self._action = mission, trip, flier, action
+        self.hook = action.hook
+        """The action of the app's own; None: it is one of ours."""
         self.launched_at = launched_at
         self.retry = retry
         """The mission's flight before this one was of the same trip, and failed."""
@@ -72,11 +76,6 @@ class Flight(Future[Status]):
     def action(self) -> str | None:
         """What to do at the last stop; None: hover, for an action of the app's own."""
         return self.trip.action if self.hook is None else None
-
-    @property
-    def hook(self) -> Callable[..., Any] | None:
-        """The action of the app's own; None: it is one of ours."""
-        return self._action.hook
 
     @property
     def seconds(self) -> float:

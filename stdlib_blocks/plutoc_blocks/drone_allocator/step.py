@@ -13,7 +13,7 @@ from plutoc_runtime.time.kernel import Kind
 
 if TYPE_CHECKING:
     from plutoc_runtime.fleet.policy import Policy
-    from plutoc_runtime.fleet.request import Request
+    from plutoc_runtime.fleet.reach import Request
     from plutoc_runtime.flow.run import Run
 
 

@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.domain.text import duration
 from plutoc_runtime.flow.run import watch
+from plutoc_runtime.trips.deadlines import Limit
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Trip
     from plutoc_runtime.domain.status import Status
     from plutoc_runtime.flow.run import Run
-    from plutoc_runtime.trips.deadlines import Limit
 
 
 async def watch_gap(
@@ -28,7 +28,7 @@ def gap_limit(run: Run[Any], *, default: float | None = None, gap: float | None)
     if flight is None or not longest:
         return None
     since = flight.launched_at if flight.retry else state.last_action_end
-    return None if since is None else (since, longest, _overdue)
+    return None if since is None else Limit(since, longest, _overdue)
 
 
 def _overdue(trip: Trip, longest: float) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.flow.modification import settle, standing
+from plutoc_runtime.flow.modification import context_of, settle, standing
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.status import Status
@@ -21,5 +21,5 @@ async def modify_mission(
 ) -> Status:
     """Call the hook, and go on with the status that it returns."""
     before = standing(run.mission)
-    returned = await run.hook(hook, run.mission, run.context)
+    returned = await run.hook(hook, run.mission, context_of(run))
     return await settle(run, hook, status, emits, returned, before)

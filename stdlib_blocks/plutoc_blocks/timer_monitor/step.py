@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.domain.text import duration
 from plutoc_runtime.flow.run import watch
+from plutoc_runtime.trips.deadlines import Limit
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Trip
     from plutoc_runtime.domain.status import Status
     from plutoc_runtime.flow.run import Run
-    from plutoc_runtime.trips.deadlines import Limit
 
 
 async def watch_timer(
@@ -28,7 +28,7 @@ def timer_limit(
     flight, safe = run.state.flight, default if safe_time is None else safe_time
     if flight is None or not safe:
         return None
-    return flight.launched_at, safe, _too_long
+    return Limit(flight.launched_at, safe, _too_long)
 
 
 def _too_long(trip: Trip, safe: float) -> str:

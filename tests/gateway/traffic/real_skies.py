@@ -6,10 +6,10 @@ from dataclasses import replace
 from itertools import combinations
 from math import dist, inf, sqrt
 
-from pluto_fleet.files.real import PACE
+from pluto_fleet.files.fleet import PACE
 from pluto_fleet.jobs.reports import Down
-from pluto_fleet.simulation.body import Body
-from pluto_fleet.simulation.drones import SimulatedDrone, SimulatedNavigation
+from pluto_fleet.simulation.body import Body, SimulatedDrone
+from pluto_fleet.simulation.drones import SimulatedNavigation
 from plutoc_runtime.alone.faults import Faults
 from plutoc_runtime.alone.motion import Leg
 from plutoc_runtime.alone.world import World

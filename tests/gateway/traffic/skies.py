@@ -7,9 +7,9 @@ from math import dist, inf
 from random import Random
 from typing import Any
 
-from pluto_fleet.gateway.gateway import Gateway
-from pluto_fleet.gateway.link import Link
-from pluto_fleet.simulation.drones import SimulatedDrone, SimulatedNavigation
+from pluto_fleet.gateway.gateway import Gateway, Link
+from pluto_fleet.simulation.body import SimulatedDrone
+from pluto_fleet.simulation.drones import SimulatedNavigation
 from plutoc_runtime.alone.faults import Faults
 from plutoc_runtime.alone.world import World
 from plutoc_runtime.domain.airspace import Airspace
@@ -182,7 +182,7 @@ class Restless:
         await self.sky.goes_home(drone)
 
     def _mishap(self, drone: str) -> None:
-        if not self.sky.navigation.telemetry(drone).landed:
+        if not self.sky.navigation.telemetry[drone].landed:
             what = self.chance.choice([Failure.LINK, Failure.CRASH, Failure.BATTERY, None])
             if what is not None:
                 self.sky.navigation.strike(drone, what)
@@ -190,5 +190,5 @@ class Restless:
 
 def is_home(sky: Sky, drone: SimulatedDrone) -> bool:
     """Say whether a drone stands in its dock."""
-    telemetry = sky.navigation.telemetry(drone.id)
+    telemetry = sky.navigation.telemetry[drone.id]
     return telemetry.landed and docked(telemetry.location, drone.home)

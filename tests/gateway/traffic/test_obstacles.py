@@ -10,8 +10,8 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from pluto_fleet.gateway.traffic.obstacles import Obstacle
 from pluto_fleet.gateway.traffic.reservations import Claim, meets
+from pluto_fleet.gateway.traffic.wait_queue import Obstacle
 from plutoc_runtime.domain.model import Category, Point
 from plutoc_runtime.fleet.energy import CLIMB_SPEED
 

@@ -10,9 +10,9 @@ import pytest
 from pluto_fleet.gateway.traffic.choosing import Goer
 from pluto_fleet.gateway.traffic.courses import course
 from pluto_fleet.gateway.traffic.timetable import Timetable, timetable
-from pluto_fleet.gateway.traffic.ways_home import ways_home
+from pluto_fleet.gateway.traffic.ways import ways_home
 from pluto_fleet.jobs.reports import Down
-from pluto_fleet.simulation.drones import SimulatedDrone
+from pluto_fleet.simulation.body import SimulatedDrone
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.model import Point
 from tests.gateway.traffic.real_skies import FLIES_ON, late

@@ -67,7 +67,7 @@ def test_a_stop_in_between_brings_all_down(seed: int) -> None:
     down = sky.kernel.spawn(sky.link.bring_down(how), FLEET, "down")
     assert sky.until(down, 500)
     assert sky.nearest >= sky.apart - 1e-6
-    assert all(sky.navigation.telemetry(drone.id).landed for drone in sky.drones)
+    assert all(sky.navigation.telemetry[drone.id].landed for drone in sky.drones)
     if how is Down.HOME:
         assert sum(is_home(sky, drone) for drone in sky.drones) >= len(sky.drones) - 1
     sky.kernel.close()

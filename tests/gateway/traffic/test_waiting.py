@@ -24,7 +24,7 @@ def gives(sky: Sky, drone: str, *stops: Point) -> Task[object]:
 
 def at(sky: Sky, drone: str) -> Point:
     """Return where a drone is."""
-    return sky.navigation.telemetry(drone).location
+    return sky.navigation.telemetry[drone].location
 
 
 def test_one_of_two_that_cross_goes_over_the_other() -> None:
@@ -213,7 +213,7 @@ def test_no_drone_flies_below_one_that_sinks() -> None:
     sky.navigation.strike("cf1", Failure.LINK)
     nearest = APART
     while not below.is_set and sky.kernel.now < 100:
-        if not sky.navigation.telemetry("cf1").landed:
+        if not sky.navigation.telemetry["cf1"].landed:
             nearest = min(nearest, dist(at(sky, "cf1"), at(sky, "cf2")))
         sky.advance(0.1)
     assert below.result() is None

@@ -9,10 +9,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pluto_fleet.gateway.traffic.courses import course
-from pluto_fleet.gateway.traffic.detours import Section, sections
-from pluto_fleet.gateway.traffic.nearness import near
+from pluto_fleet.gateway.traffic.courses import course, near
 from pluto_fleet.gateway.traffic.reservations import box_of, meets, nearest
+from pluto_fleet.gateway.traffic.ways import Section, sections
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.geometry import between
 

@@ -7,7 +7,8 @@ from collections.abc import AsyncIterator, Mapping, Sequence
 from math import inf
 from pathlib import Path
 
-from pluto_fleet.drones import DroneEvent, DroneSetup, DroneTelemetry, LinkLost
+from pluto_fleet.drones.errors import LinkLost
+from pluto_fleet.drones.protocol import DroneEvent, DroneSetup, DroneTelemetry
 from plutoc_runtime.domain.actions import Plain
 from plutoc_runtime.domain.model import Item, Point
 

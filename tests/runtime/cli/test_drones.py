@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from pluto_fleet.cli import drone_answers
-from pluto_fleet.drones import feeding
+from pluto_fleet.drones import localization
 from pluto_fleet.files.fleet import load_fleet
 from pluto_fleet.gateway.drone_lock import holding
 from tests.runtime.cli import fake_drones
@@ -157,7 +157,7 @@ def test_drones_are_told_where_they_are_meanwhile(
     fleet: Path, command: Command, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """By the localization of the fleet file; who is not seen is not ready."""
-    monkeypatch.setattr(feeding, "SILENCE", -1.0)
+    monkeypatch.setattr(localization, "SILENCE", -1.0)
     mocap = f'localization = "{fake_drones.__name__}:Mocap"\n[localization]\nhost = "lab"\n'
     fleet.write_text(FLEET.replace("[[drone]]", f"{mocap}[[drone]]", 1), encoding="utf-8")
     code, out, _ = command("drones", "cf1", "cf4", "--fleet", fleet)

@@ -14,7 +14,7 @@ from threading import Thread
 import pytest
 
 from pluto_fleet.crtp.drone import Build
-from pluto_fleet.crtp.record import InMemory
+from pluto_fleet.crtp.flight_log import MemoryLog
 from pluto_fleet.crtp.server import Server
 from pluto_fleet.files.fleet import load_fleet
 from tests.crtp.radio import Ether, plugged_in
@@ -33,7 +33,7 @@ class Air:
 
     loop: asyncio.AbstractEventLoop
     server: Server
-    record: InMemory
+    record: MemoryLog
 
     def done(self, coroutine: Coroutine[object, object, None]) -> None:
         """Do something in their loop."""
@@ -56,7 +56,7 @@ def _own_folders(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.fixture
 def air() -> Iterator[Air]:
     """Drones that answer; asked anything, none is armed, and none moves."""
-    record, loop = InMemory(), asyncio.new_event_loop()
+    record, loop = MemoryLog(), asyncio.new_event_loop()
     builds = [Build(id=f"cf{n}", home=(float(n), 1.0, 0.0), seed=n) for n in (1, 2, 3)]
     server = Server(builds, record)
     thread = Thread(target=loop.run_forever, daemon=True)
@@ -68,7 +68,7 @@ def air() -> Iterator[Air]:
     loop.call_soon_threadsafe(loop.stop)
     thread.join()
     loop.close()
-    assert [deed for deed in record.deeds if deed.what not in HARMLESS] == []
+    assert [command for command in record.commands if command.what not in HARMLESS] == []
     assert not any(drone.body.airborne for drone in server.drones.values())
 
 
@@ -103,12 +103,12 @@ def test_one_blinks(air: Air, command: Command) -> None:
     """And nothing else is done to it."""
     code, out, _ = command("drones", "--identify", air.uris[1])
     assert (code, out) == (0, f"{air.uris[1]} has shown itself\n")
-    assert {deed.drone for deed in air.record.deeds} <= {"cf2"}
+    assert {command.drone for command in air.record.commands} <= {"cf2"}
 
 
 def test_crazyflies_are_found_by_radio(command: Command) -> None:
     """At the addresses that are named; without a dongle it is said what is missing."""
-    record = InMemory()
+    record = MemoryLog()
     builds = [Build(id=f"cf{n}", home=(float(n), 1.0, 0.0), seed=n) for n in (1, 2)]
     ether = Ether(builds, record)
     with plugged_in(ether):
@@ -121,4 +121,4 @@ def test_crazyflies_are_found_by_radio(command: Command) -> None:
         assert (code, out) == (2, "")
         assert "no Crazyradio is plugged in" in err
         assert "Traceback" not in err
-    assert {deed.what for deed in record.deeds} <= HARMLESS
+    assert {command.what for command in record.commands} <= HARMLESS

@@ -15,7 +15,7 @@ from plutoc_blocks.mission_repeater.step import repeat_mission
 from plutoc_blocks.priority_manager.step import raise_priority
 from plutoc_blocks.trip_launcher.step import launch_trip
 from plutoc_blocks.trip_monitor.step import watch_trip
-from plutoc_runtime.alone import bound as enough
+from plutoc_runtime.alone import simulate as enough
 from plutoc_runtime.domain.status import Status
 from plutoc_runtime.fleet.policies.nearest import nearest
 from plutoc_runtime.flow.run import Run

@@ -11,12 +11,11 @@ from threading import Event, Thread
 import pytest
 
 from pluto_fleet.cli import stop_mark
-from pluto_fleet.flight.commands import listening
+from pluto_fleet.flight.commands import hear_commands
 from pluto_fleet.gateway.process import NOTE
 from pluto_fleet.jobs.reports import Down
 from pluto_fleet.journal.lock import Lock
-from pluto_fleet.journal.place import gateway_folder
-from pluto_fleet.process.asking import note_of
+from pluto_fleet.journal.place import commands_note, gateway_folder
 from plutoc_runtime.domain.errors import BadInput
 from tests.runtime.cli.conftest import Command
 
@@ -30,7 +29,7 @@ def running(note: Path, answer: Callable[[Mapping[str, object]], str]) -> Iterat
         return answer(request)
 
     async def listen() -> None:
-        async with listening(note, answered):
+        async with hear_commands(note, answered):
             ready.set()
             await asyncio.to_thread(over.wait)
 
@@ -71,7 +70,7 @@ def test_each_command_arrives_and_the_answer_is_printed(
         heard.append(request)
         return "so be it"
 
-    with running(note_of(journal), answer):
+    with running(commands_note(journal), answer):
         assert command("tell", journal, *words.split()) == (0, "so be it\n", "")
     assert heard == [request_]
 
@@ -112,7 +111,7 @@ def test_a_refusal_is_exit_2(journal: Path, command: Command) -> None:
     def answer(request: Mapping[str, object]) -> str:
         raise BadInput("there is no mission East")
 
-    with running(note_of(journal), answer):
+    with running(commands_note(journal), answer):
         said = command("tell", journal, "pause", "East")
     assert said == (2, "", "there is no mission East\n")
 
@@ -172,7 +171,7 @@ def test_a_wrong_name_is_not_answered_by_no_drone_flies(
 
 def test_a_stop_is_kept_for_the_apps_next_start(journal: Path, command: Command) -> None:
     """It may crash while its drones come down."""
-    with running(note_of(journal), lambda request: "stopping"):
+    with running(commands_note(journal), lambda request: "stopping"):
         assert command("tell", journal, "stop", "--rtl") == (0, "stopping\n", "")
         assert stop_mark.found(journal) is Down.HOME
 
@@ -199,7 +198,7 @@ def test_an_app_that_has_only_just_begun_is_stopped_before_it_flies(
 
     def begin() -> None:
         left.wait()
-        with running(note_of(journal), answer):
+        with running(commands_note(journal), answer):
             over.wait()
 
     monkeypatch.setattr(stop_mark, "leave", leave_and_tell)

@@ -11,7 +11,7 @@ from plutoc_blocks.mission_repeater.step import repeat_mission
 from plutoc_blocks.priority_manager.step import raise_priority
 from plutoc_blocks.trip_launcher.step import launch_trip
 from plutoc_blocks.trip_monitor.step import watch_trip
-from plutoc_runtime.domain.actions import BUILT_IN, Action, Parameter
+from plutoc_runtime.domain.actions import BUILT_IN, Parameter
 from plutoc_runtime.domain.app import App
 from plutoc_runtime.domain.errors import ActionFailed
 from plutoc_runtime.domain.fields import Entity, Field, FieldType
@@ -19,6 +19,7 @@ from plutoc_runtime.domain.model import Category, Drone, Mission, Trip
 from plutoc_runtime.domain.quantities import Type
 from plutoc_runtime.domain.status import Status
 from plutoc_runtime.fleet.policies.nearest import nearest
+from plutoc_runtime.flow.own_action import OwnAction
 from plutoc_runtime.flow.run import Run
 from plutoc_runtime.hooks.context import Context
 
@@ -64,7 +65,7 @@ def field(name: str, on: Entity, kind: FieldType) -> Field:
     return Field(name=name, on=on, type=kind, label=name, doc=name)
 
 
-POLLINATE = Action(
+POLLINATE = OwnAction(
     name="pollinate",
     parameters=(
         Parameter(name="dose", type=Type.MASS),

@@ -7,7 +7,7 @@ from functools import lru_cache
 from math import exp, log
 from random import Random
 
-from pluto_fleet.files.limits import APART, HEIGHT, MASS, PLACE, RADIUS, SIDE, TIME, Limit
+from pluto_fleet.files.values import APART, HEIGHT, MASS, PLACE, RADIUS, SIDE, TIME, Limit
 from plutoc_runtime.domain.app import App
 from tests.testing.examples import app_of
 

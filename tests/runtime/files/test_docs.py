@@ -6,9 +6,8 @@ import re
 from dataclasses import fields
 from pathlib import Path
 
-from pluto_fleet.files.app_fields import ELSEWHERE
 from pluto_fleet.files.fleet import load_fleet
-from pluto_fleet.files.missions import load_missions
+from pluto_fleet.files.missions import ELSEWHERE, load_missions
 from pluto_fleet.files.plan_check import problems
 from tests.runtime.files.an_app import APP
 

@@ -12,9 +12,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pluto_fleet.files import drones
-from pluto_fleet.files.fleet import DroneEntry, FleetFile, default_fleet, load_fleet
+from pluto_fleet.files.drones import DroneEntry
+from pluto_fleet.files.fleet import (
+    FleetFile,
+    default_fleet,
+    load_fleet,
+    navigation_of,
+    not_real,
+    options_of,
+)
 from pluto_fleet.files.fleet_text import fleet_text
-from pluto_fleet.files.real import navigation_of, not_real, options_of
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.app import App
 from plutoc_runtime.domain.errors import BadInput

@@ -11,9 +11,9 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from pluto_fleet.files.fleet import FleetFile, load_fleet
-from pluto_fleet.files.limits import APART, RADIUS, SIDE
 from pluto_fleet.files.missions import load_missions
 from pluto_fleet.files.plan_check import problems
+from pluto_fleet.files.values import APART, RADIUS, SIDE
 from pluto_fleet.trials.blows import Blow, Kind
 from pluto_fleet.trials.case import Case, Weather
 from pluto_fleet.trials.rig import Rig

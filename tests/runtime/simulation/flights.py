@@ -6,7 +6,8 @@ from collections.abc import Coroutine
 from typing import Any, TypeVar
 
 from pluto_fleet.gateway.executor import Pilots
-from pluto_fleet.simulation.drones import SimulatedDrone, SimulatedNavigation
+from pluto_fleet.simulation.body import SimulatedDrone
+from pluto_fleet.simulation.drones import SimulatedNavigation
 from plutoc_runtime.alone.faults import Faults, Order, draw
 from plutoc_runtime.alone.world import World
 from plutoc_runtime.domain.airspace import Airspace

@@ -36,12 +36,12 @@ def advance(kernel: VirtualTime, seconds: float) -> None:
 def test_it_can_be_made_to_do_all_that_a_gateway_wants() -> None:
     """The simulation does what the gateway expects of all that flies its drones."""
     navigation: Controls = team(VirtualTime())
-    assert navigation.telemetry("cf1").location == HOME
+    assert navigation.telemetry["cf1"].location == HOME
 
 
 def test_a_drone_begins_full_in_its_dock() -> None:
     """Landed, at home, charged."""
-    telemetry = team(VirtualTime()).telemetry("cf2")
+    telemetry = team(VirtualTime()).telemetry["cf2"]
     assert (telemetry.location, telemetry.battery_level, telemetry.landed) == ((2, 1, 0), 1, True)
 
 
@@ -49,7 +49,7 @@ def test_commands_return_when_they_are_done() -> None:
     """A climb at 0.3 m/s, five metres at the category's speed, and down again."""
     kernel = VirtualTime()
     navigation = team(kernel)
-    telemetry = navigation.telemetry("cf1")
+    telemetry = navigation.telemetry["cf1"]
     fly(kernel, navigation.takeoff("cf1", 1.2, order()))
     assert (kernel.now, telemetry.location, telemetry.landed) == (4, (1, 1, 1.2), False)
     fly(kernel, navigation.go_to("cf1", (4, 5, 1.2)))
@@ -67,7 +67,7 @@ def test_a_drone_is_seen_between_two_places() -> None:
     fly(kernel, navigation.takeoff("cf1", 1.2, None))
     leg = kernel.spawn(navigation.go_to("cf1", (4, 5, 1.2)), FLEET, "leg")
     advance(kernel, 2.5)
-    assert navigation.telemetry("cf1").location == pytest.approx((1.75, 2, 1.2))
+    assert navigation.telemetry["cf1"].location == pytest.approx((1.75, 2, 1.2))
     assert navigation.flown("cf1") == pytest.approx(1.2 + 1.25)
     kernel.run(leg)
 
@@ -76,7 +76,7 @@ def test_a_battery_drains_in_the_air_and_charges_in_the_dock() -> None:
     """1/420 a second while it flies, 1/1200 at home, nothing elsewhere on the ground."""
     kernel = VirtualTime()
     navigation = team(kernel)
-    telemetry = navigation.telemetry("cf1")
+    telemetry = navigation.telemetry["cf1"]
 
     async def there() -> None:
         await navigation.takeoff("cf1", 1.2, None)
@@ -122,7 +122,7 @@ def test_a_flight_takes_what_was_reckoned(stops: list[tuple[Point, str]]) -> Non
     kernel = VirtualTime()
     tireless = Category(name="tireless", speed=0.5, flight_time=3600)
     navigation = team(kernel, airspace=airspace, category=tireless)
-    telemetry = navigation.telemetry("cf1")
+    telemetry = navigation.telemetry["cf1"]
 
     async def go(point: Point) -> None:
         for place in airspace.route(telemetry.location, point) or ():
@@ -161,7 +161,7 @@ def test_a_cancelled_drone_hovers_where_it_is() -> None:
     """Half-way is where it stays, draining, until it is told otherwise."""
     kernel = VirtualTime()
     navigation = team(kernel)
-    telemetry = navigation.telemetry("cf1")
+    telemetry = navigation.telemetry["cf1"]
     fly(kernel, navigation.takeoff("cf1", 1.2, order()))
     leg = kernel.spawn(navigation.go_to("cf1", (4, 5, 1.2)), FLEET, "leg")
     advance(kernel, 5)
@@ -187,7 +187,7 @@ def test_climbs_and_landings_can_be_cancelled(seconds: float, height: float) -> 
     flight = kernel.spawn(up_and_down(), FLEET, "flight")
     advance(kernel, seconds)
     flight.cancel()
-    telemetry = navigation.telemetry("cf1")
+    telemetry = navigation.telemetry["cf1"]
     assert telemetry.location == pytest.approx((1, 1, height))
     assert not telemetry.landed
     fly(kernel, navigation.takeoff("cf1", 1.2, None))  # it flies already: it does not rise
@@ -217,7 +217,7 @@ def test_hovering_goes_on_until_it_is_cancelled() -> None:
     advance(kernel, 300)
     assert not hover.is_set
     hover.cancel()
-    assert navigation.telemetry("cf1").location == (1, 1, 1.2)
+    assert navigation.telemetry["cf1"].location == (1, 1, 1.2)
 
 
 def test_sensors_show_the_world_where_the_drone_is() -> None:
@@ -335,7 +335,7 @@ async def test_the_same_drones_fly_in_real_time() -> None:
     """On asyncio's clock nothing else changes: a millimetre, and a leg that is cancelled."""
 
     async def flight(kernel: Kernel, navigation: Team) -> None:
-        telemetry = navigation.telemetry("cf1")
+        telemetry = navigation.telemetry["cf1"]
         await navigation.takeoff("cf1", 0.0003, order())
         await navigation.go_to("cf1", (1.001, 1, 0.0003))
         assert telemetry.location == (1.001, 1, 0.0003)

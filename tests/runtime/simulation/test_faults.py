@@ -47,7 +47,7 @@ def test_a_crash_comes_at_its_moment(seed: int) -> None:
     assert moment is not None
     error = failure(kernel, flight(navigation))
     x, y, _ = place_at(moment)
-    telemetry = navigation.telemetry("cf1")
+    telemetry = navigation.telemetry["cf1"]
     assert error.failure is Failure.CRASH
     assert kernel.now == pytest.approx(moment)
     assert telemetry.location == pytest.approx((x, y, 0))
@@ -79,7 +79,7 @@ def test_a_flight_goes_wrong_after_its_take_off_however_late_that_is(
     assert failure(kernel, flight()).failure is Failure.LINK
     assert kernel.now == pytest.approx(late + drawn)
     assert fly(kernel, navigation.reach("cf1"))
-    telemetry = navigation.telemetry("cf1")
+    telemetry = navigation.telemetry["cf1"]
     assert telemetry.landed
     assert telemetry.location == pytest.approx((*place_at(drawn)[:2], 0.0))
 
@@ -89,7 +89,7 @@ def test_a_drone_that_fails_as_it_leaves_the_ground_stays_there() -> None:
     kernel = VirtualTime()
     navigation = team(kernel, battery_level=0.0)
     error = failure(kernel, navigation.takeoff("cf1", 1.2, order()))
-    telemetry = navigation.telemetry("cf1")
+    telemetry = navigation.telemetry["cf1"]
     assert error.failure is Failure.BATTERY
     assert (kernel.now, telemetry.location, telemetry.landed) == (0.0, HOME, True)
 
@@ -129,7 +129,7 @@ def test_a_lost_link_brings_the_drone_down_by_itself() -> None:
     """It lands below where it was, takes no commands, and flies home when the link is back."""
     kernel = VirtualTime()
     navigation = team(kernel, Faults(link=1), seed=2)
-    telemetry = navigation.telemetry("cf1")
+    telemetry = navigation.telemetry["cf1"]
     error = failure(kernel, flight(navigation))
     moment, (x, y, z) = kernel.now, telemetry.location
     assert error.failure is Failure.LINK
@@ -159,7 +159,7 @@ def test_the_outage_counts_from_the_loss_and_ends_on_the_ground() -> None:
         await navigation.hold("cf1")
 
     failure(kernel, climb())
-    lost, height = kernel.now, navigation.telemetry("cf1").location[2]
+    lost, height = kernel.now, navigation.telemetry["cf1"].location[2]
     assert height > 6
     assert fly(kernel, navigation.recover("cf1"))
     assert kernel.now == pytest.approx(lost + max(20, height / 0.3))
@@ -169,7 +169,7 @@ def test_an_empty_battery_is_noticed_at_that_moment() -> None:
     """With a hundredth left it flies for 4.2 s and no longer; a person carries it home."""
     kernel = VirtualTime()
     navigation = team(kernel, battery_level=0.01)
-    telemetry = navigation.telemetry("cf1")
+    telemetry = navigation.telemetry["cf1"]
     error = failure(kernel, flight(navigation))
     assert error.failure is Failure.BATTERY
     assert str(error) == "cf1 ran out of battery at (1.06, 1.08)"
@@ -189,7 +189,7 @@ def test_a_drawn_empty_battery_is_empty() -> None:
     kernel = VirtualTime()
     navigation = team(kernel, Faults(battery=1))
     assert failure(kernel, flight(navigation)).failure is Failure.BATTERY
-    assert navigation.telemetry("cf1").battery_level == 0
+    assert navigation.telemetry["cf1"].battery_level == 0
 
 
 def test_a_battery_may_run_out_during_the_failsafe_landing() -> None:
@@ -201,7 +201,7 @@ def test_a_battery_may_run_out_during_the_failsafe_landing() -> None:
     assert failure(kernel, flight(navigation)).failure is Failure.LINK
     assert fly(kernel, navigation.recover("cf1"))
     assert kernel.now == pytest.approx(drawn + 20 + 300)
-    assert navigation.telemetry("cf1").location == HOME
+    assert navigation.telemetry["cf1"].location == HOME
 
 
 def test_a_mishap_comes_even_without_commands() -> None:
@@ -210,7 +210,7 @@ def test_a_mishap_comes_even_without_commands() -> None:
     navigation = team(kernel, battery_level=0.02)
     fly(kernel, navigation.takeoff("cf1", 1.2, order()))
     fly(kernel, kernel.sleep(1000))
-    telemetry = navigation.telemetry("cf1")
+    telemetry = navigation.telemetry["cf1"]
     assert telemetry.location == HOME
     assert telemetry.landed
     assert failure(kernel, navigation.land("cf1")).failure is Failure.BATTERY
@@ -222,10 +222,10 @@ def test_a_failed_action_took_its_time() -> None:
     navigation = team(kernel, Faults(action=1))
     assert failure(kernel, flight(navigation)).failure is Failure.ACTION
     assert kernel.now == pytest.approx(CLIMB + 10 + 1)
-    assert not navigation.telemetry("cf1").landed
+    assert not navigation.telemetry["cf1"].landed
     assert fly(kernel, navigation.recover("cf1"))
     assert kernel.now == pytest.approx(CLIMB + 10 + 1 + 10 + CLIMB)
-    assert navigation.telemetry("cf1").location == HOME
+    assert navigation.telemetry["cf1"].location == HOME
 
 
 def test_a_failed_action_of_the_apps_own_fails_at_once() -> None:
@@ -304,7 +304,7 @@ def test_a_drone_without_a_way_home_is_fetched() -> None:
     begun = kernel.now
     assert fly(kernel, navigation.recover("cf1"))
     assert kernel.now == pytest.approx(begun + 300)
-    assert navigation.telemetry("cf1").location == HOME
+    assert navigation.telemetry["cf1"].location == HOME
 
 
 def test_a_battery_that_ends_on_the_way_home_is_carried_there() -> None:
@@ -314,7 +314,7 @@ def test_a_battery_that_ends_on_the_way_home_is_carried_there() -> None:
     assert failure(kernel, flight(navigation)).failure is Failure.ACTION
     assert fly(kernel, navigation.recover("cf1"))
     assert kernel.now == pytest.approx(18 + 300)
-    assert navigation.telemetry("cf1").location == HOME
+    assert navigation.telemetry["cf1"].location == HOME
 
 
 def test_recovery_takes_off_what_is_still_aboard() -> None:
@@ -346,9 +346,9 @@ def test_a_cancelled_recovery_can_be_asked_for_again() -> None:
     recovery = kernel.spawn(navigation.recover("cf1"), FLEET, "recovery")
     fly(kernel, kernel.sleep(5))
     recovery.cancel()
-    assert navigation.telemetry("cf1").location == pytest.approx((2.5, 3, 1.2))
+    assert navigation.telemetry["cf1"].location == pytest.approx((2.5, 3, 1.2))
     assert fly(kernel, navigation.recover("cf1"))
-    assert navigation.telemetry("cf1").location == HOME
+    assert navigation.telemetry["cf1"].location == HOME
 
 
 def test_the_same_seed_flies_the_same() -> None:
@@ -369,7 +369,7 @@ def test_the_same_seed_flies_the_same() -> None:
                     seen.append(str(error))
                 if not await navigation.recover(drone):
                     return
-                telemetry = navigation.telemetry(drone)
+                telemetry = navigation.telemetry[drone]
                 seen.append((kernel.now, telemetry.location, telemetry.battery_level))
 
         for drone in ("cf1", "cf2"):
@@ -390,7 +390,7 @@ def test_under_all_mishaps_the_drone_comes_home_or_is_lost(
     kernel = VirtualTime()
     faults = Faults(crash=0.2, link=0.4, action=0.3, battery=0.2)
     navigation = team(kernel, faults, seed=seed, battery_level=level)
-    telemetry = navigation.telemetry("cf1")
+    telemetry = navigation.telemetry["cf1"]
     trip = kernel.spawn(flight(navigation), FLEET, "trip")
     trip.watch(lambda _: None)
     fly(kernel, kernel.sleep(abort))
@@ -417,4 +417,4 @@ async def test_faults_come_in_real_time_too() -> None:
     trip.watch(lambda _: None)
     with pytest.raises(FlightFailed, match="cf1 ran out of battery at"):
         await kernel.run(trip)
-    assert navigation.telemetry("cf1").landed
+    assert navigation.telemetry["cf1"].landed

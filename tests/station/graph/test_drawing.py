@@ -13,7 +13,7 @@ from pluto_fleet.station.graph.picture import laid_out
 from pluto_fleet.station.graph.read import Arrow, Box, Graph, graph_in
 from plutoc.check.model import Checked
 from plutoc.emit.readme_file import readme
-from plutoc.report.graph import mermaid
+from plutoc.report.pictures import mermaid
 from tests.station.graph.looking import Pictured, lying_together, mistakes, overlap, pictured
 from tests.station.graph.sources import examples, random_graphs
 

@@ -10,8 +10,7 @@ from pluto_fleet.station.graph.read import graph_in
 from plutoc.block import ANY_SAME, Block
 from plutoc.check.model import Checked
 from plutoc.emit.readme_file import readme
-from plutoc.report.graph import mermaid
-from plutoc.report.graph.picture import Shape, picture
+from plutoc.report.pictures import Shape, mermaid, picture
 from plutoc_blocks.clock.step import wait_for_time
 from tests.station.graph.sources import examples, random_graphs
 

@@ -9,7 +9,8 @@ from hypothesis import settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, invariant, rule
 
-from pluto_fleet.station.plan.plan import Plan, Stale
+from pluto_fleet.station.plan.errors import Stale
+from pluto_fleet.station.plan.plan import Plan
 from plutoc_runtime.domain.errors import BadInput
 from tests.station.plan.drawing import MISSIONS, Json, a_plan, drawn, keyed, mission, trip
 

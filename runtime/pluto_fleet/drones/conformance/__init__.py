@@ -6,6 +6,6 @@ The subclass's `make` returns a navigation. `docs/navigation.md` shows one. No a
 from __future__ import annotations
 
 from .contract import NavigationContract
-from .record import Truth
+from .recording import Truth
 
 __all__ = ["NavigationContract", "Truth"]

@@ -9,17 +9,16 @@ from unittest import SkipTest
 from weakref import WeakKeyDictionary
 
 from . import flights
-from .leftovers import left_since, there
-from .loop import LoopWatch
-from .record import Record, Truth
+from .probes import LoopWatch, left_since, resources
+from .recording import FlightRecord, Truth
 
 if TYPE_CHECKING:
     from ..protocol import DroneNavigation
 
-_FLOWN: WeakKeyDictionary[type, dict[str, Record]] = WeakKeyDictionary()
+_FLOWN: WeakKeyDictionary[type, dict[str, FlightRecord]] = WeakKeyDictionary()
 """The flights of each test class."""
 _MISSING = {
-    "make_unreachable": "nobody tried a drone that is not there",
+    "make_unreachable": "nobody tried a drone that is not resources",
     "silence": "nobody tried a drone that falls silent",
     "crash": "nobody tried a drone that crashes",
     "may_fall": "nobody tried emergency_stop",
@@ -32,7 +31,7 @@ class Author:
     height = 0.5
     """Metres to rise to."""
     away = 1.0
-    """Metres to fly, along x from where the drone stands: there must be room."""
+    """Metres to fly, along x from where the drone stands: resources must be room."""
     speed = 0.5
     """Metres per second: the limit that is given with each command."""
     rest = 0.4
@@ -54,7 +53,7 @@ class Author:
         raise NotImplementedError("give the kit a navigation: def make(self) -> DroneNavigation")
 
     def make_unreachable(self) -> DroneNavigation:
-        """Return a navigation of a drone that is not there."""
+        """Return a navigation of a drone that is not resources."""
         raise NotImplementedError
 
     def silence(self, navigation: DroneNavigation) -> None:
@@ -71,13 +70,13 @@ class Author:
 
     # The flights, each flown when the first check asks for it
 
-    def _tour(self) -> Record:
+    def _tour(self) -> FlightRecord:
         return self._flown("tour")
 
-    def _closed_in_the_air(self) -> Record:
+    def _closed_in_the_air(self) -> FlightRecord:
         return self._flown("closed in the air")
 
-    def _flown(self, name: str) -> Record:
+    def _flown(self, name: str) -> FlightRecord:
         flown = _FLOWN.setdefault(type(self), {})
         if name not in flown:
             all_of_it = self._flights()
@@ -111,12 +110,12 @@ class Author:
             raise SkipTest(f"{hook} is not given: {_MISSING[hook]}")
 
 
-_Flight = Callable[[], Coroutine[Any, Any, Record]]
+_Flight = Callable[[], Coroutine[Any, Any, FlightRecord]]
 
 
-async def _flying(wanted: Mapping[str, _Flight]) -> dict[str, Record]:
+async def _flying(wanted: Mapping[str, _Flight]) -> dict[str, FlightRecord]:
     """Fly all of these at once, and look at what they leave behind."""
-    before = there()
+    before = resources()
     with LoopWatch() as loop:
         records = await asyncio.gather(*(flight() for flight in wanted.values()))
     left = await left_since(before)

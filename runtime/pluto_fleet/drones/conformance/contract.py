@@ -7,13 +7,15 @@ from math import dist, hypot, isfinite, pi
 
 from plutoc_runtime.domain.errors import Failure
 
-from ..checking import problems
+from ..inspection import problems
 from ..loading import NAVIGATION
-from ..telemetry import CRASHED, LOCKED
+from ..protocol import CRASHED, LOCKED
 from .author import Author
 from .flights import LOOK
-from .record import Record, ensure, said
-from .seen import (
+from .recording import (
+    FlightRecord,
+    described,
+    ensure,
     fell,
     known_failures,
     looks_without_news,
@@ -250,13 +252,13 @@ class NavigationContract(Author):
         kinds = [event.kind for event in record.events]
         ensure(CRASHED in kinds or LOCKED in kinds, f"no event told that it crashed, only {kinds}")
 
-    def _failed_by(self, record: Record, name: str, failure: Failure) -> None:
+    def _failed_by(self, record: FlightRecord, name: str, failure: Failure) -> None:
         step = record.step(name)
         ensure(step.error is not None, f"{name} returned as if nothing had happened")
         error = step.error
         ensure(
             getattr(error, "failure", None) == failure.name,
-            lambda: f"{name} raised {said(error) if error else ''}: its failure is {failure.name}",
+            lambda: f"{name} raised {described(error) if error else ''}: its failure is {failure.name}",
         )
 
     def test_every_failure_is_one_that_the_runtime_knows(self) -> None:

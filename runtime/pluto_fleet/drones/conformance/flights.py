@@ -13,7 +13,7 @@ from contextlib import asynccontextmanager, suppress
 from math import dist, nan
 from typing import TYPE_CHECKING, Protocol
 
-from .record import Record, Sample, Step, Truth
+from .recording import FlightRecord, Sample, Step, Truth
 
 if TYPE_CHECKING:
     from collections.abc import AsyncIterator
@@ -54,7 +54,7 @@ class Flight:
 
     def __init__(self, subject: Subject, navigation: DroneNavigation) -> None:
         self.subject, self.navigation = subject, navigation
-        self.record = Record(made=type(navigation))
+        self.record = FlightRecord(made=type(navigation))
         self.during = "before"
 
     def look(self) -> Sample:
@@ -156,7 +156,7 @@ async def flying(subject: Subject, make: Callable[[], DroneNavigation]) -> Async
                 await task
 
 
-async def tour(subject: Subject) -> Record:
+async def tour(subject: Subject) -> FlightRecord:
     """Everything that a drone that is well must do."""
     async with flying(subject, subject.make) as flight:
         drone, speed, height = flight.navigation, subject.speed, subject.height
@@ -217,7 +217,7 @@ async def _cancelled(flight: Flight, target: Point) -> None:
     await flight.does("go_to that is cancelled", broken_off, flight.limit(2 * half))
 
 
-async def closed_in_the_air(subject: Subject) -> Record:
+async def closed_in_the_air(subject: Subject) -> FlightRecord:
     """Let go of a drone that hovers, as a program does that ends too early."""
     async with flying(subject, subject.make) as flight:
         await flight.sets_out()
@@ -226,7 +226,7 @@ async def closed_in_the_air(subject: Subject) -> Record:
     return flight.record
 
 
-async def struck(subject: Subject, strike: Callable[[DroneNavigation], object]) -> Record:
+async def struck(subject: Subject, strike: Callable[[DroneNavigation], object]) -> FlightRecord:
     """Let something happen to a drone on its way."""
     async with flying(subject, subject.make) as flight:
         await flight.sets_out()
@@ -251,14 +251,14 @@ async def struck(subject: Subject, strike: Callable[[DroneNavigation], object]) 
     return flight.record
 
 
-async def nobody(subject: Subject, make: Callable[[], DroneNavigation]) -> Record:
+async def nobody(subject: Subject, make: Callable[[], DroneNavigation]) -> FlightRecord:
     """Connect to a drone that is not there."""
     async with flying(subject, make) as flight:
         await flight.tries("connect", flight.navigation.connect, subject.connect_limit)
     return flight.record
 
 
-async def cut(subject: Subject) -> Record:
+async def cut(subject: Subject) -> FlightRecord:
     """Switch the motors off, a hand's breadth above the ground."""
     async with flying(subject, subject.make) as flight:
         await flight.sets_out()

@@ -9,18 +9,15 @@ from typing import TYPE_CHECKING
 from plutoc_runtime.domain.errors import Failure, FlightFailed
 from plutoc_runtime.time.kernel import FLEET, Kernel, Kind, Timer
 
-from .detours import Section, sections
-from .landing import Ground
-from .obstacles import Obstacle
 from .reservations import Claim, box_of, meets, nearest
-from .wait_queue import Wait
+from .wait_queue import Obstacle, Wait
+from .ways import Ground, Section, sections
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.airspace import Airspace
     from plutoc_runtime.domain.model import Point
 
-    from ...jobs.controls import Controls
-    from ..descent import Craft
+    from ...jobs.controls import Controls, Craft
 
 AGAIN = 0.5
 """Seconds after which those who wait are looked at again, even if nobody says to have passed."""
@@ -54,7 +51,7 @@ class Traffic:
     ) -> None:
         self._kernel, self._controls, self._airspace = kernel, controls, airspace
         self._drones = {drone.id: drone for drone in drones}
-        self._telemetry = {drone.id: controls.telemetry(drone.id) for drone in drones}
+        self._telemetry = controls.telemetry
         self.apart, self.step = apart, apart + slack
         self.limit = self.step - _EXACT
         self.is_real = slack > 0

@@ -1,17 +1,81 @@
-"""Somebody who waits for a way, and what has kept it from each: most of that lasts for long."""
+"""Drones that wait for a way, what has kept them from each, and how soon it is worth to look again."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
+from itertools import pairwise
+from math import dist, inf
 from typing import TYPE_CHECKING
 
+from plutoc_runtime.fleet.energy import CLIMB_SPEED
 from plutoc_runtime.time.future import Future
 
-from .detours import Section
+from .reservations import Claim, meets
+from .ways import Section
 
 if TYPE_CHECKING:
-    from .obstacles import Obstacle
+    from plutoc_runtime.domain.model import Category, Point
+
+
+_HALVINGS = 4
+"""So often a leg is halved to find how far a drone must fly on it before it has left a way."""
+_HOVERS = 5.0
+"""Seconds after which somebody looks whether a drone hovers there still: it may have come down."""
+_EXACT = 1e-6
+
+
+class Obstacle:
+    """Somebody on a way. While it does what it did, it is there until it can have left."""
+
+    __slots__ = ("_cruise", "_points", "_until", "_upright", "claim")
+
+    def __init__(self, claim: Claim, category: Category, is_real: bool) -> None:
+        self.claim = claim
+        self._cruise = category.top_speed or category.speed
+        self._upright = max(self._cruise, CLIMB_SPEED) if is_real else CLIMB_SPEED
+        """How fast it takes off and lands, at most: what is simulated, exactly so fast."""
+        self._points: tuple[Point, ...] = ()
+        self._until = -inf
+
+    def seen(self, way: tuple[Point, ...], limit: float, now: float) -> None:
+        """It is on the way now."""
+        claim = self.claim
+        self._points = claim.points
+        if claim.moves:
+            self._until = now + self._seconds(way, limit, claim.shape(now)) - _EXACT
+        elif claim.tail and now < claim.until:  # it will have come to a stop
+            self._until = claim.until
+        else:
+            self._until = now + _HOVERS
+
+    def is_sure(self, now: float) -> bool:
+        """Say whether it must be there still; otherwise somebody has to look."""
+        return now < self._until and self.claim.points is self._points
+
+    def _seconds(self, way: tuple[Point, ...], limit: float, shape: tuple[Point, ...]) -> float:
+        """Return how long it flies at least until the rest of its way is clear of another way."""
+        legs = [(a, b, self._cruise) for a, b in pairwise(shape)]
+        if self.claim.at == 0 and self._points[0][2] <= 0.0:
+            legs[0] = (*legs[0][:2], self._upright)
+        if shape[-1][2] <= 0.0:
+            legs[-1] = (*legs[-1][:2], self._upright)
+        while len(legs) > 1 and not meets(way, legs[-1][:2], limit):
+            legs.pop()
+        a, b, speed = legs[-1]
+        least, most = 0.0, 1.0
+        for _ in range(_HALVINGS):
+            part = (least + most) / 2
+            if meets(way, (_between(a, b, part), b), limit):
+                least = part
+            else:
+                most = part
+        legs[-1] = a, _between(a, b, least), speed
+        return sum(dist(a, b) / speed for a, b, speed in legs)
+
+
+def _between(a: Point, b: Point, part: float) -> Point:
+    return a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1]), a[2] + part * (b[2] - a[2])
 
 
 @dataclass(slots=True, eq=False)

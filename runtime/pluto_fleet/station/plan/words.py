@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ...files.wording import Wording
+from ...files.reading import Wording
 
 if TYPE_CHECKING:
     from collections.abc import Container, Sequence

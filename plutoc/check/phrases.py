@@ -1,0 +1,146 @@
+"""What the checks' sentences are made of: how they name statuses, blocks, forks and ways."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from plutoc import diagnostic
+from plutoc.check.branches import Astray
+from plutoc.check.flow import Fork, Hop, Way, ordered
+from plutoc.diagnostic import Diagnostic, Fix, Related
+from plutoc.graph.model import END, Edge, Graph, Node
+from plutoc.source import Span
+from plutoc_runtime.domain.status import Status
+
+_WIDEST_WAY = 88
+_LONGEST_WAY = 60
+"""Blocks of a way that are shown; of a longer one, its beginning and its end."""
+
+
+def listed(statuses: Sequence[Status], last: str = "and") -> str:
+    """`STANDBY, COMPLETED and FAILED`."""
+    return _listed([status.value for status in statuses], last)
+
+
+def names(blocks: Sequence[str]) -> str:
+    """`watch`, `timer` and `first`, each in quotes."""
+    return _listed([f"`{name}`" for name in blocks], "and")
+
+
+def accepts(node: Node) -> str:
+    """The statuses that a block takes without a guard."""
+    return f"only {listed(ordered(node.block.accepts))}" if node.block.accepts else "no status"
+
+
+def arrows(blocks: Sequence[str]) -> str:
+    """`allocate → launch → watch`."""
+    return " → ".join(blocks)
+
+
+def there(*ways: Way | None) -> str:
+    """The shortest ways that show it, on lines of their own, below what is to be done."""
+    shown = [way for way in ways if way is not None]
+    if not shown:
+        return ""
+    head = f"the shortest way{'s' if len(shown) > 1 else ''} there:"
+    return "\n".join(["", head, *(f"  {line}" for way in shown for line in _wrapped(way))])
+
+
+def _wrapped(way: Way) -> list[str]:
+    lines = [""]
+    for hop in _hops(way):
+        step = f" → {hop}" if lines[-1] else hop
+        if len(lines[-1]) + len(step) > _WIDEST_WAY:
+            lines.append(f" {step}")
+        else:
+            lines[-1] += step
+    return lines
+
+
+def _hops(way: Way) -> list[str]:
+    if len(way) <= _LONGEST_WAY:
+        return [_hop(hop) for hop in way]
+    half = _LONGEST_WAY // 2
+    between = f"… {len(way) - 2 * half:,} more …"
+    return [*map(_hop, way[:half]), between, *map(_hop, way[-half:])]
+
+
+def _hop(hop: Hop) -> str:
+    """`launch (RUNNING)`: a block, and how it is left."""
+    return f"{hop.node} ({hop.leaving.value})" if hop.leaving else hop.node
+
+
+def fork_of(fork: Fork) -> str:
+    """The fork as a person would call it."""
+    return f"the fork at `{fork[0]}` ({fork[1].value})"
+
+
+def error(
+    code: str,
+    at: tuple[Graph, Span],
+    message: str,
+    *,
+    label: str = "",
+    related: tuple[Related, ...] = (),
+    help: str,
+) -> Diagnostic:
+    """An error of these facts."""
+    source, span = at[0].source, at[1]
+    return diagnostic.error(
+        code, message, source, span, label=label, related=related, help=help.rstrip()
+    )
+
+
+def warning(
+    code: str,
+    at: tuple[Graph, Span],
+    message: str,
+    *,
+    label: str = "",
+    related: tuple[Related, ...] = (),
+    help: str,
+    fix: Fix | None = None,
+) -> Diagnostic:
+    """A warning of these facts."""
+    source, span = at[0].source, at[1]
+    return diagnostic.warning(
+        code, message, source, span, label=label, related=related, help=help.rstrip(), fix=fix
+    )
+
+
+def related_to(graph: Graph, span: Span, label: str) -> Related:
+    """Another place of the same source."""
+    return Related(source=graph.source, span=span, label=label)
+
+
+def emits_here(graph: Graph, edge: Edge, leaving: Sequence[Status]) -> Related:
+    """What the block before an arrow emits."""
+    here = f"emits {listed(leaving)}" if leaving else "what comes here has no trip left"
+    return related_to(graph, graph.node[edge.source].name_span, here)
+
+
+def is_flown(astray: Astray) -> bool:
+    """Does a branch come to a block that flies its mission, and not to an end?"""
+    place, leaving = astray
+    return place.node != END and leaving is None
+
+
+def fate(astray: Astray) -> str:
+    """What becomes of a branch that does not close."""
+    place, leaving = astray
+    if leaving is None:
+        return f"reaches `{place.node}` first"
+    return f"ends at `{place.node}`, where no arrow takes {leaving.value}"
+
+
+def taken_by(node: Node, status: Status, taker: str | None) -> str:
+    """What to add where no arrow takes a status."""
+    if taker is None:
+        return f"add a block that accepts {status.value}"
+    return f"add `{node.name} -> {taker} when {status.value}`"
+
+
+def _listed(words: Sequence[str], last: str) -> str:
+    if len(words) < 2:
+        return "".join(words)
+    return f"{', '.join(words[:-1])} {last} {words[-1]}"

@@ -1,0 +1,70 @@
+"""What changes in files: written, or shown as a patch that `git apply` and `patch` understand."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import stat
+from collections.abc import Iterator
+from difflib import unified_diff
+from io import StringIO
+from pathlib import Path
+
+from plutoc.cli.endings import Unusable
+from plutoc.cli.files import shown
+from plutoc.emit.write import CannotWrite, Change, Changes, write
+from plutoc_runtime.domain.text import printable
+
+_NO_END = "\n\\ No newline at end of file"
+
+
+def rewrite(path: Path, before: str, after: str) -> None:
+    """Replace a source wholly or not at all; raise `Unusable` where that cannot be.
+
+    The new text is written aside and renamed. It keeps the file's permissions; where the path is a
+    symbolic link, what it leads to is replaced and the link stays.
+    """
+    target = Path(os.path.realpath(path))
+
+    def save(aside: Path, data: bytes) -> None:
+        aside.write_bytes(data)
+        shutil.copymode(target, aside)
+
+    change = Change(path=target.name, before=before, after=after)
+    try:
+        mode = target.stat().st_mode
+        if not stat.S_ISREG(mode):
+            raise Unusable(f"{shown(path)} is no ordinary file and was not changed")
+        # A rename would replace a read-only file, too.
+        if not (mode & 0o222 and os.access(target, os.W_OK)):
+            raise Unusable(f"{shown(path)} is read-only and was not changed")
+        write(Changes(folder=target.parent, first=False, files=(change,)), save=save)
+    except CannotWrite as error:
+        raise Unusable(f"{printable(str(error))}; {shown(path)} was not changed") from None
+    except OSError as error:
+        why = error.strerror or str(error)
+        raise Unusable(f"{shown(path)} cannot be written: {why}") from None
+
+
+def patch(changes: Changes) -> Iterator[str]:
+    """Yield the lines of a patch that could be applied in the package's folder."""
+    for change in changes.files:
+        yield from _of(change)
+
+
+def _of(change: Change) -> Iterator[str]:
+    before, after = _lines(change.before), _lines(change.after)
+    old = "/dev/null" if change.before is None else f"a/{change.path}"
+    new = "/dev/null" if change.after is None else f"b/{change.path}"
+    yield f"diff --git a/{change.path} b/{change.path}"
+    if change.before is None:
+        yield "new file mode 100644"
+    if change.after is None:
+        yield "deleted file mode 100644"
+    for line in unified_diff(before, after, old, new):
+        yield line[:-1] if line.endswith("\n") else line + _NO_END
+
+
+def _lines(text: str | None) -> list[str]:
+    """Return the lines with their ends."""
+    return list(StringIO(text or "", newline="\n"))  # unlike splitlines: only line feeds count

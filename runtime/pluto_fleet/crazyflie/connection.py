@@ -1,0 +1,214 @@
+"""From a URI to a session: finding drones, opening a link, and telling a drone where it is.
+
+Every wait has a limit, and no object of cflib's is opened twice.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import socket
+from contextlib import suppress
+from math import hypot
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from plutoc_runtime.domain.errors import BadInput
+
+from ..drones.errors import LinkLost
+from . import logs, messages, parameters
+from .driver import (
+    LINK_CONTROL,
+    PLATFORM,
+    cache_folder,
+    forget_dead_radios,
+    load,
+    packet,
+)
+from .session import CrazyflieSession, SessionObserver
+from .worker import Worker
+
+if TYPE_CHECKING:
+    from plutoc_runtime.domain.model import Point
+
+    from .options import CrazyflieOptions
+
+
+_IMPORT, _OPEN = 20.0, 5.0
+ANSWER, TELEMETRY = 5.0, 3.0
+"""Seconds in which it must tell something more of itself, and begin to tell how it is."""
+_ASK_AGAIN = 1.0
+"""Seconds until something is asked again: were it answered twice, cflib would begin twice."""
+
+
+async def open_session(
+    drone: str, uri: str, folder: Path, observer: SessionObserver
+) -> CrazyflieSession:
+    """Return a connection on which the drone tells how it is; raise `LinkLost` if there is none."""
+    session = CrazyflieSession(drone, uri, observer)
+    try:
+        await _open(session, folder)
+    except BaseException:  # cancelled, too: nothing may be left of it
+        session.release()
+        raise
+    return session
+
+
+async def _open(session: CrazyflieSession, folder: Path) -> None:
+    await session.worker.call(load, _IMPORT)
+    await session.worker.call(lambda: _begin(session, folder), _OPEN)
+    await _answer(session)
+    # Its pings measure what is not used here, and the thread that sends them may die holding the lock
+    # that every other sender needs.
+    await session.call(lambda cf: cf.link_statistics.stop())
+    await session.call(lambda _: logs.begin(session), _OPEN)
+    if await session.until_told(TELEMETRY) is None:
+        raise LinkLost(messages.no_telemetry(session.drone))
+
+
+def _begin(session: CrazyflieSession, folder: Path) -> None:
+    """Open the link; called in the worker."""
+    from cflib.crazyflie import Crazyflie
+
+    forget_dead_radios()
+    cf = Crazyflie(rw_cache=cache_folder(folder))
+    session.listen(cf)
+    cf.open_link(session.uri)
+
+
+async def _answer(session: CrazyflieSession) -> None:
+    """Wait until it has told its tables: for as long as there is more and more of them."""
+    heard, at = 0, session.loop.time()
+    while not session.established.is_set():
+        entries = _entries(session)
+        if entries > heard:
+            heard, at = entries, session.loop.time()
+        if session.loop.time() - at > ANSWER:
+            if session.answered:
+                raise LinkLost(messages.not_complete(session.drone, ANSWER))
+            raise LinkLost(messages.no_answer(session.drone, session.uri, ANSWER))
+        with suppress(TimeoutError):
+            async with asyncio.timeout(_ASK_AGAIN):
+                await session.established.wait()
+                break
+        if session.uri.startswith("udp://"):  # radio packets are repeated by the dongle
+            await session.call(lambda _: _ask_again(session))
+    if session.lost:
+        raise LinkLost(messages.no_connection(session.drone, session.uri, session.lost))
+
+
+def _entries(session: CrazyflieSession) -> int:
+    """Return how much is known of its tables; read while a thread of cflib's fills them."""
+    tables = (session.cf.log.toc, session.cf.param.toc)
+    groups = [group for toc in tables if toc is not None for group in list(toc.toc.values())]
+    return sum(map(len, groups))
+
+
+def _ask_again(session: CrazyflieSession) -> None:
+    """Ask once more what cflib asks only once: who it is, and its protocol's version."""
+    cf = session.cf
+    if cf.platform.get_protocol_version() < 0:
+        port = PLATFORM if session.answered else LINK_CONTROL
+        cf.send_packet(packet(port, 1, b"\0"))
+
+
+_HERE = "kalman.initial"
+_RESET = "kalman.resetEstimation"
+_ESTIMATOR, _KALMAN = "stabilizer.estimator", 2.0
+_ORIGIN = 0.2
+"""Metres from its own origin: that near, it has just been switched on."""
+
+
+async def set_initial_position(session: CrazyflieSession, home: Point) -> None:
+    """Let its map begin so that it stands at home now; one that has flown already is left alone."""
+    state = session.now()
+    if state.flies or hypot(state.position[0], state.position[1]) > _ORIGIN:
+        return
+    for axis, value in zip("XYZ", home, strict=True):
+        await parameters.write(session, f"{_HERE}{axis}", value)
+    await parameters.write(session, _RESET, 1.0, stays=False)
+    await parameters.write(session, _RESET, 0.0)
+    session.confidence.forget()
+
+
+async def send_external_position(session: CrazyflieSession, position: Point) -> None:
+    """Tell it its position as measured from outside; only one of its estimators listens to that."""
+    if not session.located:
+        session.located = True
+        if parameters.element_of(session.cf, _ESTIMATOR) is not None and not session.now().flies:
+            await parameters.write(session, _ESTIMATOR, _KALMAN)
+    x, y, z = position
+    await session.call(lambda cf: cf.extpos.send_extpos(x, y, z))
+
+
+_RATES = ((2, "2M"), (1, "1M"), (0, "250K"))
+"""As the dongle numbers them, and as a URI has them; most drones use the first."""
+_CHANNELS = 125
+_PROBE = 0xFF
+_USUAL = "E7E7E7E7E7"
+_LIMIT = 60.0
+_ANSWER = 0.2
+
+
+async def scan(options: CrazyflieOptions) -> list[str]:
+    """Return the URIs of all that answer; raise `LinkLost` where there is no radio to ask with."""
+    worker = Worker("scan")
+    try:
+        return await worker.call(lambda: _look(options), _LIMIT)
+    finally:
+        worker.end()
+
+
+def _look(options: CrazyflieOptions) -> list[str]:
+    found = [uri for uri in options.udp if _answers(uri)]
+    if not options.addresses:
+        return found
+    load()
+    from cflib.crtp.radiodriver import RadioManager
+
+    try:
+        radio = RadioManager.open(0)
+    except Exception as error:  # cflib raises just that
+        raise LinkLost(messages.no_scan(messages.cause(str(error)))) from error
+    try:
+        for address in options.addresses:
+            found += _on_the_air(radio, address)
+    finally:
+        radio.close()
+    return found
+
+
+def _on_the_air(radio: Any, address: str) -> list[str]:
+    bytes_ = _bytes(address)
+    radio.set_address(bytes_)
+    radio.set_arc(1)
+    found = []
+    for number, rate in _RATES:
+        radio.set_data_rate(number)
+        for channel in radio.scan_channels(0, _CHANNELS, (_PROBE,)):
+            uri = f"radio://0/{channel}/{rate}"
+            name = bytes(bytes_).hex().upper()
+            found.append(uri if name == _USUAL else f"{uri}/{name}")
+    return found
+
+
+def _bytes(address: str) -> tuple[int, ...]:
+    try:
+        found = tuple(bytes.fromhex(address.rjust(10, "0")))
+    except ValueError:
+        found = ()
+    if len(found) != 5:
+        raise BadInput(messages.no_address(address))
+    return found
+
+
+def _answers(uri: str) -> bool:
+    """Say whether a probe by UDP is answered."""
+    host, _, port = uri.removeprefix("udp://").rpartition(":")
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as asking:
+        asking.settimeout(_ANSWER)
+        try:
+            asking.connect((host, int(port)))
+            asking.send(bytes((_PROBE,)))
+            return bool(asking.recv(64))
+        except (OSError, ValueError):
+            return False

@@ -1,0 +1,144 @@
+"""A Crazyflie's battery and its alarms, both found in what it tells of itself.
+
+Under load a small battery shows some tenths of a volt less than it has, and much less than that would
+mean at rest: at rest its curve says how full it is, in the air also what flying costs. That is
+measured anew at each take-off, as batteries get older.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Iterator
+from statistics import fmean
+from typing import TYPE_CHECKING
+
+from ..drones.protocol import BATTERY_LOW, CRASHED, LOCKED, POSITION_LOST, DroneEvent
+from . import messages
+from .state import LOW_POWER
+
+if TYPE_CHECKING:
+    from .state import State
+
+
+# One lithium cell at rest.
+_VOLTS = (3.27, 3.61, 3.69, 3.73, 3.77, 3.80, 3.84, 3.87, 3.95, 4.02, 4.11, 4.18)
+_LEVELS = (0.0, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0)
+
+_USUAL, _LEAST, _MOST = 0.3, 0.05, 0.6
+"""Volts that hovering costs, until it has been measured; what it can be at all."""
+_SETTLED, _MEASURED = 1.0, 3.0
+"""Seconds after leaving the ground, between which it is measured."""
+_SMOOTH = 1.0
+"""Seconds over which volts in the air are averaged."""
+LOW = 3.2
+"""Volts of a cell in the air at which it must come down. At 3.0 some builds switch off."""
+FULLEST = 4.5
+"""Volts of a cell that none has: there must be more cells than one believes."""
+_LAST = 0.02
+"""What is left then."""
+
+
+def level_at_rest(volts: float) -> float:
+    """Return what is left in it, from 0 to 1."""
+    at = bisect_right(_VOLTS, volts)
+    if at == 0:
+        return 0.0
+    if at == len(_VOLTS):
+        return 1.0
+    share = (volts - _VOLTS[at - 1]) / (_VOLTS[at] - _VOLTS[at - 1])
+    return _LEVELS[at - 1] + share * (_LEVELS[at] - _LEVELS[at - 1])
+
+
+class BatteryGauge:
+    """What is left in one drone's battery."""
+
+    def __init__(self, cells: int = 1) -> None:
+        self.cells = cells
+        """How many are in series: what is measured is all of them."""
+        self.level = 0.0
+        """From 0 to 1."""
+        self.rest: float | None = None
+        """The volts of a cell without load, as they were last; None: not measured yet."""
+        self._sag, self._sags = _USUAL, list[float]()
+        self._smooth: float | None = None
+        self._time = self._since = 0.0
+        self._flew = False
+
+    def cell(self, state: State) -> float:
+        """Return the volts of one cell now."""
+        return state.volts / self.cells
+
+    def hear(self, state: State) -> None:
+        """It told how it is."""
+        volts = self.cell(state)
+        if not volts > 0.0:
+            return
+        passed, self._time = state.time - self._time, state.time
+        if not state.flies:
+            self.rest, self._flew, self._smooth = volts, False, None
+            self.level = level_at_rest(volts)
+            return
+        if not self._flew:
+            self._flew, self._since, self._sags = True, state.time, []
+        if self._smooth is None:
+            self._smooth = volts
+        share = min(1.0, passed / _SMOOTH)
+        self._smooth += (volts - self._smooth) * share
+        self._measure(state, volts)
+        if self.rest is None or state.time - self._since > _MEASURED:
+            self.level = level_at_rest(self._smooth + self._sag)
+        if state.power == LOW_POWER or self._smooth < LOW:
+            self.level = min(self.level, _LAST)  # however it came to that
+
+    def _measure(self, state: State, volts: float) -> None:
+        """Learn what flying costs, in the first seconds of a flight."""
+        if self.rest is None or not _SETTLED <= state.time - self._since <= _MEASURED:
+            return
+        self._sags.append(self.rest - volts)
+        self._sag = min(_MOST, max(_LEAST, fmean(self._sags)))
+
+
+LOW_FOR = 3.0
+"""Seconds that it must be low: a burst of the motors costs volts, too."""
+_WELL = 3.5
+"""Volts of a cell at which a battery counts as another one, or as charged."""
+
+
+class AlarmDetector:
+    """What has been told already: each thing is told once, when it begins."""
+
+    def __init__(self, cells: int = 1) -> None:
+        self._cells = cells
+        self._crashed = self._locked = self._low = self._adrift = False
+        self._low_since: float | None = None
+
+    def hear(self, state: State) -> Iterator[DroneEvent]:
+        """Yield what has happened since the last state."""
+        if state.crashed and not self._crashed:
+            yield DroneEvent(kind=CRASHED, reason=messages.LIES)
+        if state.locked and not self._locked:
+            why = messages.LOCKED_BY_DECK if state.deck_failed else messages.IS_LOCKED
+            yield DroneEvent(kind=LOCKED, reason=why)
+        self._crashed, self._locked = state.crashed, state.locked
+        if self._battery_low(state):
+            yield DroneEvent(kind=BATTERY_LOW, reason=messages.low(state.volts))
+
+    def hear_of_its_place(self, adrift: bool, variance: float) -> Iterator[DroneEvent]:
+        """Yield that it does not know its place in the air any more, when that begins."""
+        if adrift and not self._adrift:
+            yield DroneEvent(kind=POSITION_LOST, reason=messages.adrift(variance))
+        self._adrift = adrift
+
+    def _battery_low(self, state: State) -> bool:
+        """Say whether it has just become so low that it must come down."""
+        volts = state.volts / self._cells
+        if state.power != LOW_POWER and not 0.0 < volts < LOW:
+            self._low_since = None
+            self._low = self._low and volts < _WELL
+            return False
+        if self._low_since is None:
+            self._low_since = state.time
+        if self._low or state.time - self._low_since < LOW_FOR:
+            return False
+        self._low = True
+        return True

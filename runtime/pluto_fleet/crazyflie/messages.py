@@ -1,0 +1,329 @@
+"""All that is said of Crazyflies to people: one function a sentence."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import isfinite, sqrt
+from typing import TYPE_CHECKING
+
+from plutoc_runtime.domain.text import in_shell, number, quoted
+
+if TYPE_CHECKING:
+    from plutoc_runtime.domain.model import Point
+
+
+PROTOCOL = 12
+"""What the firmware must speak: since then it has a supervisor that says how it is."""
+
+
+def no_cflib(package: str | None) -> str:
+    what = "pluto-fleet[crazyflie]" if package is None else f"{package.rstrip('_')}[crazyflie]"
+    return f"to fly Crazyflies, cflib is needed: pip install {in_shell(what)}"
+
+
+# The link
+
+
+def no_uri(drone: str) -> str:
+    return f"{drone} has no uri in the fleet file: it says how to reach a Crazyflie"
+
+
+def not_connected(drone: str) -> str:
+    return f"{drone} is not connected"
+
+
+def no_answer(drone: str, uri: str, seconds: float) -> str:
+    return f"{drone} does not answer at {uri}: nothing came in {number(seconds)} s; is it on?"
+
+
+def no_connection(drone: str, uri: str, why: str) -> str:
+    return f"{drone} cannot be reached at {uri}: {why}"
+
+
+def not_complete(drone: str, seconds: float) -> str:
+    return f"{drone} answered, and then told nothing more of itself in {number(seconds)} s"
+
+
+def no_telemetry(drone: str) -> str:
+    return f"{drone} answers, but does not tell where it is"
+
+
+def silent(drone: str, seconds: float) -> str:
+    return f"{drone} stopped answering {seconds:.1f} s ago"
+
+
+def silence(seconds: float) -> str:
+    return f"it has told nothing for {seconds:.1f} s"
+
+
+def ended(drone: str, why: str) -> str:
+    return f"the link to {drone} was lost: {why}"
+
+
+WHILE_SENDING = "it was closed while something was sent"
+
+
+def stuck(drone: str, seconds: float) -> str:
+    return f"the radio did not take a command for {drone} in {number(seconds)} s"
+
+
+def cause(message: str) -> str:
+    """Say in a few words what cflib says in a traceback."""
+    first = (message.strip().splitlines() or [""])[0].removeprefix("Couldn't load link driver: ")
+    whole = message.lower()
+    if "cannot find a crazyradio" in whole or "cannot find radio" in whole:
+        return "no Crazyradio is plugged in"
+    if "access denied" in whole or "insufficient permissions" in whole:
+        return "this user may not use the Crazyradio: it needs a udev rule, see docs/crazyflie.md"
+    if "no backend available" in whole:
+        return "USB cannot be used here: libusb is missing"
+    if "no driver found" in whole:
+        return "the uri is no radio://, usb:// or udp:// address"
+    if "unplugged" in whole:
+        return "the Crazyradio was unplugged"
+    if "too many packets lost" in whole:
+        return "too many packets are lost: it is off, or out of range"
+    if "connection refused" in whole:
+        return "no program listens there"
+    return first or "cflib does not say why"
+
+
+def no_scan(why: str) -> str:
+    return f"the radio finds no drone: {why}"
+
+
+def no_address(address: str) -> str:
+    return f'{quoted(address)} is no radio address: five bytes, such as "E7E7E7E7E1"'
+
+
+# Commands
+
+
+def no_speed(drone: str, speed: float) -> str:
+    return f"{drone} cannot fly at {number(speed)} m/s: a speed must be above 0"
+
+
+def outside(drone: str, target: Point) -> str:
+    x, y, z = (number(value) for value in target)
+    return f"{drone} cannot go to ({x}, {y}, {z}): it must be finite, and above the ground"
+
+
+def not_flying(drone: str) -> str:
+    return f"{drone} does not fly: it must take off first"
+
+
+def not_acknowledged(drone: str, command: str) -> str:
+    return f"{drone} did not acknowledge the command {command}"
+
+
+def blocked(drone: str, command: str, state: str) -> str:
+    return f"{drone} refuses the command {command}: its supervisor blocks flight ({state})"
+
+
+def wrong_state(drone: str, command: str) -> str:
+    return f"{drone} refuses the command {command}: not in this state"
+
+
+def refused(drone: str, command: str, code: int) -> str:
+    return f"{drone} refuses the command {command}: error {code}"
+
+
+def not_begun(drone: str, command: str) -> str:
+    return f"{drone} acknowledged the command {command}, and does not move"
+
+
+def not_armed(drone: str, state: str) -> str:
+    return f"{drone} will not arm ({state})"
+
+
+def still_flies(drone: str) -> str:
+    return f"{drone} cannot take off: it says that it still flies"
+
+
+def disarmed(drone: str) -> str:
+    return f"{drone} accepted the take-off, and was disarmed at once, twice"
+
+
+def not_recovered(drone: str) -> str:
+    return f"{drone} does not forget that it has crashed: set it upright, or switch it off and on"
+
+
+def not_arrived(drone: str, what: str, off: float) -> str:
+    return f"{drone} has not {what} in time: {number(off)} m are missing"
+
+
+def not_landed(drone: str) -> str:
+    return f"{drone} has not come down in time"
+
+
+def not_stopped(drone: str) -> str:
+    return f"{drone} did not confirm that its motors are off"
+
+
+def crashed(drone: str) -> str:
+    return f"{drone} has tumbled or crashed"
+
+
+def locked(drone: str, deck_failed: bool) -> str:
+    why = ", as one of its decks reports a fault" if deck_failed else ""
+    return f"{drone} has locked its motors{why}: switch it off and on"
+
+
+# How it is: no names
+
+
+LIES = "it lies on its back or has crashed"
+HAS_CRASHED = (
+    "it has crashed: once it stands upright and is whole, bring it back, or switch it off and on"
+)
+DECK_FAILED = "one of its decks reports a fault: see that all sit well, and switch it off and on"
+IS_LOCKED = "it has locked its motors: switch it off and on"
+LOCKED_BY_DECK = f"one of its decks reports a fault, and {IS_LOCKED}"
+
+
+def low(volts: float) -> str:
+    return f"its battery is down to {volts:.2f} V"
+
+
+def old_firmware(version: int) -> str:
+    has = "too old to say which" if version < 0 else f"{version}"
+    return (
+        f"its firmware speaks protocol {has}, {PROTOCOL} or later is needed:"
+        " flash the newest release with cfclient (Connect, Bootloader)"
+    )
+
+
+def lacks_variables(names: Sequence[str]) -> str:
+    return f"its firmware has no log variable {', '.join(names)}: flash the newest release"
+
+
+def little(volts: float, least: float, cells: int) -> str:
+    each = "" if cells == 1 else " in each cell"
+    return f"its battery has {volts:.2f} V{each} at rest, {least:.2f} V are needed: charge it"
+
+
+def more_cells(volts: float, cells: int, least: int) -> str:
+    have = "one cell has" if cells == 1 else f"{cells} cells have"
+    return (
+        f"its battery has {volts:.2f} V, more than {have}: say in the fleet file how many"
+        f" it has, such as cells = {least}"
+    )
+
+
+def uncertain(variance: float | None, within: float) -> str:
+    if variance is None:
+        return "it does not say how sure it is of its position"
+    return (
+        f"it is not sure where it is: to {deviation(variance)} (a variance of {variance:.4f} m²),"
+        f" and {number(within)} m for a second are needed, its option sure_within"
+    )
+
+
+def deviation(variance: float) -> str:
+    """Say a variance as people think of it: how far off it may well be."""
+    return f"{sqrt(variance):.2f} m" if isfinite(variance) else "any distance"
+
+
+def adrift(variance: float) -> str:
+    return (
+        f"it may be {deviation(variance)} from where it believes to be: it does not see its beacons"
+        " any more, or is not told where it is"
+    )
+
+
+def lost_its_place(drone: str, variance: float) -> str:
+    return f"{drone} does not know where it is: {adrift(variance)}"
+
+
+UNSETTLED = "its estimate of where it is has not settled: let it stand still on the ground"
+
+
+def too_fast(speed: float, parameter: str, limit: float) -> str:
+    return (
+        f"it is to fly at up to {number(speed)} m/s, and its firmware follows no course faster than"
+        f" {number(limit)} m/s ({parameter}): give its category a lower speed, or set that parameter"
+    )
+
+
+def cannot_fly(state: str) -> str:
+    return f"its supervisor does not let it fly ({state})"
+
+
+def no_deck(deck: str, found: Sequence[str]) -> str:
+    has = f"it has {', '.join(found)}" if found else "it has none"
+    return f"it has no deck {quoted(deck)}: {has}"
+
+
+UNREAD = "its parameters could not be read"
+
+
+# Variables, parameters, actions
+
+
+def no_variable(drone: str, name: str) -> str:
+    return f"{drone} has no log variable {quoted(name)}"
+
+
+def no_parameter(drone: str, name: str) -> str:
+    return f"{drone} has no parameter {quoted(name)}"
+
+
+def no_such(drone: str, name: str) -> str:
+    return f"{drone} has neither a log variable nor a parameter {quoted(name)}"
+
+
+def bad_value(drone: str, name: str, value: float, kind: str) -> str:
+    return f"{drone}: {number(value)} is no value for {quoted(name)}, which is a {kind}"
+
+
+def not_taken(drone: str, name: str, value: float, has: float) -> str:
+    return f"{drone}: {quoted(name)} was set to {number(value)}, and is {number(has)}"
+
+
+def not_read(drone: str, name: str) -> str:
+    return f"{drone} does not tell {quoted(name)}"
+
+
+def no_quantity(drone: str, quantity: str, known: Sequence[str]) -> str:
+    has = f"it measures {', '.join(known)}; " if known else ""
+    return (
+        f"{drone} cannot measure {quoted(quantity)}: {has}name its log variable in the fleet file:"
+        f' measure = {{ {quantity} = "group.name" }}'
+    )
+
+
+def no_camera(drone: str) -> str:
+    return (
+        f"{drone} has no camera: name its AI-deck's streamer in the fleet file:"
+        ' camera = "192.168.4.1:5000"'
+    )
+
+
+def no_grip(drone: str) -> str:
+    return (
+        f"{drone} cannot pick or release: name the parameter of its gripper in the fleet file:"
+        ' grip = { parameter = "gripper.closed", pick = 1, release = 0 }'
+    )
+
+
+def no_action(drone: str, action: str) -> str:
+    return f"{drone} is a Crazyflie, which cannot {action}"
+
+
+def no_photo(drone: str, where: str, why: str) -> str:
+    return f"{drone} gives no photo at {where}: {why}"
+
+
+def not_kept(drone: str, folder: str, why: str) -> str:
+    return f"the photo of {drone} could not be kept in {quoted(folder)}: {why}"
+
+
+# Options
+
+
+def unknown_option(key: str, known: Sequence[str]) -> str:
+    return f"a Crazyflie has no option {quoted(key)}; it has {', '.join(known)}"
+
+
+def bad_option(key: str, wanted: str) -> str:
+    return f"its option {key} must be {wanted}"

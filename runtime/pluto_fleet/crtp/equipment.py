@@ -1,0 +1,104 @@
+"""What a simulated Crazyflie is fitted with: an AI-deck's camera, sensors and a gripper."""
+
+from __future__ import annotations
+
+import asyncio
+import struct
+from collections.abc import Mapping
+from contextlib import suppress
+
+from .drone import Build, SimulatedCrazyflie
+from .flight_log import MemoryLog
+from .params import parameters
+from .server import HOST
+
+WIDTH, HEIGHT = 324, 244
+_MAGIC, _RAW = 0xBC, 0
+_CHUNK = 1000
+_PAUSE = 0.1
+"""Seconds between two pictures."""
+_ROUTE, _FUNCTION = 0x0C, 0x05
+
+
+def picture(number: int) -> bytes:
+    """Return a picture: grey that changes across it, and from one to the next."""
+    row = bytes((column + number) % 256 for column in range(WIDTH))
+    return row * HEIGHT
+
+
+def frames(number: int) -> bytes:
+    """Return a picture as it is sent: a header, then pieces, each with its length before it."""
+    pixels = picture(number)
+    head = struct.pack("<BHHBBI", _MAGIC, WIDTH, HEIGHT, 1, _RAW, len(pixels))
+    pieces = [head, *(pixels[at : at + _CHUNK] for at in range(0, len(pixels), _CHUNK))]
+    return b"".join(
+        struct.pack("<HBB", len(piece) + 2, _ROUTE, _FUNCTION) + piece for piece in pieces
+    )
+
+
+async def camera(port: int = 0) -> asyncio.Server:
+    """Stream pictures to whoever connects; close what is returned to end it."""
+    return await asyncio.start_server(_stream, HOST, port)
+
+
+async def _stream(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+    number = 0
+    with suppress(OSError):
+        while not reader.at_eof():
+            writer.write(frames(number))
+            await writer.drain()
+            number += 1
+            with suppress(TimeoutError):
+                async with asyncio.timeout(_PAUSE):
+                    await reader.read(1)
+    writer.close()
+    with suppress(OSError):
+        await writer.wait_closed()
+
+
+def port_of(server: asyncio.Server) -> int:
+    """Return where it streams."""
+    return int(server.sockets[0].getsockname()[1])
+
+
+_SENSORS = {"temperature": "bme.temp", "humidity": "bme.humidity", "pressure": "baro.pressure"}
+_ANY = {"*": "sim.measured"}
+"""A sensor for every other quantity, also for those that nobody has asked for yet."""
+_GRIP = {"parameter": "gripper.closed", "pick": 1, "release": 0, "seconds": 0.5}
+
+
+def fitted(given: Mapping[str, object], camera: str) -> dict[str, object]:
+    """Return the options of a simulated drone, whose camera streams there.
+
+    They are those of the fleet file, which is known to be right; where that names a part of a real
+    drone that a simulated one lacks, it has one of its own instead.
+    """
+    return {
+        **given,
+        "camera": camera,
+        "cells": 1,
+        "decks": [],
+        "grip": _grip(given.get("grip")),
+        "measure": {**_SENSORS, **_sensors(given.get("measure")), **_ANY},
+    }
+
+
+def _grip(given: object) -> Mapping[str, object]:
+    if not isinstance(given, Mapping):
+        return _GRIP
+    if any(one.name == given["parameter"] for one in parameters()):
+        return given
+    return {**_GRIP, "seconds": given.get("seconds", _GRIP["seconds"])}
+
+
+def _sensors(given: object) -> Mapping[str, str]:
+    """Return which of the log variables that a file names there are."""
+    there = SimulatedCrazyflie(_SAMPLE, MemoryLog(), lambda _: None).variables
+    named = given if isinstance(given, Mapping) else {}
+    return {
+        quantity: name if name in there else _SENSORS.get(quantity, _ANY["*"])
+        for quantity, name in named.items()
+    }
+
+
+_SAMPLE = Build(id="any", home=(0.0, 0.0, 0.0))

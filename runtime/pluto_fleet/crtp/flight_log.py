@@ -1,0 +1,118 @@
+"""What was commanded, and where the drones were: what a test can hold against what was meant."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from pathlib import Path
+from typing import NamedTuple, Protocol, TextIO
+
+Point = tuple[float, float, float]
+
+COMMANDS, TRACE = "crtp-commands.jsonl", "crtp-trace.csv"
+"""A line for each command; fifty lines a second of each drone that is above the ground."""
+
+_LARGEST = 200_000_000
+"""Bytes of a trace, after which no more is written."""
+
+
+class CommandRecord(NamedTuple):
+    """One command that a drone was given, or what else happened to it."""
+
+    time: float
+    drone: str
+    what: str
+    flying: bool
+    """Whether it was above the ground, or its motors turned."""
+    at: Point
+    values: Mapping[str, float]
+
+
+class PositionRecord(NamedTuple):
+    """Where a drone was."""
+
+    time: float
+    drone: str
+    at: Point
+
+
+class FlightLog(Protocol):
+    """Whoever is told what happens; times are those of `time.monotonic`."""
+
+    def command(self, command: CommandRecord) -> None:
+        """Hear of a command."""
+        ...
+
+    def position(self, place: PositionRecord) -> None:
+        """Hear where a drone is that is above the ground."""
+        ...
+
+
+class MemoryLog:
+    """A record for tests in this process."""
+
+    def __init__(self) -> None:
+        self.commands: list[CommandRecord] = []
+        self.positions: list[PositionRecord] = []
+
+    def command(self, command: CommandRecord) -> None:
+        """Keep a command."""
+        self.commands.append(command)
+
+    def position(self, place: PositionRecord) -> None:
+        """Keep where a drone was."""
+        self.positions.append(place)
+
+
+class FileLog:
+    """A record in two files of a folder, which are gone on with if they are there."""
+
+    def __init__(self, folder: Path) -> None:
+        self._commands: TextIO = (folder / COMMANDS).open("a", encoding="utf-8")
+        self._trace: TextIO = (folder / TRACE).open("a", encoding="utf-8")
+        self._size = self._trace.tell()
+
+    def command(self, command: CommandRecord) -> None:
+        """Write a command down at once."""
+        with suppress(OSError):  # a full disk is no reason to fall
+            self._commands.write(json.dumps(command._asdict()) + "\n")
+            self._commands.flush()
+
+    def position(self, place: PositionRecord) -> None:
+        """Write down where a drone was, some time soon."""
+        if self._size > _LARGEST:
+            return
+        x, y, z = place.at
+        with suppress(OSError):
+            written = f"{place.time:.3f},{place.drone},{x:.4f},{y:.4f},{z:.4f}\n"
+            self._size += self._trace.write(written)
+
+    def flush(self) -> None:
+        """Write down what is not yet."""
+        with suppress(OSError):
+            self._trace.flush()
+
+    def close(self) -> None:
+        """Write all, and no more."""
+        with suppress(OSError):
+            self._commands.close()
+            self._trace.close()
+
+
+def commands_in(folder: Path) -> Sequence[CommandRecord]:
+    """Read the commands back."""
+    lines = (folder / COMMANDS).read_text(encoding="utf-8").splitlines()
+    read = (json.loads(line) for line in lines)
+    return [CommandRecord(**{**one, "at": tuple(one["at"])}) for one in read]
+
+
+def trace_in(folder: Path) -> Sequence[PositionRecord]:
+    """Read back where the drones were; a last line that is only half there is left out."""
+    text = (folder / TRACE).read_text(encoding="utf-8")
+    lines = text[: text.rfind("\n") + 1].splitlines()
+    rows = (line.split(",") for line in lines)
+    return [
+        PositionRecord(float(time), drone, (float(x), float(y), float(z)))
+        for time, drone, x, y, z in rows
+    ]

@@ -1,0 +1,238 @@
+"""How one drone of the team flies and acts: each command under a limit, one after the other.
+
+A navigation that is a package of its own has another copy of `Photo` than the app, and its library
+may count in numbers of its own: so the result of an action is made anew. What is none of what the
+action gives is a mistake of the navigation's, and no result.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Mapping
+from functools import partial
+from math import dist, inf, isfinite
+from typing import TYPE_CHECKING, Any, SupportsFloat
+
+from plutoc_runtime.domain.actions import BUILT_IN, PICK, RELEASE, Plain
+from plutoc_runtime.domain.errors import Failure, FlightFailed
+from plutoc_runtime.domain.model import Photo
+from plutoc_runtime.domain.text import percent, place, shown
+
+from .protocol import Acts, Readable
+from .telemetry import RISING
+from .timeouts import shortened
+from .vehicle import LAND, RISE, SLOWEST_PLANNED, TIME_MARGIN
+
+if TYPE_CHECKING:
+    from plutoc_runtime.domain.model import Item, Point
+
+    from .vehicle import Vehicle
+
+
+LONGEST = 60
+
+
+def result_of(drone: str, action: str, gave: object) -> object:
+    """Return a number, a `Photo` or nothing; raise `FlightFailed` if it is none of these."""
+    if action in (PICK, RELEASE):
+        return None
+    try:
+        return _photo(gave) if action == "take_photo" else _number(gave)
+    except (AttributeError, TypeError, ValueError):
+        reason = f"the navigation of {drone} made a mistake: {action} gave {shown(gave)[:LONGEST]}"
+        raise FlightFailed(Failure.ACTION, reason) from None
+
+
+def _number(gave: object) -> float:
+    if isinstance(gave, str) or not isinstance(gave, SupportsFloat):
+        raise TypeError
+    if not isfinite(number := float(gave)):
+        raise ValueError
+    return number
+
+
+def _photo(gave: Any) -> Photo:
+    """Return a photo like this one, of whichever copy of the class it is."""
+    x, y, z = gave.position
+    file = getattr(gave, "file", None)
+    return Photo(
+        position=(_number(x), _number(y), _number(z)),
+        width=_number(gave.width),
+        height=_number(gave.height),
+        sees=tuple(map(str, getattr(gave, "sees", ()))),
+        sharpness=_number(getattr(gave, "sharpness", 1.0)),
+        file=None if file is None else str(file),
+    )
+
+
+CUT_LIMIT = 2.0
+"""Seconds within which motors must be off that a person wants off."""
+LANDED_LIMIT = 3.0
+"""Seconds after a landing until a drone must have told that it flies no more."""
+
+
+async def takeoff(vehicle: Vehicle, height: float) -> None:
+    """Rise straight up to a height; does nothing for a drone that flies."""
+    await vehicle.commands.run(RISE, partial(_take_off, vehicle, height))
+
+
+async def _take_off(vehicle: Vehicle, height: float) -> None:
+    vehicle.check()
+    if not vehicle.telemetry.landed:
+        return
+    reasons = await vehicle.preflight()
+    level, reserve = vehicle.telemetry.battery_level, vehicle.drone.category.reserve
+    if level < reserve:
+        left = f"{percent(level)} in its battery, and {percent(reserve)} are its reserve"
+        reasons = (*reasons, left)
+    if reasons:
+        why = f"{vehicle.id} is not ready: {'; '.join(reasons)}"
+        raise FlightFailed(Failure.REFUSED, why)
+    vehicle.telemetry.rises_until, vehicle.looked_after = inf, False
+    try:
+        await vehicle.go(
+            "take off", height / vehicle.climb, vehicle.navigation.takeoff, height, vehicle.climb
+        )
+    finally:
+        if vehicle.linked:  # until it says whether it flies: the command may have reached it
+            vehicle.telemetry.rises_until = vehicle.calls.clock() + RISING
+
+
+async def go_to(vehicle: Vehicle, target: Point) -> None:
+    """Fly straight to a point."""
+    await vehicle.commands.run("fly", partial(_fly_to, vehicle, target))
+
+
+async def _fly_to(vehicle: Vehicle, target: Point) -> None:
+    vehicle.check()
+    check_airborne(vehicle)
+    await fly(vehicle, target)
+
+
+async def fly(vehicle: Vehicle, target: Point) -> None:
+    """Fly straight to a point, whatever it takes no commands for."""
+    seconds = dist(vehicle.telemetry.location, target) / min(vehicle.speed, SLOWEST_PLANNED)
+    what = f"arrive at {place(target)}"
+    await vehicle.go(what, seconds, vehicle.navigation.go_to, target, vehicle.speed)
+
+
+async def land(vehicle: Vehicle) -> None:
+    """Land here; does nothing for a drone that stands on the ground."""
+    await vehicle.commands.run(LAND, partial(descend, vehicle))
+
+
+async def descend(vehicle: Vehicle) -> None:
+    """Land here, whatever it takes no commands for, if only it is linked."""
+    if vehicle.telemetry.landed:
+        return
+    if vehicle.is_cut:
+        raise _cut(vehicle)
+    if not vehicle.linked:
+        vehicle.check()
+    seconds = max(0.0, vehicle.telemetry.location[2]) / vehicle.climb
+    await vehicle.go("land", seconds, vehicle.navigation.land, vehicle.climb)
+    vehicle.telemetry.rises_until = -inf
+    # what it told last may be older than that
+    if not await vehicle.until(lambda: vehicle.telemetry.landed, LANDED_LIMIT):
+        raise FlightFailed(Failure.ACTION, f"{vehicle.id} was to land, and flies all the same")
+
+
+async def hold(vehicle: Vehicle) -> None:
+    """Hover, until it is told not to or something goes wrong."""
+    await vehicle.commands.run("hover", partial(_hold, vehicle))
+
+
+async def _hold(vehicle: Vehicle) -> None:
+    vehicle.check()
+    check_airborne(vehicle)
+    await asyncio.get_running_loop().create_future()
+
+
+async def cut(vehicle: Vehicle) -> None:
+    """Switch its motors off, now: whatever it does ends so, and it does not even hover."""
+    vehicle.is_cut = True
+    vehicle.commands.release()
+    try:
+        await vehicle.calls.call(
+            "switch its motors off", CUT_LIMIT, vehicle.navigation.emergency_stop
+        )
+    except FlightFailed:  # it could not be told: it flies on
+        vehicle.is_cut = False
+        raise
+    vehicle.must_land = False
+    vehicle.refuse(_cut(vehicle))
+
+
+def _cut(vehicle: Vehicle) -> FlightFailed:
+    return FlightFailed(Failure.CRASH, f"{vehicle.id}'s motors were cut")
+
+
+def check_airborne(vehicle: Vehicle) -> None:
+    """Raise `FlightFailed` for a drone that stands on the ground."""
+    if vehicle.telemetry.landed:
+        where = place(vehicle.telemetry.location)
+        reason = f"{vehicle.id} is on the ground at {where}: it must take off first"
+        raise FlightFailed(Failure.REFUSED, reason)
+
+
+READ_LIMIT = 5.0
+"""Seconds that it may take to read a value, or to set one."""
+
+
+async def act(
+    vehicle: Vehicle, action: str, parameters: Mapping[str, Plain], item: Item | None
+) -> object:
+    """Do one of the built-in actions here."""
+    return await vehicle.commands.run(action, partial(_act, vehicle, action, parameters, item))
+
+
+async def _act(
+    vehicle: Vehicle, action: str, parameters: Mapping[str, Plain], item: Item | None
+) -> object:
+    vehicle.check()
+    check_airborne(vehicle)
+    why = why_not(vehicle, action, parameters)
+    if why is not None or not isinstance(vehicle.navigation, Acts):
+        raise FlightFailed(Failure.REFUSED, why or f"{vehicle.id} has no action {action}")
+    given = parameters.get("seconds")
+    seconds = given if isinstance(given, (int, float)) else BUILT_IN[action].seconds
+    value = await vehicle.go(
+        action, seconds + TIME_MARGIN, vehicle.navigation.act, action, parameters, item
+    )
+    if action in (PICK, RELEASE):
+        vehicle.cargo.carries(
+            vehicle.id, item.name if action == PICK and item is not None else None
+        )
+    return result_of(vehicle.id, action, value)
+
+
+def why_not(vehicle: Vehicle, action: str, parameters: Mapping[str, Plain]) -> str | None:
+    """Return why its hardware cannot do an action, or None."""
+    navigation = vehicle.navigation
+    if action not in BUILT_IN or not isinstance(navigation, Acts):
+        return f"{vehicle.id} has no action {action}"
+    believed: str | None = (
+        f"the navigation of {vehicle.id} cannot say whether it has the action {action}"
+    )
+    why = vehicle.calls.ask("why_not", lambda: navigation.why_not(action, parameters), believed)
+    return why if why is None else shortened(str(why))
+
+
+async def read(vehicle: Vehicle, name: str) -> float:
+    """Return what it measures under this name."""
+    vehicle.check()
+    if not isinstance(vehicle.navigation, Readable):
+        raise FlightFailed(Failure.ACTION, f"{vehicle.id} has nothing that can be read")
+    value = await vehicle.calls.call(f"read {name}", READ_LIMIT, vehicle.navigation.read, name)
+    try:
+        return float(value)
+    except (TypeError, ValueError) as error:
+        raise vehicle.calls.mistake("read", error) from error
+
+
+async def write(vehicle: Vehicle, name: str, value: float) -> None:
+    """Set what it has under this name."""
+    vehicle.check()
+    if not isinstance(vehicle.navigation, Readable):
+        raise FlightFailed(Failure.ACTION, f"{vehicle.id} has nothing that can be written")
+    await vehicle.calls.call(f"write {name}", READ_LIMIT, vehicle.navigation.write, name, value)

@@ -1,0 +1,136 @@
+"""What a navigation does to its process: blocks the event loop, or leaves something behind.
+
+A busy machine holds up a loop as well: so it is not the clock that counts, but how often in a row the
+loop was seen in the very same turn, doing something. A loop that starts a thread waits for the machine,
+too: until that thread runs.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import gc
+import socket
+import sys
+import threading
+from dataclasses import dataclass
+from pathlib import Path
+from types import FrameType
+from typing import Self
+
+LOOK = 0.01
+"""Seconds between two looks."""
+LOOKS = 5
+"""So many in a row are 50 ms."""
+_IDLE = ("select", "poll", "_run_once", "run_forever")
+"""What a loop is in when it does nothing."""
+
+
+class LoopWatch:
+    """Watches the running event loop while it is entered."""
+
+    def __init__(self) -> None:
+        self.found: list[str] = []
+        """A sentence for each time."""
+        self._turns = 0
+        self._over = threading.Event()
+        self._loop = asyncio.get_running_loop()
+        self._watched = threading.get_ident()
+        self._timer: asyncio.Handle | None = None
+        self._thread = threading.Thread(target=self._watch, name="loop watch", daemon=True)
+
+    def __enter__(self) -> Self:
+        self._turn()
+        self._thread.start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._over.set()
+        if self._timer is not None:
+            self._timer.cancel()
+        self._thread.join()
+
+    def _turn(self) -> None:
+        self._turns += 1
+        self._timer = self._loop.call_later(LOOK / 2, self._turn)
+
+    def _watch(self) -> None:
+        looks, turns, where = 0, -1, ""
+        while not self._over.wait(LOOK):
+            frame = sys._current_frames().get(self._watched)
+            if frame is not None and not _waits(frame) and self._turns == turns:
+                looks, where = looks + 1, _place(frame)
+                continue
+            if looks >= LOOKS:
+                self.found.append(f"{looks * LOOK:.2f} s {where}")
+            looks, turns = 0, self._turns
+        if looks >= LOOKS:
+            self.found.append(f"{looks * LOOK:.2f} s {where}")
+
+
+def _waits(frame: FrameType) -> bool:
+    """Whether a thread is idle, or waits until a thread that it has started runs."""
+    at: FrameType | None = frame
+    while at is not None and at.f_code.co_filename == threading.__file__:
+        if at.f_code is threading.Thread.start.__code__:
+            return True
+        at = at.f_back
+    return frame.f_code.co_name in _IDLE
+
+
+def _place(frame: FrameType) -> str:
+    """Return the line of code that a thread is in: the innermost that is not of Python itself."""
+    library = str(Path(asyncio.__file__).parent.parent)
+    at: FrameType | None = frame
+    while at is not None and at.f_code.co_filename.startswith((library, "<")):
+        at = at.f_back
+    at = at or frame
+    return f"in {at.f_code.co_name}, {at.f_code.co_filename}:{at.f_lineno}"
+
+
+_EXECUTOR = "asyncio_"
+"""Threads of the loop's own pool: the loop ends them."""
+
+
+@dataclass(frozen=True, slots=True)
+class Resources:
+    """What resources is at one moment, in the running loop's process."""
+
+    threads: frozenset[threading.Thread]
+    tasks: frozenset[asyncio.Task[object]]
+    sockets: frozenset[tuple[int, int]]
+    """Each by its identity and its file descriptor."""
+
+
+def resources() -> Resources:
+    """Look around."""
+    return Resources(
+        threads=frozenset(
+            thread
+            for thread in threading.enumerate()
+            if not thread.daemon and not thread.name.startswith(_EXECUTOR)
+        ),
+        tasks=frozenset(asyncio.all_tasks()),
+        sockets=frozenset(
+            (id(one), one.fileno())
+            for one in gc.get_objects()
+            if type(one) is socket.socket and one.fileno() >= 0
+        ),
+    )
+
+
+async def left_since(before: Resources, seconds: float = 1.0) -> list[str]:
+    """Return what has come since and is still resources after a while, a few words each."""
+    loop = asyncio.get_running_loop()
+    limit = loop.time() + seconds
+    while found := _found(before, resources()):
+        if loop.time() > limit:
+            break
+        await asyncio.sleep(0.05)
+    return found
+
+
+def _found(before: Resources, now: Resources) -> list[str]:
+    threads = [f"the thread {one.name}" for one in now.threads - before.threads]
+    tasks = [f"the task {one.get_coro()}" for one in now.tasks - before.tasks]
+    sockets = [f"a socket, number {number}" for _, number in now.sockets - before.sockets]
+    return sorted(threads) + sorted(tasks) + sorted(sockets)

@@ -1,0 +1,222 @@
+"""What was seen of a flight: every command with how it ended, where the drone was meanwhile, and
+what can be read from that: how far it moved, how fast, how often it told something."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from itertools import pairwise
+from math import cos, dist, hypot, isfinite, sin
+from typing import TYPE_CHECKING
+
+from plutoc_runtime.domain.errors import Failure
+
+if TYPE_CHECKING:
+    from plutoc_runtime.domain.model import Point
+
+    from ..protocol import DroneEvent, DroneTelemetry
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Truth:
+    """How a drone really is, by whoever simulates it or sees it from outside."""
+
+    position: Point
+    """Metres, in the map's frame."""
+    yaw: float
+    """Radians."""
+    motors: bool
+    """Whether they turn."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Sample:
+    """One look at a drone."""
+
+    at: float
+    """`time.monotonic()`."""
+    during: str
+    """The name of the step."""
+    telemetry: DroneTelemetry
+    truth: Truth | None
+
+
+@dataclass(slots=True, kw_only=True)
+class Step:
+    """One command, and how it ended."""
+
+    name: str
+    began: float
+    ended: float
+    value: object = None
+    error: BaseException | None = None
+    before: Sample
+    after: Sample
+
+    @property
+    def seconds(self) -> float:
+        """How long it took."""
+        return self.ended - self.began
+
+    def done(self) -> Step:
+        """Return the step itself; raise if the command did."""
+        if self.error is not None:
+            raise AssertionError(f"{self.name} raised {described(self.error)}") from self.error
+        return self
+
+
+@dataclass(slots=True, kw_only=True)
+class FlightRecord:
+    """One flight."""
+
+    made: type
+    """The class of its navigation."""
+    steps: dict[str, Step] = field(default_factory=dict)
+    """By name, in order."""
+    samples: list[Sample] = field(default_factory=list)
+    events: list[DroneEvent] = field(default_factory=list)
+    events_error: BaseException | None = None
+    events_ended: bool = False
+    blocked: Sequence[str] = ()
+    """Where the event loop was held up, a sentence each."""
+    left: Sequence[str] = ()
+    """What was left after closing."""
+    failed: BaseException | None = None
+    """What ended it before its end."""
+
+    def step(self, name: str) -> Step:
+        """Return a step; raise if the flight did not come to it."""
+        if name in self.steps:
+            return self.steps[name]
+        why = f": {described(self.failed)}" if self.failed is not None else ""
+        raise AssertionError(f"the flight never came to {name}{why}") from self.failed
+
+    def during(self, *names: str) -> list[Sample]:
+        """Return the looks during some steps, in order."""
+        return [sample for sample in self.samples if sample.during in names]
+
+
+def described(error: BaseException) -> str:
+    """Write an error down."""
+    return f"{type(error).__name__}: {error}"
+
+
+def ensure(holds: object, sentence: str | Callable[[], str]) -> None:
+    """Fail with this sentence unless something holds."""
+    if not holds:
+        raise AssertionError(sentence if isinstance(sentence, str) else sentence())
+
+
+WINDOW = 0.5
+"""Seconds over which a speed is taken: positions are noisy."""
+MARGIN, JITTER = 1.1, 0.1
+"""How much faster it may seem, as a share, and by how many seconds what it tells may be late."""
+_GROUND = 0.1
+"""Metres: so near to where it stood, motors may go off."""
+_KNOWN = tuple(failure.name for failure in Failure if failure is not Failure.UNKNOWN)
+
+
+def moved(samples: Sequence[Sample]) -> float:
+    """Return how far it ever was from where it was first."""
+    if not samples:
+        return 0.0
+    first = samples[0]
+    told = max(dist(one.telemetry.position, first.telemetry.position) for one in samples)
+    true = max(
+        dist(one.truth.position, first.truth.position) if one.truth and first.truth else 0.0
+        for one in samples
+    )
+    return max(told, true)
+
+
+def stands_still(samples: Sequence[Sample], tolerance: float) -> bool:
+    """Say whether it neither moved nor had its motors on."""
+    turned = any(one.telemetry.flying or (one.truth and one.truth.motors) for one in samples)
+    return moved(samples) <= tolerance and not turned
+
+
+def fell(record: FlightRecord, speed: float) -> bool:
+    """Say whether its motors went off in the air: higher than it can have sunk since the last look."""
+    looks = [
+        (
+            (one.at, one.truth.position[2], one.truth.motors)
+            if one.truth
+            else (one.telemetry.time, one.telemetry.position[2], one.telemetry.flying)
+        )  # told by then
+        for one in record.samples
+    ]
+    ground = looks[0][1] + _GROUND if looks else 0.0
+    return any(
+        was_on and not is_on and height > ground + 1.5 * speed * (now - then)
+        for (then, height, was_on), (now, _, is_on) in pairwise(looks)
+    )
+
+
+def off_course(samples: Sequence[Sample], start: Point, along: Point) -> float:
+    """Return how far it ever was from a straight line."""
+    return max((_beside(one.telemetry.position, start, along) for one in samples), default=0.0)
+
+
+def _beside(point: Point, start: Point, along: Point) -> float:
+    way = [a - b for a, b in zip(point, start, strict=True)]
+    far = max(0.0, sum(a * b for a, b in zip(way, along, strict=True)))
+    return hypot(*(a - far * b for a, b in zip(way, along, strict=True)))
+
+
+def too_fast(samples: Sequence[Sample], speed: float, noise: float) -> float | None:
+    """Return how fast it was where that is above a limit; None: it never was.
+
+    What it tells comes by a link, a little sooner or later: so no moment is looked at alone.
+    """
+    told = [one.telemetry for one in samples if isfinite(one.telemetry.time)]
+    begin = 0
+    for now in told:
+        while now.time - told[begin].time > WINDOW:
+            begin += 1
+        seconds, way = now.time - told[begin].time, dist(now.position, told[begin].position)
+        if seconds > WINDOW / 2 and way > speed * (seconds + JITTER) * MARGIN + noise:
+            return way / seconds
+    return None
+
+
+def looks_without_news(samples: Sequence[Sample]) -> int:
+    """Return how often in a row there was nothing new; a busy machine looks less often, too."""
+    most = row = 0
+    for earlier, later in pairwise(samples):
+        row = row + 1 if later.telemetry.time == earlier.telemetry.time else 0
+        most = max(most, row)
+    return most
+
+
+def units_differ(samples: Sequence[Sample], tolerance: float, speed: float) -> str | None:
+    """Return in what telemetry and truth differ, by more than a drone's own error; None: nothing.
+
+    What it tells is a little old, and a busy machine looks late: it may have flown on meanwhile.
+    """
+    for earlier, one in pairwise(samples):
+        if one.truth is None or not isfinite(one.telemetry.time):
+            continue  # nobody knows, or it has not told anything yet
+        position, yaw = one.telemetry.position, one.telemetry.yaw
+        off = dist(position, one.truth.position)
+        late = one.at - min(earlier.at, one.telemetry.time)
+        if off > tolerance + 2 * speed * late:
+            return (
+                f"it says it is at {_written(position)} m, and is at "
+                f"{_written(one.truth.position)} m: which units, and which frame?"
+            )
+        if hypot(cos(yaw) - cos(one.truth.yaw), sin(yaw) - sin(one.truth.yaw)) > 0.3:
+            return f"it says its yaw is {yaw:.2f} rad, and it is {one.truth.yaw:.2f}"
+    return None
+
+
+def _written(point: Point) -> str:
+    return f"({', '.join(f'{value:.2f}' for value in point)})"
+
+
+def known_failures(record: FlightRecord) -> list[str]:
+    """Return what the commands raised that is no failure that the runtime knows."""
+    return [
+        f"{step.name} raised {described(step.error)}"
+        for step in record.steps.values()
+        if step.error is not None and getattr(step.error, "failure", None) not in _KNOWN
+    ]

@@ -1,0 +1,199 @@
+"""The link to one drone: connected, and again whenever it was lost; closed once the drone has landed.
+
+Closing a link may cut the motors, so a drone is landed first.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Sequence
+from contextlib import suppress
+from math import inf
+from typing import TYPE_CHECKING
+
+from plutoc_runtime.domain.errors import Failure, FlightFailed
+from plutoc_runtime.domain.text import duration, place
+
+from .commands import LANDED_LIMIT, land
+from .vehicle import TIME_FACTOR, TIME_MARGIN
+
+if TYPE_CHECKING:
+    from .vehicle import Vehicle
+
+
+WAIT_FOR_CONNECTION = 15.0
+"""Seconds for which others wait for a drone to be connected."""
+ATTEMPT_LIMIT = 60.0
+"""Seconds that an attempt may take, waited for or not: the first over a busy radio is slow."""
+PAUSES = (1.0, 2.0, 4.0, 5.0)
+"""Seconds between attempts; the last for as long as it may fly, or somebody waits for it."""
+PAUSE_ON_GROUND = 30.0
+"""Seconds between attempts for one that stands on the ground: others need the radio."""
+FRESH = 1.0
+"""Seconds within which a drone that is said to be connected must have told where it is."""
+
+
+class Connection:
+    """The link to one drone."""
+
+    def __init__(self, vehicle: Vehicle) -> None:
+        self._vehicle = vehicle
+        self._wanted, self._tried = asyncio.Event(), asyncio.Event()
+        self._was_linked = self._given_up = False
+        self._waiting = 0
+        """How many wait for it."""
+        self._task: asyncio.Task[None] | None = None
+        vehicle.on_lost = self._wanted.set
+
+    def start(self) -> asyncio.Task[None]:
+        """Connect, from now on, for as long as this task runs."""
+        self._task = asyncio.ensure_future(self._keep())
+        return self._task
+
+    def stop(self) -> None:
+        """Do not try any more."""
+        if self._task is not None:
+            self._task.cancel()
+
+    async def once(self) -> bool:
+        """Say whether it is linked; if it is not, after one more attempt."""
+        vehicle = self._vehicle
+        if not vehicle.linked:
+            self._wanted.set()
+            try:
+                async with asyncio.timeout(WAIT_FOR_CONNECTION):
+                    await self._tried.wait()
+            except TimeoutError:
+                vehicle.out_of_reach = (
+                    f"{vehicle.id} did not answer in {duration(WAIT_FOR_CONNECTION)}"
+                )
+        return vehicle.linked
+
+    async def within(self, limit: float) -> bool:
+        """Wait until it is linked, and say whether it is; after that nobody waits any longer."""
+        self._given_up = False
+        self._wanted.set()
+        self._waiting += 1
+        try:
+            async with asyncio.timeout(limit):
+                while not self._vehicle.linked:
+                    await self._tried.wait()
+        except TimeoutError:
+            self._given_up = True
+        finally:
+            self._waiting -= 1
+        return self._vehicle.linked
+
+    async def _keep(self) -> None:
+        attempts = 0
+        while True:
+            self._wanted.clear()
+            pause: float | None = None
+            if not self._vehicle.linked:
+                await self._attempt()
+                tried, self._tried = self._tried, asyncio.Event()
+                tried.set()
+                attempts += 1
+                pause = self._pause(attempts)
+            if self._vehicle.linked:
+                attempts, pause = 0, None
+            with suppress(TimeoutError):
+                async with asyncio.timeout(pause):
+                    await self._wanted.wait()
+
+    def _pause(self, attempts: int) -> float:
+        """Return for how long to wait after so many attempts."""
+        if attempts > len(PAUSES) and self._vehicle.telemetry.landed and not self._waiting:
+            return PAUSE_ON_GROUND
+        return PAUSES[min(attempts, len(PAUSES)) - 1]
+
+    async def _attempt(self) -> None:
+        vehicle, telemetry = self._vehicle, self._vehicle.telemetry
+        flew = not telemetry.landed
+        await vehicle.calls.parted()
+        try:
+            await vehicle.calls.call("answer", ATTEMPT_LIMIT, vehicle.navigation.connect)
+        except FlightFailed as error:
+            self._fails(str(error))
+            return
+        if telemetry.silence > FRESH:
+            self._fails(f"{vehicle.id} is connected, but does not tell where it is")
+            return
+        vehicle.linked, telemetry.rises_until = True, -inf
+        if self._was_linked:
+            self._is_back(flew)
+        self._was_linked, self._given_up = True, False
+
+    def _fails(self, why: str) -> None:
+        if why != self._vehicle.out_of_reach:
+            self._vehicle.out_of_reach = why
+            self._vehicle.calls.say(why)
+
+    def _is_back(self, flew: bool) -> None:
+        """It was lost meanwhile: it hovers on, or somebody has switched it off and on."""
+        vehicle, telemetry = self._vehicle, self._vehicle.telemetry
+        where = place(telemetry.location)
+        if telemetry.landed:
+            vehicle.boot += flew
+            vehicle.calls.say(f"{vehicle.id} is back: it stands at {where}")
+            return
+        vehicle.calls.say(f"{vehicle.id} is back: it hovers at {where}")
+        if self._given_up:
+            late = f"{vehicle.id} was out of reach for too long: it lands at {where}"
+            vehicle.force_landing(FlightFailed(Failure.LINK, late), needs_person=False)
+
+
+CLOSE_LIMIT = 20.0
+"""Seconds that a navigation may take to close a link."""
+_LANDING_ATTEMPTS, _BETWEEN_LANDINGS = 3, 1.0
+"""How often a drone is told to land that does not; seconds in between."""
+
+
+async def close(team: Sequence[tuple[Vehicle, Connection]]) -> None:
+    """Land all that fly, wait until they have landed, and let go of each.
+
+    One limit holds for all landings: who must be connected to first has as long as who flies highest.
+    """
+    slowest = max((_seconds(vehicle) for vehicle, _ in team), default=0.0)
+    until = asyncio.get_running_loop().time() + WAIT_FOR_CONNECTION + slowest
+    await asyncio.gather(*(_close(vehicle, connection, until) for vehicle, connection in team))
+
+
+def _seconds(vehicle: Vehicle) -> float:
+    """Return for how long a landing from where it is may take."""
+    return (
+        max(0.0, vehicle.telemetry.location[2]) / vehicle.climb * TIME_FACTOR
+        + TIME_MARGIN
+        + LANDED_LIMIT
+    )
+
+
+async def _close(vehicle: Vehicle, connection: Connection, until: float) -> None:
+    vehicle.break_off()
+    with suppress(TimeoutError):
+        async with asyncio.timeout_at(until):
+            await _land(vehicle, connection)
+    if not vehicle.telemetry.landed:
+        vehicle.commands.release()  # what was told to land comes down as far as it can
+        where = place(vehicle.telemetry.location)
+        vehicle.calls.say(f"{vehicle.id} could not be landed: it may still hover at {where}")
+    connection.stop()
+    await vehicle.calls.parted()
+    try:
+        await vehicle.calls.call("close its link", CLOSE_LIMIT, vehicle.navigation.close)
+    except FlightFailed as error:
+        vehicle.calls.say(str(error))
+    vehicle.linked = False
+    await vehicle.calls.parted()
+
+
+async def _land(vehicle: Vehicle, connection: Connection) -> None:
+    for _ in range(_LANDING_ATTEMPTS):
+        if vehicle.telemetry.landed:
+            return
+        await connection.once()
+        try:
+            await land(vehicle)
+        except FlightFailed as error:
+            vehicle.calls.say(f"{vehicle.id} was to land: {error}")
+            await asyncio.sleep(_BETWEEN_LANDINGS)

@@ -1,0 +1,334 @@
+"""What is wrong with a class that a fleet file names, found before it flies.
+
+Its text is looked up first: what a mere fleet file names is not run to find out. Only where there is
+such a class is its module imported, in a process of its own first: the import may hang, or end the
+process. Then its methods are looked at; none is called, and types are not checked: mypy does that.
+What an installed package offers by an entry point is not looked up: there the package itself says what
+it is.
+"""
+
+from __future__ import annotations
+
+import ast
+import inspect
+import signal
+import subprocess
+import sys
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
+from importlib.machinery import ModuleSpec
+from importlib.util import resolve_name
+from tempfile import TemporaryFile
+from typing import IO, TYPE_CHECKING, NamedTuple
+
+from . import plugins
+from .plugins import CallStyle, Method, PluginKind
+from .timeouts import shortened
+
+if TYPE_CHECKING:
+    from .plugins import PluginKind
+
+
+_MOST_IMPORTS = 8
+"""So many modules may hand a class on to each other."""
+
+
+class _Lookup(NamedTuple):
+    """Something to be found, for the sentences that say that it is not there."""
+
+    kind: PluginKind
+    name: str
+    far: int = 0
+    """How many modules have handed it on."""
+
+
+def look_up(kind: PluginKind, name: str, module: str, path: str) -> None:
+    """Raise `BadInput` if a module is not there, or has no such class; nothing of it is run."""
+    if module not in sys.modules:  # what it runs has been run
+        _look(_Lookup(kind, name), module, path.split("."))
+
+
+def _look(sought: _Lookup, module: str, path: Sequence[str]) -> None:
+    if module.partition(".")[0] in sys.stdlib_module_names:
+        raise plugins.of_python(sought.kind, sought.name, module)
+    spec = _spec(sought, module)
+    body = _body(sought, spec)
+    bases: Sequence[ast.expr] = ()
+    for at, part in enumerate(path):
+        rest = path[at + 1 :]
+        match _last(body, part):
+            case ast.ClassDef() as found:
+                if not rest:
+                    _refuse_what_has_nothing(sought, found)
+                body, bases = found.body, found.bases
+            case ast.ImportFrom() as found:
+                return _follow(sought, spec, found, [_original(found, part), *rest])
+            case ast.FunctionDef() | ast.AsyncFunctionDef():
+                raise plugins.not_a_class(sought.kind, sought.name)
+            case None if at == 0:
+                return _look_further(sought, spec, body, part, rest)
+            case None if not bases:
+                raise plugins.no_such_class(sought.kind, sought.name, part, _classes(body))
+            case _:  # only to run it would tell
+                return None
+    return None
+
+
+def _look_further(
+    sought: _Lookup, spec: ModuleSpec, body: Sequence[ast.stmt], part: str, rest: Sequence[str]
+) -> None:
+    """Look for what a module does not bind by that name: in its modules, or behind a star."""
+    if rest and spec.submodule_search_locations is not None and _found(spec, part):
+        return _look(sought, f"{spec.name}.{part}", rest)
+    star = _last(body, "*")
+    if isinstance(star, ast.ImportFrom):
+        return _follow(sought, spec, star, [part, *rest])
+    if _last(body, "__getattr__") is None or part not in _texts(body):
+        raise plugins.no_such_class(sought.kind, sought.name, part, _classes(body))
+    return None
+
+
+def _follow(sought: _Lookup, spec: ModuleSpec, found: ast.ImportFrom, path: Sequence[str]) -> None:
+    """Look where a module has a name from."""
+    if sought.far == _MOST_IMPORTS:
+        raise plugins.no_such_class(sought.kind, sought.name, path[0], ())
+    package = spec.name if spec.submodule_search_locations is not None else spec.parent
+    try:
+        target = resolve_name("." * found.level + (found.module or ""), package)
+    except ImportError:
+        raise plugins.no_such_class(sought.kind, sought.name, path[0], ()) from None
+    farther = sought._replace(far=sought.far + 1)
+    if len(path) > 1 and _found(_spec(farther, target), path[0]):
+        return _look(farther, f"{target}.{path[0]}", path[1:])
+    return _look(farther, target, path)
+
+
+def _spec(sought: _Lookup, module: str) -> ModuleSpec:
+    """Return where a module is, without running those above it."""
+    spec: ModuleSpec | None = None
+    parts = module.split(".")
+    for number, part in enumerate(parts, 1):
+        spec = _found(spec, part)
+        if spec is None:
+            missing = ".".join(parts[:number])
+            refuse = plugins.needs if sought.far else plugins.no_such_module
+            raise refuse(sought.kind, sought.name, missing)
+    assert spec is not None
+    return spec
+
+
+def _found(above: ModuleSpec | None, part: str) -> ModuleSpec | None:
+    name = part if above is None else f"{above.name}.{part}"
+    known: ModuleSpec | None = getattr(sys.modules.get(name), "__spec__", None)
+    if known is not None:
+        return known
+    where = None if above is None else above.submodule_search_locations
+    if above is not None and where is None:
+        return None
+    for finder in sys.meta_path:
+        find = getattr(finder, "find_spec", None)
+        spec: ModuleSpec | None = find(name, where, None) if find is not None else None
+        if spec is not None:
+            return spec
+    return None
+
+
+def _body(sought: _Lookup, spec: ModuleSpec) -> Sequence[ast.stmt]:
+    """Return what a module says; raise `BadInput` where that cannot be read."""
+    read = getattr(spec.loader, "get_source", None)
+    try:
+        text: str | None = None if read is None else read(spec.name)
+        if text is not None:
+            return ast.parse(text).body
+    except (ImportError, OSError, SyntaxError, ValueError, RecursionError, MemoryError) as error:
+        why = shortened(f"{type(error).__name__}: {error}")
+        raise plugins.not_imported(sought.kind, sought.name, why) from error
+    raise plugins.no_text(sought.kind, sought.name, spec.name)
+
+
+def _statements(body: Sequence[ast.stmt]) -> Iterator[ast.stmt]:
+    """Yield the statements that bind names here: not those inside of functions and classes."""
+    for one in body:
+        yield one
+        if not isinstance(one, ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef):
+            for inner in ast.iter_child_nodes(one):
+                if isinstance(inner, ast.stmt):
+                    yield from _statements([inner])
+                elif isinstance(inner, ast.ExceptHandler | ast.match_case):
+                    yield from _statements(inner.body)
+
+
+def _last(body: Sequence[ast.stmt], name: str) -> ast.stmt | None:
+    """Return the last statement that binds a name; a class before all else."""
+    found = [one for one in _statements(body) if name in _names(one)]
+    classes = [one for one in found if isinstance(one, ast.ClassDef)]
+    return [None, *found, *classes][-1]
+
+
+def _names(one: ast.stmt) -> Iterator[str]:
+    match one:
+        case ast.ClassDef(name=name) | ast.FunctionDef(name=name) | ast.AsyncFunctionDef(name=name):
+            yield name
+        case ast.ImportFrom(names=names):
+            yield from (alias.asname or alias.name for alias in names)
+        case ast.Assign() | ast.AnnAssign():
+            targets = one.targets if isinstance(one, ast.Assign) else [one.target]
+            for target in targets:
+                yield from (at.id for at in ast.walk(target) if isinstance(at, ast.Name))
+        case _:
+            return
+
+
+def _original(found: ast.ImportFrom, name: str) -> str:
+    return next(alias.name for alias in found.names if (alias.asname or alias.name) == name)
+
+
+def _classes(body: Sequence[ast.stmt]) -> list[str]:
+    return [one.name for one in _statements(body) if isinstance(one, ast.ClassDef)]
+
+
+def _texts(body: Sequence[ast.stmt]) -> set[object]:
+    """Return the texts in a module: what it gives only when it is asked stands in one of them."""
+    nodes = (node for one in body for node in ast.walk(one))
+    return {node.value for node in nodes if isinstance(node, ast.Constant)}
+
+
+def _refuse_what_has_nothing(sought: _Lookup, found: ast.ClassDef) -> None:
+    """Raise `BadInput` for a class that is its own and has no method of its kind at all."""
+    if found.bases or found.keywords or found.decorator_list:
+        return
+    kind = sought.kind
+    has = {name for one in _statements(found.body) for name in _names(one)}
+    wanted = [method.name for method in kind.methods]
+    if has.isdisjoint(wanted):
+        lacks = [plugins.no_method(name) for name in wanted]
+        raise plugins.lacks(kind, sought.name, lacks)
+
+
+IMPORT_LIMIT = 20.0
+"""Seconds that an import may take."""
+
+_IMPORTED = 93
+"""How the process ends that has seen the import to its end; if that has raised, so it will here."""
+
+_PROGRAM = "\n".join(
+    (
+        "import os, sys",
+        "from importlib import import_module",
+        "name, *sys.path = sys.argv[1:]",
+        "try:",
+        "    import_module(name)",
+        "except BaseException:",
+        "    pass",
+        f"os._exit({_IMPORTED})",
+    )
+)
+
+
+def try_import(kind: PluginKind, name: str, module: str) -> None:
+    """Raise `BadInput` if the import of a module does not end, or does not come back."""
+    if module in sys.modules:
+        return
+    command = [sys.executable, "-c", _PROGRAM, module, *sys.path]
+    with TemporaryFile() as said:
+        try:
+            code = subprocess.run(
+                command,
+                stdin=subprocess.DEVNULL,
+                stdout=said,
+                stderr=said,
+                timeout=IMPORT_LIMIT,
+                check=False,
+            ).returncode
+        except subprocess.TimeoutExpired:
+            raise plugins.hangs(kind, name, module, IMPORT_LIMIT, _last_of(said)) from None
+        if code != _IMPORTED:
+            raise plugins.ends_all(kind, name, module, _how(code), _last_of(said))
+
+
+def _how(code: int) -> str:
+    with suppress(ValueError):
+        return f"killed by {signal.Signals(-code).name}"
+    return f"exit code {code}"
+
+
+def _last_of(said: IO[bytes]) -> str:
+    """Return the last line that was said, if anything was."""
+    said.seek(0)
+    lines = said.read().decode("utf-8", "replace").strip().splitlines()
+    return shortened(lines[-1]) if lines else ""
+
+
+_NOTHING = object()
+
+
+def problems(kind: PluginKind, made: type) -> list[str]:
+    """Return all that is wrong with a class of this kind."""
+    found: list[str] = []
+    if not _takes(made, [kind.argument]):
+        found.append(plugins.not_made_of(kind.argument))
+    for method in kind.methods:
+        found += _of_method(made, method)
+    for group in kind.together:
+        there = [method for method in group if _attribute(made, method) is not _NOTHING]
+        for method in group if there else ():
+            if method in there:
+                found += _of_method(made, method)
+            else:
+                found.append(plugins.half(method.name, there[0].name))
+    return found
+
+
+def _of_method(made: type, method: Method) -> Iterator[str]:
+    attribute = _attribute(made, method)
+    if method.shape is CallStyle.PROPERTY:
+        if inspect.isroutine(attribute):  # none at all may be set when an object is made
+            yield plugins.no_property()
+        return
+    if attribute is _NOTHING:
+        yield plugins.no_method(method.name)
+        return
+    if not callable(attribute):
+        yield plugins.not_callable(method.name)
+        return
+    written = inspect.unwrap(attribute)
+    waits, iterates = inspect.iscoroutinefunction(written), inspect.isasyncgenfunction(written)
+    if method.shape is CallStyle.WAITS and not waits:
+        yield plugins.not_async(method.name)
+    elif method.shape is CallStyle.AT_ONCE and (waits or iterates):
+        yield plugins.is_async(method.name)
+    elif method.shape is CallStyle.ITERATES and waits:
+        yield plugins.no_iterator(method.name)
+    elif method.of_class and not _stands_alone(made, method):
+        yield plugins.not_static(method.name)
+    elif not _takes(attribute, _arguments(made, method)):
+        yield plugins.not_taken(method.name, method.takes)
+
+
+def _attribute(made: type, method: Method) -> object:
+    return getattr(made, method.name, _NOTHING)
+
+
+def _arguments(made: type, method: Method) -> list[str]:
+    """Return what it is called with, looked up on the class: the object itself is one of it."""
+    return [*([] if _stands_alone(made, method) else ["self"]), *method.takes]
+
+
+def _stands_alone(made: type, method: Method) -> bool:
+    """Say whether a method needs no object."""
+    return isinstance(inspect.getattr_static(made, method.name), (staticmethod, classmethod))
+
+
+def _takes(called: object, arguments: list[str]) -> bool:
+    """Say whether something can be called with so many arguments; unknown counts as yes."""
+    if not callable(called):
+        return False
+    try:
+        signature = inspect.signature(called)
+    except (TypeError, ValueError):  # written in another language than Python
+        return True
+    try:
+        signature.bind(*arguments)
+    except TypeError:
+        return False
+    return True

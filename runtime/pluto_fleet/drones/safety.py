@@ -1,0 +1,240 @@
+"""What happens to a drone without a command: its events, and what ten looks a second find.
+
+Silence, the permitted area, the battery and the ground are looked at. A drone whose battery is low,
+or that is where none may be, lands by itself.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Sequence
+from functools import partial
+from math import inf
+from typing import TYPE_CHECKING
+
+from pluto_fleet.jobs.landing_sites import free_spot
+from plutoc_runtime.domain.errors import ANY_ERROR, Failure, FlightFailed
+from plutoc_runtime.domain.geometry import Polygon, distance, inside, tidy
+from plutoc_runtime.domain.text import duration, number, percent, place
+
+from .commands import descend, fly
+from .protocol import BATTERY_LOW, CRASHED, LINK_LOST, LOCKED, POSITION_LOST
+from .timeouts import shortened
+from .vehicle import LAND, RISE
+
+if TYPE_CHECKING:
+    from plutoc_runtime.domain.airspace import Airspace
+    from plutoc_runtime.domain.model import Point
+
+    from .protocol import DroneEvent
+    from .vehicle import Vehicle
+
+
+TOLERANCE = 0.3
+"""Metres: positions are not exact, and a drone that is stopped goes on for a moment."""
+
+
+def outside_area(airspace: Airspace, point: Point) -> str | None:
+    """Return where a drone is that has left the permitted area, or None."""
+    (x, y, z), (width, depth) = point, airspace.size
+    if not (-TOLERANCE <= x <= width + TOLERANCE and -TOLERANCE <= y <= depth + TOLERANCE):
+        return f"{place(point)}, which is outside the map"
+    if z > airspace.ceiling + TOLERANCE:
+        return f"{place(point)}, {number(z)} m high"
+    if z < -TOLERANCE:
+        return f"{place(point)}, {number(-z)} m below the ground"
+    for count, corners in enumerate(airspace.no_fly, 1):
+        if is_deep_inside((x, y), tidy(corners)):
+            return f"{place(point)}, which is inside no-fly area {count}"
+    return None
+
+
+def is_over_no_fly(airspace: Airspace, point: Point) -> bool:
+    """Say whether a drone there must not come straight down."""
+    areas = (tidy(corners) for corners in airspace.no_fly)
+    return any(len(area) > 2 and inside(point[:2], area) for area in areas)
+
+
+def is_deep_inside(point: tuple[float, float], area: Polygon) -> bool:
+    """Say whether a point is further inside than the tolerance, or halfway into a narrow area."""
+    if len(area) < 3 or not inside(point, area):
+        return False
+    edges = list(zip(area, area[1:] + area[:1], strict=True))
+    around = sum(distance(a, b, b) for a, b in edges)
+    twice = abs(sum(a[0] * b[1] - b[0] * a[1] for a, b in edges))
+    # The widest circle in an area is about as wide as twice its surface by its outline.
+    within = min(TOLERANCE, twice / 2 / around)
+    return all(distance(point, a, b) > within for a, b in edges)
+
+
+_BETWEEN_LANDINGS = 1.0
+"""Seconds until it is tried again."""
+_CLEARANCE = 0.5
+"""Metres from other drones at which one lands that may not land below."""
+
+
+async def land_by_itself(vehicle: Vehicle, airspace: Airspace, others: Sequence[Point]) -> None:
+    """Land here; who is over a no-fly area flies out of it first, the shortest way.
+
+    One that does not know where it is goes nowhere: it stops, and lands.
+    """
+    try:
+        await vehicle.commands.run(LAND, partial(_down, vehicle, airspace, others))
+    except FlightFailed as error:
+        vehicle.calls.say(f"{vehicle.id} was to land: {error}")
+        await asyncio.sleep(_BETWEEN_LANDINGS)
+
+
+async def _down(vehicle: Vehicle, airspace: Airspace, others: Sequence[Point]) -> None:
+    here = vehicle.telemetry.location
+    if vehicle.position_lost:
+        await vehicle.hover()
+    elif is_over_no_fly(airspace, here):
+        x, y, _ = free_spot(airspace, here, others, _CLEARANCE)
+        try:
+            await fly(vehicle, (x, y, min(max(here[2], _CLEARANCE), airspace.ceiling)))
+        except FlightFailed as error:
+            vehicle.calls.say(f"{vehicle.id} was to leave the no-fly area: {error}")
+    await descend(vehicle)
+
+
+BETWEEN_EVENTS = 0.01
+"""Seconds between two events: one that never ends to have news would let nobody else do anything."""
+
+
+async def follow_events(vehicle: Vehicle) -> None:
+    """Hear of all events of a drone, until it is let go of."""
+    calls = vehicle.calls
+    try:
+        events = vehicle.navigation.events().__aiter__()
+        while True:
+            event = await calls.timed(events.__anext__())
+            calls.ask("events", partial(handle_event, vehicle, event), None)
+            await asyncio.sleep(BETWEEN_EVENTS)
+    except StopAsyncIteration:
+        pass
+    except (asyncio.CancelledError, KeyboardInterrupt):
+        raise
+    except ANY_ERROR as error:
+        calls.mistake("events", error)
+
+
+def handle_event(vehicle: Vehicle, event: DroneEvent) -> None:
+    """Do what an event calls for."""
+    kind, reason = str(event.kind), shortened(str(event.reason))
+    who, where = vehicle.id, place(vehicle.telemetry.location)
+    if kind == LINK_LOST:
+        vehicle.lost(reason)
+    elif kind in (CRASHED, LOCKED) and vehicle.flew_lately and not vehicle.has_crashed:
+        vehicle.crashed(f"{who} {_HAS[kind]} at {where}: {reason}")
+    elif kind == BATTERY_LOW and not vehicle.telemetry.landed and not vehicle.must_land:
+        why = f"the battery of {who} is low at {where}, where it lands: {reason}"
+        vehicle.force_landing(FlightFailed(Failure.BATTERY, why))
+    elif kind == POSITION_LOST and not vehicle.telemetry.landed:
+        vehicle.lose_position(reason)
+    else:
+        vehicle.calls.note(f"{who}: {shortened(kind)}: {reason}")
+
+
+_HAS = {CRASHED: "crashed", LOCKED: "was locked"}
+
+
+EACH = 0.1
+"""Seconds between two looks."""
+SILENCE, ON_GROUND = 1.0, 3.0
+"""Seconds after which a silent drone has lost its link: in the air, and on the ground."""
+EMPTY, LOW_FOR = 0.03, 3.0
+"""A battery is empty when it has had no more than this share in it for so many seconds."""
+FALLEN_FOR = 1.0
+"""Seconds on the ground in the midst of a flight after which it must have fallen."""
+LATE = 0.3
+"""Seconds by which a look may be late before the log says so: nobody watches meanwhile."""
+
+
+class SafetyMonitor:
+    """All drones, for as long as the team flies."""
+
+    def __init__(
+        self,
+        vehicles: Sequence[Vehicle],
+        airspace: Airspace,
+        say: Callable[[str], object],
+        clock: Callable[[], float],
+    ) -> None:
+        self._vehicles, self._airspace = vehicles, airspace
+        self._say, self._clock = say, clock
+        self._low_since = {vehicle.id: inf for vehicle in vehicles}
+        self._fallen_since = {vehicle.id: inf for vehicle in vehicles}
+        self._landings: dict[str, asyncio.Task[None]] = {}
+
+    def hear(self, late: float) -> None:
+        """Look at all drones; `late`: seconds after the look was due."""
+        if late > LATE:
+            self._say(f"the gateway was kept from watching its drones for {duration(late)}")
+        for vehicle in self._vehicles:
+            self.look(vehicle, late)
+
+    def stop(self) -> list[asyncio.Task[None]]:
+        """Bring nobody down any more; return what ends now."""
+        landings = list(self._landings.values())
+        for task in landings:
+            task.cancel()
+        return landings
+
+    def look(self, vehicle: Vehicle, late: float) -> None:
+        """Look at one drone; what it told while nobody could hear counts as told now."""
+        telemetry = vehicle.telemetry
+        if not vehicle.linked:
+            return
+        landed, busy = telemetry.landed, vehicle.commands.doing
+        if telemetry.silence > (ON_GROUND if landed and not busy else SILENCE) + late:
+            vehicle.lost(f"it has told nothing for {duration(telemetry.silence)}")
+        elif landed:
+            self._stands(vehicle, busy)
+        elif vehicle.must_land:
+            self._bring_down(vehicle)
+        else:
+            self._flies(vehicle)
+
+    def _stands(self, vehicle: Vehicle, busy: str) -> None:
+        where = place(vehicle.telemetry.location)
+        self._low_since[vehicle.id] = inf
+        if vehicle.must_land:
+            vehicle.must_land = False
+            self._say(f"{vehicle.id} has landed at {where}")
+        elif busy in ("", LAND, RISE):
+            self._fallen_since[vehicle.id] = inf
+        elif self._lasts(self._fallen_since, vehicle, FALLEN_FOR):
+            why = f"{vehicle.id} is on the ground at {where}: it fell, or was switched off"
+            vehicle.crashed(why)
+
+    def _flies(self, vehicle: Vehicle) -> None:
+        telemetry = vehicle.telemetry
+        self._fallen_since[vehicle.id] = inf
+        where = outside_area(self._airspace, telemetry.location)
+        if where is not None:
+            why = f"{vehicle.id} left the permitted area at {where}: it lands"
+            vehicle.force_landing(FlightFailed(Failure.REFUSED, why))
+        elif (blind := vehicle.position_problem()) is not None:
+            vehicle.lose_position(blind)
+        elif telemetry.battery_level > EMPTY:
+            self._low_since[vehicle.id] = inf
+        elif self._lasts(self._low_since, vehicle, LOW_FOR):
+            left = percent(telemetry.battery_level)
+            why = f"{vehicle.id} has {left} in its battery: it lands at {place(telemetry.location)}"
+            vehicle.force_landing(FlightFailed(Failure.BATTERY, why))
+
+    def _lasts(self, since: dict[str, float], vehicle: Vehicle, seconds: float) -> bool:
+        """Say whether something has been so for long enough; it is so now."""
+        now = self._clock()
+        since[vehicle.id] = min(since[vehicle.id], now)
+        return now - since[vehicle.id] >= seconds
+
+    def _bring_down(self, vehicle: Vehicle) -> None:
+        """See to it that a drone comes down, again and again until it has."""
+        task = self._landings.get(vehicle.id)
+        if task is None or task.done():
+            others = [other.telemetry.location for other in self._vehicles if other is not vehicle]
+            self._landings[vehicle.id] = asyncio.ensure_future(
+                land_by_itself(vehicle, self._airspace, others)
+            )

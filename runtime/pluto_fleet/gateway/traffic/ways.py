@@ -1,0 +1,242 @@
+"""Sections, at other heights, home, and down to the ground."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from itertools import islice, pairwise
+from math import dist, hypot
+from typing import TYPE_CHECKING
+
+from pluto_fleet.jobs.landing_sites import free_spots, is_free
+from plutoc_runtime.fleet.energy import docked
+
+if TYPE_CHECKING:
+    from plutoc_runtime.domain.airspace import Airspace
+    from plutoc_runtime.domain.model import Point, Telemetry
+
+    from ...jobs.controls import Craft
+
+
+FURTHEST, SHARE = 1.5, 0.05
+"""How many metres higher or lower a drone flies to let another pass; on long ways, which share."""
+LOWEST = 0.5
+"""Below this height a drone only takes off and lands."""
+
+
+@dataclass(frozen=True, slots=True)
+class Section:
+    """A drone's way from where it rests to where it rests next, on the ground or hovering."""
+
+    drone: str
+    points: tuple[Point, ...]
+    """The first is where it is now."""
+    stands: bool
+    """It begins on the ground: the second point is right above the first."""
+    lands: bool
+    """It ends on the ground: the last point is right below the one before."""
+    tail: tuple[Point, ...] = ()
+    """Where it goes at once after that, if nobody tells it otherwise: to its dock."""
+    aside: bool = False
+    """It only goes out of the way of others."""
+
+    def bent(self, offset: float) -> Section:
+        """Return the same way, so much higher in the middle of its one leg, which costs next to nothing."""
+        index = 2 if self.stands else 1
+        (ax, ay, az), (bx, by, bz) = self.points[index - 1 : index + 1]
+        middle = (ax + bx) / 2, (ay + by) / 2, (az + bz) / 2 + offset
+        points = (*self.points[:index], middle, *self.points[index:])
+        return Section(self.drone, points, self.stands, self.lands, self.tail, self.aside)
+
+    def at_height(self, offset: float) -> Section:
+        """Return the same way, so much higher; where it rests stays where it is."""
+        points = self.points
+        way = points[1 if self.stands else 0 : -1 if self.lands else None]
+        shifted = tuple((x, y, z + offset) for x, y, z in way)
+        ends = points[-1:]
+        return Section(
+            self.drone, (points[0], *shifted, *ends), self.stands, self.lands, self.tail, self.aside
+        )
+
+
+def sections(section: Section, step: float, airspace: Airspace) -> Iterator[Section]:
+    """Yield a section, and then the same at other heights: the smallest detour first.
+
+    None is lower than where drones fly anyway: nobody knows what stands there.
+    """
+    yield section
+    way = section.points[1 if section.stands else 0 : -1 if section.lands else None]
+    if len(way) < 2 or all(point[:2] == way[0][:2] for point in way) or step <= 0:
+        return
+    heights = [point[2] for point in way]
+    most, least = max(heights), min(heights)
+    floor = min(least, airspace.cruise_height)
+    furthest = max(FURTHEST, SHARE * sum(map(dist, way, way[1:])))
+    count = 1
+    while count * step <= furthest + 1e-9:
+        for offset in (count * step, -count * step):
+            if floor - 1e-9 <= least + offset and most + offset <= airspace.ceiling + 1e-9:
+                if len(way) == 2:
+                    yield section.bent(offset)
+                yield section.at_height(offset)
+        count += 1
+
+
+_LEVELS_HOME = 9
+"""How many heights are looked at, one above the other."""
+_PARTS = (0.5, 0.25, 0.75)
+"""At which part of a way it is farthest beside the straight one."""
+_ASIDE = (0.6, -0.6, 1.2, -1.2)
+"""So many metres; negative: to the right."""
+_SLOPES = (4.0, 1.5, 0.0)
+"""Metres forward for each metre up or down; 0: straight up, and straight down."""
+
+
+def ways_home(
+    airspace: Airspace, drone: Craft, here: Point, stands: bool, step: float
+) -> list[Section]:
+    """Return ways home that end on the ground; none where there is no way."""
+    cruise, (x, y, _) = airspace.cruise_height, here
+    start = (x, y, cruise) if stands else here
+    end = (drone.home[0], drone.home[1], min(start[2], cruise))
+    route = airspace.route(start, end)
+    if route is None:
+        return []
+    ways = [(start, *route)]
+    for level in range(_LEVELS_HOME):
+        height = cruise + level * step
+        if height <= airspace.ceiling + 1e-9:
+            over = ((x, y, height), *((px, py, height) for px, py, _ in route))
+            if len(route) == 1 and level:
+                ways.append((start, _along(over[0], over[1], 0.5, 1.0), end))
+            ways += [
+                way for slope in _SLOPES if (way := _sloping(start, over, end, slope)) is not None
+            ]
+    if len(route) == 1:
+        ways += _around(airspace, start, end)
+    ground = (end[0], end[1], 0.0)
+    return [Section(drone.id, _without_repeats((here, *way, ground)), stands, True) for way in ways]
+
+
+def _around(airspace: Airspace, start: Point, end: Point) -> Iterator[tuple[Point, ...]]:
+    """Yield ways to the left and to the right of the straight one."""
+    (x, y, z), (dx, dy, dz) = start, (end[0] - start[0], end[1] - start[1], end[2] - start[2])
+    far = hypot(dx, dy)
+    if not far:
+        return
+    for part in _PARTS:
+        for aside in _ASIDE:
+            turn = (
+                x + part * dx - aside * dy / far,
+                y + part * dy + aside * dx / far,
+                z + part * dz,
+            )
+            if (
+                airspace.problem(turn) is None
+                and airspace.leg_problem(start, turn) is None
+                and airspace.leg_problem(turn, end) is None
+            ):
+                yield start, turn, end
+
+
+def _sloping(
+    start: Point, over: tuple[Point, ...], end: Point, slope: float
+) -> tuple[Point, ...] | None:
+    """Return a way that rises, crosses, and sinks; None: it is too short for these slopes."""
+    up, down = slope * abs(over[0][2] - start[2]), slope * abs(over[-1][2] - end[2])
+    first, last = dist(over[0], over[1]), dist(over[-2], over[-1])
+    if up > first or down > last or (len(over) == 2 and up + down > first):
+        return None
+    risen, sinks = _along(over[0], over[1], up, first), _along(over[-1], over[-2], down, last)
+    return (start, risen, *over[1:-1], sinks, end)
+
+
+def _along(a: Point, b: Point, metres: float, length: float) -> Point:
+    part = metres / length if length else 0.0
+    return a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1]), a[2]
+
+
+def _without_repeats(points: tuple[Point, ...]) -> tuple[Point, ...]:
+    return (points[0], *(b for a, b in pairwise(points) if a != b))
+
+
+_SPOTS = 120
+"""How many places are looked at, the nearest first."""
+_LEVELS_ASIDE = (0, -1, 1, -2, 2)
+"""At which heights a drone flies there, in multiples of what keeps drones apart."""
+_EXACT = 1e-9
+
+
+class Ground:
+    """Where drones stand, and where their docks are: there no other lands."""
+
+    def __init__(
+        self,
+        drones: Mapping[str, Craft],
+        telemetry: Mapping[str, Telemetry],
+        airspace: Airspace,
+        step: float,
+    ) -> None:
+        self._drones, self._telemetry = drones, telemetry
+        self._airspace, self._step = airspace, step
+
+    def below(self, drone: str, here: Point) -> Point | None:
+        """Return the place below, where a drone may land; None: it may not.
+
+        In its own dock it may, however near others stand, if none stands in that very dock.
+        """
+        place, home = (here[0], here[1], 0.0), self._drones[drone].home
+        if docked(place, home):
+            return None if self._is_taken(drone) else place
+        if self._airspace.problem(place) is not None:
+            return None
+        return place if is_free(place, self._taken(drone), self._step - _EXACT) else None
+
+    def _is_taken(self, drone: str) -> bool:
+        """Say whether another stands in a drone's dock."""
+        home = self._drones[drone].home
+        return any(
+            docked(telemetry.location, home) and telemetry.landed and other != drone
+            for other, telemetry in self._telemetry.items()
+        )
+
+    def _taken(self, drone: str) -> list[Point]:
+        """Return where others stand, or will want to."""
+        docks = [other.home for other in self._drones.values() if other.id != drone]
+        standing = (
+            telemetry.location
+            for other, telemetry in self._telemetry.items()
+            if other != drone and telemetry.landed
+        )
+        return [*docks, *standing]
+
+    def way_down(self, drone: str) -> Section:
+        """Return the best way to the ground; straight down where there is none that is free."""
+        x, y, z = self._telemetry[drone].location
+        straight = Section(drone, ((x, y, z), (x, y, 0.0)), False, True, aside=True)
+        return next(self.ways_down(drone), straight)
+
+    def ways_down(self, drone: str) -> Iterator[Section]:
+        """Yield ways to where a drone that hovers can land: straight below first, if it may."""
+        here, airspace, step = self._telemetry[drone].location, self._airspace, self._step
+        below, (x, y, z) = self.below(drone, here), here
+        if below is not None:
+            yield Section(drone, (here, below), False, True, aside=True)
+        back = () if airspace.problem(here) is None else (airspace.way_back(here),)
+        if back:
+            ((x, y, z),) = back
+        for spot in islice(free_spots(airspace, (x, y, z), self._taken(drone), step), _SPOTS):
+            if spot[:2] == here[:2]:
+                continue
+            if z > LOWEST and airspace.leg_problem((x, y, z), spot) is None:
+                slope = (spot[0], spot[1], LOWEST)
+                yield Section(drone, (here, *back, slope, spot), False, True, aside=True)
+            for level in _LEVELS_ASIDE:
+                height = z + level * step
+                if level and not LOWEST / 2 <= height <= airspace.ceiling:
+                    continue
+                route = airspace.route((x, y, height), (spot[0], spot[1], height))
+                if route is not None:
+                    up = ((x, y, height),) if level else ()
+                    points = (here, *back, *up, *route, spot)
+                    yield Section(drone, points, False, True, aside=True)

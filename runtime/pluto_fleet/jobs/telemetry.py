@@ -1,0 +1,83 @@
+"""The telemetry of a fleet: one publisher, and subscribers that hear of it, each at its own rate."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Generic, TypeVar
+
+if TYPE_CHECKING:
+    from plutoc_runtime.domain.model import Telemetry
+
+V = TypeVar("V")
+
+
+class Publisher:
+    """What is known of each drone; used inside a running asyncio loop."""
+
+    def __init__(self, drones: Mapping[str, Telemetry]) -> None:
+        self.drones = drones
+        """By the drones' ids; the values stay current."""
+
+    def subscribe(
+        self,
+        hear: Callable[[Mapping[str, V], float], object],
+        *,
+        every: float,
+        view: Callable[[str, Telemetry], V],
+        unchanged: float = 0.0,
+    ) -> Subscription[V]:
+        """Look at all drones every so many seconds, and tell what has changed, and how late that is.
+
+        `view` returns what the subscriber wants to know of a drone. After `unchanged` seconds
+        without any change it is told of none.
+        """
+        return Subscription(self.drones, hear, every, view, unchanged)
+
+
+class Subscription(Generic[V]):
+    """One subscriber; it is told until it cancels."""
+
+    def __init__(
+        self,
+        drones: Mapping[str, Telemetry],
+        hear: Callable[[Mapping[str, V], float], object],
+        every: float,
+        view: Callable[[str, Telemetry], V],
+        unchanged: float,
+    ) -> None:
+        self._drones, self._hear, self._view = drones, hear, view
+        self._every, self._unchanged = every, unchanged
+        self.told: dict[str, V] = {}
+        """What the subscriber knows of each drone."""
+        self._loop = asyncio.get_running_loop()
+        self._told_at = self._loop.time()
+        self._next()
+
+    def changed(self) -> Mapping[str, V]:
+        """Return what has changed since the subscriber was told last; it counts as told now."""
+        news = {drone: self._view(drone, known) for drone, known in self._drones.items()}
+        news = {
+            drone: value
+            for drone, value in news.items()
+            if drone not in self.told or value != self.told[drone]
+        }
+        self.told.update(news)
+        return news
+
+    def cancel(self) -> None:
+        """Tell nothing any more."""
+        self._timer.cancel()
+
+    def _next(self) -> None:
+        self._due = self._loop.time() + self._every
+        self._timer = self._loop.call_at(self._due, self._look)
+
+    def _look(self) -> None:
+        now = self._loop.time()
+        late = now - self._due
+        self._next()  # first, for a subscriber may cancel, or fail
+        news = self.changed()
+        if news or now - self._told_at >= self._unchanged:
+            self._told_at = now
+            self._hear(news, late)

@@ -1,0 +1,269 @@
+"""What a trip asks of a drone, and what a drone lacks for it: by its category, its home and its battery."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from enum import IntEnum
+from math import hypot, inf
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from ..domain.actions import PICK, RELEASE
+from ..domain.fields import FieldType
+from ..domain.text import mass, percent, place, quoted
+from ..time.future import Future
+from .energy import CLIMB_SPEED, needed, share
+
+if TYPE_CHECKING:
+    from ..domain.airspace import Airspace
+    from ..domain.app import App
+    from ..domain.fleet_data import FleetData
+    from ..domain.model import Category, Drone, Item, Mission, Point, Trip
+    from .policy import Policy
+
+
+class Lacks(IntEnum):
+    """What a drone lacks for a trip, the farthest from doing it first."""
+
+    ACTION = 0
+    PAYLOAD = 1
+    WAY = 2
+    ENERGY = 3
+
+
+class Miss(NamedTuple):
+    """How far a drone is from being able."""
+
+    lacks: Lacks
+    by: float
+    """How much is lacking: of two alike the smaller is nearer."""
+    reason: str
+
+
+def chain_of(trips: Sequence[Trip]) -> Sequence[Trip]:
+    """Return the trips that one drone must fly: the first, and from a pick all to its release."""
+    if trips and trips[0].action == PICK:
+        for place_, trip in enumerate(trips):
+            if trip.action == RELEASE and place_ > 0:
+                return trips[: place_ + 1]
+        return trips
+    return trips[:1]
+
+
+def why_not(
+    app: App, airspace: Airspace, category: Category, home: Point, chain: Sequence[Trip]
+) -> str | None:
+    """Return why a drone of this category and home can never fly the chain; None: it can."""
+    miss = miss_of(app, airspace, category, home, chain)
+    return miss.reason if miss else None
+
+
+def miss_of(
+    app: App, airspace: Airspace, category: Category, home: Point, chain: Sequence[Trip]
+) -> Miss | None:
+    """Return what a drone of this category and home lacks for the chain; None: nothing."""
+    for trip in chain:
+        if not category.can(trip.action):
+            return Miss(Lacks.ACTION, 0.0, f"{category.name} cannot {trip.action}")
+    for trip in chain:
+        if trip.item is not None and trip.item.mass > category.payload:
+            most, weighs = mass(category.payload), mass(trip.item.mass)
+            reason = f"{category.name} carries at most {most}, the item weighs {weighs}"
+            return Miss(Lacks.PAYLOAD, trip.item.mass - category.payload, reason)
+    stops = stops_of(app, airspace, chain)
+    share = needed(category, airspace, home, stops, home)
+    if share is None:
+        return Miss(Lacks.WAY, 0.0, _no_way(category, airspace, home, stops))
+    if share + category.reserve > 1:
+        reason = (
+            f"{category.name} would need {percent(share)} of a full battery from its home "
+            f"{place(home)} and back, and {percent(category.reserve)} must be left"
+        )
+        return Miss(Lacks.ENERGY, share + category.reserve - 1, reason)
+    return None
+
+
+def stops_of(app: App, airspace: Airspace, chain: Sequence[Trip]) -> list[tuple[Point, float]]:
+    """Return where a chain leads, with the seconds that the drone is busy there.
+
+    Between two trips of a chain it lands with its item, and rises again.
+    """
+    stops: list[tuple[Point, float]] = []
+    for place_, trip in enumerate(chain, start=1):
+        if trip.source is not None:
+            stops.append((trip.source, 0.0))
+        busy = app.actions[trip.action].seconds
+        if place_ < len(chain):
+            busy += (trip.target[2] + airspace.cruise_height) / CLIMB_SPEED
+        stops.append((trip.target, busy))
+    return stops
+
+
+def _no_way(
+    category: Category, airspace: Airspace, home: Point, stops: Sequence[tuple[Point, float]]
+) -> str:
+    here = home
+    for point, _ in [*stops, (home, 0.0)]:
+        if airspace.route(here, point) is None:
+            break
+        here = point
+    return f"{category.name} finds no permitted way from {place(here)} to {place(point)}"
+
+
+def grip_problem(
+    drone: str, category: Category, aboard: Item | None, action: str, item: Item | None
+) -> str | None:
+    """Return why a drone with this aboard cannot pick or release an item, or None."""
+    if action == PICK:
+        if item is None:
+            return "there is nothing to pick"
+        if aboard is not None:
+            return f"{drone} already carries {aboard.name}"
+        if item.mass > category.payload + 1e-9:
+            most = mass(category.payload)
+            return f"{item.name} weighs {mass(item.mass)}, {drone} carries at most {most}"
+    if action == RELEASE and (aboard is None or item is None or aboard.name != item.name):
+        carries = "nothing" if aboard is None else aboard.name
+        return f"{drone} carries {carries}" + ("" if item is None else f", not {item.name}")
+    return None
+
+
+def wrong_aboard(trips: Sequence[Trip]) -> tuple[int, str] | None:
+    """Return the first trip with an item that cannot be aboard then, and why; None: all is well."""
+    aboard: Item | None = None
+    for place_, trip in enumerate(trips):
+        if trip.action == PICK and aboard is not None:
+            return place_, f"picks an item while {quoted(aboard.name)} is still aboard"
+        if trip.action == RELEASE and trip.item != aboard:
+            return place_, "releases an item that was not picked just before"
+        if trip.action in (PICK, RELEASE):
+            aboard = trip.item if trip.action == PICK else None
+    if aboard is None:
+        return None
+    return len(trips) - 1, f"{quoted(aboard.name)} is still aboard: no trip releases it"
+
+
+def problems(
+    app: App, missions: Sequence[Mission[Any]], fleet: FleetData, *, forever: bool
+) -> list[str]:
+    """Return a sentence for each trip that no drone could ever fly.
+
+    Unless it may go on `forever`, there is one for each mission that would, too.
+    """
+    kinds = {category.name: category for category in app.categories}
+    found: list[str] = []
+    for mission in missions:
+        trips: Sequence[Trip] = mission.trips
+        while trips:
+            chain = chain_of(trips)
+            trips = trips[len(chain) :]
+            asked = ((kinds[one.category], one.home) for one in fleet.drones)
+            misses = [miss_of(app, fleet.airspace, kind, home, chain) for kind, home in asked]
+            if None not in misses:
+                nearest = min(filter(None, misses), key=lambda miss: (-miss.lacks, miss.by))
+                who = f"mission {quoted(mission.name)}, trip {chain[0].name}"
+                found.append(f"{who}: no drone of the fleet can do it: {nearest.reason}")
+        rounds = [one.name for one in app.fields if one.type is FieldType.ROUNDS]
+        if not forever and any(getattr(mission, name, None) is True for name in rounds):
+            why = "repeats until it is stopped: say when with --until, such as --until 2h"
+            found.append(f"mission {quoted(mission.name)} {why}")
+    return found
+
+
+NO_WAY = 2.0
+"""A battery level that no drone ever has."""
+
+
+class Reach:
+    """What gets a drone anywhere on the map and home again: most that stand ready have more.
+
+    So most questions need no exact answer, which takes a route.
+    """
+
+    def __init__(self, app: App, airspace: Airspace) -> None:
+        self.app, self.airspace = app, airspace
+        self._levels = {
+            action: {category: self._level(category, action) for category in app.categories}
+            for action in app.actions
+        }
+        self._unknown = dict.fromkeys(app.categories, NO_WAY)
+
+    def levels(self, trip: Trip) -> Mapping[Category, float]:
+        """Return a battery level for each category with which the trip can surely be flown.
+
+        `NO_WAY` where that takes a closer look: at an item, or at a place that is not on the map.
+        """
+        problem, start = self.airspace.problem, trip.source or trip.target
+        if trip.item is not None or problem(start) or problem(trip.target):
+            return self._unknown
+        return self._levels[trip.action]
+
+    def _level(self, category: Category, action: str) -> float:
+        space = self.airspace
+        if space.no_fly or not category.can(action):
+            return NO_WAY
+        across = hypot(*space.size, space.ceiling)
+        up_and_down = (space.cruise_height + space.ceiling) / CLIMB_SPEED
+        # to the source, to the target, and home
+        seconds = 3 * across / category.speed + up_and_down + self.app.actions[action].seconds
+        return share(category, seconds) + category.reserve
+
+
+class Demand:
+    """What the next trip asks of a drone: that one alone, or from a pick all to its release."""
+
+    def __init__(self, reach: Reach, trips: Sequence[Trip]) -> None:
+        self._app, self._airspace, self._chain = reach.app, reach.airspace, chain_of(trips)
+        self._stops = stops_of(reach.app, reach.airspace, self._chain)
+        self._never: dict[tuple[Category, Point], str | None] = {}
+        self._levels: dict[tuple[Category, Point, Point], float] = {}
+
+    def never(self, drone: Drone) -> str | None:
+        """Return why a drone cannot fly the chain even with a full battery; None: it can."""
+        key = (drone.category, drone.home)
+        if key not in self._never:
+            self._never[key] = why_not(self._app, self._airspace, *key, self._chain)
+        return self._never[key]
+
+    def battery(self, drone: Drone) -> float:
+        """Return the battery level that it takes, the way home and the reserve included."""
+        key = category, home, here = drone.category, drone.home, drone.location
+        if key not in self._levels:
+            part = needed(category, self._airspace, here, self._stops, home)
+            self._levels[key] = NO_WAY if part is None else part + category.reserve
+        return self._levels[key]
+
+
+class Request(Future["Drone"]):
+    """A mission that waits for a drone; it is set to the one that it gets."""
+
+    __slots__ = ("_demand", "_levels", "_reach", "_trips", "policy", "trip", "why")
+
+    def __init__(self, reach: Reach, trips: Sequence[Trip], policy: Policy) -> None:
+        self.is_set = False
+        self.error = self.waiter = self._value = self._watchers = None
+        self.trip, self.policy = trips[0], policy
+        self.why = ""
+        """Why it got its drone."""
+        self._levels = reach.levels(self.trip)
+        self._reach, self._trips = reach, trips
+        self._demand: Demand | None = None
+
+    @property
+    def demand(self) -> Demand:
+        """What it asks of a drone, exactly."""
+        if self._demand is None:
+            self._demand = Demand(self._reach, self._trips)
+        return self._demand
+
+    def able(self, drone: Drone) -> bool:
+        """Say whether a drone can fly the trip now."""
+        level = drone.telemetry.battery_level
+        return level >= self._levels[drone.category] or level >= self.level(drone)
+
+    def never(self, drone: Drone) -> str | None:
+        """Return why a drone cannot fly the trip even with a full battery; None: it can."""
+        return None if self._levels[drone.category] <= 1.0 else self.demand.never(drone)
+
+    def level(self, drone: Drone) -> float:
+        """Return what it takes in a drone's battery, where it stands; never: infinite."""
+        return inf if self.never(drone) is not None else self.demand.battery(drone)

@@ -1,0 +1,80 @@
+"""An action of the app's own: done by its hook, while the drone hovers at the trip's target."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from ..domain.actions import Action
+from ..domain.errors import ActionFailed, Failure, FlightFailed, HookFault
+from ..domain.text import bounded, text_of
+from ..hooks.calls import LONGEST_REASON, Held, call_action, changed, look
+from ..hooks.context import Context
+from ..hooks.keepable import keepable
+from ..hooks.live_drone import LiveDrone, can_wait
+from ..time.future import Future
+from ..time.kernel import mission_key
+
+if TYPE_CHECKING:
+    from ..trips.flight import Flight
+    from .mission import MissionState
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class OwnAction(Action):
+    """An action that the app's developer wrote: its hook does it."""
+
+    async def act(self, state: MissionState, flight: Flight) -> None:
+        """Do it, and tell the mission what comes of it."""
+        try:
+            value = await self._value(state, flight)
+        except FlightFailed as error:
+            state.fail(flight, str(error))
+        except HookFault as fault:
+            state.core.log(fault.detail, state.mission.name)
+            state.fail(flight, str(fault), mends=False)
+        else:
+            state.complete(flight, keepable(value))
+
+    async def _value(self, state: MissionState, flight: Flight) -> object:
+        """Return what the hook gives; raise `FlightFailed` where it or the drone fails."""
+        core, mission, trip, drone, hook = (
+            state.core,
+            state.mission,
+            flight.trip,
+            flight.flier,
+            self.hook,
+        )
+        assert hook is not None
+        kernel, key, name = core.kernel, mission_key(mission.index), f"{mission.name}: {self.name}"
+        core.transitions.begin_action(mission, trip, drone)
+        if core.recorder is not None:
+            await core.recorder.on_record()
+        live = LiveDrone(kernel, core.navigation, drone, key) if can_wait(hook) else None
+        context = Context(kernel, core.results, core.log, mission, lambda: state.flight, live)
+        call = call_action(kernel, hook, drone, trip, context, **trip.parameters)
+        work = kernel.spawn(call, key, name)
+        hover = kernel.spawn(core.navigation.hold(drone.id), key, f"{drone.id} hovers")
+        held = Held(trip, "name", "action", "item", "index", "attempt", "status")
+        over: Future[None] = Future()
+        work.watch(over.set)
+        hover.watch(over.set)
+        try:
+            await over
+            if hover.is_set:
+                hover.result()  # raises what went wrong with the drone
+            value = work.result()
+        except ActionFailed as error:
+            why = bounded(text_of(error) or "it does not say why", LONGEST_REASON)
+            raise FlightFailed(Failure.ACTION, f"{self.name} failed: {why}") from error
+        finally:
+            fact = held.put_back() if work.is_set else ""  # it may have been called off
+            work.cancel()
+            hover.cancel()
+            if live is not None:
+                live.release()
+        if fact:
+            raise changed(hook, "trip", fact)
+        if core.recorder is not None:
+            look(hook, core.recorder.look, mission)
+        return value
