@@ -20,7 +20,7 @@ PILLS = Item(name="pills", mass=0.004)
 async def test_a_flight_is_told_step_by_step(tmp_path: Path) -> None:
     """Each command returns when the drone is there; the telemetry says so."""
     async with flying(tmp_path) as flown:
-        team, seen = flown.team, flown.team.telemetry("cf1")
+        team, seen = flown.team, flown.team.telemetry["cf1"]
         assert (seen.location, seen.battery_level, seen.landed) == ((1, 1, 0), 0.0, True)
         standing = await flown.do(team.roll_call("cf1"))
         assert standing.reached
@@ -149,7 +149,7 @@ async def test_a_takeoff_that_is_broken_off_before_the_drone_says_that_it_flies_
     drone.hangs = {"takeoff"}
     async with flying(tmp_path, drone) as flown:
         await flown.do(flown.team.roll_call("cf1"))
-        seen = flown.team.telemetry("cf1")
+        seen = flown.team.telemetry["cf1"]
         rises = flown.begin(flown.team.takeoff("cf1", 1.0))
         await flown.until(lambda: not seen.landed, 1)
         flown.kernel.post(rises.cancel)
@@ -218,7 +218,7 @@ async def test_cut_motors_waits_for_nothing(tmp_path: Path, hangs: bool) -> None
         assert "motors were cut" in str(await flown.failure(team.takeoff("cf1", 1.0)))
         flown.begin(team.land("cf1"))
         flown.kernel.post(team.break_off, "cf1")
-        await flown.until(lambda: team.telemetry("cf1").landed)
+        await flown.until(lambda: team.telemetry["cf1"].landed)
         assert drone.told[-1] == "emergency stop"
         team.mended("cf1")
         team.begins("cf1", None, 0.0)

@@ -26,7 +26,7 @@ async def test_silence_in_the_air_is_a_lost_link(tmp_path: Path, command: str) -
         assert await flown.until(lambda: flies.is_set) == pytest.approx(1.1, abs=0.15)
         failed = await flown.failure(team.go_to("cf1", (5.0, 1.0, 1.0)))
         assert failed.failure is Failure.LINK
-        assert not team.telemetry("cf1").landed
+        assert not team.telemetry["cf1"].landed
         assert "hold" not in drone.told
         drone.answers = True
 
@@ -95,7 +95,7 @@ async def test_a_roll_call_tries_a_lost_drone_once_more_and_does_not_hang(tmp_pa
 async def test_a_drone_that_cannot_fly_any_more_counts_as_landed(tmp_path: Path) -> None:
     """Its battery must be empty by then: it is not waited for to come down."""
     async with flying(tmp_path) as flown:
-        drone, seen = await flown.up(), flown.team.telemetry("cf1")
+        drone, seen = await flown.up(), flown.team.telemetry["cf1"]
         drone.goes_silent()
         assert await flown.until(lambda: seen.landed) == pytest.approx(504, abs=2)
 
@@ -107,7 +107,7 @@ async def test_a_link_that_is_lost_in_the_take_off_leaves_a_drone_in_the_air(
     drone = FakeDrone()
     drone.hangs = {"takeoff"}
     async with flying(tmp_path, drone) as flown:
-        seen = flown.team.telemetry("cf1")
+        seen = flown.team.telemetry["cf1"]
         await flown.do(flown.team.roll_call("cf1"))
         rises = flown.begin(flown.team.takeoff("cf1", 1.0))
         await flown.until(lambda: not seen.landed, 1)

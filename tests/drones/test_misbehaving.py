@@ -158,7 +158,7 @@ async def test_telemetry_that_makes_no_sense_is_silence(tmp_path: Path) -> None:
     """A drone that does not know where it is cannot be flown."""
     async with flying(tmp_path) as flown:
         drone = await flown.up()
-        seen = flown.team.telemetry("cf1")
+        seen = flown.team.telemetry["cf1"]
         before = seen.location
         drone.put((float("nan"), 1.0, 1.0))
         failed = await flown.failure(flown.team.hold("cf1"))

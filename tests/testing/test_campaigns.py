@@ -12,7 +12,7 @@ from pluto_fleet.simulation.drones import SimulatedNavigation
 from pluto_fleet.trials.explore import drawn_case
 from pluto_fleet.trials.rig import tried
 from plutoc_runtime.domain.model import Drone
-from plutoc_runtime.fleet.energy import CLIMB_SPEED
+from plutoc_runtime.fleet.reach import CLIMB_SPEED
 from plutoc_runtime.hooks.context import Context
 from tests.testing import campaign, strangers
 from tests.testing.examples import example, fleet_of

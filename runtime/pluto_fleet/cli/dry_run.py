@@ -16,7 +16,7 @@ from plutoc_runtime import output
 from plutoc_runtime.alone.faults import Faults
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.text import counted, number
-from plutoc_runtime.fleet.energy import CLIMB_SPEED
+from plutoc_runtime.fleet.reach import CLIMB_SPEED
 
 from ..drones.protocol import Acts
 from ..drones.real_fleet import SLACK, real_fleet
@@ -32,9 +32,9 @@ from .verdict import exit_code
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
+    from plutoc_runtime.alone.simulate import Outcome
     from plutoc_runtime.domain.app import App
     from plutoc_runtime.domain.model import Point
-    from plutoc_runtime.flow.session import Outcome
     from plutoc_runtime.time.kernel import Kernel
 
     from ..drones.real_fleet import RequiredAction

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from plutoc_runtime import output
+from plutoc_runtime.alone.simulate import outcome_data
 from plutoc_runtime.domain.text import (
     counted,
     duration,
@@ -15,7 +16,6 @@ from plutoc_runtime.domain.text import (
     printable,
 )
 from plutoc_runtime.domain.trace import dumped
-from plutoc_runtime.flow.session import outcome_data
 
 from ..trials.invariants import items_of
 from .plot import drawing, kind_of, plot
@@ -24,8 +24,8 @@ from .summary import ENOUGH, Run, run_of, spread, summary
 from .verdict import exit_code
 
 if TYPE_CHECKING:
+    from plutoc_runtime.alone.simulate import Outcome
     from plutoc_runtime.domain.app import App
-    from plutoc_runtime.flow.session import Outcome
 
     from .options import Options
     from .plans import Plan

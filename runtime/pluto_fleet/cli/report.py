@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from plutoc_runtime.alone.simulate import trips_data
 from plutoc_runtime.domain.fields import FieldType
 from plutoc_runtime.domain.status import Status
 from plutoc_runtime.domain.text import counted, duration, number, percent, printable
-from plutoc_runtime.flow.session import trips_data
 
 if TYPE_CHECKING:
+    from plutoc_runtime.alone.simulate import Outcome
     from plutoc_runtime.domain.app import App
     from plutoc_runtime.domain.model import Drone, Mission
-    from plutoc_runtime.flow.session import Outcome
 
 
 class MissionRow(NamedTuple):

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 
 from plutoc_runtime import output
 from plutoc_runtime.alone.faults import Faults
+from plutoc_runtime.alone.simulate import Outcome, outcome_data
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.text import duration
 from plutoc_runtime.domain.trace import Event, dumped
-from plutoc_runtime.flow.session import Outcome, outcome_data
 
 from ..flight.simulate import simulate as simulated
 from ..process.signal_guard import Interrupted

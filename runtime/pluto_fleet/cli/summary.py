@@ -8,14 +8,14 @@ from math import ceil, floor
 from statistics import mean, median
 from typing import TYPE_CHECKING
 
+from plutoc_runtime.alone.simulate import trips_data
 from plutoc_runtime.domain.status import COMPLETED
-from plutoc_runtime.flow.session import trips_data
 
 from ..trials.invariants import ENDS, Invariants
 from .verdict import exit_code
 
 if TYPE_CHECKING:
-    from plutoc_runtime.flow.session import Outcome
+    from plutoc_runtime.alone.simulate import Outcome
 
     from ..trials.invariants import Items
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from plutoc_runtime.domain.status import Status
 
 if TYPE_CHECKING:
-    from plutoc_runtime.flow.session import Outcome
+    from plutoc_runtime.alone.simulate import Outcome
 
 _NEEDS_A_PERSON = (Status.UNCERTAIN, Status.HELD)
 _BAD = (Status.FAILED, Status.CANCELLED)

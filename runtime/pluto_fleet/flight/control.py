@@ -34,8 +34,8 @@ from .reconcile import (
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Drone, Trip
+    from plutoc_runtime.flow.engine import Session
     from plutoc_runtime.flow.mission import MissionState
-    from plutoc_runtime.flow.session import Session
     from plutoc_runtime.trips.flight import Flight
 
     from ..jobs.job import Commanding

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.text import of, quoted
-from plutoc_runtime.flow.session import Listener, Session
+from plutoc_runtime.flow.engine import Listener, Session
 from plutoc_runtime.time.kernel import FLEET, Kernel, Task
 
 from ..files.reading import shortened

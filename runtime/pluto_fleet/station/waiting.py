@@ -16,7 +16,7 @@ from plutoc_runtime.domain.text import percent
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Drone, Trip
-    from plutoc_runtime.fleet.reach import Request
+    from plutoc_runtime.fleet.queue import Request
 
     from ..flight.live_fleet import LiveFleet
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from pluto_fleet.flight.live_fleet import live_fleet
 from pluto_fleet.station.waiting import AT_ONCE, Waiting, why_nobody
-from plutoc_runtime.alone.motion import Charge
+from plutoc_runtime.alone.ideal import Charge
 from plutoc_runtime.domain.model import Category, Item
 from plutoc_runtime.domain.status import DroneStatus
 from tests.runtime import apps

@@ -1,4 +1,4 @@
-"""How code of other people is loaded: what it does is its own fault, and it may not end us."""
+"""Loading code of other authors: its faults are its own, and it may not end the compiler."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class Interrupted(KeyboardInterrupt):
 
 
 @contextmanager
-def kept_apart() -> Iterator[None]:
+def isolated() -> Iterator[None]:
     """Have Ctrl-C raise `Interrupted`, and `os._exit` raise `SystemExit`, for as long as this lasts."""
     leave, process = os._exit, os.getpid()
 

@@ -25,7 +25,7 @@ _SHORT = 3
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Unclear:
+class UncertainNames:
     """Names that may be declared after all."""
 
     names: frozenset[str]
@@ -54,11 +54,11 @@ def bad_statements(file: File) -> list[BadStatement]:
     return [*file.bad, *inside]
 
 
-def unclear(file: File, spoilt: Sequence[str]) -> Unclear:
+def uncertain_names(file: File, spoilt: Sequence[str]) -> UncertainNames:
     """Collect what may be declared in a file; `spoilt` are declared names that are wrong."""
     bad = [each for each in bad_statements(file) if each.kind not in _DECLARE_NOTHING]
     words = [_WORD.findall(file.source.quote(each.span)) for each in bad]
-    return Unclear(
+    return UncertainNames(
         names=frozenset((*chain.from_iterable(words), *_in_place_of_a_kind(file))),
         texts=tuple(dict.fromkeys(map("".join, words))),
         heads=tuple(
