@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import builtins
 from collections.abc import Callable, Mapping, Sequence
 from functools import lru_cache
 from importlib import import_module
@@ -17,7 +16,7 @@ from plutoc.emit.stubs import EXPORTS
 from plutoc.plan.build import build
 from plutoc.source import Source
 from plutoc_runtime.domain.model import Mission
-from tests.equivalence.flows import InMemory, Package, packaged
+from tests.equivalence.flows import Package, in_memory, packaged
 from tests.flying import EXAMPLES
 
 if TYPE_CHECKING:
@@ -75,24 +74,13 @@ def missions_of(name: str, app: App, fleet: FleetFile) -> list[Mission[Any]]:
 def _hooks(name: str, package: Package) -> ModuleType:
     """Run an example's hooks.py; what it imports from its package is found where it is at home."""
 
-    def importing(
-        target: str,
-        globals_: Mapping[str, object] | None = None,
-        locals_: Mapping[str, object] | None = None,
-        wanted: Sequence[str] = (),
-        level: int = 0,
-    ) -> object:
-        if level == 0:
-            return builtins.__import__(target, globals_, locals_, wanted, level)
+    path = EXAMPLES / name / "hooks.py"
+    text = path.read_text(encoding="utf-8") if path.exists() else ""
+
+    def found(_: str, wanted: Sequence[str]) -> object:
         return SimpleNamespace(**{one: _exported(one, package) for one in wanted})
 
-    path = EXAMPLES / name / "hooks.py"
-    module = ModuleType(f"{name}.hooks")
-    vars(module)["__builtins__"] = {**vars(builtins), "__import__": importing}
-    if path.exists():
-        code = compile(path.read_text(encoding="utf-8"), str(path), "exec")
-        InMemory(code).exec_module(module)
-    return module
+    return in_memory(f"{name}.hooks", compile(text, str(path), "exec"), found)
 
 
 def _exported(one: str, package: Package) -> object:
