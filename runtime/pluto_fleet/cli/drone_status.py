@@ -16,7 +16,6 @@ from typing import TYPE_CHECKING, Protocol, TypeVar, cast
 
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.text import number, of, printable, quoted
-from plutoc_runtime.hooks.calls import Held
 
 from ..drones.loading import load_navigation, make_localization
 from ..drones.localization import LocalizationFeed
@@ -24,7 +23,7 @@ from ..drones.protocol import Identifiable, Locatable, Scannable
 from ..drones.real_fleet import RealDrone
 from ..drones.team import make_one
 from ..files.fleet import OWN
-from ..gateway.drone_lock import lock_drones
+from ..gateway.drone_lock import DroneInUse, lock_drones
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Point
@@ -170,7 +169,7 @@ async def _answer(
                 (end,) = await asyncio.gather(_ask(navigation, so_far), return_exceptions=True)
             finally:
                 await _let_go(navigation)
-    except Held as held:  # an app flies it, and alone may speak with it
+    except DroneInUse as held:  # an app flies it, and alone may speak with it
         return DroneAnswer(asked=asked, problems=(str(held),))
     match end:
         case None:

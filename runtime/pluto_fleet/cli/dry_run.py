@@ -27,6 +27,7 @@ from ..drones.real_fleet import SLACK, RequiredAction, real_fleet
 from ..drones.vehicle import CLIMB_LIMIT
 from ..files.values import text
 from ..flight.simulate import simulate
+from ..jobs.controls import ForwardingControls
 from ..report.report import exit_code, report, table
 from ..report.sentences import line_of
 from .plans import load
@@ -172,7 +173,7 @@ class LoggedCommand:
     """The most that it may fly, metres per second."""
 
 
-class CommandLog(Before):
+class CommandLog(ForwardingControls):
     """Drones that can be told what others can; each command is kept, and handed on to those others."""
 
     def __init__(

@@ -16,7 +16,7 @@ from plutoc_runtime.alone.faults import Faults
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.text import printable
 
-from ..flight.config import End, Stops
+from ..flight.config import End, FlightResult, Stops
 from ..flight.lives import (
     FlightObserver,
     FlightSetup,
@@ -180,7 +180,7 @@ async def _heard(
     stops: Stops,
     interrupts: Interrupts,
     known: Recovered | None,
-) -> Lived:
+) -> FlightResult:
     """Live, and hear interrupts."""
     interrupts.loop = asyncio.get_running_loop()
     return await run_flight(flight, store, stops, known, FlightObserver(tell=tell, say=output.tell))

@@ -9,7 +9,6 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from plutoc.syntax.tree import Setting
 from plutoc_runtime.alone.faults import Faults
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.text import in_shell, place
@@ -25,8 +24,9 @@ from ..gateway.starting import connect, speed_in
 from ..journal.header import Header, check
 from ..journal.place import commands_note, gateway_folder
 from ..journal.store import Store
-from .config import End, Stops
+from .config import End, FlightConfig, FlightResult, Stops
 from .fly import Recovered, live, recovered
+from .live_flight import LiveFlight
 from .offline import pending_stop
 from .standing import all_over, finished
 
@@ -136,7 +136,7 @@ class FlightObserver:
     """Told of each event, once it is on record."""
     say: Callable[[str], object]
     """Told what is no event of the flight: a gateway has died."""
-    born: Callable[[OneLife], object] | None = None
+    born: Callable[[LiveFlight], object] | None = None
     """Told of each life when it begins."""
     patient: bool = False
     """Whether the flight waits for as long as a mission asks for a person's decision."""
@@ -148,7 +148,7 @@ async def run_flight(
     stops: Stops,
     known: Recovered | None,
     observer: FlightObserver,
-) -> Lived:
+) -> FlightResult:
     """Live once more each time that the gateway dies; `known` is what the journal says."""
     folder = gateway_folder(flight.journal)
     settings = settings_for(
@@ -159,7 +159,7 @@ async def run_flight(
         real=None if flight.sim else await _real(flight, folder, known),
         speed=flight.speed,
     )
-    setting = Setting(
+    setting = FlightConfig(
         app=flight.app,
         missions=flight.missions,
         fleet=flight.fleet,

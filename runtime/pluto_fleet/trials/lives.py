@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from plutoc_runtime.domain.errors import ANY_ERROR, BadInput, Cancelled, Failure
 
+from ..flight.recorded_flight import RecordedFlight
 from ..jobs.reports import Down
 from ..process.signal_guard import by_a_person
 from .case import BY_HAND, DEATHS, STOPS, Strike, StrikeKind, fresh
@@ -64,7 +65,7 @@ class TrialLife:
         self.full = False
         planned = () if records.missions else tuple(map(fresh, case.missions))
         self.before: dict[str, MissionMemory] = {} if planned else dict(run.record.known)
-        self.life = Life(
+        self.life = RecordedFlight(
             run.app,
             case.fleet,
             self.kernel,

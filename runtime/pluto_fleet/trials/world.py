@@ -5,7 +5,6 @@ from __future__ import annotations
 from random import Random
 from typing import TYPE_CHECKING
 
-from plutoc.syntax.lines import Line
 from plutoc_runtime.alone.faults import Faults
 from plutoc_runtime.alone.world import World
 from plutoc_runtime.time.kernel import FLEET
@@ -14,9 +13,9 @@ from plutoc_runtime.time.virtual import VirtualTime
 
 from ..gateway.gateway import Gateway
 from ..gateway.ledger import MemoryLedger
-from ..gateway.lossy_line import LOST
+from ..gateway.lossy_line import LOST, LossyLine
 from ..simulation.body import SimulatedDrone
-from ..simulation.drones import SimulatedNavigation
+from ..simulation.drones import SimulatedNavigation, WorldAction
 from ..simulation.radio import Radio
 from .case import Strike, StrikeKind
 from .record import TrialRecord
@@ -91,10 +90,10 @@ class TrialWorld:
         """Let this happen after so many seconds of the world's."""
         self.world.schedule(self.world.now + seconds, When.FLIGHT, FLEET, call)
 
-    def seen(self, deed: Deed) -> None:
+    def seen(self, done: WorldAction) -> None:
         """A drone has done something to the world."""
-        if deed.job is not None:
-            self.record.did(deed.job, deed.action, self.world.now)
+        if done.job is not None:
+            self.record.did(done.job, done.action, self.world.now)
 
     def new_gateway(self) -> Gateway:
         """Return a gateway over the drones and the ledger that are there."""
@@ -112,7 +111,7 @@ class TrialWorld:
             max_airborne=fleet.max_airborne,
         )
         if any(strike.kind is StrikeKind.REPORT for strike in self.case.strikes):
-            gateway.line = Line(gateway, self.report_delay)
+            gateway.line = LossyLine(gateway, self.report_delay)
         return gateway
 
     def radio_delay(self, _: str) -> float:
