@@ -101,7 +101,7 @@ EVENTS: Mapping[str, str] = {
     "drone.lost": "a drone lost",
 }
 REASONS: Mapping[str, str] = {
-    "missed its deadline": "somebody else's limit ran out",
+    "missed its deadline": "the limit of another package's block ran out",
     "longer than its safe time": "a safe time ran out",
     "of the previous one": "a gap ran out",
     "had no drone within": "allocate_within ran out",
@@ -113,7 +113,7 @@ REASONS: Mapping[str, str] = {
     "failed the trip": "a modifier failed a trip in flight",
     "must return": "a hook returned what it must not",
     "raised": "a hook raised",
-    "no drone of the fleet": "nobody can fly it",
+    "no drone of the fleet": "no drone can fly it",
     "aboard": "a failure with an item aboard",
 }
 

@@ -37,7 +37,7 @@ class Drawing:
     most: int
     """How many blocks it should have, about."""
     strange: bool = False
-    """It uses somebody else's blocks, too."""
+    """It uses blocks of another package, too."""
     words: list[str] = field(default_factory=list)
     """Categories, actions and hooks."""
     blocks: dict[str, str] = field(default_factory=dict)

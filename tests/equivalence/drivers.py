@@ -25,7 +25,7 @@ Arguments = TypeVarTuple("Arguments")
 
 
 class _Jumping(asyncio.SelectorEventLoop):
-    """A loop in which nobody waits: where all others would sleep, it is later already."""
+    """A loop without waiting: where all others would sleep, it is later already."""
 
     def __init__(self) -> None:
         self.now = 0.0

@@ -1,4 +1,4 @@
-"""Flies an app in a world, and keeps everything that anybody could see of it."""
+"""Flies an app in a world, and keeps everything that can be seen of it."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from plutoc_runtime.status import Status
 
 ANY: tuple[type[Exception], ...] = (Exception,)
-"""Whatever ends a run is kept, and compared."""
+"""Any exception that ends a run is kept, and compared."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

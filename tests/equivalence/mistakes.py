@@ -117,7 +117,7 @@ def spare_the_first_arrow(plan: Plan) -> Plan:
 
 
 def spare_every_arrow(plan: Plan) -> Plan:
-    """Spare every bare arrow to a gate that waits for all, whatever the others bring."""
+    """Spare every bare arrow to a gate that waits for all, without asking what the others bring."""
     return _spared(plan, Gate.ALL)
 
 
@@ -137,7 +137,7 @@ def _spared(plan: Plan, kind: Gate) -> Plan:
 
 
 def leave_out_what_has_a_default(plan: Plan) -> Plan:
-    """Leave a parameter out that has a default, whatever its value is."""
+    """Leave a parameter out that has a default, without looking at its value."""
     left_out = [
         (node.name, name)
         for node in plan.checked.graph.nodes
@@ -182,9 +182,9 @@ async def wait_for_any(run: Run[Any], status: Status, *branches: Branch[Any]) ->
 
 def watch_and_never_let_go(run: Run[Any], *limits: Limit | None) -> Flight:
     """A wait whose limits go on when it is called off."""
-    nobody = copy(run)
-    nobody.task = None
-    return watch(nobody, *limits)
+    alone = copy(run)
+    alone.task = None
+    return watch(alone, *limits)
 
 
 def limit_by_default(

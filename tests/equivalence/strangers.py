@@ -1,4 +1,4 @@
-"""Blocks of somebody else: some wait as ours do, some only look as if they did."""
+"""Blocks of another package: some wait as ours do, some only look as if they did."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Flies accepted apps with hooks that never change their mind: whatever is accepted must end.
+"""Flies accepted apps with hooks that never change their mind: all that is accepted must end.
 
 A modifier always says the same, an evaluator says the same until something is flown. So a loop that
 should not have been accepted is gone round for ever; that nothing does but what a hook chose.

@@ -31,7 +31,7 @@ class Seen:
     """Those of them beside which a TripMonitor was seen."""
     states: int = 0
     cut: bool = False
-    """There were more runs than anybody would wait for."""
+    """There were too many runs to look at."""
 
 
 class Explorer:

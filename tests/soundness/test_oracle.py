@@ -105,7 +105,7 @@ def test_oracle_sees_what_goes_wrong(verdict: Verdict, arrows: str) -> None:
 
 
 def test_every_verdict_is_shown_above() -> None:
-    """Else nobody would know whether it can be given at all."""
+    """Else it would not be known whether it can be given at all."""
     assert {verdict for verdict, _ in WRONG.values()} == set(Verdict)
 
 
