@@ -50,11 +50,11 @@ app sound {
   retry -> end otherwise
 }
 """
-"""Ten blocks. Nothing goes round without an end, so no check needs networkx."""
+"""Ten blocks."""
 WARNED = SOUND.replace("max_attempts: 3", "max_attempts: 0").replace(
     "  retry -> end otherwise\n", ""
 )
-"""A trip that always fails is flown for ever: to show how it goes round takes networkx."""
+"""A trip that always fails is flown for ever: the check shows how it goes round."""
 HOOKS = """\
 from plutoc_runtime.model import Mission
 from plutoc_runtime.results import Results
@@ -77,7 +77,7 @@ def commands(folder: Path) -> dict[str, list[str]]:
         "--help": ["--help"],
         "check": ["check", str(folder / "sound" / "app.pluto")],
         "check, with a hooks.py": ["check", str(folder / "hooked" / "app.pluto")],
-        "check, with networkx": ["check", str(folder / "warned" / "app.pluto")],
+        "check, with a warning": ["check", str(folder / "warned" / "app.pluto")],
     }
 
 

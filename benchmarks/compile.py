@@ -3,9 +3,8 @@
 `python benchmarks/compile.py` compiles an app of ten blocks, each way in turn with `python -c pass`,
 round after round, and prints the least and the median time of each and their ratios:
 
-- cold_black: nothing is in the cache and no package is there yet, so all is rendered and formatted,
-- black_asked: the same, and a title has both kinds of quotes, so that Black itself is imported and
-  asked: what else generated code has, it is known to leave alone,
+- cold_black: nothing is in the cache and no package is there yet,
+- black_asked: the same, and a title has both kinds of quotes,
 - edit: one setting is another one than in the compile before,
 - cold: a comment is another one, so the app is compiled and no file's text changes,
 - unchanged: nothing at all has changed.
