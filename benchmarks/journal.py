@@ -21,9 +21,8 @@ from pathlib import Path
 
 from measuring.instant import APP, Instant, ground, plan
 from measuring.options import at_least_one
-from pluto_fleet.flight.recorded_flight import Life
-from pluto_fleet.journal.fold import Records
-from pluto_fleet.journal.replay import replayed
+from pluto_fleet.flight.recorded_flight import RecordedFlight
+from pluto_fleet.journal.fold import Records, replayed
 from pluto_fleet.journal.store import Store
 from pluto_fleet.journal.writer import Writer
 from pluto_fleet.process.realtime import RealTime
@@ -78,7 +77,9 @@ def flying(folder: Path, missions: int) -> tuple[float, float]:
             loop.call_soon_threadsafe(kernel.post, life.recorder.durable, number)
 
         writer = Writer(store, durable, print)
-        life = Life(APP, ground(IN_FLIGHT), kernel, drones, writer, records, epoch=store.epoch)
+        life = RecordedFlight(
+            APP, ground(IN_FLIGHT), kernel, drones, writer, records, epoch=store.epoch
+        )
         begun = time.perf_counter()
         await kernel.run(life.start(plan(missions, TRIPS)))
         writer.flush()
@@ -108,7 +109,7 @@ def written(path: Path, missions: int) -> int:
 
     records = Records()
     drones = Instant(kernel, IN_FLIGHT)
-    life = Life(APP, ground(IN_FLIGHT), kernel, drones, Sink(), records, epoch=1)
+    life = RecordedFlight(APP, ground(IN_FLIGHT), kernel, drones, Sink(), records, epoch=1)
     kernel.run(life.start(plan(missions, TRIPS)), None)
     kernel.close()
     store.append(rows)

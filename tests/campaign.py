@@ -17,7 +17,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from time import perf_counter
 
-from pluto_fleet.cli.report import table
+from pluto_fleet.report.report import table
 from pluto_fleet.trials.invariants import violations
 from plutoc_runtime.alone.faults import shares
 from tests.flying import MISHAPS, NAMES, Example, built

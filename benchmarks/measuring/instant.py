@@ -166,7 +166,7 @@ class Instant:
         """Come home."""
         return True
 
-    async def roll_call(self, drone: str) -> DroneReport:
+    async def drone_report(self, drone: str) -> DroneReport:
         """Say that nothing has happened."""
         return DroneReport(
             drone=drone,
@@ -179,9 +179,9 @@ class Instant:
             done={},
         )
 
-    async def call(self) -> FleetReport:
+    async def fleet_report(self) -> FleetReport:
         """Ask every drone."""
-        drones: Mapping[str, Any] = {name: await self.roll_call(name) for name in self._drones}
+        drones: Mapping[str, Any] = {name: await self.drone_report(name) for name in self._drones}
         return FleetReport(drones=drones, jobs={})
 
     def attach(self, id: str, report: Callable[[object], object]) -> None:

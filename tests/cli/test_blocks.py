@@ -75,7 +75,7 @@ def test_a_broken_package_is_named_and_the_others_are_listed(
         points = EntryPoints([ours, theirs])
         return points.select(name=name) if name else points
 
-    monkeypatch.setattr("importlib.metadata.entry_points", found)
+    monkeypatch.setattr("plutoc.registry.entry_points", found)
     said = plutoc("blocks")
     assert said.code == 1
     assert "the blocks of broken cannot be loaded" in said.err

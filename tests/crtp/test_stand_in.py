@@ -7,8 +7,9 @@ from pathlib import Path
 
 from pluto_fleet.crazyflie.options import options_of
 from pluto_fleet.crtp.equipment import fitted
-from pluto_fleet.crtp.process import is_flown
-from pluto_fleet.gateway.process import taken
+from pluto_fleet.crtp.process import GATEWAY_LOCK
+from pluto_fleet.gateway.process import LOCK
+from pluto_fleet.process import locks
 
 CAMERA = "127.0.0.1:5000"
 
@@ -59,9 +60,11 @@ def test_what_the_file_names_and_it_lacks_it_has_otherwise() -> None:
 
 def test_they_stay_while_a_gateway_runs_that_has_nothing_to_tell_them(tmp_path: Path) -> None:
     """A mission may wait for hours, and its drones stand and are only listened to."""
-    assert not is_flown(tmp_path)
-    lock = taken(tmp_path)
+    of_gateway, seen = tmp_path / LOCK, tmp_path / GATEWAY_LOCK
+    assert not locks.is_taken(seen)
+    lock = locks.take(of_gateway)
     assert lock is not None
-    assert is_flown(tmp_path)
+    assert locks.is_taken(seen)
+    assert locks.holder(seen) == os.getpid()
     os.close(lock)
-    assert not is_flown(tmp_path)
+    assert not locks.is_taken(seen)

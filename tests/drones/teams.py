@@ -81,7 +81,7 @@ class Flown:
 
     async def up(self, drone: str = "cf1") -> FakeDrone:
         """Let a drone take off, and return it."""
-        await self.do(self.team.roll_call(drone))
+        await self.do(self.team.drone_report(drone))
         await self.do(self.team.takeoff(drone, 1.0))
         return self.drones[drone]
 

@@ -133,7 +133,7 @@ async def test_everything_ends_and_all_that_can_land_has_landed(tmp_path: Path, 
     """Three flights of each of four drones, with something going wrong every fifteen seconds."""
     chance = Random(f"chaos/{seed}")
     async with commanded(tmp_path, COUNT) as (flown, gateway):
-        await flown.do(gateway.link(1).call())
+        await flown.do(gateway.link(1).fleet_report())
         worse = asyncio.ensure_future(trouble(flown, gateway, chance))
         async with asyncio.timeout(3 * LONG):
             await asyncio.gather(

@@ -22,7 +22,7 @@ async def test_a_flight_is_told_step_by_step(tmp_path: Path) -> None:
     async with flying(tmp_path) as flown:
         team, seen = flown.team, flown.team.telemetry["cf1"]
         assert (seen.location, seen.battery_level, seen.landed) == ((1, 1, 0), 0.0, True)
-        standing = await flown.do(team.roll_call("cf1"))
+        standing = await flown.do(team.drone_report("cf1"))
         assert standing.reached
         assert (standing.landed, standing.problems, standing.done) == (True, (), None)
         team.begins("cf1", None, 0.0)
@@ -48,9 +48,9 @@ async def test_all_drones_are_connected_at_once_and_a_silent_one_delays_no_other
     async with flying(tmp_path, *drones) as flown:
         began = the_loop().time()
         for id in ("cf1", "cf2", "cf4", "cf5"):
-            assert (await flown.do(flown.team.roll_call(id))).reached
+            assert (await flown.do(flown.team.drone_report(id))).reached
         assert the_loop().time() - began < 0.5
-        silent = await flown.do(flown.team.roll_call("cf3"))
+        silent = await flown.do(flown.team.drone_report("cf3"))
         assert the_loop().time() - began == pytest.approx(15, abs=0.5)
         assert (silent.reached, silent.problems) == (False, ("cf3 did not answer in 15 s",))
 
@@ -73,7 +73,7 @@ async def test_a_roll_call_says_what_keeps_a_drone_from_flying(tmp_path: Path) -
     drone.lacks = {"take_photo", "pick_item"}
     wanted = [RequiredAction(action=name, parameters={}) for name in ("take_photo", "pick_item")]
     async with flying(tmp_path, drone, category=category, wanted=wanted) as flown:
-        problems = (await flown.do(flown.team.roll_call("cf1"))).problems
+        problems = (await flown.do(flown.team.drone_report("cf1"))).problems
         assert problems == (
             "its position is uncertain",
             "\\x1b[2Jlocked",
@@ -92,7 +92,7 @@ async def test_a_drone_without_the_hardware_of_the_plan_is_not_handed_out(tmp_pa
     drone, wanted = FakeDrone(), [RequiredAction(action="take_photo", parameters={})]
     drone.lacks = {"take_photo"}
     async with flying(tmp_path, drone, wanted=wanted) as flown:
-        standing = await flown.do(flown.team.roll_call("cf1"))
+        standing = await flown.do(flown.team.drone_report("cf1"))
         assert standing.problems == ("cf1 cannot take_photo",)
         assert await flown.do(flown.team.reach("cf1"))
         with pytest.raises(FlightFailed, match="cf1 is not ready: cf1 cannot take_photo"):
@@ -108,7 +108,7 @@ async def test_no_drone_takes_off_below_its_reserve(tmp_path: Path) -> None:
     drone = FakeDrone()
     drone.level = 0.15
     async with flying(tmp_path, drone) as flown:
-        await flown.do(flown.team.roll_call("cf1"))
+        await flown.do(flown.team.drone_report("cf1"))
         failed = await flown.failure(flown.team.takeoff("cf1", 1.0))
         assert "15 % in its battery, and 20 % are its reserve" in str(failed)
         assert drone.told == []
@@ -148,7 +148,7 @@ async def test_a_takeoff_that_is_broken_off_before_the_drone_says_that_it_flies_
     drone = FakeDrone()
     drone.hangs = {"takeoff"}
     async with flying(tmp_path, drone) as flown:
-        await flown.do(flown.team.roll_call("cf1"))
+        await flown.do(flown.team.drone_report("cf1"))
         seen = flown.team.telemetry["cf1"]
         rises = flown.begin(flown.team.takeoff("cf1", 1.0))
         await flown.until(lambda: not seen.landed, 1)
@@ -164,7 +164,7 @@ async def test_who_stands_on_the_ground_is_not_sent_anywhere(tmp_path: Path) -> 
     """It must take off first."""
     async with flying(tmp_path) as flown:
         team = flown.team
-        await flown.do(team.roll_call("cf1"))
+        await flown.do(team.drone_report("cf1"))
         for command in (
             team.go_to("cf1", (3, 1, 1)),
             team.hold("cf1"),
@@ -179,12 +179,12 @@ async def test_what_is_aboard_outlives_the_gateway(tmp_path: Path) -> None:
     async with flying(tmp_path) as flown:
         await flown.up()
         await flown.do(flown.team.act("cf1", "pick_item", {}, PILLS, "j"))
-        assert (await flown.do(flown.team.roll_call("cf1"))).carrying == "pills"
+        assert (await flown.do(flown.team.drone_report("cf1"))).carrying == "pills"
     async with flying(tmp_path) as flown:
-        assert (await flown.do(flown.team.roll_call("cf1"))).carrying == "pills"
+        assert (await flown.do(flown.team.drone_report("cf1"))).carrying == "pills"
         await flown.up()
         await flown.do(flown.team.act("cf1", "release_item", {}, PILLS, "k"))
-        assert (await flown.do(flown.team.roll_call("cf1"))).carrying is None
+        assert (await flown.do(flown.team.drone_report("cf1"))).carrying is None
 
 
 async def test_an_action_of_the_apps_own_reads_and_writes(tmp_path: Path) -> None:

@@ -44,7 +44,7 @@ async def test_a_drone_that_comes_back_can_be_flown_home(tmp_path: Path) -> None
         team.begins("cf1", None, 0.0)
         await flown.do(team.go_to("cf1", (1.0, 1.0, 1.0)))
         await flown.do(team.land("cf1"))
-        assert (await flown.do(team.roll_call("cf1"))).boot == 0
+        assert (await flown.do(team.drone_report("cf1"))).boot == 0
 
 
 async def test_a_drone_that_stays_away_is_lost_and_lands_when_it_appears(tmp_path: Path) -> None:
@@ -73,7 +73,7 @@ async def test_a_drone_that_was_switched_off_and_on_has_landed(tmp_path: Path) -
         drone.put((2.0, 2.0, 0.0))
         drone.answers = True
         await flown.until(lambda: team._vehicles["cf1"].linked)
-        standing = await flown.do(team.roll_call("cf1"))
+        standing = await flown.do(team.drone_report("cf1"))
         assert (standing.landed, standing.boot, standing.location) == (True, 1, (2, 2, 0))
         assert await flown.do(team.reach("cf1"))
 
@@ -82,12 +82,12 @@ async def test_a_roll_call_tries_a_lost_drone_once_more_and_does_not_hang(tmp_pa
     """However its navigation hangs."""
     async with flying(tmp_path) as flown:
         drone, team = flown.drones["cf1"], flown.team
-        await flown.do(team.roll_call("cf1"))
+        await flown.do(team.drone_report("cf1"))
         drone.goes_silent()
         drone.hangs = drone.clings = {"connect"}
         await flown.until(lambda: not team._vehicles["cf1"].linked)
         before = the_loop().time()
-        standing = await flown.do(team.roll_call("cf1"))
+        standing = await flown.do(team.drone_report("cf1"))
         assert the_loop().time() - before <= 17
         assert not standing.reached
 
@@ -108,7 +108,7 @@ async def test_a_link_that_is_lost_in_the_take_off_leaves_a_drone_in_the_air(
     drone.hangs = {"takeoff"}
     async with flying(tmp_path, drone) as flown:
         seen = flown.team.telemetry["cf1"]
-        await flown.do(flown.team.roll_call("cf1"))
+        await flown.do(flown.team.drone_report("cf1"))
         rises = flown.begin(flown.team.takeoff("cf1", 1.0))
         await flown.until(lambda: not seen.landed, 1)
         drone.goes_silent()
@@ -120,7 +120,7 @@ async def test_a_drone_on_the_ground_is_linked_again_quietly(tmp_path: Path) -> 
     """It was not waited for, and nothing has failed."""
     async with flying(tmp_path) as flown:
         drone, team = flown.drones["cf1"], flown.team
-        await flown.do(team.roll_call("cf1"))
+        await flown.do(team.drone_report("cf1"))
         drone.goes_silent()
         await flown.until(lambda: not team._vehicles["cf1"].linked)
         drone.answers = True
@@ -133,7 +133,7 @@ async def test_who_takes_long_to_connect_is_connected_all_the_same(tmp_path: Pat
     drone = FakeDrone()
     drone.slow = {"connect": 25.0}
     async with flying(tmp_path, drone) as flown:
-        standing = await flown.do(flown.team.roll_call("cf1"))
+        standing = await flown.do(flown.team.drone_report("cf1"))
         assert (standing.reached, standing.problems) == (False, ("cf1 did not answer in 15 s",))
         assert await flown.do(flown.team.reach("cf1"))
         assert the_loop().time() < 1000 + 27
@@ -149,5 +149,5 @@ async def test_a_drone_that_is_away_for_long_is_looked_for_rarely(tmp_path: Path
         await flown.until(lambda: the_loop().time() > 1600)
         assert drone.attempts - attempts < 12
         drone.answers = True
-        assert (await flown.do(flown.team.roll_call("cf1"))).reached
+        assert (await flown.do(flown.team.drone_report("cf1"))).reached
         assert flown.log.count("cf1 does not answer") == 1

@@ -59,7 +59,7 @@ async def test_a_navigation_that_hangs_hangs_nothing(
     """In any of its methods, and even if it does not let go: all else goes on within limits."""
     drones = FakeDrone(), FakeDrone("cf2", (3.0, 1.0, 0.0))
     async with flying(tmp_path, *drones) as flown:
-        await flown.do(flown.team.roll_call("cf1"))
+        await flown.do(flown.team.drone_report("cf1"))
         drones[0].hangs = {method}
         drones[0].clings = {method} if clings else set()
         before = the_loop().time()
@@ -107,7 +107,7 @@ async def test_a_navigation_that_raises_fails_its_own_flight(
     drones[0].raises = {method: error}
     async with flying(tmp_path, *drones) as flown:
         for drone in flown.drones:
-            await flown.do(flown.team.roll_call(drone))
+            await flown.do(flown.team.drone_report(drone))
         wrong = await everything(flown)
         assert await everything(flown, "cf2") == []
         if method not in ("hold", "events", "close"):
@@ -185,10 +185,10 @@ async def test_answers_that_are_none_are_mistakes(tmp_path: Path) -> None:
 
     drone = Odd()
     async with flying(tmp_path, drone) as flown:
-        problems = (await flown.do(flown.team.roll_call("cf1"))).problems
+        problems = (await flown.do(flown.team.drone_report("cf1"))).problems
         assert problems == ("its preflight gave no list of reasons",)
         drone.says = [None] * 1000
-        assert len((await flown.do(flown.team.roll_call("cf1"))).problems) == 20
+        assert len((await flown.do(flown.team.drone_report("cf1"))).problems) == 20
         drone.says = ()
         await flown.do(flown.team.takeoff("cf1", 1.0))
         assert "made a mistake: ValueError" in str(

@@ -77,7 +77,7 @@ async def test_a_job_is_flown_by_a_real_drone(tmp_path: Path) -> None:
     """What its action gave is reported once; then it is flown home."""
     async with commanded(tmp_path, 2) as (flown, gateway):
         link, heard = gateway.link(1), list[object]()
-        await flown.do(link.call())
+        await flown.do(link.fleet_report())
         flown.kernel.post(link.fly, measuring("cf1", (4.0, 5.0, 1.2)), heard.append)
         await flown.until(lambda: heard)
         assert heard == [21.5]
@@ -91,7 +91,7 @@ async def test_a_silent_drone_fails_its_job_and_comes_home_when_it_is_back(tmp_p
     """No other drone notices."""
     async with commanded(tmp_path, 2) as (flown, gateway):
         link, lost, well = gateway.link(1), list[object](), list[object]()
-        await flown.do(link.call())
+        await flown.do(link.fleet_report())
         flown.kernel.post(link.fly, measuring("cf1", (1.0, 5.0, 1.2)), lost.append)
         flown.kernel.post(link.fly, measuring("cf2", (4.0, 5.0, 1.2)), well.append)
         await flown.until(lambda: flown.drones["cf1"].place[1] > 2)
@@ -108,7 +108,7 @@ async def test_a_drone_with_a_low_battery_is_waited_for_where_it_landed(tmp_path
     """Recovered when a person has put it home."""
     async with commanded(tmp_path) as (flown, gateway):
         link, heard, drone = gateway.link(1), list[object](), flown.drones["cf1"]
-        await flown.do(link.call())
+        await flown.do(link.fleet_report())
         flown.kernel.post(link.fly, measuring("cf1", (1.0, 5.0, 1.2)), heard.append)
         await flown.until(lambda: drone.place[1] > 3)
         drone.level = 0.1
@@ -126,7 +126,7 @@ async def test_without_a_brain_all_land_and_a_silent_one_delays_no_other(tmp_pat
     """When it is back, and still not commanded, it lands, too."""
     async with commanded(tmp_path, 3, PATIENCE) as (flown, gateway):
         link, lost = gateway.link(1), flown.drones["cf2"]
-        await flown.do(link.call())
+        await flown.do(link.fleet_report())
         for id in flown.drones:
             link.heartbeat()
             await flown.do(flown.team.takeoff(id, 1.2))
@@ -152,7 +152,7 @@ async def test_another_gateway_flies_none_whose_motors_were_cut(tmp_path: Path) 
     ledger = FileLedger(tmp_path / "ledger")
     async with commanded(tmp_path, ledger=ledger) as (flown, gateway):
         link, heard, drone = gateway.link(1), list[object](), flown.drones["cf1"]
-        roll = await flown.do(link.call())
+        roll = await flown.do(link.fleet_report())
         assert roll.drones["cf1"].problems == ("cf1's motors were cut",)
         flown.kernel.post(link.fly, measuring("cf1", (1.0, 5.0, 1.2)), heard.append)
         await flown.until(lambda: heard)
@@ -182,7 +182,7 @@ async def test_a_goodbye_leaves_none_behind_in_the_air(tmp_path: Path, back: boo
         )
         reader, writer = await asyncio.open_unix_connection(sock=theirs)
         flown.kernel.post(ending.look)
-        await flown.do(link.call())
+        await flown.do(link.fleet_report())
         for id in flown.drones:
             await flown.do(flown.team.takeoff(id, 1.2))
         writer.write(line({"do": "link", "epoch": 2}))

@@ -188,7 +188,7 @@ async def test_a_drone_that_is_waited_for_hears_that_it_was_looked_after(tmp_pat
     drone = Mended()
     drone.reasons = ("it has crashed",)
     async with flying(tmp_path, drone) as flown:
-        await flown.do(flown.team.roll_call("cf1"))
+        await flown.do(flown.team.drone_report("cf1"))
         assert await flown.do(flown.team.reach("cf1"))
         fetched = flown.begin(flown.team.fetched("cf1"))
         the_loop().call_later(50, flown.team.mended, "cf1")
@@ -281,7 +281,7 @@ async def test_what_happens_on_the_ground_fails_no_flight(tmp_path: Path) -> Non
     """Preflight will say whether it matters; a person who carries a drone tilts it."""
     async with flying(tmp_path) as flown:
         drone, team = flown.drones["cf1"], flown.team
-        await flown.do(team.roll_call("cf1"))
+        await flown.do(team.drone_report("cf1"))
         for kind in (CRASHED, LOCKED, BATTERY_LOW, POSITION_LOST, "sneezed"):
             drone.happens(kind)
         await flown.until(lambda: len(flown.log) >= 5)

@@ -97,13 +97,13 @@ def test_modules_beside_a_step_come_along(make: Make) -> None:
     """However it imports them, a step keeps the modules of its own package."""
     package, scan = make(
         "from math import pi\n\n"
-        "from plutoc_runtime import words\n"
+        "from plutoc_runtime.domain import text\n"
         "from plutoc_runtime.domain.status import (\n    Status,\n)\n\n"
         "from .grid import cells\n"
         "from ..shared import é; from OWN.deep import depth  # from plutoc_runtime.x\n\n\n"
         "def scan(run, status):\n"
         "    from plutoc_runtime.domain.text import counted\n\n"
-        "    return Status, cells, é, depth, pi, words, counted\n",
+        "    return Status, cells, é, depth, pi, text, counted\n",
         **{
             "scan/grid": "cells = 3\n",
             "shared": "from OWN.deep import depth\n\né = depth\n",
@@ -121,13 +121,13 @@ def test_modules_beside_a_step_come_along(make: Make) -> None:
     ]
     assert files[f"{folder}/scan.py"] == (
         "from math import pi\n\n"
-        "from ... import words\n"
-        "from ...status import (\n    Status,\n)\n\n"
+        "from ...domain import text\n"
+        "from ...domain.status import (\n    Status,\n)\n\n"
         "from .scan_grid import cells\n"
         "from .shared import é; from .deep import depth  # from plutoc_runtime.x\n\n\n"
         "def scan(run, status):\n"
-        "    from ...words import counted\n\n"
-        "    return Status, cells, é, depth, pi, words, counted\n"
+        "    from ...domain.text import counted\n\n"
+        "    return Status, cells, é, depth, pi, text, counted\n"
     )
     assert files[f"{folder}/shared.py"] == "from .deep import depth\n\né = depth\n"
     assert {"_runtime/domain/text.py", "_runtime/domain/status.py"} <= files.keys()
@@ -148,7 +148,7 @@ SCAN = "\n\ndef scan(run, status): ...\n"
         ),
         ("from plutoc.block import Block", "plutoc.block is neither of the standard library"),
         ("from . import grid", "is not a module with a file of its own"),
-        ("from plutoc_runtime . words import counted", "on one line"),
+        ("from plutoc_runtime . domain . text import counted", "on one line"),
         ("from \\\n plutoc_runtime.domain.text import counted", "on one line"),
     ],
 )

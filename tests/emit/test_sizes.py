@@ -170,11 +170,11 @@ def test_the_basic_app_is_small() -> None:
 
 
 ONLY_WITH = {
-    "judgement": "MissionEvaluator",
-    "modification": "MissionModifier",
+    "flow.judgement": "MissionEvaluator",
+    "flow.modification": "MissionModifier",
 }
 """Modules of the runtime that a kind of block alone needs."""
-OF_STRANGERS = ("declared",)
+OF_STRANGERS = ("flow.declared",)
 """What holds blocks of other packages to what they declare: no example has one."""
 
 
@@ -186,11 +186,12 @@ def test_modules_that_nothing_needs_stay_behind(example: str) -> None:
     for module, kind in ONLY_WITH.items():
         assert (module in carried) == (kind in text)
     assert not carried & set(OF_STRANGERS)
-    policies = {name.removeprefix("policies.") for name in carried if name.startswith("policies.")}
+    policies = {name.removeprefix(POLICIES) for name in carried if name.startswith(POLICIES)}
     chosen = re.search(r"policy: (\w+)", text)
     assert policies == NEEDED.get(chosen[1] if chosen else "nearest", {"own"})
 
 
+POLICIES = "fleet.policies."
 NEEDED = {
     "batch_optimal": {"assignment", "batch_optimal"},
     "first": {"first"},

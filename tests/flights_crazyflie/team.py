@@ -30,7 +30,7 @@ APART = 0.5
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Craft:
+class FleetDrone:
     """A drone as the gateway knows it."""
 
     id: str
@@ -106,7 +106,7 @@ async def commanded(
     folder: Path, homes: Mapping[str, Point], uris: Mapping[str, str], options: Mapping[str, object]
 ) -> AsyncIterator[Flown]:
     """Fly these drones; in the end all are landed, and nothing is left: no thread, no task."""
-    crafts = [Craft(id=id, home=home, index=i) for i, (id, home) in enumerate(homes.items())]
+    crafts = [FleetDrone(id=id, home=home, index=i) for i, (id, home) in enumerate(homes.items())]
     real = RealFleet(
         drones=tuple(
             RealDrone(id=id, navigation="crazyflie", uri=uris[id], options=options) for id in homes

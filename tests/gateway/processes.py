@@ -17,7 +17,7 @@ from pluto_fleet.gateway.settings import Settings
 from pluto_fleet.gateway.starting import connect
 from pluto_fleet.process.realtime import RealTime
 from pluto_fleet.simulation.body import SimulatedDrone
-from pluto_fleet.simulation.keeping import DEEDS
+from pluto_fleet.simulation.world_store import DEEDS
 from plutoc_runtime.alone.faults import Faults
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.time.future import Future

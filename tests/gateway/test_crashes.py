@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 
 from pluto_fleet.gateway.gateway import Gateway, Link
 from pluto_fleet.gateway.ledger import FileLedger
-from pluto_fleet.gateway.lossy_line import LOST, Line
+from pluto_fleet.gateway.lossy_line import LOST, LossyLine
 from pluto_fleet.jobs.reports import Down, JobState
-from pluto_fleet.simulation.drones import Deed
+from pluto_fleet.simulation.drones import WorldAction
 from pluto_fleet.simulation.radio import Radio
 from plutoc_runtime.domain.errors import Failure, FlightFailed
 from plutoc_runtime.time.kernel import FLEET
@@ -45,7 +45,7 @@ class World(Field):
         self.slow = slow
         self.folder = folder
         super().__init__(ledger=None if folder is None else FileLedger(folder / "ledger"))
-        self.deeds: list[Deed] = []
+        self.deeds: list[WorldAction] = []
         self.navigation.record = self.deeds.append
         self.jobs = [
             Task(id=f"{n}", drone=f"cf{n + 1}", stops=((2.0 + n, 3.0, 1.2),)) for n in range(DRONES)
@@ -63,10 +63,10 @@ class World(Field):
         self.gateway = Gateway(
             self.kernel, radio, self.drones, self.airspace, ledger=self.ledger, patience=3
         )
-        self.gateway.line = Line(self.gateway, self.fate)
+        self.gateway.line = LossyLine(self.gateway, self.delay)
         return self.gateway
 
-    def fate(self) -> float:
+    def delay(self) -> float:
         """Say what becomes of a report: the next one may break the line."""
         breaks, self.line_breaks = self.line_breaks, False
         return LOST if breaks else 0.0
@@ -117,7 +117,7 @@ class World(Field):
 
     async def do(self, link: Link) -> None:
         """Call the roll; attach to what flies or is done, fly what was not; ask no other."""
-        roll = await link.call()
+        roll = await link.fleet_report()
         for job in self.jobs:
             known = roll.jobs.get(job.id)
             state = None if known is None else known.state
@@ -163,7 +163,7 @@ def test_no_sequence_of_crashes_does_anything_twice(
         assert len(done) == len(set(done))
         assert world.reported.keys() <= set(done)
         for job in world.jobs:
-            standing = fly(world.virtual, world.navigation.roll_call(job.drone))
+            standing = fly(world.virtual, world.navigation.drone_report(job.drone))
             cut = job.drone == "cf1" and world.cut_after is not None
             out = cut or not standing.reached
             assert job.id in world.reported or job.id in world.unknown or out

@@ -13,7 +13,7 @@ from pluto_fleet.gateway.ledger import FileLedger
 from pluto_fleet.gateway.process import LEDGER
 from pluto_fleet.gateway.starting import cut_directly
 from pluto_fleet.jobs.reports import Down
-from pluto_fleet.simulation.keeping import DRONES
+from pluto_fleet.simulation.world_store import DRONES
 from plutoc_runtime.domain.errors import BadInput, Failure, FlightFailed
 from plutoc_runtime.time.kernel import FLEET
 from tests.gateway.flights import THERE, Field, Task
@@ -125,7 +125,7 @@ class Kept(Field):
 
     def roll(self, epoch: int) -> tuple[str, ...]:
         """Call the roll, and return why cf1 may not fly."""
-        return fly(self.virtual, self.gateway.link(epoch).call()).drones["cf1"].problems
+        return fly(self.virtual, self.gateway.link(epoch).fleet_report()).drones["cf1"].problems
 
 
 def test_another_gateway_knows_whose_motors_were_cut(tmp_path: Path) -> None:
@@ -135,7 +135,7 @@ def test_another_gateway_knows_whose_motors_were_cut(tmp_path: Path) -> None:
     field.is_killed()
     assert field.roll(1) == ("cf1's motors were cut",)
     link = field.gateway.link(2)
-    fly(field.virtual, link.call())
+    fly(field.virtual, link.fleet_report())
     for command in (link.takeoff("cf1", 1.2), link.go_to("cf1", THERE)):
         assert failure(field.virtual, command).failure is Failure.CRASH
     assert fly(field.virtual, link.recover("cf1")) is False
@@ -190,7 +190,7 @@ def test_who_could_not_be_told_is_as_before(
     for epoch in (1, 2):
         assert field.roll(epoch) == ("cf1's motors were cut",)
         link = field.gateway.link(epoch)
-        fly(field.virtual, link.call())
+        fly(field.virtual, link.fleet_report())
         assert fly(field.virtual, link.recover("cf2")) is True
         field.is_killed()
     field.virtual.close()
@@ -224,18 +224,18 @@ def test_a_gateway_that_is_killed_right_after_a_cut_comes_back_knowing_it(tmp_pa
 
     async def play(brain: Brain) -> None:
         link = await brain.linked()
-        await brain.told(link.call())
+        await brain.told(link.fleet_report())
         await asyncio.to_thread(cut_directly, tmp_path, "cf1", 5)
         await killed(brain)
         link = await brain.linked()
-        roll = await brain.told(link.call())
+        roll = await brain.told(link.fleet_report())
         assert roll.drones["cf1"].problems == ("cf1's motors were cut",)
         assert not await brain.told(link.recover("cf1"))
         brain.kernel.post(link.mended, "cf1")
         assert await brain.told(link.recover("cf1"))
         await killed(brain)
         link = await brain.linked()
-        assert (await brain.told(link.call())).drones["cf1"].problems == ()
+        assert (await brain.told(link.fleet_report())).drones["cf1"].problems == ()
 
     played(tmp_path, play)
 

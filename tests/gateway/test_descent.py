@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from pluto_fleet.jobs.reports import Down, JobState
 from plutoc_runtime.alone.faults import Faults
-from plutoc_runtime.alone.motion import Charge
+from plutoc_runtime.alone.ideal import Charge
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.errors import Failure
 from plutoc_runtime.time.kernel import FLEET
@@ -46,7 +46,7 @@ def test_landing_breaks_off_every_flight() -> None:
     assert (all_landed(field), heard) == (True, [])
     assert field.kernel.now == pytest.approx(6)  # up for three seconds, and down
     assert isinstance(field.kernel, VirtualTime)
-    roll = fly(field.kernel, field.gateway.link(10).call())
+    roll = fly(field.kernel, field.gateway.link(10).fleet_report())
     assert roll.jobs[Task().id].state is JobState.BROKEN_OFF
 
 
@@ -62,7 +62,7 @@ def test_the_link_is_not_heard_from_then_on_until_the_roll_is_called() -> None:
     field.advance(60)
     assert (all_landed(field), field.navigation.flown("cf2")) == (True, 0)
     assert isinstance(field.kernel, VirtualTime)
-    fly(field.kernel, link.call())
+    fly(field.kernel, link.fleet_report())
     link.fly(Task(id="other", drone="cf2"), heard.append)
     field.advance(60)
     assert heard == [None]
@@ -127,7 +127,7 @@ def test_it_goes_on_without_the_brain() -> None:
     new = field.gateway.link(2)
     new.fly(Task(id="too early", drone="cf2"), lambda _: None)
     assert isinstance(field.kernel, VirtualTime)
-    roll = fly(field.kernel, new.call())
+    roll = fly(field.kernel, new.fleet_report())
     assert all(standing.landed for standing in roll.drones.values())
     assert list(roll.jobs) == [Task().id]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from pluto_fleet.gateway.lossy_line import LOST, Line
+from pluto_fleet.gateway.lossy_line import LOST, LossyLine
 from pluto_fleet.jobs.reports import Down, JobState
 from pluto_fleet.simulation.radio import ANSWER, COMMAND, Radio
 from plutoc_runtime.domain.errors import Failure, FlightFailed
@@ -50,7 +50,7 @@ def test_what_is_on_its_way_can_be_broken_off() -> None:
     field.advance(50)
     assert heard == []
     assert isinstance(field.kernel, VirtualTime)
-    roll = fly(field.kernel, link.call())
+    roll = fly(field.kernel, link.fleet_report())
     assert roll.jobs[Task().id].state is JobState.DONE
 
 
@@ -76,7 +76,7 @@ def test_a_report_that_is_lost_breaks_the_line_and_is_told_to_the_next_who_attac
     """The brain notices that the line is broken, and asks."""
     field, lost, heard = Field(), list[str](), list[object]()
     fates = iter([LOST, 0.0])
-    field.gateway.line = line = Line(field.gateway, lambda: next(fates))
+    field.gateway.line = line = LossyLine(field.gateway, lambda: next(fates))
     link = field.gateway.link(1, lambda: lost.append("line"))
     link.fly(Task(), heard.append)
     field.advance(100)
@@ -89,7 +89,7 @@ def test_a_report_that_is_lost_breaks_the_line_and_is_told_to_the_next_who_attac
 def test_a_late_report_is_not_told_to_a_brain_that_is_gone() -> None:
     """It is of another life."""
     field, heard = Field(), list[object]()
-    field.gateway.line = line = Line(field.gateway, lambda: 5.0)
+    field.gateway.line = line = LossyLine(field.gateway, lambda: 5.0)
     field.gateway.link(1).fly(Task(), heard.append)
     field.advance(17)
     assert (line.late, heard) == (1, [])
@@ -124,7 +124,7 @@ def test_a_drone_that_is_switched_off_in_the_air_comes_down() -> None:
     field.advance(20)
     field.navigation.reboot("cf1")
     assert isinstance(field.kernel, VirtualTime)
-    standing = fly(field.kernel, link.roll_call("cf1"))
+    standing = fly(field.kernel, link.drone_report("cf1"))
     assert (standing.reached, standing.boot, standing.done) == (False, 1, {})
     assert fly(field.kernel, link.recover("cf1"))
-    assert fly(field.kernel, link.roll_call("cf1")).reached
+    assert fly(field.kernel, link.drone_report("cf1")).reached

@@ -17,7 +17,7 @@ from tests.runtime.simulation.flights import failure, fly
 def called(field: Field) -> FleetReport:
     """Call the roll through a new link."""
     assert isinstance(field.kernel, VirtualTime)
-    return fly(field.kernel, field.gateway.link(99).call())
+    return fly(field.kernel, field.gateway.link(99).fleet_report())
 
 
 def states(roll: FleetReport) -> dict[str, JobState]:
@@ -57,7 +57,7 @@ def test_a_job_under_way_outlives_the_brain_that_gave_it() -> None:
     field.advance(10)
     link = field.gateway.link(2)
     assert isinstance(field.kernel, VirtualTime)
-    roll = fly(field.kernel, link.call())
+    roll = fly(field.kernel, link.fleet_report())
     assert states(roll) == {Task().id: JobState.FLYING}
     assert not roll.drones["cf1"].landed
     link.attach(Task().id, new.append)
@@ -93,7 +93,7 @@ def test_an_older_brain_commands_nothing() -> None:
     old.forget("anything")
     field.kernel.spawn(old.takeoff("cf2", 1.2), FLEET, "the old brain")
     field.kernel.spawn(old.bring_down(Down.LAND), FLEET, "the old brain")
-    field.kernel.spawn(old.call(), FLEET, "the old brain")
+    field.kernel.spawn(old.fleet_report(), FLEET, "the old brain")
     field.advance(100)
     assert lost == ["old"]
     assert [field.navigation.flown(f"cf{number}") for number in (1, 2, 3)] == [0, 0, 0]
@@ -253,7 +253,7 @@ def test_without_a_ledger_nothing_is_kept_of_what_is_over() -> None:
     link.break_off("cf2")
     field.advance(100)
     assert isinstance(field.kernel, VirtualTime)
-    assert fly(field.kernel, link.call()).jobs == {}
+    assert fly(field.kernel, link.fleet_report()).jobs == {}
 
 
 def test_who_tells_a_drone_two_things_at_once_is_told_of_the_mistake() -> None:
@@ -272,7 +272,7 @@ def test_who_tells_a_drone_two_things_at_once_is_told_of_the_mistake() -> None:
     with pytest.raises(Busy, match="cf1 was told to fly while it does something for itself"):
         link.fly(Task(), lambda _: None)
     assert isinstance(field.kernel, VirtualTime)
-    assert not fly(field.kernel, link.roll_call("cf1")).landed
+    assert not fly(field.kernel, link.drone_report("cf1")).landed
 
 
 def test_a_drone_that_was_sent_elsewhere_does_not_hover_there_any_more() -> None:
@@ -286,9 +286,9 @@ def test_a_drone_that_was_sent_elsewhere_does_not_hover_there_any_more() -> None
     field.advance(1)
     holding.cancel()
     assert isinstance(field.kernel, VirtualTime)
-    assert states(fly(field.kernel, link.call())) == {job.id: JobState.DONE}
+    assert states(fly(field.kernel, link.fleet_report())) == {job.id: JobState.DONE}
     fly(field.kernel, link.land("cf1"))
-    assert states(fly(field.kernel, link.call())) == {job.id: JobState.BROKEN_OFF}
+    assert states(fly(field.kernel, link.fleet_report())) == {job.id: JobState.BROKEN_OFF}
     link.fly(job, heard.append)
     field.advance(20)
     assert heard == [None, None]

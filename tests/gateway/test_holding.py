@@ -11,7 +11,7 @@ from threading import Timer
 
 import pytest
 
-from pluto_fleet.gateway.drone_lock import Held, holding
+from pluto_fleet.gateway.drone_lock import DroneInUse, lock_drones
 from plutoc_runtime.domain.errors import BadInput
 
 ROOT = Path(__file__).parents[2]
@@ -21,7 +21,7 @@ RADIO = "radio://0/80/2M/E7E7E7E7E7"
 def test_a_second_process_is_refused_and_told_who_holds_the_drone(tmp_path: Path) -> None:
     """The first one's number is what it takes to end it."""
     said = "is commanded by process {} already"
-    with _holder(tmp_path, RADIO) as first, pytest.raises(Held, match=said.format(first.pid)):
+    with _holder(tmp_path, RADIO) as first, pytest.raises(DroneInUse, match=said.format(first.pid)):
         _hold(tmp_path, cf1=RADIO)
 
 
@@ -30,7 +30,7 @@ def test_a_process_that_is_just_leaving_is_waited_for(tmp_path: Path) -> None:
     with _holder(tmp_path, RADIO) as first:
         assert first.stdin is not None
         Timer(0.1, first.stdin.close).start()
-        with holding({"cf1": RADIO}, tmp_path, patience=20.0):
+        with lock_drones({"cf1": RADIO}, tmp_path, patience=20.0):
             assert first.wait() == 0
 
 
@@ -47,20 +47,20 @@ def test_a_killed_process_holds_nothing_any_more(tmp_path: Path) -> None:
 )
 def test_one_drone_is_one_drone_however_its_uri_is_written(tmp_path: Path, other: str) -> None:
     """Another dongle reaches the very same drone."""
-    with holding({"cf1": RADIO}, tmp_path), pytest.raises(Held):
+    with lock_drones({"cf1": RADIO}, tmp_path), pytest.raises(DroneInUse):
         _hold(tmp_path, cf2=other)
 
 
 @pytest.mark.parametrize("other", ["radio://0/80/2M/E7E7E7E7E8", "udp://127.0.0.1:19850"])
 def test_other_drones_are_free(tmp_path: Path, other: str) -> None:
     """A lock is one drone's, not one dongle's."""
-    with holding({"cf1": RADIO}, tmp_path):
+    with lock_drones({"cf1": RADIO}, tmp_path):
         _hold(tmp_path, cf2=other)
 
 
 def test_who_gets_one_drone_of_two_holds_neither(tmp_path: Path) -> None:
     """A gateway that may not begin keeps nothing from others."""
-    with holding({"cf2": "udp://b"}, tmp_path), pytest.raises(Held, match="cf2"):
+    with lock_drones({"cf2": "udp://b"}, tmp_path), pytest.raises(DroneInUse, match="cf2"):
         _hold(tmp_path, cf1="udp://a", cf2="udp://b")
     _hold(tmp_path, cf1="udp://a", cf2="udp://b")
 
@@ -76,10 +76,10 @@ def test_the_locks_stand_in_the_users_runtime_folder(
 ) -> None:
     """All processes of a user look there, and other users may not."""
     monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
-    with holding({"cf1": RADIO}):
+    with lock_drones({"cf1": RADIO}):
         (folder,) = tmp_path.iterdir()
         assert folder.stat().st_mode & 0o077 == 0
-        with pytest.raises(Held):
+        with pytest.raises(DroneInUse):
             _hold(None, cf1=RADIO)
 
 
@@ -123,20 +123,20 @@ def test_tests_take_no_lock_of_what_else_runs_on_this_machine(tmp_path: Path) ->
 
 def test_the_users_lock_is_free() -> None:
     """Nothing but a test of this session could hold it."""
-    with holding({"cf1": RADIO}), pytest.raises(Held):
+    with lock_drones({"cf1": RADIO}), pytest.raises(DroneInUse):
         _hold(None, cf1=RADIO)
 
 
 def _hold(folder: Path | None, **drones: str) -> None:
     with ExitStack() as stack:
-        stack.enter_context(holding(drones, folder))
+        stack.enter_context(lock_drones(drones, folder))
 
 
 def _holder(folder: Path, uri: str) -> subprocess.Popen[bytes]:
     """Return a process that has taken a drone's lock."""
     program = (
-        "import sys, pathlib; from pluto_fleet.gateway.drone_lock import holding\n"
-        "with holding({'cf1': sys.argv[1]}, pathlib.Path(sys.argv[2])):\n"
+        "import sys, pathlib; from pluto_fleet.gateway.drone_lock import lock_drones\n"
+        "with lock_drones({'cf1': sys.argv[1]}, pathlib.Path(sys.argv[2])):\n"
         "    print('taken', flush=True); sys.stdin.read()\n"
     )
     runtime = Path(sys.modules["plutoc_runtime"].__path__[0]).parent

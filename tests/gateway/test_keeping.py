@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from pluto_fleet.simulation.keeping import DEEDS, DRONES, Keeper
 from pluto_fleet.simulation.moments import Moment, this_moment
+from pluto_fleet.simulation.world_store import DEEDS, DRONES, WorldStore
 from plutoc_runtime.alone.faults import Faults
 from plutoc_runtime.domain.errors import Failure, FlightFailed
 from plutoc_runtime.time.kernel import FLEET
@@ -24,7 +24,7 @@ class Kept(Field):
         super().__init__(faults=faults)
         kernel = self.kernel
         self._begun = wall
-        self.keeper = Keeper(folder, kernel.time, 1.0, self.moment)
+        self.keeper = WorldStore(folder, kernel.time, 1.0, self.moment)
         self.navigation.record = self.keeper.record
         self.keeper.take_over(self.navigation.bodies)
 
@@ -70,7 +70,7 @@ def test_what_was_done_and_is_aboard_is_remembered(tmp_path: Path) -> None:
     (tmp_path / DRONES).write_bytes(before)
     field = Kept(tmp_path, 1025.0)
     assert field.navigation.carrying("cf1") == PILLS
-    standing = fly(field.virtual, field.navigation.roll_call("cf1"))
+    standing = fly(field.virtual, field.navigation.drone_report("cf1"))
     assert standing.done == {Task().id: None}
     deeds = [json.loads(line) for line in (tmp_path / DEEDS).read_text().splitlines()]
     (deed,) = deeds
@@ -95,7 +95,7 @@ def test_what_was_put_down_is_not_aboard(tmp_path: Path) -> None:
     field.navigation.reboot("cf1")
     field = field.later(tmp_path, 1)
     assert field.navigation.carrying("cf1") is None
-    standing = fly(field.virtual, field.navigation.roll_call("cf1"))
+    standing = fly(field.virtual, field.navigation.drone_report("cf1"))
     assert (standing.boot, standing.done, standing.reached) == (1, {}, False)
 
 

@@ -87,7 +87,7 @@ def test_where_the_ledger_was_damaged_drones_are_believed() -> None:
     field.ledger.is_whole = False
     link = field.another().link(2)
     assert isinstance(field.kernel, VirtualTime)
-    assert fly(field.kernel, link.call()).jobs[Task().id].state is JobState.DONE
+    assert fly(field.kernel, link.fleet_report()).jobs[Task().id].state is JobState.DONE
     link.fly(job := Task(), heard.append)
     field.advance(50)
     assert (heard, job.begun) == ([None, None], 0)
@@ -102,7 +102,7 @@ def test_what_a_drone_remembers_is_not_done_again_though_the_ledger_does_not_hav
     field.ledger.forget(Task().id)
     link = field.another().link(2)
     assert isinstance(field.kernel, VirtualTime)
-    assert not fly(field.kernel, link.call()).jobs
+    assert not fly(field.kernel, link.fleet_report()).jobs
     link.fly(job := Task(), heard.append)
     field.advance(50)
     assert (heard, job.begun) == ([None, None], 0)
@@ -117,7 +117,7 @@ def test_in_a_first_life_no_drone_is_taken_at_its_word() -> None:
     field.ledger.forget(Task().id)
     link = field.another().link(1)
     assert isinstance(field.kernel, VirtualTime)
-    fly(field.kernel, link.call())
+    fly(field.kernel, link.fleet_report())
     link.fly(job := Task(), heard.append)
     field.advance(50)
     assert job.begun == 1

@@ -37,7 +37,7 @@ def test_a_job_is_flown_through_it(tmp_path: Path) -> None:
         assert not link.telemetry("cf1").landed
         photo = await brain.flown(link, Task(id="photo", action="take_photo", item=None))
         assert isinstance(photo, Photo)
-        roll = await brain.told(link.call())
+        roll = await brain.told(link.fleet_report())
         assert {id: job.state for id, job in roll.jobs.items()} == {
             Task().id: JobState.DONE,
             "photo": JobState.DONE,
@@ -82,7 +82,7 @@ def test_a_brain_that_is_gone_finds_its_job_flying_on(tmp_path: Path) -> None:
         await brain.until(lambda: not link.telemetry("cf1").landed)
         await link.close()
         link = await brain.linked()
-        roll = await brain.told(link.call())
+        roll = await brain.told(link.fleet_report())
         assert (roll.jobs[Task().id].state, roll.jobs[Task().id].flies) == (JobState.FLYING, True)
         heard: list[object] = []
         brain.kernel.post(link.attach, Task().id, heard.append)
@@ -105,7 +105,7 @@ def test_without_a_brain_everything_lands_and_then_it_ends(tmp_path: Path) -> No
         link = await brain.linked()
         assert link.telemetry("cf1").landed
         assert link.telemetry("cf1").location[0] > 2
-        assert (await brain.told(link.call())).jobs == {}
+        assert (await brain.told(link.fleet_report())).jobs == {}
 
     played(tmp_path, play, patience=0.1, idle=0.5)
 
@@ -123,7 +123,7 @@ def test_a_gateway_that_is_killed_comes_back_to_the_same_world(tmp_path: Path) -
         os.kill(killed, signal.SIGKILL)
         await brain.kernel.run(brain.lost)
         link = await brain.linked()
-        roll = await brain.told(link.call())
+        roll = await brain.told(link.fleet_report())
         assert pid(tmp_path) != killed
         assert {id: entry.state for id, entry in roll.jobs.items()} == {Task().id: JobState.DONE}
         assert roll.drones["cf1"].carrying == "pills"
@@ -145,14 +145,14 @@ def test_all_can_be_brought_down_by_the_brain_and_without_it(tmp_path: Path) -> 
         await brain.told(link.bring_down(Down.HOME))
         assert link.telemetry("cf1").landed
         assert link.telemetry("cf1").location == pytest.approx((1, 1, 0))
-        roll = await brain.told(link.call())
+        roll = await brain.told(link.fleet_report())
         assert roll.jobs[Task().id].state is JobState.BROKEN_OFF
         brain.kernel.post(link.fly, Task(), lambda _: None)
         await brain.until(lambda: link.telemetry("cf1").location[0] > 2)
         assert stop_directly(tmp_path, Down.LAND, 5) == "the drones come down"
         await brain.kernel.run(brain.lost)
         link = await brain.linked()
-        roll = await brain.told(link.call())
+        roll = await brain.told(link.fleet_report())
         assert roll.drones["cf1"].landed
         assert roll.drones["cf1"].location[0] > 2
 
@@ -264,7 +264,7 @@ def test_a_disk_without_room_for_a_gateway_is_said_to_be_full(tmp_path: Path) ->
 
 def test_a_gateway_that_hangs_is_replaced(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """It says nothing any more: it is killed, and another one takes over the world."""
-    monkeypatch.setattr(remote, "SILENCE", 1.5)  # it says something each second
+    monkeypatch.setattr(remote, "GATEWAY_TIMEOUT", 1.5)  # it says something each second
 
     async def play(brain: Brain) -> None:
         link = await brain.linked()
@@ -272,11 +272,11 @@ def test_a_gateway_that_hangs_is_replaced(tmp_path: Path, monkeypatch: pytest.Mo
         hung = pid(tmp_path)
         assert hung is not None
         os.kill(hung, signal.SIGSTOP)
-        monkeypatch.setattr(starting, "SILENCE", 0.5)
+        monkeypatch.setattr(starting, "GATEWAY_TIMEOUT", 0.5)
         await brain.kernel.run(brain.lost)
         link = await brain.linked()
         assert pid(tmp_path) != hung
-        assert (await brain.told(link.call())).drones["cf1"].carrying == "pills"
+        assert (await brain.told(link.fleet_report())).drones["cf1"].carrying == "pills"
 
     played(tmp_path, play)
 

@@ -9,12 +9,12 @@ from hypothesis import strategies as st
 
 from pluto_fleet.gateway.settings import data_of, settings_of
 from pluto_fleet.gateway.wire import (
+    fleet_report_data,
+    fleet_report_of,
     job_data,
     job_of,
     result_data,
     result_of,
-    roll_data,
-    roll_of,
 )
 from pluto_fleet.jobs.reports import DroneReport, Entry, FleetReport, JobState
 from pluto_fleet.process.ipc import line, message_in
@@ -113,7 +113,7 @@ def test_a_roll_call_arrives_as_it_was(drones: list[DroneReport], jobs: list[Ent
         drones={standing.drone: standing for standing in drones},
         jobs={entry.id: entry for entry in jobs},
     )
-    assert roll_of(sent(roll_data(roll))) == roll
+    assert fleet_report_of(sent(fleet_report_data(roll))) == roll
 
 
 def test_settings_are_read_as_they_were_written() -> None:

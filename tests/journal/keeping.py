@@ -14,8 +14,8 @@ import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 
+from pluto_fleet.journal.fold import replayed
 from pluto_fleet.journal.header import LANGUAGE
-from pluto_fleet.journal.replay import replayed
 from pluto_fleet.journal.store import Store
 from plutoc import __version__
 from tests.flying import compiled_file

@@ -10,8 +10,8 @@ from tempfile import TemporaryDirectory
 
 import pytest
 
+from pluto_fleet.journal.database import VERSION
 from pluto_fleet.journal.errors import JournalError
-from pluto_fleet.journal.format import VERSION
 from pluto_fleet.journal.reader import Reader
 from pluto_fleet.journal.store import Store
 from tests.journal.damage import HEADER, ROWS, closed, holds, killed

@@ -11,9 +11,9 @@ from pathlib import Path
 import pytest
 
 from pluto_fleet.journal.errors import JournalError
+from pluto_fleet.journal.fold import replayed
 from pluto_fleet.journal.lock import holder
 from pluto_fleet.journal.reader import Reader
-from pluto_fleet.journal.replay import replayed
 from pluto_fleet.journal.store import Store
 
 HEADER = {"event": "journal.begun", "app": "alfalfa", "missions": '[[mission]]\nname = "Ä"'}

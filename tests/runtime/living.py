@@ -8,14 +8,14 @@ from dataclasses import replace
 from typing import Any
 
 from pluto_fleet.files.fleet import FleetFile
-from pluto_fleet.flight.recorded_flight import Life
+from pluto_fleet.flight.recorded_flight import RecordedFlight
 from pluto_fleet.gateway.gateway import Gateway
 from pluto_fleet.gateway.ledger import MemoryLedger
 from pluto_fleet.jobs.reports import Down
 from pluto_fleet.journal.fold import Records
 from pluto_fleet.journal.memory import Memory
 from pluto_fleet.simulation.body import SimulatedDrone
-from pluto_fleet.simulation.drones import Deed, SimulatedNavigation
+from pluto_fleet.simulation.drones import SimulatedNavigation, WorldAction
 from plutoc_runtime.alone.faults import Faults
 from plutoc_runtime.alone.world import World
 from plutoc_runtime.domain.app import App
@@ -51,7 +51,7 @@ class _AtOnce:
 
     def __init__(self, memory: Memory) -> None:
         self._memory = memory
-        self.life: Life | None = None
+        self.life: RecordedFlight | None = None
 
     def add(self, row: str) -> int:
         """Make a row durable."""
@@ -96,14 +96,14 @@ class Living:
         self.life = self._new_life()
         self.life.start(missions).watch(self._is_done)
 
-    def _new_life(self) -> Life:
+    def _new_life(self) -> RecordedFlight:
         self._epoch += 1
         self._brain = Mortal(self.kernel)
         records = Records()
         for event in self.memory.read().events:
             records.take(event)
         disk, link = _AtOnce(self.memory), self.gateway.link(self._epoch)
-        life = Life(
+        life = RecordedFlight(
             self.app,
             self.fleet,
             self._brain,
@@ -181,7 +181,7 @@ class Living:
         found = [event for event in self.named(kind) if trip in (None, event.get("trip"))]
         return [float(str(event["t"])) for event in found]
 
-    def _see(self, deed: Deed) -> None:
+    def _see(self, deed: WorldAction) -> None:
         self.done_by_drones.append((deed.action, deed.item.name if deed.item else ""))
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from pluto_fleet.gateway.lossy_line import Line
+from pluto_fleet.gateway.lossy_line import LossyLine
 from plutoc_runtime.domain.status import Status
 from plutoc_runtime.hooks.context import Context
 
@@ -15,7 +15,7 @@ from .living import Living, enterable, names
 def picking(*, safe_time: float, late: float) -> Living:
     mission = apps.mission("a", apps.pick("p", 3), apps.release("r", 5), safe_time=safe_time)
     living = Living(enterable(watch=apps.timed, attempts=3), mission)
-    living.gateway.line = Line(living.gateway, lambda: late)
+    living.gateway.line = LossyLine(living.gateway, lambda: late)
     return living
 
 
@@ -66,5 +66,5 @@ def test_a_modifier_that_fails_what_was_done_fails_nothing() -> None:
     mission = apps.mission("a", apps.pick("p", 3), apps.release("r", 4))
     every = (Status.STANDBY, Status.COMPLETED, Status.FAILED)
     living = Living(enterable(watch=apps.modified(limit, *every)), mission)
-    living.gateway.line = Line(living.gateway, lambda: 1.0)
+    living.gateway.line = LossyLine(living.gateway, lambda: 1.0)
     assert living.run() == ["COMPLETED"]

@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet.flight.config import End, Lived, Setting, Stops
+from pluto_fleet.flight.config import End, FlightConfig, FlightResult, Stops
 from pluto_fleet.flight.fly import live
 from pluto_fleet.gateway.gateway import Gateway, Link
 from pluto_fleet.gateway.ledger import MemoryLedger
@@ -41,7 +41,7 @@ AIRSPACE = Airspace(cruise_height=1.0)
 class Near(Link):
     """A link to a gateway in this process, which ends with it."""
 
-    def when_seen(self, watcher: Callable[[], object]) -> None:
+    def on_telemetry(self, watcher: Callable[[], object]) -> None:
         """It is not watched."""
 
     async def goodbye(self) -> None:
@@ -91,8 +91,8 @@ class Tried:
         self.told.append(event)
         self.watch(event)
 
-    async def live(self, stops: Stops | None = None) -> Lived:
-        setting = Setting(
+    async def live(self, stops: Stops | None = None) -> FlightResult:
+        setting = FlightConfig(
             app=self.app,
             missions=self.missions,
             fleet=self.fleet,
@@ -195,7 +195,7 @@ def test_an_app_whose_gateway_dies_begins_another_life(tried: Tried) -> None:
         assert tried.gateway is not None
         tried.gateway.crash()
 
-    async def lives() -> list[Lived]:
+    async def lives() -> list[FlightResult]:
         tried.on("trip.launched", crash)
         return [await tried.live(), await tried.live()]
 
@@ -220,7 +220,7 @@ def test_commands_reach_a_living_app(tried: Tried) -> None:
             except BadInput as error:
                 said.append(str(error))
 
-    async def whole() -> Lived:
+    async def whole() -> FlightResult:
         talks: list[Awaitable[None]] = []
         tried.on("trip.completed", lambda: talks.append(asyncio.ensure_future(client())))
         lived = await tried.live()
@@ -246,7 +246,7 @@ def test_what_an_app_has_answered_is_on_record(tried: Tried, durable: list[str])
         await asyncio.to_thread(ask, commands_note(tried.path), request, 5.0)
         assert "mission.ended" in durable
 
-    async def whole() -> Lived:
+    async def whole() -> FlightResult:
         talks: list[Awaitable[None]] = []
         tried.on("trip.launched", lambda: talks.append(asyncio.ensure_future(client())))
         lived = await tried.live()

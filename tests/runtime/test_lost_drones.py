@@ -8,12 +8,12 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet.cli.events import line_of
 from pluto_fleet.flight.live_fleet import live_fleet
-from pluto_fleet.gateway.executor import Pilots
+from pluto_fleet.gateway.executor import Executor
 from pluto_fleet.jobs.reports import DroneReport
 from pluto_fleet.journal.fold import Records
 from pluto_fleet.journal.memory import Memory
+from pluto_fleet.report.sentences import line_of
 from plutoc_runtime.domain.errors import BadInput, Failure
 from plutoc_runtime.domain.model import Drone
 from plutoc_runtime.domain.status import DroneStatus
@@ -79,12 +79,12 @@ def test_a_lost_drone_flies_again_when_a_person_has_looked_after_it() -> None:
 def test_one_that_is_as_lost_as_before_stays_so(monkeypatch: pytest.MonkeyPatch) -> None:
     """It was not looked after: it is asked, and it is LOST again, with the reason."""
 
-    async def roll_call(drone: str) -> DroneReport:
+    async def drone_report(drone: str) -> DroneReport:
         return replace(fleet.navigation.bodies[drone].standing, problems=("it lies on its back",))
 
     fleet = living(*"ab")
     monkeypatch.setattr(fleet.navigation, "mended", lambda _: None)
-    fleet.at(20.0, lambda: vars(fleet.navigation).update(roll_call=roll_call))
+    fleet.at(20.0, lambda: vars(fleet.navigation).update(drone_report=drone_report))
     crashes(fleet, 5.0)
     fleet.at(40.0, lambda: fleet.life.control.bring_back("cf1"))
     assert fleet.run() == ["COMPLETED"] * 2
@@ -199,11 +199,11 @@ def test_where_one_was_brought_back_it_is_told_so_before_another_is_refused() ->
     fleet.memory.append([json.dumps([begun])])
     heard: list[str] = []
 
-    async def roll_call(drone: str) -> DroneReport:
+    async def drone_report(drone: str) -> DroneReport:
         standing = fleet.navigation.bodies[drone].standing
         return replace(standing, problems=() if heard else ("it has crashed",))
 
-    vars(fleet.gateway.navigation).update(mended=heard.append, roll_call=roll_call)
+    vars(fleet.gateway.navigation).update(mended=heard.append, drone_report=drone_report)
     fleet.live_on()
     assert fleet.run() == ["COMPLETED"]
     assert heard == ["cf1"]
@@ -249,7 +249,7 @@ def test_who_is_not_ready_is_named_and_in_the_end_not_waited_for(
 ) -> None:
     """The others fly; what a drone says of itself commands no terminal, and is not endless."""
 
-    async def roll_call(self: Pilots, drone: str) -> DroneReport:
+    async def drone_report(self: Executor, drone: str) -> DroneReport:
         standing = fleet.navigation.bodies[drone].standing
         problems = ("its battery has 3.4 V", "\x1b[31m" + "x" * 1000) if drone == "cf1" else ()
         return replace(standing, problems=problems)
@@ -258,7 +258,7 @@ def test_who_is_not_ready_is_named_and_in_the_end_not_waited_for(
         await Future[None]()
         return False
 
-    monkeypatch.setattr(Pilots, "roll_call", roll_call)
+    monkeypatch.setattr(Executor, "drone_report", drone_report)
     fleet = living(*"ab")
     vars(fleet.gateway.navigation).update(recover=fetched)
     live_fleet(fleet.life.session.core).somebody_comes = False

@@ -14,8 +14,8 @@ from pluto_fleet.gateway.process import SETTINGS
 from pluto_fleet.gateway.settings import settings_of
 from pluto_fleet.journal.place import gateway_folder
 from pluto_fleet.simulation.body import Body
-from pluto_fleet.simulation.keeping import DRONES, Keeper
 from pluto_fleet.simulation.moments import this_moment
+from pluto_fleet.simulation.world_store import DRONES, WorldStore
 from tests.station.browser.serving import Station
 
 NEAR = 0.06
@@ -39,7 +39,7 @@ def truth(station: Station, scratch: Path) -> dict[str, Truth]:
     shutil.copyfile(folder / DRONES, scratch / DRONES)
     settings = settings_of(json.loads((folder / SETTINGS).read_text()))
     bodies = {drone.id: Body(drone, time.monotonic) for drone in settings.drones}
-    Keeper(scratch, time.monotonic, settings.speed, this_moment).take_over(bodies)
+    WorldStore(scratch, time.monotonic, settings.speed, this_moment).take_over(bodies)
     return {id: _truth(body) for id, body in bodies.items()}
 
 

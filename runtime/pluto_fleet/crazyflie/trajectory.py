@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from math import dist, inf, isfinite, sqrt
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.fleet.energy import CLIMB_SPEED
+from plutoc_runtime.fleet.reach import CLIMB_SPEED
 
 from . import messages, parameters
 

@@ -20,7 +20,7 @@ from typing import Any
 
 from plutoc_runtime.domain.errors import BadInput
 
-from ..process import respawn as again
+from ..process import locks, respawn
 from ..process.forked import deaf, in_children, not_for_children
 from ..process.ipc import NotRunning, answering, ask, listening
 from .drone import Build, SimulatedCrazyflie
@@ -63,14 +63,8 @@ def start(
     kept = _kept(folder)
     drones = {id: {**kept.get(id, {}), "home": home} for id, home in homes.items()}
     _write(folder, drones)
-    with (folder / LOG).open("ab") as log:
-        process = subprocess.Popen(
-            [*(command or again.command(COMMAND)), str(folder)],
-            stdin=subprocess.DEVNULL,
-            stdout=log,
-            stderr=log,
-            start_new_session=True,
-        )
+    words = [*(command or respawn.command(COMMAND)), str(folder)]
+    process = respawn.start(words, folder / LOG)
     _STARTED[folder] = process
     until = time.monotonic() + _PATIENCE
     while time.monotonic() < until and process.poll() is None:
@@ -136,7 +130,9 @@ async def _run(folder: Path) -> None:
             while not over.is_set():
                 log.flush()
                 _write(folder, _state(server))
-                if server.quiet > _IDLE and not server.airborne and not is_flown(folder):
+                # the gateway of this folder hears drones that stand, and tells them nothing
+                is_flown = locks.is_taken(folder / GATEWAY_LOCK)
+                if server.quiet > _IDLE and not server.airborne and not is_flown:
                     break
                 with suppress(TimeoutError):
                     async with asyncio.timeout(_LOOK):
@@ -212,16 +208,6 @@ def _state(server: Server) -> dict[str, dict[str, object]]:
         }
         for id, endpoint in server.endpoints.items()
     }
-
-
-def is_flown(folder: Path) -> bool:
-    """Say whether the gateway of this folder runs: it hears drones that stand, and tells them nothing."""
-    with suppress(OSError), (folder / GATEWAY_LOCK).open("rb") as lock:
-        try:
-            fcntl.flock(lock, fcntl.LOCK_SH | fcntl.LOCK_NB)
-        except BlockingIOError:
-            return True
-    return False
 
 
 def _kept(folder: Path) -> dict[str, dict[str, Any]]:

@@ -195,7 +195,7 @@ class Team:
         """What it carries is taken off."""
         self._cargo.carries(drone, None)
 
-    async def roll_call(self, drone: str) -> DroneReport:
+    async def drone_report(self, drone: str) -> DroneReport:
         """Ask a drone where it is, and whether it may fly; say so if it does not answer."""
         await self._kernel.call_hook(self._links[drone].once)
         vehicle = self._vehicles[drone]

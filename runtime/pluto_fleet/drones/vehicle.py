@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, TypeVar
 
 from plutoc_runtime.domain.errors import Failure, FlightFailed
 from plutoc_runtime.domain.text import place
-from plutoc_runtime.fleet.energy import CLIMB_SPEED, docked
+from plutoc_runtime.fleet.reach import CLIMB_SPEED, docked
 
 from .command_queue import CommandQueue
 from .protocol import CaredFor

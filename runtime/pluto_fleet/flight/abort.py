@@ -11,18 +11,18 @@ from plutoc_runtime.time.kernel import mission_key
 from plutoc_runtime.trips.flight import Flight
 
 from .live_engine import LiveEngine
-from .reconcile import Fate, doubt, fate, hear_end
+from .reconcile import Outcome, doubt, hear_end, outcome_of
 
 if TYPE_CHECKING:
     from plutoc_runtime.flow.mission import MissionState
 
-    from ..jobs.job import Commanding
+    from ..jobs.job import CommandLink
 
 
 class CallingOff:
     """Fails trips once the gateway has said that their actions were not done."""
 
-    def __init__(self, link: Commanding) -> None:
+    def __init__(self, link: CommandLink) -> None:
         self._link = link
 
     def __call__(self, state: MissionState, flight: Flight, reason: str) -> None:
@@ -34,16 +34,16 @@ class CallingOff:
         )
 
     async def _fail_unless_done(self, state: MissionState, flight: Flight, reason: str) -> None:
-        roll = await self._link.call()
+        roll = await self._link.fleet_report()
         if state.in_flight is not flight or state.task is None:
             return  # it has ended, or its mission was taken out of its graph
         entry = roll.jobs.get(flight.id)
-        what = fate(entry, state.core.app.actions[flight.trip.action], begun=False)
-        if what is Fate.UNKNOWN:
+        what = outcome_of(entry, state.core.app.actions[flight.trip.action], begun=False)
+        if what is Outcome.UNKNOWN:
             assert isinstance(state.supervisor, LiveEngine)
             state.supervisor.waits(state)
             doubt(state, flight)
-        elif what is Fate.FLIES_ON and entry is not None:
+        elif what is Outcome.FLIES_ON and entry is not None:
             hear_end(flight, self._link, entry)
         else:
             state.fail(flight, reason)

@@ -15,12 +15,12 @@ if TYPE_CHECKING:
     from plutoc_runtime.domain.trace import Event
 
     from ..files.fleet import FleetFile
-    from ..jobs.job import Reached
+    from ..jobs.job import GatewayLink
     from ..jobs.reports import Down
     from ..journal.fold import Records
     from ..process.realtime import RealTime
 
-    Connect = Callable[[RealTime, int, Callable[[], object]], Awaitable[Reached]]
+    Connect = Callable[[RealTime, int, Callable[[], object]], Awaitable[GatewayLink]]
 
 
 class End(Enum):
@@ -34,7 +34,7 @@ class End(Enum):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Setting:
+class FlightConfig:
     """What all lives of one app share."""
 
     app: App
@@ -55,7 +55,7 @@ class Setting:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Lived:
+class FlightResult:
     """What came of one life."""
 
     end: End

@@ -22,23 +22,23 @@ from . import interventions
 from .live_engine import live_engine
 from .live_fleet import live_fleet
 from .reconcile import (
-    Fate,
+    Outcome,
     doubt,
+    find_outcome,
     fly_again,
     fly_on,
     settle_doubt,
     standing,
     was_done,
-    what_became,
 )
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Drone, Trip
+    from plutoc_runtime.flow.engine import Session
     from plutoc_runtime.flow.mission import MissionState
-    from plutoc_runtime.flow.session import Session
     from plutoc_runtime.trips.flight import Flight
 
-    from ..jobs.job import Commanding
+    from ..jobs.job import CommandLink
     from ..journal.fold import Record
 
     Then = Callable[[MissionState], None]
@@ -49,7 +49,7 @@ CANCELLED = "cancelled by hand"
 class Control:
     """The commands of one running app."""
 
-    def __init__(self, session: Session, link: Commanding) -> None:
+    def __init__(self, session: Session, link: CommandLink) -> None:
         self._link, self._core, self._engine = link, session.core, live_engine(session)
         self.stopped: Future[Down] = Future()
         """Set when everything was stopped and all drones are down."""
@@ -211,10 +211,10 @@ class Control:
 
     async def _broken_off(self, state: MissionState, flight: Flight, then: Then) -> None:
         """Ask the ledger what became of a flight, and its drone."""
-        roll = await self._link.call()
+        roll = await self._link.fleet_report()
         entry = roll.jobs.get(flight.id)
         begun = bool(self._record(state)["flight"]["begun"])
-        what = await what_became(self._core, flight, entry, begun)
+        what = await find_outcome(self._core, flight, entry, begun)
         del self._steps_out[state.mission.name]
         if not self._engine.is_aside(state):
             return  # it has ended meanwhile
@@ -222,18 +222,18 @@ class Control:
             state.goes_on = True
             then(state)
             return
-        if what is Fate.UNKNOWN:
+        if what is Outcome.UNKNOWN:
             doubt(state, flight)
             if flight.trip.item is None:
                 self._core.fleet.recover(flight.flier)
             self._engine.look_for_the_end()
             return
-        if what is Fate.FLIES_ON and entry is not None:  # it has just ended
+        if what is Outcome.FLIES_ON and entry is not None:  # it has just ended
             fly_on(state, flight, self._link, entry)
             if state.doom is not None:
                 return  # for good
         else:
-            if what is Fate.DONE:
+            if what is Outcome.DONE:
                 was_done(state, flight)
             else:
                 fly_again(state, flight, self._link)

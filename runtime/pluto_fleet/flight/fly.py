@@ -8,13 +8,13 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ..journal import errors
-from ..journal.replay import replayed
-from .live_flight import OneLife
+from ..journal.fold import replayed
+from .live_flight import LiveFlight
 
 if TYPE_CHECKING:
     from ..journal.fold import Records
     from ..journal.store import Store
-    from .config import Lived, Setting, Stops
+    from .config import FlightConfig, FlightResult, Stops
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -42,18 +42,18 @@ def recovered(store: Store) -> Recovered:
 
 
 async def live(
-    setting: Setting,
+    setting: FlightConfig,
     store: Store,
     stops: Stops,
     known: Recovered | None = None,
-    born: Callable[[OneLife], object] | None = None,
-) -> Lived:
+    born: Callable[[LiveFlight], object] | None = None,
+) -> FlightResult:
     """Let the app live until all is over, until it is stopped, or until its gateway dies.
 
     `known` is what the journal says, if it has been read already; `born` is told of the life.
     """
     known = known or recovered(store)
-    one = OneLife(setting, store, known.records, known.time(setting.speed))
+    one = LiveFlight(setting, store, known.records, known.time(setting.speed))
     if born is not None:
         born(one)
     try:

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Drone
     from plutoc_runtime.flow.mission import Core
 
-    from ..jobs.job import Commanding
+    from ..jobs.job import CommandLink
     from ..jobs.reports import DroneReport
 
 _HELPLESS = 12.0
@@ -24,7 +24,7 @@ _HELPLESS = 12.0
 class LiveFleet(Fleet):
     """A fleet whose drones may have been lost, retired or flying before this app began."""
 
-    _navigation: Commanding
+    _navigation: CommandLink
 
     def __init__(self, *parts: Any) -> None:
         super().__init__(*parts)
@@ -53,7 +53,7 @@ class LiveFleet(Fleet):
 
     async def _why_lost(self, drone: Drone, reason: str) -> str:
         """Ask the drone: it may have become worse since its flight failed."""
-        standing = await self._navigation.roll_call(drone.id)
+        standing = await self._navigation.drone_report(drone.id)
         return _in_words(standing) or await super()._why_lost(drone, reason)
 
     def take_up(self, drone: Drone, standing: DroneReport) -> None:
@@ -160,7 +160,7 @@ class LiveFleet(Fleet):
         if await self._navigation.recover(drone.id):
             await self._settle(drone)
         else:
-            standing = await self._navigation.roll_call(drone.id)
+            standing = await self._navigation.drone_report(drone.id)
             self._lose(drone, self._say_why_not(drone, standing) or _STILL)
 
 

@@ -22,19 +22,19 @@ from ..journal.errors import JournalError
 from ..journal.writer import Writer
 from ..process.realtime import RealTime
 from .commands import hear_commands, perform, stop_in
-from .config import End, Lived
+from .config import End, FlightResult
 from .live_engine import live_engine
 from .live_fleet import live_fleet
-from .recorded_flight import Life
+from .recorded_flight import RecordedFlight
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.trace import Event
     from plutoc_runtime.time.kernel import Task
 
-    from ..jobs.job import Reached
+    from ..jobs.job import GatewayLink
     from ..journal.fold import Records
     from ..journal.store import Store
-    from .config import Setting, Stops
+    from .config import FlightConfig, Stops
 
 SNAPSHOT_EVERY = 50_000
 """Events between two snapshots: so many are read again in a tenth of a second."""
@@ -48,19 +48,19 @@ LOOK_EVERY = 1.0
 _ENDED = "the app ended before it could say whether that was done: look, once it goes on"
 
 
-class OneLife:
+class LiveFlight:
     """From its roll call to its last word."""
 
-    def __init__(self, setting: Setting, store: Store, records: Records, begin: float) -> None:
+    def __init__(self, setting: FlightConfig, store: Store, records: Records, begin: float) -> None:
         self._setting, self._store = setting, store
         self._loop = asyncio.get_running_loop()
         self._kernel = RealTime(setting.speed, begin)
         self._records = records
         self._writer = Writer(store, partial(self._post, self._durable), self._unwritable)
         self._stops: Stops | None = None
-        self._link: Reached | None = None
+        self._link: GatewayLink | None = None
         self._watcher: Callable[[], object] | None = None
-        self.life: Life | None = None
+        self.life: RecordedFlight | None = None
         """What is lived, once the gateway is reached."""
         self._end: Future[End] = Future()
         self._failure: JournalError | None = None
@@ -68,14 +68,14 @@ class OneLife:
         self._kept: asyncio.Future[bool] = self._loop.create_future()
         """Whether all that was asked for has been done and is on record, once the life has ended."""
 
-    async def live(self, stops: Stops) -> Lived:
+    async def live(self, stops: Stops) -> FlightResult:
         """Let everything go on until all is over, it is stopped, or the gateway dies."""
         setting, kernel, self._stops = self._setting, self._kernel, stops
         lost = partial(self._end.set, End.LOST)
         self._link = link = await setting.connect(kernel, self._store.epoch, lost)
         if self._watcher is not None:
-            link.when_seen(self._watcher)
-        self.life = life = Life(
+            link.on_telemetry(self._watcher)
+        self.life = life = RecordedFlight(
             setting.app,
             setting.fleet,
             kernel,
@@ -104,14 +104,14 @@ class OneLife:
             await link.goodbye()
         if self._failure is not None:
             raise self._failure
-        return Lived(
+        return FlightResult(
             end=end,
             missions=life.missions,
             drones=life.session.drones,
             records=self._records,
         )
 
-    async def _lived(self, life: Life, stops: Stops) -> End:
+    async def _lived(self, life: RecordedFlight, stops: Stops) -> End:
         """Let everything go on to some end, and see to it that all is on record."""
         over = life.go_on(self._setting.missions)
         over.watch(self._over)
@@ -130,7 +130,7 @@ class OneLife:
             self._kernel.post(self._durable, self._store.seq)
         return end
 
-    def when_seen(self, watcher: Callable[[], object]) -> None:
+    def on_telemetry(self, watcher: Callable[[], object]) -> None:
         """Call this whenever something was heard of the drones."""
         self._watcher = watcher
 
@@ -205,7 +205,9 @@ class OneLife:
         """
         return await self.carry_out(lambda life: perform(life.control, request), stop_in(request))
 
-    async def carry_out(self, what: Callable[[Life], str], how: Down | None = None) -> str:
+    async def carry_out(
+        self, what: Callable[[RecordedFlight], str], how: Down | None = None
+    ) -> str:
         """Do this within the kernel, at once; return what it says when that cannot be lost any more.
 
         `how`: it is a Stop, for which nobody waits.

@@ -17,7 +17,7 @@ from plutoc_runtime.domain.status import STANDBY, UNEXECUTED, Status
 from plutoc_runtime.hooks.calls import trace_of
 from plutoc_runtime.trips.flight import Flight
 
-from ..jobs.reports import Entry, JobState, outcome
+from ..jobs.reports import Entry, JobState, reported_result
 from . import interventions
 from .live_fleet import live_fleet
 
@@ -26,38 +26,38 @@ if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
     from plutoc_runtime.flow.mission import Core, MissionState
 
-    from ..jobs.job import Commanding
+    from ..jobs.job import CommandLink
     from .live_engine import LiveEngine
 
 
-class Fate(Enum):
+class Outcome(Enum):
     """What becomes of an interrupted flight."""
 
     FLIES_ON = "flies on"  # or has ended, and its end can still be heard
-    AGAIN = "again"  # its action was not done: it counts as no attempt
+    NOT_DONE = "again"  # its action was not done: it counts as no attempt
     DONE = "done"  # its action was done, as the app's own probe could see
     UNKNOWN = "unknown"
 
 
-def fate(entry: Entry | None, action: Action, begun: bool) -> Fate:
+def outcome_of(entry: Entry | None, action: Action, begun: bool) -> Outcome:
     """Return what becomes of a flight; `begun`: the app's own action had begun when it ended."""
     repeatable = action.repeat == "safe"
     if entry is not None and entry.flies:
-        return Fate.FLIES_ON
+        return Outcome.FLIES_ON
     if begun:
-        return Fate.AGAIN if repeatable else Fate.UNKNOWN
+        return Outcome.NOT_DONE if repeatable else Outcome.UNKNOWN
     if entry is None or entry.state is JobState.BROKEN_OFF:
-        return Fate.AGAIN
+        return Outcome.NOT_DONE
     if entry.state is JobState.BEGUN:
-        return Fate.AGAIN if repeatable else Fate.UNKNOWN
-    return Fate.FLIES_ON
+        return Outcome.NOT_DONE if repeatable else Outcome.UNKNOWN
+    return Outcome.FLIES_ON
 
 
-async def what_became(core: Core, flight: Flight, entry: Entry | None, begun: bool) -> Fate:
+async def find_outcome(core: Core, flight: Flight, entry: Entry | None, begun: bool) -> Outcome:
     """Return what becomes of a flight; what the ledger cannot tell, the app's own probe may."""
     action = core.app.actions[flight.trip.action]
-    what = fate(entry, action, begun)
-    probe = probe_of(core.app, action) if what is Fate.UNKNOWN else None
+    what = outcome_of(entry, action, begun)
+    probe = probe_of(core.app, action) if what is Outcome.UNKNOWN else None
     if probe is None:
         return what
     try:
@@ -70,7 +70,7 @@ async def what_became(core: Core, flight: Flight, entry: Entry | None, begun: bo
     return _PROBED[answer] if type(answer) is bool else what
 
 
-_PROBED = {True: Fate.DONE, False: Fate.AGAIN}
+_PROBED = {True: Outcome.DONE, False: Outcome.NOT_DONE}
 
 
 def probe_of(app: App, action: Action) -> Callable[..., Any] | None:
@@ -81,7 +81,7 @@ def probe_of(app: App, action: Action) -> Callable[..., Any] | None:
     return getattr(sys.modules.get(hook.__module__), name, None)
 
 
-def fly_on(state: MissionState, flight: Flight, link: Commanding, entry: Entry) -> None:
+def fly_on(state: MissionState, flight: Flight, link: CommandLink, entry: Entry) -> None:
     """Hear of a flight that was not interrupted after all; of one that has ended, hear now."""
     state.goes_on = True
     state.mission.status = Status.RUNNING
@@ -89,15 +89,15 @@ def fly_on(state: MissionState, flight: Flight, link: Commanding, entry: Entry) 
     hear_end(flight, link, entry)
 
 
-def hear_end(flight: Flight, link: Commanding, entry: Entry) -> None:
+def hear_end(flight: Flight, link: CommandLink, entry: Entry) -> None:
     """Hear how a flight ends; if it has ended, at once: before any limit can be over."""
     if entry.flies:
         link.attach(flight.id, flight.report)
     else:
-        flight.report(outcome(entry))
+        flight.report(reported_result(entry))
 
 
-def fly_again(state: MissionState, flight: Flight, link: Commanding) -> None:
+def fly_again(state: MissionState, flight: Flight, link: CommandLink) -> None:
     """Put an interrupted trip back: it has not been flown."""
     link.forget(flight.id)  # it shall be flown, whatever was known of it
     state.flight, state.goes_on, state.interrupted = None, False, True
@@ -125,7 +125,7 @@ def doubt(state: MissionState, flight: Flight) -> None:
         state.keep_carrier(drone)
 
 
-def settle_doubt(state: MissionState, engine: LiveEngine, link: Commanding, done: bool) -> None:
+def settle_doubt(state: MissionState, engine: LiveEngine, link: CommandLink, done: bool) -> None:
     """A person has said whether the action was done: the mission goes on accordingly."""
     flight = state.flight
     if flight is None:

@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.text import of, quoted
-from plutoc_runtime.flow.session import Listener, Session
+from plutoc_runtime.flow.engine import Listener, Session
 from plutoc_runtime.time.kernel import FLEET, Kernel, Task
 
 from ..files.reading import shortened
-from ..journal.durable_link import Careful
+from ..journal.durable_link import DurableLink
 from ..journal.recorder import Recorder, Sink
 from ..process.signal_guard import guard_hooks
 from .abort import CallingOff
@@ -31,12 +31,12 @@ if TYPE_CHECKING:
     from plutoc_runtime.domain.trace import Event
 
     from ..files.fleet import FleetFile
-    from ..jobs.job import Commanding
+    from ..jobs.job import CommandLink
     from ..jobs.reports import FleetReport
     from ..journal.fold import Records
 
 
-class Life:
+class RecordedFlight:
     """A session whose every step is on record before anybody outside can see it."""
 
     def __init__(
@@ -44,7 +44,7 @@ class Life:
         app: App,
         fleet: FleetFile,
         kernel: Kernel,
-        link: Commanding,
+        link: CommandLink,
         sink: Sink,
         records: Records,
         *,
@@ -56,7 +56,7 @@ class Life:
         guard_hooks()
         self._kernel, self._link, self._epoch = kernel, link, epoch
         self.recorder = Recorder(app, kernel, sink, records)
-        navigation = Careful(link, self.recorder)
+        navigation = DurableLink(link, self.recorder)
         heard: list[Listener] = [self.recorder.take, self._forget, *listeners]
         if watcher is not None:
             heard.append(partial(self._when_durable, watcher))
@@ -120,7 +120,7 @@ class Life:
 
     async def _started(self, missions: Sequence[Mission[Any]]) -> float:
         core = self.session.core
-        roll = await self._link.call()
+        roll = await self._link.fleet_report()
         if roll.drones.keys().isdisjoint(self._mended):  # else one of them is asked anew
             _refuse_if_none_is_ready(
                 roll, {name: one["reason"] for name, one in self._lost.items()}
@@ -135,7 +135,7 @@ class Life:
 
     async def _went_on(self) -> float:
         session, records = self.session, self.recorder.records
-        roll = await self._link.call()
+        roll = await self._link.fleet_report()
         session.core.trace.note("brain.began", epoch=self._epoch)
         self._retire()
         missions = await go_on(session.core, live_engine(session), self._link, roll, records)

@@ -13,14 +13,14 @@ from . import interventions
 from .control import CANCELLED
 from .live_fleet import live_fleet
 from .reconcile import (
-    Fate,
+    Outcome,
     doubt,
+    find_outcome,
     fly_again,
     fly_on,
     settle_doubt,
     standing,
     was_done,
-    what_became,
 )
 from .restore import Rebuilt, last_flight, rebuilt, remember, restore_results
 
@@ -28,14 +28,14 @@ if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Drone, Mission
     from plutoc_runtime.flow.mission import Core, MissionState
 
-    from ..jobs.job import Commanding
+    from ..jobs.job import CommandLink
     from ..jobs.reports import FleetReport
     from ..journal.fold import Records
     from .live_engine import LiveEngine
 
 
 async def go_on(
-    core: Core, engine: LiveEngine, link: Commanding, roll: FleetReport, records: Records
+    core: Core, engine: LiveEngine, link: CommandLink, roll: FleetReport, records: Records
 ) -> list[Mission[Any]]:
     """Take up everything where it was interrupted; return all missions, those that ended too."""
     by_index = sorted(records.missions.items(), key=lambda item: int(item[1]["index"]))
@@ -73,7 +73,7 @@ class _Revival:
         self,
         core: Core,
         engine: LiveEngine,
-        link: Commanding,
+        link: CommandLink,
         roll: FleetReport,
         one: Rebuilt,
         drones: Mapping[str, Drone],
@@ -83,14 +83,14 @@ class _Revival:
         self._state: MissionState = engine.new_state(one.mission)
         remember(self._state, one.record, drones)
         self._flight: Flight | None = last_flight(self._state, one, drones)
-        self._fate: Fate | None = None
+        self._fate: Outcome | None = None
 
     async def find_out(self) -> None:
         """Find out what became of a flight that had not ended."""
         flight, record = self._flight, self._record
         if flight is not None and not flight.is_set and self._why_held() is None:
             entry, begun = self._roll.jobs.get(flight.id), bool(record["flight"]["begun"])
-            self._fate = await what_became(self._core, flight, entry, begun)
+            self._fate = await find_outcome(self._core, flight, entry, begun)
 
     def revive(self, engaged: set[Drone]) -> None:
         """Let the mission go on, or say why it waits for a person; add the drones that are its."""
@@ -114,17 +114,17 @@ class _Revival:
             else:
                 self._settle(self._fate, engaged)
 
-    def _settle(self, what: Fate, engaged: set[Drone]) -> None:
+    def _settle(self, what: Outcome, engaged: set[Drone]) -> None:
         """Deal with a flight that had not ended, and go on."""
         state, flight, link = self._state, self._flight, self._link
         assert flight is not None
         entry = self._roll.jobs.get(flight.id)
-        if what is Fate.FLIES_ON and entry is not None:
+        if what is Outcome.FLIES_ON and entry is not None:
             engaged.add(flight.flier)
             fly_on(state, flight, link, entry)
             self._resume()
             return
-        if what is Fate.UNKNOWN:
+        if what is Outcome.UNKNOWN:
             if flight.trip.item is not None:
                 engaged.add(flight.flier)
             answer = self._record["answer"] if self._record["question"] else None
@@ -135,7 +135,7 @@ class _Revival:
                 doubt(state, flight)
             return
         link.break_off(flight.drone)
-        if what is Fate.DONE:
+        if what is Outcome.DONE:
             was_done(state, flight)
         else:
             fly_again(state, flight, link)

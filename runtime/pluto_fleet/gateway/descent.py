@@ -11,11 +11,11 @@ from itertools import islice
 from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.domain.errors import FlightFailed
-from plutoc_runtime.fleet.energy import docked
+from plutoc_runtime.fleet.reach import docked
 from plutoc_runtime.time.kernel import FLEET, Kernel, Task
 
 from ..jobs.reports import Down
-from .traffic.choosing import Goer
+from .traffic.choosing import DescendingDrone
 from .traffic.courses import Course, course
 from .traffic.timetable import Timetable, timetable
 from .traffic.ways import ways_home
@@ -23,8 +23,8 @@ from .traffic.ways import ways_home
 if TYPE_CHECKING:
     from plutoc_runtime.domain.airspace import Airspace
 
-    from ..jobs.controls import Craft
-    from .executor import Pilots
+    from ..jobs.controls import FleetDrone
+    from .executor import Executor
     from .traffic.traffic import Traffic
     from .traffic.ways import Section
 
@@ -42,8 +42,8 @@ class Descent:
     def __init__(
         self,
         kernel: Kernel,
-        pilots: Pilots,
-        drones: Sequence[Craft],
+        pilots: Executor,
+        drones: Sequence[FleetDrone],
         airspace: Airspace,
         traffic: Traffic | None,
     ) -> None:
@@ -72,7 +72,7 @@ class Descent:
 
     # Who goes where
 
-    def _goers(self, how: Down) -> list[Goer]:
+    def _goers(self, how: Down) -> list[DescendingDrone]:
         """Return who is to come down, and by which ways: home, or near to where it is.
 
         Who has the longest way home chooses first: the others have time. Who lands below others
@@ -85,11 +85,13 @@ class Descent:
                 ways = self._ways_down(drone)
             if ways:
                 courses = sorted((self._course(drone, way) for way in ways), key=_cost)
-                found.append(Goer(drone.id, courses))
+                found.append(DescendingDrone(drone.id, courses))
         sign = 1 if how is Down.LAND else -1
         return sorted(found, key=lambda goer: sign * goer.courses[0].seconds)
 
-    def _split(self, goers: Sequence[Goer], traffic: Traffic) -> tuple[list[Goer], list[Goer]]:
+    def _split(
+        self, goers: Sequence[DescendingDrone], traffic: Traffic
+    ) -> tuple[list[DescendingDrone], list[DescendingDrone]]:
         """Return who goes by the plan, and who when there is room.
 
         Where only so many may be in the air, nobody there must wait for somebody who stands.
@@ -97,12 +99,12 @@ class Descent:
         stand = [goer for goer in goers if traffic.is_limited and goer.courses[0].section.stands]
         return [goer for goer in goers if goer not in stand], stand
 
-    def _ways_down(self, drone: Craft) -> list[Section]:
+    def _ways_down(self, drone: FleetDrone) -> list[Section]:
         if self._traffic is None:
             return [self._pilots.way_down(drone.id)]
         return [*islice(self._traffic.ground.ways_down(drone.id), _NEAR)]
 
-    def _ways_home(self, drone: Craft) -> list[Section]:
+    def _ways_home(self, drone: FleetDrone) -> list[Section]:
         """Return ways home; none where it is there, or cannot get there."""
         telemetry, traffic = self._pilots.telemetry[drone.id], self._traffic
         if telemetry.landed and docked(telemetry.location, drone.home):
@@ -114,18 +116,18 @@ class Descent:
         enough = telemetry.battery_level * drone.category.flight_time
         return [way for way in ways if self._course(drone, way).seconds < enough]
 
-    def _course(self, drone: Craft, way: Section) -> Course:
+    def _course(self, drone: FleetDrone, way: Section) -> Course:
         traffic = self._traffic
         return course(way, drone.category.speed, traffic is not None and traffic.is_real)
 
     # How they go
 
-    def _at_once(self, goers: Sequence[Goer]) -> None:
+    def _at_once(self, goers: Sequence[DescendingDrone]) -> None:
         """Let all go by the quickest way: nobody asks for more."""
         for goer in goers:
             self._send(goer.drone, partial(self._flies, goer.drone, goer.courses[0].section))
 
-    def _in_turn(self, plan: Timetable, later: Sequence[Goer]) -> None:
+    def _in_turn(self, plan: Timetable, later: Sequence[DescendingDrone]) -> None:
         """Let all go as it was planned, and then those for whom nothing could be, or was."""
         self._plan = plan
         self._at = dict.fromkeys(plan.courses, (0, 0))
@@ -198,7 +200,7 @@ class Descent:
         key = FLEET + 1 + self._places[drone]
         self._tasks.append(self._kernel.spawn(_well(command), key, f"{drone} comes down"))
 
-    def _is_landed(self, drone: Craft) -> bool:
+    def _is_landed(self, drone: FleetDrone) -> bool:
         return self._pilots.telemetry[drone.id].landed
 
 

@@ -6,7 +6,6 @@ to the process that takes them and end with it, so nothing has to be cleared awa
 
 from __future__ import annotations
 
-import fcntl
 import os
 import tempfile
 import time
@@ -18,7 +17,7 @@ from pathlib import Path
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.text import quoted
 
-from ..process.forked import not_for_children
+from ..process import locks
 from ..process.ipc import is_private
 
 LEAVING = 8.0
@@ -28,15 +27,15 @@ _EACH = 0.05
 """Seconds between two looks."""
 
 
-class Held(BadInput):
+class DroneInUse(BadInput):
     """Another process commands one of these drones."""
 
 
 @contextmanager
-def holding(
+def lock_drones(
     drones: Mapping[str, str], folder: Path | None = None, patience: float = 0.0
 ) -> Iterator[None]:
-    """Let no other process command these drones, by their ids and URIs; `Held` if one does.
+    """Let no other process command these drones, by their ids and URIs; `DroneInUse` if one does.
 
     `folder` is where the locks are; default: where they are for all processes of this user.
     Whoever held them last may just be leaving: `patience` is for how many seconds that is waited for.
@@ -59,30 +58,17 @@ def holding(
 
 
 def _taken(file: Path, id: str, uri: str, until: float) -> int:
-    lock = os.open(file, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC | os.O_NOFOLLOW, 0o600)
-    while not _is_free(lock):
+    while (lock := locks.take(file)) is None:
         if time.monotonic() < until:
             time.sleep(_EACH)
             continue
-        who = os.pread(lock, 20, 0).decode("ascii", "replace").strip()
-        os.close(lock)
-        whose = f"process {who}" if who.isdecimal() else "another process"
-        raise Held(
+        who = locks.holder(file)
+        whose = "another process" if who is None else f"process {who}"
+        raise DroneInUse(
             f"{id} ({quoted(uri)}) is commanded by {whose} already, and two must not fly one drone:"
             " stop that flight first, or wait: a minute after its drones are down it lets go of them"
         )
-    not_for_children(lock)
-    os.ftruncate(lock, 0)
-    os.pwrite(lock, f"{os.getpid()}\n".encode(), 0)
     return lock
-
-
-def _is_free(lock: int) -> bool:
-    try:
-        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        return False
-    return True
 
 
 def _name(uri: str) -> str:

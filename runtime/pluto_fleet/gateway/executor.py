@@ -9,7 +9,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from plutoc_runtime.domain.errors import ANY_ERROR, Cancelled, Failure, FlightFailed
-from plutoc_runtime.fleet.energy import docked, flight_seconds
+from plutoc_runtime.fleet.reach import docked, flight_seconds
 from plutoc_runtime.time.kernel import FLEET, Kernel, Task
 
 from ..jobs.job import motors_cut
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from plutoc_runtime.domain.airspace import Airspace
     from plutoc_runtime.domain.model import Point, Telemetry
 
-    from ..jobs.controls import Controls, Craft
+    from ..jobs.controls import Controls, FleetDrone
     from ..jobs.job import Job
     from ..jobs.reports import DroneReport
     from .ledger import Ledger
@@ -41,14 +41,14 @@ def _nothing() -> None:
     """A flight goes on that has begun."""
 
 
-class Pilots:
+class Executor:
     """One for each drone, as it were: they know the way, and what is permitted."""
 
     def __init__(
         self,
         kernel: Kernel,
         controls: Controls,
-        drones: Sequence[Craft],
+        drones: Sequence[FleetDrone],
         airspace: Airspace,
         traffic: Traffic | None = None,
         ledger: Ledger | None = None,
@@ -166,7 +166,7 @@ class Pilots:
 
     async def cut_motors(self, drone: str) -> None:
         """Switch a drone's motors off now, wherever it is; it is lost then."""
-        with self._cut.cutting(drone):
+        with self._cut.recording_cut(drone):
             await self._controls.cut(drone)
 
     def _refuse_if_cut(self, drone: str) -> None:
@@ -174,9 +174,9 @@ class Pilots:
         if drone in self._cut:
             raise motors_cut(drone)
 
-    async def roll_call(self, drone: str) -> DroneReport:
+    async def drone_report(self, drone: str) -> DroneReport:
         """Ask a drone where it is and what it has done; say so if it does not answer."""
-        standing = await self._controls.roll_call(drone)
+        standing = await self._controls.drone_report(drone)
         if self._traffic is not None:
             self._traffic.look_around()
         why = str(motors_cut(drone))

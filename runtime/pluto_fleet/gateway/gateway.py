@@ -13,11 +13,11 @@ from plutoc_runtime.domain.errors import BadInput, Cancelled, Failure, FlightFai
 from plutoc_runtime.time.future import Future
 from plutoc_runtime.time.kernel import FLEET, Kernel, Kind, Task
 
-from ..jobs.controls import Craft
+from ..jobs.controls import FleetDrone
 from ..jobs.reports import Down, DroneReport, FleetReport
 from .descent import Descent
 from .envelope import Envelope
-from .executor import Leaving, Pilots
+from .executor import Executor, Leaving
 from .jobs import Jobs
 from .traffic.traffic import Traffic
 
@@ -124,9 +124,9 @@ class Link:
         """Bring a drone home after a failed flight."""
         return await self._command(drone, self._gateway.recover(drone))
 
-    async def roll_call(self, drone: str) -> DroneReport:
+    async def drone_report(self, drone: str) -> DroneReport:
         """Ask a drone where it is and what it has done."""
-        standing = await self._navigation.roll_call(drone)
+        standing = await self._navigation.drone_report(drone)
         if not self._is_heard:
             await _for_ever()
         return standing
@@ -156,7 +156,7 @@ class Link:
 
     # What only the gateway does
 
-    async def call(self) -> FleetReport:
+    async def fleet_report(self) -> FleetReport:
         """Ask all drones and the ledger how everything stands; from now on the link is heard.
 
         If the drones are being brought down, that is seen through first.
@@ -164,7 +164,7 @@ class Link:
         gateway = self._gateway
         while gateway.descent is not None:
             await gateway.descent.ended()
-        roll = await gateway.call()
+        roll = await gateway.fleet_report()
         if not gateway.is_commanded_by(self):
             await _for_ever()
         self._is_heard = True
@@ -229,7 +229,7 @@ class Gateway:
         self,
         kernel: Kernel,
         controls: Controls,
-        drones: Sequence[Craft],
+        drones: Sequence[FleetDrone],
         airspace: Airspace,
         *,
         ledger: Ledger | None = None,
@@ -252,7 +252,9 @@ class Gateway:
                 slack=slack,
                 max_airborne=max_airborne,
             )
-        self.navigation = Pilots(kernel, controls, drones, airspace, self.traffic, ledger, leaving)
+        self.navigation = Executor(
+            kernel, controls, drones, airspace, self.traffic, ledger, leaving
+        )
         self.envelope = Envelope(airspace)
         self.drones, self._airspace, self._apart = tuple(drones), airspace, apart
         self._keys = {drone.id: FLEET + 1 + drone.index for drone in drones}
@@ -351,7 +353,7 @@ class Gateway:
 
     # All drones
 
-    async def call(self) -> FleetReport:
+    async def fleet_report(self) -> FleetReport:
         """Ask every drone how it stands, and settle by that what has become of every job."""
         spawn = self.kernel.spawn
         asked = [
@@ -361,7 +363,7 @@ class Gateway:
         return FleetReport(drones=drones, jobs=self.jobs.settle(drones, self._epoch > 1))
 
     async def _ask(self, drone: str) -> DroneReport:
-        standing = await self.navigation.roll_call(drone)
+        standing = await self.navigation.drone_report(drone)
         if standing.reached:
             self.jobs.boots[drone] = standing.boot
         return standing

@@ -11,7 +11,7 @@ from plutoc_runtime.domain.errors import Failure, FlightFailed
 from plutoc_runtime.time.kernel import Kernel, Key, Kind
 
 from ..jobs.job import Report
-from ..jobs.reports import DroneReport, Entry, JobState, outcome
+from ..jobs.reports import DroneReport, Entry, JobState, reported_result
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.actions import Plain
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from .ledger import Ledger
 
 
-class Given:
+class AssignedJob:
     """One job that was given to a drone: what navigation gets instead of the brain's own."""
 
     __slots__ = (
@@ -144,13 +144,13 @@ class Jobs:
     ) -> None:
         self._kernel, self._fly, self._keys = kernel, fly, keys
         self._envelope, self._ledger = envelope, ledger
-        self._known: dict[str, Given | Entry] = {}
+        self._known: dict[str, AssignedJob | Entry] = {}
         """By their ids; an `Entry` is settled, or of another life of the gateway."""
         if ledger is not None:
             self._known.update((entry.id, entry) for entry in ledger.entries())
         self._remembered: dict[str, DroneReport] = {}
         """Who says to have done a job, by the job's id: nobody else may know of it any more."""
-        self._current: dict[str, Given] = {}
+        self._current: dict[str, AssignedJob] = {}
         """What drones fly, or hover for, by the drones' ids."""
         self.boots = dict.fromkeys(keys, 0)
         """How the drones' boots were numbered when they were last asked."""
@@ -160,7 +160,7 @@ class Jobs:
     def fly(self, job: Job, report: Report) -> None:
         """Give a drone its job, unless its action was done before, or may have been."""
         drone = job.drone
-        given = Given(self, job, report, self.boots[drone])
+        given = AssignedJob(self, job, report, self.boots[drone])
         known = self._known.get(given.id)
         if known is None and given.id in self._remembered:
             known = self._known[given.id] = _done(given.id, self._remembered[given.id])
@@ -174,7 +174,7 @@ class Jobs:
         self._known[given.id] = self._current[drone] = given
         self._fly(given, given.report)
 
-    def _repeated(self, known: Given | Entry, report: Report) -> None:
+    def _repeated(self, known: AssignedJob | Entry, report: Report) -> None:
         """Answer who gives a job once more by what is known of it, never by a flight."""
         if known.state is JobState.BEGUN and not _flies(known):
             reason = f"nobody can say whether the action of {known.id} was done"
@@ -182,7 +182,7 @@ class Jobs:
         else:
             self.attach(known.id, report)
 
-    def _problem(self, job: Given) -> str | None:
+    def _problem(self, job: AssignedJob) -> str | None:
         other = self._current.get(job.drone)
         if other is not None and other.flies:
             return f"{job.drone} flies already, for {other.id}"
@@ -191,10 +191,10 @@ class Jobs:
     def attach(self, id: str, report: Report) -> None:
         """Tell somebody how a job ends, or has ended; of others nothing is told."""
         known = self._known.get(id)
-        if isinstance(known, Given) and known.flies:
+        if isinstance(known, AssignedJob) and known.flies:
             known.listener = report
         elif known is not None and known.state in _ENDED:
-            self._post(known.drone, partial(report, outcome(known)))
+            self._post(known.drone, partial(report, reported_result(known)))
 
     def forget(self, id: str) -> None:
         """Drop a job that does not fly: nobody will ask for it, and its id may be given again."""
@@ -241,12 +241,12 @@ class Jobs:
 
     # What jobs tell
 
-    def write(self, job: Given) -> None:
+    def write(self, job: AssignedJob) -> None:
         """Write down how a job stands, for good."""
         if self._ledger is not None:
             self._ledger.write(job)
 
-    def ended(self, job: Given, begun: bool) -> None:
+    def ended(self, job: AssignedJob, begun: bool) -> None:
         """Hear that a job is over; where nothing had begun, that need not be kept for good."""
         if self._ledger is None:
             self._known.pop(job.id, None)
@@ -270,9 +270,12 @@ class Jobs:
         for id, job in self._known.items():
             if job.state is JobState.BEGUN and not _flies(job):
                 self._known[id] = self._settled(job, drones.get(job.drone))
-        return {id: job.entry if isinstance(job, Given) else job for id, job in self._known.items()}
+        return {
+            id: job.entry if isinstance(job, AssignedJob) else job
+            for id, job in self._known.items()
+        }
 
-    def _settled(self, job: Given | Entry, drone: DroneReport | None) -> Given | Entry:
+    def _settled(self, job: AssignedJob | Entry, drone: DroneReport | None) -> AssignedJob | Entry:
         if drone is None or drone.done is None:
             return job
         if job.id in drone.done:
@@ -292,7 +295,7 @@ class Jobs:
                 self._known[id] = entry = _done(id, drone)
                 self._keep(entry)
 
-    def _keep(self, job: Given | Entry) -> None:
+    def _keep(self, job: AssignedJob | Entry) -> None:
         """Write down what came of an action; if that fails, its drone still remembers it."""
         if self._ledger is not None:
             with suppress(OSError):
@@ -307,8 +310,8 @@ def _done(id: str, drone: DroneReport) -> Entry:
     return Entry(id=id, drone=drone.drone, state=JobState.DONE, boot=drone.boot, value=value)
 
 
-def _flies(job: Given | Entry) -> bool:
-    return isinstance(job, Given) and job.flies
+def _flies(job: AssignedJob | Entry) -> bool:
+    return isinstance(job, AssignedJob) and job.flies
 
 
 _MAY_FLY = frozenset({JobState.FAILED, JobState.BROKEN_OFF})

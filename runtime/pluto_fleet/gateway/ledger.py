@@ -16,7 +16,7 @@ from ..jobs.reports import Entry, JobState
 from ..journal.values import value_data, value_of
 
 
-class Written(Protocol):
+class JobRecord(Protocol):
     """A job, as far as it is written down."""
 
     @property
@@ -67,7 +67,7 @@ class Ledger(Protocol):
         """Yield what is kept, in the order in which the jobs were given."""
         ...
 
-    def write(self, job: Written) -> None:
+    def write(self, job: JobRecord) -> None:
         """Keep how a job stands; when this returns, it is kept. `OSError`: it is not."""
         ...
 
@@ -114,7 +114,7 @@ class MemoryLedger:
                 reason=reason,
             )
 
-    def write(self, job: Written) -> None:
+    def write(self, job: JobRecord) -> None:
         """Keep how a job stands."""
         self._kept[job.id] = (job.drone, job.state, job.boot, job.value, job.failure, job.reason)
 
@@ -165,7 +165,7 @@ class FileLedger:
         """Yield what is kept, in the order in which the jobs were given."""
         yield from map(_entry, self._kept.values())
 
-    def write(self, job: Written) -> None:
+    def write(self, job: JobRecord) -> None:
         """Keep how a job stands; when this returns, it is on the disk."""
         self._append(_text(job))
 
@@ -260,7 +260,7 @@ class FileLedger:
         _sync_folder(self._path.parent)
 
 
-def _text(job: Written) -> dict[str, object]:
+def _text(job: JobRecord) -> dict[str, object]:
     return {
         "id": job.id,
         "drone": job.drone,
@@ -338,7 +338,7 @@ class CutMotors:
         return here is not None and (here or not self._flies(drone))
 
     @contextmanager
-    def cutting(self, drone: str) -> Iterator[None]:
+    def recording_cut(self, drone: str) -> Iterator[None]:
         """Keep it; if the drone cannot be told, it is as it was: it shall come home if it can."""
         before = self._cut.get(drone)
         self._cut[drone] = True

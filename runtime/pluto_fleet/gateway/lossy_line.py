@@ -16,15 +16,15 @@ LOST = -1.0
 """The fate of a report that never arrives."""
 
 
-class Line:
+class LossyLine:
     """Give it to a gateway as its `line`.
 
-    `fate` says of each report how many seconds it takes, or that it is `LOST`: then the line is
+    `delay` says of each report how many seconds it takes, or that it is `LOST`: then the line is
     broken, as a real one would be, and the link is cut. What was not heard is known to the gateway.
     """
 
-    def __init__(self, gateway: Gateway, fate: Callable[[], float]) -> None:
-        self._gateway, self._fate = gateway, fate
+    def __init__(self, gateway: Gateway, delay: Callable[[], float]) -> None:
+        self._gateway, self._delay = gateway, delay
         self.late = self.lost = 0
         """How many reports were late, and how many got lost."""
 
@@ -33,7 +33,7 @@ class Line:
         return partial(self._carry, report)
 
     def _carry(self, report: Report, result: object) -> None:
-        seconds = self._fate()
+        seconds = self._delay()
         if seconds < 0:
             self.lost += 1
             self._gateway.cut()

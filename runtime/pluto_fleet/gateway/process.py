@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import fcntl
 import json
 import os
 import signal
@@ -25,13 +24,14 @@ from plutoc_runtime.time.kernel import FLEET, Kind
 from ..drones.real_fleet import SLACK
 from ..jobs.reports import Down
 from ..jobs.telemetry import Publisher
-from ..process.forked import deaf, in_children, not_for_children
+from ..process import locks
+from ..process.forked import deaf, in_children
 from ..process.ipc import listening
 from ..process.realtime import RealTime
 from ..simulation.drones import SimulatedNavigation
-from ..simulation.keeping import Keeper
 from ..simulation.moments import this_moment
-from .drone_lock import LEAVING, holding
+from ..simulation.world_store import WorldStore
+from .drone_lock import LEAVING, lock_drones
 from .gateway import Gateway
 from .ledger import FileLedger
 from .server import Server
@@ -141,7 +141,7 @@ def main(arguments: Sequence[str]) -> int:
 
 def _alone(folder: Path) -> int:
     """Run the gateway of a folder, unless another one does."""
-    lock = taken(folder)
+    lock = locks.take(folder / LOCK)
     if lock is None:
         return ANOTHER_RUNS
     try:
@@ -155,20 +155,6 @@ def _alone(folder: Path) -> int:
     return 0
 
 
-def taken(folder: Path) -> int | None:
-    """Take the folder's lock, which goes with the process; None: another gateway has it."""
-    lock = os.open(folder / LOCK, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o600)
-    try:
-        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        os.close(lock)
-        return None
-    not_for_children(lock)
-    os.ftruncate(lock, 0)
-    os.pwrite(lock, f"{os.getpid()}\n".encode(), 0)
-    return lock
-
-
 async def run(folder: Path, settings: Settings) -> None:
     """Reach the drones, or let the simulated world go on, and let brains command until all is over."""
     kernel = RealTime(settings.speed)
@@ -180,7 +166,7 @@ async def run(folder: Path, settings: Settings) -> None:
     from ..drones.team import make_team  # a simulation does without
 
     uris = {drone.id: drone.uri or drone.id for drone in settings.real.drones}
-    with holding(uris, patience=LEAVING):
+    with lock_drones(uris, patience=LEAVING):
         team = make_team(kernel, settings.drones, settings.real, settings.airspace, folder, _say)
         team.begin()
         seen = Sightings(folder / SEEN, team.telemetry, down=team.down)
@@ -193,7 +179,7 @@ async def run(folder: Path, settings: Settings) -> None:
 
 def _simulated(folder: Path, settings: Settings, kernel: RealTime) -> SimulatedNavigation:
     """Return the simulated drones, in the world as it was left."""
-    keeper = Keeper(folder, kernel.time, settings.speed, this_moment)
+    keeper = WorldStore(folder, kernel.time, settings.speed, this_moment)
     navigation = SimulatedNavigation(
         kernel,
         settings.drones,

@@ -13,7 +13,7 @@ from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.time.future import Future
 
 from ..process.ipc import Message, line, message_in
-from .wire import job_data, result_of, roll_of, standing_of
+from .wire import drone_report_of, fleet_report_of, job_data, result_of
 
 if TYPE_CHECKING:
     from asyncio import StreamReader, StreamWriter
@@ -24,11 +24,11 @@ if TYPE_CHECKING:
     from ..jobs.job import Job, Report
     from ..jobs.reports import Down, DroneReport, FleetReport
 
-SILENCE = 5.0
+GATEWAY_TIMEOUT = 5.0
 """Seconds on the wall without a word from the gateway after which it is lost."""
 
 
-class Seen:
+class RemoteTelemetry:
     """What was heard of a drone last."""
 
     __slots__ = ("_silent_since", "battery_level", "landed", "location")
@@ -65,7 +65,7 @@ class RemoteLink:
         lost: Callable[[], object] | None,
     ) -> None:
         self._kernel, self._reader, self._writer, self._lost = kernel, reader, writer, lost
-        self._drones: dict[str, Seen] = {}
+        self._drones: dict[str, RemoteTelemetry] = {}
         self._jobs: dict[str, Job] = {}
         """What was given, by the jobs' ids: it is told when its action begins."""
         self._reports: dict[int, tuple[str, Report]] = {}
@@ -118,7 +118,7 @@ class RemoteLink:
         while not self._is_lost:
             self._say({"do": "heartbeat"})
             await asyncio.sleep(each)
-            late = late + 1 if loop.time() - self._heard > SILENCE else 0
+            late = late + 1 if loop.time() - self._heard > GATEWAY_TIMEOUT else 0
             if late > 1:  # not the first time: what it said may be waiting to be read
                 self._writer.transport.abort()
 
@@ -133,7 +133,7 @@ class RemoteLink:
 
     def _see(self, drones: Message) -> None:
         for drone, told in drones.items():
-            self._drones.setdefault(drone, Seen()).take(told)
+            self._drones.setdefault(drone, RemoteTelemetry()).take(told)
 
     def _hear(self, message: Message) -> None:
         match message:
@@ -236,15 +236,15 @@ class RemoteLink:
         """Bring a drone home after a failed flight."""
         return bool(await self._ask(do="recover", drone=drone))
 
-    async def roll_call(self, drone: str) -> DroneReport:
+    async def drone_report(self, drone: str) -> DroneReport:
         """Ask a drone where it is and what it has done."""
-        return standing_of(await self._ask(do="roll_call", drone=drone))
+        return drone_report_of(await self._ask(do="roll_call", drone=drone))
 
     # What only a gateway does
 
-    async def call(self) -> FleetReport:
+    async def fleet_report(self) -> FleetReport:
         """Ask all drones and the ledger how everything stands."""
-        return roll_of(await self._ask(do="call"))
+        return fleet_report_of(await self._ask(do="call"))
 
     def attach(self, id: str, report: Report) -> None:
         """Hear of a job that was given before: when it ends, or now if it has."""
@@ -262,7 +262,7 @@ class RemoteLink:
     def heartbeat(self) -> None:
         """Say that the brain is alive: this link does so by itself."""
 
-    def when_seen(self, watcher: Callable[[], object]) -> None:
+    def on_telemetry(self, watcher: Callable[[], object]) -> None:
         """Call this whenever something was heard of the drones."""
         self._watcher = watcher
 

@@ -18,7 +18,7 @@ from plutoc_runtime.time.kernel import FLEET, Task
 from ..jobs.reports import Down
 from ..process.ipc import Message, line, message_in
 from .gateway import Busy
-from .wire import MAX_COMMAND, job_of, result_data, roll_data, seen, standing_data
+from .wire import MAX_COMMAND, drone_report_data, fleet_report_data, job_of, result_data, seen
 
 if TYPE_CHECKING:
     from asyncio import StreamReader, StreamWriter
@@ -281,7 +281,7 @@ def _asked(
 ) -> Coroutine[Any, Any, object]:
     """Return what answers a message; `known` refuses drones that there are not."""
     if what == "call":
-        return _as_data(roll_data, link.call)
+        return _as_data(fleet_report_data, link.fleet_report)
     if what == "down":
         return link.bring_down(Down(message["how"]))
     drone = known(message["drone"])
@@ -302,7 +302,7 @@ def _asked(
         case "recover":
             return link.recover(drone)
         case "roll_call":
-            return _as_data(standing_data, partial(link.roll_call, drone))
+            return _as_data(drone_report_data, partial(link.drone_report, drone))
         case _:
             raise BadInput(f"this gateway cannot {shown(what)}")
 

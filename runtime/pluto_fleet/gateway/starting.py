@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import fcntl
 import json
 import os
 import signal
@@ -16,11 +15,11 @@ from typing import TYPE_CHECKING
 from plutoc_runtime.domain.errors import BadInput
 
 from ..jobs.reports import Down
-from ..process import respawn as again
+from ..process import locks, respawn
 from ..process.ipc import ask
 from ..process.ipc import connect as open_connection
 from .process import ANOTHER_RUNS, LOCK, LOG, NO_ROOM, NOTE, SETTINGS
-from .remote import SILENCE, RemoteLink
+from .remote import GATEWAY_TIMEOUT, RemoteLink
 from .settings import Settings, data_of
 from .wire import MAX_REPORT
 
@@ -89,7 +88,7 @@ async def _linked(
     reader, writer = await open_connection(folder / NOTE, MAX_REPORT)
     link = RemoteLink(kernel, reader, writer, lost)
     try:
-        async with asyncio.timeout(SILENCE):
+        async with asyncio.timeout(GATEWAY_TIMEOUT):
             await link.link(epoch, settings.patience)
     except BaseException:
         writer.close()
@@ -108,14 +107,8 @@ def start(
     _STARTED[:] = [process for process in _STARTED if process.poll() is None]
     if (folder / LOG).exists() and (folder / LOG).stat().st_size > _LONG:
         (folder / LOG).replace(folder / f"{LOG}.old")
-    with (folder / LOG).open("ab") as log:
-        process = subprocess.Popen(
-            [*(command or again.command("gateway")), str(folder)],
-            stdin=subprocess.DEVNULL,
-            stdout=log,
-            stderr=log,
-            start_new_session=True,
-        )
+    words = [*(command or respawn.command("gateway")), str(folder)]
+    process = respawn.start(words, folder / LOG)
     _STARTED.append(process)
     return process
 
@@ -146,12 +139,7 @@ def cut_directly(folder: Path, drone: str | None, patience: float) -> str:
 
 def still_runs(folder: Path) -> int | None:
     """Return the number of the process that is the gateway of a folder; None: none runs."""
-    with suppress(OSError, ValueError), (folder / LOCK).open("rb") as lock:
-        try:
-            fcntl.flock(lock, fcntl.LOCK_SH | fcntl.LOCK_NB)
-        except BlockingIOError:  # so the number in it is that of whoever has it
-            return int(lock.read())
-    return None
+    return locks.holder(folder / LOCK)
 
 
 def let_end(folder: Path) -> None:

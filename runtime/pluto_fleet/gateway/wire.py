@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from ..jobs.job import Job
     from ..process.ipc import Message
 
-SILENT = 2.0
+STALE_AFTER = 2.0
 """Seconds without a word after which a drone's place is no longer news."""
 MAX_COMMAND = 256 * 1024
 """Bytes of a line that the gateway reads."""
@@ -96,12 +96,12 @@ def seen(drone: str, telemetry: Telemetry) -> tuple[object, ...]:
     never heard of.
     """
     silence, since = telemetry.silence, None
-    if silence > SILENT:
+    if silence > STALE_AFTER:
         since = 0.0 if isinf(silence) else round(time.time() - silence)
     return *telemetry.location, telemetry.battery_level, telemetry.landed, since
 
 
-def standing_data(standing: DroneReport) -> dict[str, object]:
+def drone_report_data(standing: DroneReport) -> dict[str, object]:
     """Return a drone's answer as plain data."""
     done = standing.done
     return {
@@ -117,7 +117,7 @@ def standing_data(standing: DroneReport) -> dict[str, object]:
     }
 
 
-def standing_of(data: Message) -> DroneReport:
+def drone_report_of(data: Message) -> DroneReport:
     """Return a drone's answer."""
     done = data["done"]
     values = None if done is None else {id: value_of(value) for id, value in done.items()}
@@ -125,10 +125,10 @@ def standing_of(data: Message) -> DroneReport:
     return DroneReport(**{**data, **known, "done": values})
 
 
-def roll_data(roll: FleetReport) -> dict[str, object]:
+def fleet_report_data(roll: FleetReport) -> dict[str, object]:
     """Return a roll call as plain data."""
     return {
-        "drones": [standing_data(standing) for standing in roll.drones.values()],
+        "drones": [drone_report_data(standing) for standing in roll.drones.values()],
         "jobs": [
             {
                 "id": entry.id,
@@ -145,9 +145,9 @@ def roll_data(roll: FleetReport) -> dict[str, object]:
     }
 
 
-def roll_of(data: Message) -> FleetReport:
+def fleet_report_of(data: Message) -> FleetReport:
     """Return a roll call."""
-    standings = map(standing_of, data["drones"])
+    standings = map(drone_report_of, data["drones"])
     entries = [
         Entry(**{**job, "state": JobState(job["state"]), "value": value_of(job["value"])})
         for job in data["jobs"]

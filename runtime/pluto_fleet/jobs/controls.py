@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from .reports import DroneReport
 
 
-class Craft(Protocol):
+class FleetDrone(Protocol):
     """What the gateway must know of a drone."""
 
     @property
@@ -123,12 +123,12 @@ class Controls(Protocol):
         """Whoever meets it takes off what it carries."""
         ...
 
-    async def roll_call(self, drone: str) -> DroneReport:
+    async def drone_report(self, drone: str) -> DroneReport:
         """Ask a drone where it is and what it has done; say so if it does not answer."""
         ...
 
 
-class Before:
+class ForwardingControls:
     """What stands before other controls, and hands on to them what is no command to fly."""
 
     def __init__(self, controls: Controls) -> None:
@@ -160,6 +160,6 @@ class Before:
         """Wait, after a failed flight, until a drone takes commands again; False: it is lost."""
         return await self._controls.reach(drone)
 
-    async def roll_call(self, drone: str) -> DroneReport:
+    async def drone_report(self, drone: str) -> DroneReport:
         """Ask a drone where it is and what it has done; say so if it does not answer."""
-        return await self._controls.roll_call(drone)
+        return await self._controls.drone_report(drone)

@@ -65,18 +65,18 @@ class Job(Protocol):
         ...
 
 
-class Commanding(Navigation[Job], Protocol):
+class CommandLink(Navigation[Job], Protocol):
     """A navigation that remembers every job, for as long as it listens to this brain."""
 
     def mended(self, drone: str) -> None:
         """A person has looked after a lost drone: it can be recovered once more."""
         ...
 
-    async def roll_call(self, drone: str) -> DroneReport:
+    async def drone_report(self, drone: str) -> DroneReport:
         """Ask a drone where it is and what it has done; say so if it does not answer."""
         ...
 
-    async def call(self) -> FleetReport:
+    async def fleet_report(self) -> FleetReport:
         """Ask all drones and the ledger how everything stands; from now on the brain is heard."""
         ...
 
@@ -93,10 +93,10 @@ class Commanding(Navigation[Job], Protocol):
         ...
 
 
-class Reached(Commanding, Protocol):
+class GatewayLink(CommandLink, Protocol):
     """The same, by a gateway in another process."""
 
-    def when_seen(self, watcher: Callable[[], object]) -> None:
+    def on_telemetry(self, watcher: Callable[[], object]) -> None:
         """Call this whenever a drone was heard of."""
         ...
 

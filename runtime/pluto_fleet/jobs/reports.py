@@ -64,7 +64,7 @@ class Entry:
     reason: str = ""
 
 
-class Over(Protocol):
+class EndedJob(Protocol):
     """A job that is over, wherever it is kept."""
 
     @property
@@ -88,7 +88,7 @@ class Over(Protocol):
         ...
 
 
-def outcome(job: Over) -> object:
+def reported_result(job: EndedJob) -> object:
     """Return what was reported of a job that is over."""
     if job.state is JobState.FAILED:
         return FlightFailed(Failure[job.failure], job.reason)

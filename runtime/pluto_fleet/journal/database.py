@@ -1,4 +1,6 @@
-"""Opens a journal's file, and looks at it before a row is taken from it."""
+"""A journal's file: three tables with a checksum in every row, looked at before a row is taken from it.
+
+The page `docs/journal.md` says the same for other programs."""
 
 from __future__ import annotations
 
@@ -10,19 +12,57 @@ import struct
 from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
+from zlib import crc32
 
 from plutoc_runtime.domain.trace import Event
 
 from . import errors, wal
 from .errors import TROUBLE
-from .format import (
-    APPLICATION,
-    TABLES,
-    VERSION,
-    row_checksum,
-    snapshot_checksum,
-    tip_checksum,
-)
+
+APPLICATION = 0x506C7574
+"""`Plut`, in the place where SQLite's files say whose they are."""
+
+VERSION = 1
+"""Of the format; a reader refuses what is newer."""
+
+TABLES = {
+    "journal": """CREATE TABLE journal (
+  seq INTEGER PRIMARY KEY, -- 0 is the header; then no number is left out
+  epoch INTEGER NOT NULL, -- how often the journal had been opened
+  wall INTEGER NOT NULL, -- milliseconds since 1970
+  text TEXT NOT NULL, -- the events of one instant: a JSON list of objects
+  checksum INTEGER NOT NULL
+)""",
+    "snapshot": """CREATE TABLE snapshot (
+  seq INTEGER PRIMARY KEY, -- it stands for all rows up to this one
+  epoch INTEGER NOT NULL,
+  wall INTEGER NOT NULL,
+  text TEXT NOT NULL,
+  checksum INTEGER NOT NULL
+)""",
+    "tip": """CREATE TABLE tip (
+  id INTEGER PRIMARY KEY, -- 0: there is one row
+  seq INTEGER NOT NULL, -- of the journal's last row
+  epoch INTEGER NOT NULL,
+  checksum INTEGER NOT NULL
+)""",
+}
+
+
+def row_checksum(seq: object, epoch: object, wall: object, text: bytes) -> int:
+    """Return the checksum of a row: of its numbers and its text."""
+    return crc32(text, crc32(f"journal {seq} {epoch} {wall} ".encode()))
+
+
+def snapshot_checksum(seq: object, epoch: object, wall: object, text: bytes) -> int:
+    """Return the checksum of a snapshot."""
+    return crc32(text, crc32(f"snapshot {seq} {epoch} {wall} ".encode()))
+
+
+def tip_checksum(seq: object, epoch: object) -> int:
+    """Return the checksum of the tip, without which the last rows could be gone unnoticed."""
+    return crc32(f"tip {seq} {epoch} ".encode())
+
 
 PATIENCE = 5.0
 """Seconds that a commit waits for somebody who looks at the file with a tool of his own."""
@@ -45,6 +85,18 @@ class Found:
     """What is wrong with what was written last, if something is: it is left out."""
     lost: bool
     """Whether what was written after that row cannot be read."""
+
+
+class Row(NamedTuple):
+    """The events of one instant."""
+
+    seq: int
+    wall: float
+    """Seconds since 1970: when it was written."""
+    text: str
+    """A JSON list of events."""
+    epoch: int
+    """How often the journal had been opened by then."""
 
 
 class Snapshot(NamedTuple):

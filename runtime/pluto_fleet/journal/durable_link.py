@@ -9,18 +9,18 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Point, Telemetry
 
-    from ..jobs.job import Commanding, Job
+    from ..jobs.job import CommandLink, Job
     from ..jobs.reports import DroneReport
     from .recorder import Recorder
 
 
-class Careful:
+class DurableLink:
     """Hands everything on to the gateway; a flight only once its launch is durable.
 
     What brings drones down waits for nothing.
     """
 
-    def __init__(self, link: Commanding, recorder: Recorder) -> None:
+    def __init__(self, link: CommandLink, recorder: Recorder) -> None:
         self._link, self._recorder = link, recorder
         self._held: dict[str, Job] = {}
         """The flights that wait for the journal, by the drones' ids."""
@@ -76,6 +76,6 @@ class Careful:
         """Bring a drone home after a failed flight."""
         return await self._link.recover(drone)
 
-    async def roll_call(self, drone: str) -> DroneReport:
+    async def drone_report(self, drone: str) -> DroneReport:
         """Ask a drone where it is and what it has done."""
-        return await self._link.roll_call(drone)
+        return await self._link.drone_report(drone)

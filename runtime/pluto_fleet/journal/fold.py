@@ -1,15 +1,23 @@
 """What a journal says, event by event, of every mission: where each stands, and what it has done.
 
 The records are plain data: written down as JSON they are the journal's snapshot. One function an
-event; an event that is not here changes nothing that must survive.
-"""
+event; an event that is not here changes nothing that must survive."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from typing import Any
+import gc
+import json
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.domain.actions import PICK, RELEASE
+
+if TYPE_CHECKING:
+    from plutoc_runtime.domain.trace import Event
+
+    from .reader import Read
+
 
 Record = dict[str, Any]
 """One mission. Its trips are as in `values.trip_data`."""
@@ -411,3 +419,30 @@ _WHOLE: dict[str, Callable[[Records, Fact], None]] = {
     "drone.charging": _came_back,
     "drone.lost": _lost,
 }
+
+
+def replayed(read: Read, header: Event | None = None) -> Records:
+    """Return what a journal comes to: its header, or a snapshot, and what has happened since.
+
+    Ask afterwards whether `read` was damaged: then it is what was so far.
+    """
+    with _without_collections():
+        records = Records(None if read.snapshot is None else json.loads(read.snapshot))
+        if read.snapshot is None and header is not None:
+            records.take(header)
+        take = records.take
+        for event in read.events:
+            take(event)
+    return records
+
+
+@contextmanager
+def _without_collections() -> Iterator[None]:
+    """Let the garbage collector rest: plain data has no cycles, and it would look at all of it."""
+    was_on = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was_on:
+            gc.enable()

@@ -8,8 +8,9 @@ from itertools import islice
 from plutoc_runtime.domain.trace import Event
 
 from . import errors
+from .database import Row
 from .errors import JournalError
-from .reading import Read, Row
+from .reader import Read
 
 
 class Memory:

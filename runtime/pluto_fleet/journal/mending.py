@@ -9,13 +9,12 @@ from itertools import count
 from pathlib import Path
 
 from . import errors
-from .database import SURELY_LESS_OPENINGS, sync_folder
+from .database import SURELY_LESS_OPENINGS, Row, sync_folder
 from .errors import TROUBLE
 from .lock import Lock
-from .making import made
 from .place import beside
 from .reader import Reader
-from .reading import Row
+from .store import made
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -11,9 +11,8 @@ from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
 
-from .format import row_checksum
+from .database import Row, row_checksum
 from .place import beside
-from .reading import Row
 
 _SIZES = {1 << power for power in range(9, 17)}
 _LOG_HEADER, _FRAME_HEADER = 32, 24

@@ -6,23 +6,119 @@ import json
 import os
 import sqlite3
 import time
-from collections.abc import Callable, Sequence
-from contextlib import closing, suppress
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import closing, contextmanager, suppress
 from functools import cache
 from pathlib import Path
 
 from plutoc_runtime.domain.trace import Event
 
 from . import errors
-from .database import connect, found, look_at, sync_folder
+from .database import (
+    APPLICATION,
+    TABLES,
+    VERSION,
+    Row,
+    connect,
+    found,
+    look_at,
+    row_checksum,
+    snapshot_checksum,
+    sync_folder,
+    tip_checksum,
+)
 from .errors import TROUBLE, JournalError
-from .following import Identity, identity, moved_to, size
-from .format import row_checksum, snapshot_checksum, tip_checksum
 from .lock import Lock
-from .making import made
 from .place import beside
-from .reading import Read, Row, since_snapshot
-from .reserve import give_back, keep_back
+from .reader import Read, since_snapshot
+
+
+@contextmanager
+def made(path: Path, rows: Sequence[Row], epoch: int) -> Iterator[Path]:
+    """Give a file beside this path that holds these rows; it goes if it gets no other name."""
+    part = beside(path, f".{os.getpid()}.part")
+    part.unlink(missing_ok=True)
+    try:
+        with closing(connect(part, "mode=rwc")) as database:
+            database.execute("PRAGMA synchronous = FULL")
+            database.execute(f"PRAGMA application_id = {APPLICATION}")
+            database.execute(f"PRAGMA user_version = {VERSION}")
+            database.execute("BEGIN IMMEDIATE")
+            for table in TABLES.values():
+                database.execute(table)
+            database.executemany("INSERT INTO journal VALUES (?, ?, ?, ?, ?)", map(_columns, rows))
+            last = rows[-1].seq
+            tip = last, epoch, tip_checksum(last, epoch)
+            database.execute("INSERT INTO tip VALUES (0, ?, ?, ?)", tip)
+            database.execute("COMMIT")
+            database.execute("PRAGMA journal_mode = WAL")
+        yield part
+    finally:
+        part.unlink(missing_ok=True)
+
+
+def _columns(row: Row) -> tuple[int, int, int, str, int]:
+    wall = round(row.wall * 1000)
+    checksum = row_checksum(row.seq, row.epoch, wall, row.text.encode())
+    return row.seq, row.epoch, wall, row.text, checksum
+
+
+RESERVE = 256 * 1024
+"""Bytes."""
+
+
+def keep_back(path: Path) -> None:
+    """Take up room beside a journal, all or none."""
+    try:
+        with beside(path, ".reserve").open("wb") as file:
+            file.write(os.urandom(RESERVE))  # no file system makes less of it
+            file.flush()
+            os.fsync(file.fileno())
+    except OSError:
+        give_back(path)
+        raise
+
+
+def give_back(path: Path) -> None:
+    """Let the room be used."""
+    with suppress(OSError):
+        beside(path, ".reserve").unlink()
+
+
+Identity = tuple[int, int]
+"""Which file it is, whatever its name: its device and its number there."""
+
+_OPEN = Path("/proc/self/fd")
+_DELETED = " (deleted)"
+
+
+def identity(path: Path) -> Identity | None:
+    """Return which file has this name; None: none that can be seen."""
+    try:
+        found = os.stat(path)
+    except OSError:
+        return None
+    return found.st_dev, found.st_ino
+
+
+def size(path: Path) -> int:
+    """Return how many bytes the file of this name has; 0: none that can be seen."""
+    try:
+        return os.stat(path).st_size
+    except OSError:
+        return 0
+
+
+def moved_to(which: Identity) -> Path | None:
+    """Return the name that an open file has now; None: it has none, or the system does not say."""
+    with suppress(OSError):
+        for entry in _OPEN.iterdir():
+            with suppress(OSError):
+                name = os.readlink(entry)
+                if identity(entry) == which and not name.endswith(_DELETED):
+                    return Path(name) if identity(Path(name)) == which else None
+    return None
+
 
 SNAPSHOTS = 2
 """How many are kept: should the newest be damaged, there is the one before."""

@@ -1,4 +1,4 @@
-"""What a process that a hook forks must not have of its parent: its signals, its locks, its lines.
+"""What a process that a hook forks must not have of its parent, and how no hook ends the app by `os._exit`.
 
 A forked child is a copy of the app with everything open. What it kept would outlive the app: a lock
 that is never free again, a connection that looks alive. And no child may go on where the app goes on.
@@ -10,11 +10,39 @@ import os
 import signal
 import sys
 import threading
-from collections.abc import Callable
-from contextlib import suppress
-from typing import TypeVar
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from typing import NoReturn, TypeVar
 
-from .hard_exit import leave
+leave = os._exit
+"""The real one, for ourselves."""
+
+
+@contextmanager
+def refused() -> Iterator[None]:
+    """Have `os._exit` raise `SystemExit`, for as long as this lasts: then it is told whose fault it is."""
+    instead_of(_refuse)
+    try:
+        yield
+    finally:
+        os._exit = leave
+
+
+def instead_of(call: Callable[[int], NoReturn]) -> None:
+    """Have this called whenever something in this process calls `os._exit`."""
+    process = os.getpid()
+
+    def end(status: int) -> NoReturn:
+        if os.getpid() == process:
+            call(status)
+        leave(status)
+
+    os._exit = end
+
+
+def _refuse(status: int) -> NoReturn:
+    raise SystemExit(f"os._exit({status})")
+
 
 T = TypeVar("T")
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import subprocess
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 from ..scaffolding import app_package
@@ -21,3 +23,11 @@ def command(*arguments: str) -> list[str]:
     package = app_package()
     home = Path(sys.modules[package].__path__[0]).absolute().parent
     return [sys.executable, "-P", "-c", _START, str(home), package, *arguments]
+
+
+def start(command: Sequence[str], log: Path) -> subprocess.Popen[bytes]:
+    """Start a process that goes on when this one ends; what it says goes to the log."""
+    with log.open("ab") as said:
+        return subprocess.Popen(
+            command, stdin=subprocess.DEVNULL, stdout=said, stderr=said, start_new_session=True
+        )

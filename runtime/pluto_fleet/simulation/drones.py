@@ -19,8 +19,7 @@ from plutoc_runtime.alone.faults import (
 from plutoc_runtime.domain.actions import BUILT_IN, PICK, RELEASE, Plain
 from plutoc_runtime.domain.errors import Failure, FlightFailed
 from plutoc_runtime.domain.text import place
-from plutoc_runtime.fleet.energy import CLIMB_SPEED
-from plutoc_runtime.fleet.reach import grip_problem
+from plutoc_runtime.fleet.reach import CLIMB_SPEED, grip_problem
 from plutoc_runtime.time.future import Future
 from plutoc_runtime.time.kernel import Kernel, Kind
 
@@ -39,7 +38,7 @@ __all__ = ["SimulatedDrone", "SimulatedNavigation"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Deed:
+class WorldAction:
     """Something that a drone does to the world, or sees of it."""
 
     drone: str
@@ -66,7 +65,7 @@ class SimulatedNavigation:
         faults: Faults,
         seed: int,
         airspace: Airspace,
-        record: Callable[[Deed], object] | None = None,
+        record: Callable[[WorldAction], object] | None = None,
     ) -> None:
         self._kernel, self._world, self._airspace = kernel, world, airspace
         self._faults, self._seed = faults, seed
@@ -173,7 +172,7 @@ class SimulatedNavigation:
         value = self._world.gives(action, parameters, body.location, self._kernel.now)
         aboard = item if action == PICK else None if action == RELEASE else body.carries
         if self.record is not None:
-            deed = Deed(
+            deed = WorldAction(
                 drone=drone,
                 action=action,
                 item=item,
@@ -252,7 +251,7 @@ class SimulatedNavigation:
         """Whoever meets it takes off what it carries."""
         self.bodies[drone].unload()
 
-    async def roll_call(self, drone: str) -> DroneReport:
+    async def drone_report(self, drone: str) -> DroneReport:
         """Ask a drone where it is and what it has done."""
         return self.bodies[drone].standing
 

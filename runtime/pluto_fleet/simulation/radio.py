@@ -10,7 +10,7 @@ from plutoc_runtime.domain.errors import Failure, FlightFailed
 from plutoc_runtime.time.future import Future
 from plutoc_runtime.time.kernel import FLEET, Kernel, Kind
 
-from ..jobs.controls import Before
+from ..jobs.controls import ForwardingControls
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.actions import Plain
@@ -24,7 +24,7 @@ T = TypeVar("T")
 COMMAND, ANSWER = "command", "answer"
 
 
-class Radio(Before):
+class Radio(ForwardingControls):
     """Controls whose commands and answers are on their way for a while.
 
     `delay` says how many seconds each is: it is asked with `command` or `answer`. What is broken
@@ -96,9 +96,9 @@ class Radio(Before):
         """Wait, after a failed flight, until a drone takes commands again."""
         return await self._sent(drone, partial(self._controls.reach, drone))
 
-    async def roll_call(self, drone: str) -> DroneReport:
+    async def drone_report(self, drone: str) -> DroneReport:
         """Ask a drone where it is and what it has done, be it busy or not."""
-        return await self._asked(self._controls.roll_call(drone))
+        return await self._asked(self._controls.drone_report(drone))
 
     async def _asked(self, question: Coroutine[Any, Any, T]) -> T:
         """Ask a drone beside what it does."""

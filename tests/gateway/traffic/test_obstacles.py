@@ -10,10 +10,10 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from pluto_fleet.gateway.traffic.reservations import Claim, meets
+from pluto_fleet.gateway.traffic.reservations import Reservation, meets
 from pluto_fleet.gateway.traffic.wait_queue import Obstacle
 from plutoc_runtime.domain.model import Category, Point
-from plutoc_runtime.fleet.energy import CLIMB_SPEED
+from plutoc_runtime.fleet.reach import CLIMB_SPEED
 
 LIMIT = 0.5
 QUICK = Category(name="quick", speed=2.0)
@@ -59,7 +59,7 @@ def test_a_drone_is_on_a_way_for_as_long_as_it_is_said_to_be(
 ) -> None:
     flown = grounded(flown, stands, lands)
     telemetry = Flown(flown[0])
-    claim = Claim("one", telemetry)
+    claim = Reservation("one", telemetry)
     claim.moves_along(flown, ())
     obstacle = Obstacle(claim, QUICK, False)
     found = moments(flown)
@@ -74,7 +74,7 @@ def test_a_drone_is_on_a_way_for_as_long_as_it_is_said_to_be(
 
 def test_who_crosses_a_way_at_its_end_needs_no_look_before() -> None:
     telemetry = Flown((0.0, 0.0, 1.0))
-    claim = Claim("one", telemetry)
+    claim = Reservation("one", telemetry)
     claim.moves_along(((0.0, 0.0, 1.0), (10.0, 0.0, 1.0)), ())
     obstacle = Obstacle(claim, QUICK, False)
     obstacle.seen(((9.0, -1.0, 1.0), (9.0, 1.0, 1.0)), LIMIT, 0.0)
@@ -85,7 +85,7 @@ def test_who_crosses_a_way_at_its_end_needs_no_look_before() -> None:
 @pytest.mark.parametrize("what", ["goes", "rests", "sinks"])
 def test_who_is_told_something_else_is_looked_at_again(what: str) -> None:
     telemetry = Flown((0.0, 0.0, 1.0))
-    claim = Claim("one", telemetry)
+    claim = Reservation("one", telemetry)
     claim.rests((), 0.0)
     obstacle = Obstacle(claim, QUICK, False)
     obstacle.seen(((0.0, 0.0, 1.0), (1.0, 0.0, 1.0)), LIMIT, 3.0)
@@ -101,7 +101,7 @@ def test_who_is_told_something_else_is_looked_at_again(what: str) -> None:
 
 def test_who_has_not_come_to_a_stop_is_looked_at_when_it_has() -> None:
     telemetry = Flown((0.0, 0.0, 1.0))
-    claim = Claim("one", telemetry)
+    claim = Reservation("one", telemetry)
     claim.rests(((0.6, 0.0, 1.0),), 2.0)
     obstacle = Obstacle(claim, QUICK, True)
     obstacle.seen(((0.0, 0.0, 1.0), (1.0, 0.0, 1.0)), LIMIT, 0.0)

@@ -7,7 +7,7 @@ from random import Random
 
 import pytest
 
-from pluto_fleet.gateway.traffic.choosing import Goer
+from pluto_fleet.gateway.traffic.choosing import DescendingDrone
 from pluto_fleet.gateway.traffic.courses import course
 from pluto_fleet.gateway.traffic.timetable import Timetable, timetable
 from pluto_fleet.gateway.traffic.ways import ways_home
@@ -124,7 +124,7 @@ def plan_of(seed: int, is_real: bool) -> Timetable:
         ways = ways_home(airspace, drone, place, False, 0.65)
         speed = chance.choice([0.2, 1.0])
         courses = sorted((course(way, speed, is_real) for way in ways), key=lambda one: one.cost)
-        goers.append(Goer(drone.id, courses))
+        goers.append(DescendingDrone(drone.id, courses))
     return timetable(goers, 0.65)
 
 

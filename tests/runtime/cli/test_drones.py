@@ -8,10 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from pluto_fleet.cli import drone_answers
+from pluto_fleet.cli import drone_status as drone_answers
 from pluto_fleet.drones import localization
 from pluto_fleet.files.fleet import load_fleet
-from pluto_fleet.gateway.drone_lock import holding
+from pluto_fleet.gateway.drone_lock import lock_drones
 from tests.runtime.cli import fake_drones
 from tests.runtime.cli.conftest import Command
 from tests.runtime.cli.fake_drones import ASKED, RECORD, THERE, at
@@ -147,7 +147,7 @@ def test_a_drone_in_the_air_is_left_alone(fleet: Path, command: Command) -> None
 
 def test_a_drone_that_an_app_flies_is_not_asked(fleet: Path, command: Command) -> None:
     """Two must not speak with one drone."""
-    with holding({"x": "fake://1"}):
+    with lock_drones({"x": "fake://1"}):
         code, out, _ = command("drones", "cf1", "--fleet", fleet)
     assert (code, "is commanded by process" in out) == (1, True)
     assert ("fake://1", "connect") not in RECORD

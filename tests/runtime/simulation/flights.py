@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Coroutine
 from typing import Any, TypeVar
 
-from pluto_fleet.gateway.executor import Pilots
+from pluto_fleet.gateway.executor import Executor
 from pluto_fleet.simulation.body import SimulatedDrone
 from pluto_fleet.simulation.drones import SimulatedNavigation
 from plutoc_runtime.alone.faults import Faults, Order, draw
@@ -37,7 +37,7 @@ class Team(SimulatedNavigation):
     async def recover(self, drone: str) -> bool:
         """Bring a drone home after a failed flight."""
         drones = [body.drone for body in self.bodies.values()]
-        return await Pilots(self._kernel, self, drones, self._airspace).recover(drone)
+        return await Executor(self._kernel, self, drones, self._airspace).recover(drone)
 
 
 def team(

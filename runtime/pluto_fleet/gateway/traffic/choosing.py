@@ -129,7 +129,7 @@ _MOMENT = 1.5
 
 
 @dataclass(slots=True, eq=False)
-class Goer:
+class DescendingDrone:
     """Somebody who is to come down."""
 
     drone: str
@@ -160,12 +160,16 @@ class Chooser:
         self.effort = 0
         """How much was looked at, roughly: a piece is one."""
         self._pairs: dict[tuple[Course, Course], list[Near]] = {}
-        self._starts: dict[tuple[Course, Goer], list[int]] = {}
-        self._gone: dict[tuple[Goer, bool], float] = {}
-        self._ways: dict[tuple[Goer, bool], list[tuple[float, Course]]] = {}
+        self._starts: dict[tuple[Course, DescendingDrone], list[int]] = {}
+        self._gone: dict[tuple[DescendingDrone, bool], float] = {}
+        self._ways: dict[tuple[DescendingDrone, bool], list[tuple[float, Course]]] = {}
 
     def choice(
-        self, goer: Goer, plan: Mapping[Goer, Choice], others: Sequence[Goer], enough: float
+        self,
+        goer: DescendingDrone,
+        plan: Mapping[DescendingDrone, Choice],
+        others: Sequence[DescendingDrone],
+        enough: float,
     ) -> Choice | None:
         """Return with which way somebody is down first; being down by then is good enough.
 
@@ -187,7 +191,7 @@ class Chooser:
         course, (down, way) = best
         return Choice(course, way, down, _times(course, way))
 
-    def _sorted(self, goer: Goer) -> list[tuple[float, Course]]:
+    def _sorted(self, goer: DescendingDrone) -> list[tuple[float, Course]]:
         """Return somebody's ways, with what they cost if nobody is in the way: the best first."""
         key = goer, self.rests
         if key not in self._ways:
@@ -200,7 +204,11 @@ class Chooser:
         return self._ways[key]
 
     def _found(
-        self, course: Course, plan: Mapping[Goer, Choice], others: Sequence[Goer], before: float
+        self,
+        course: Course,
+        plan: Mapping[DescendingDrone, Choice],
+        others: Sequence[DescendingDrone],
+        before: float,
     ) -> Found | None:
         """Return when a course can be flown, and how; None: not before that."""
         self.effort += len(course.pieces)
@@ -228,7 +236,7 @@ class Chooser:
         is_elsewhere = one.section.aside or other.section.aside
         return is_elsewhere and hypot(ax - bx, ay - by) < self._limit
 
-    def _leaves(self, goer: Goer) -> float:
+    def _leaves(self, goer: DescendingDrone) -> float:
         """Return when somebody is gone from where it is, if nobody is in the way."""
         found = self._gone.get((goer, self.rests))
         if found is None:
@@ -253,7 +261,7 @@ class Chooser:
             self._pairs[one, other] = pairs
         return pairs
 
-    def _near_start(self, course: Course, goer: Goer) -> list[int]:
+    def _near_start(self, course: Course, goer: DescendingDrone) -> list[int]:
         """Return which pieces are too near to where somebody is now; the start cannot be helped."""
         key = course, goer
         pieces = self._starts.get(key)

@@ -22,7 +22,7 @@ NEARLY = 0.1
 Box = tuple[float, float, float, float, float, float]
 
 
-class Claim:
+class Reservation:
     """One drone's part of the air. What lies behind the drone is free: it is asked where it is."""
 
     __slots__ = ("at", "box", "drone", "fails", "moves", "points", "tail", "telemetry", "until")

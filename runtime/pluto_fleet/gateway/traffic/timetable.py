@@ -13,10 +13,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from random import Random
 
-from .choosing import Choice, Chooser, Goer, Stretch
+from .choosing import Choice, Chooser, DescendingDrone, Stretch
 from .courses import Course
 
-Plan = dict[Goer, Choice]
+Plan = dict[DescendingDrone, Choice]
 
 _HURRIES = (1.0, 0.6, 0.3)
 """How much sooner than they need others may be expected to make room. They find a way, or they do not."""
@@ -32,7 +32,7 @@ _ALSO, _WITHOUT = 0.05, 1000.0
 """What counts beside the last: seconds of all who are late, and who finds no way."""
 
 
-def planned(goers: Sequence[Goer], chooser: Chooser, good: float) -> Plan:
+def planned(goers: Sequence[DescendingDrone], chooser: Chooser, good: float) -> Plan:
     """Return how all come down; who is not in it finds no way. All being down by then is good enough."""
     plan: Plan = {}
     for place, goer in enumerate(goers):
@@ -50,7 +50,10 @@ def planned(goers: Sequence[Goer], chooser: Chooser, good: float) -> Plan:
 
 
 def _chosen(
-    goers: Sequence[Goer], among: Mapping[Goer, Choice], chooser: Chooser, enough: float
+    goers: Sequence[DescendingDrone],
+    among: Mapping[DescendingDrone, Choice],
+    chooser: Chooser,
+    enough: float,
 ) -> Plan:
     """Let them choose, one after the other."""
     plan = dict(among)
@@ -61,7 +64,7 @@ def _chosen(
     return plan
 
 
-def _whole(best: Plan, goers: Sequence[Goer], chooser: Chooser, good: float) -> Plan:
+def _whole(best: Plan, goers: Sequence[DescendingDrone], chooser: Chooser, good: float) -> Plan:
     """Let all choose anew, a few times, whoever was last first."""
     order, least = list(goers), _score(best, goers, good)
     for chooser.hurry in _HURRIES * 2:
@@ -77,7 +80,7 @@ def _whole(best: Plan, goers: Sequence[Goer], chooser: Chooser, good: float) -> 
     return best
 
 
-def _mended(best: Plan, goers: Sequence[Goer], chooser: Chooser, good: float) -> Plan:
+def _mended(best: Plan, goers: Sequence[DescendingDrone], chooser: Chooser, good: float) -> Plan:
     """Let a few choose anew, as long as it is late and there is time."""
     chance, now = Random(0), best
     least = score = _score(best, goers, good)
@@ -96,7 +99,9 @@ def _mended(best: Plan, goers: Sequence[Goer], chooser: Chooser, good: float) ->
     return best
 
 
-def _few(plan: Plan, goers: Sequence[Goer], chooser: Chooser, chance: Random) -> list[Goer]:
+def _few(
+    plan: Plan, goers: Sequence[DescendingDrone], chooser: Chooser, chance: Random
+) -> list[DescendingDrone]:
     """Return who chooses anew: the last, and a few others, above all of those in its way."""
     last = _last(plan, goers)
     rest = [goer for goer in plan if goer is not last]
@@ -111,13 +116,13 @@ def _few(plan: Plan, goers: Sequence[Goer], chooser: Chooser, chance: Random) ->
     return [last, *without, *few]
 
 
-def _last(plan: Plan, goers: Sequence[Goer]) -> Goer:
+def _last(plan: Plan, goers: Sequence[DescendingDrone]) -> DescendingDrone:
     """Return who is down last, or finds no way."""
     without = [goer for goer in goers if goer not in plan]
     return without[0] if without else max(plan, key=lambda goer: plan[goer].down)
 
 
-def _score(plan: Plan, goers: Sequence[Goer], good: float) -> float:
+def _score(plan: Plan, goers: Sequence[DescendingDrone], good: float) -> float:
     """Return when the last is down, or that it is good enough, and a little more for all that is late."""
     late = [max(0.0, choice.down - good) for choice in plan.values()]
     without = len(goers) - len(plan)
@@ -141,7 +146,7 @@ class Timetable:
     """Which of each one's pieces somebody waits for."""
     late: float = 0.0
     """When the last is down."""
-    without: tuple[Goer, ...] = ()
+    without: tuple[DescendingDrone, ...] = ()
     """Those for whom there was no way among the others."""
 
     def rest_after(self, drone: str, at: int, free: int) -> int:
@@ -163,14 +168,16 @@ class Timetable:
         return to
 
 
-def timetable(goers: Sequence[Goer], limit: float) -> Timetable:
+def timetable(goers: Sequence[DescendingDrone], limit: float) -> Timetable:
     """Plan for all, so that no two come nearer than that; the first chooses first, if that does."""
     good = max((goer.courses[0].seconds for goer in goers), default=0.0) + GOOD
     chooser = Chooser(limit)
     return _written_down(goers, planned(goers, chooser, good), chooser)
 
 
-def _written_down(goers: Sequence[Goer], plan: dict[Goer, Choice], chooser: Chooser) -> Timetable:
+def _written_down(
+    goers: Sequence[DescendingDrone], plan: dict[DescendingDrone, Choice], chooser: Chooser
+) -> Timetable:
     """Write down who lets whom pass."""
     table = Timetable(without=tuple(goer for goer in goers if goer not in plan))
     done: list[tuple[str, Choice]] = []

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from plutoc_runtime.domain.errors import Failure, FlightFailed
 from plutoc_runtime.time.kernel import FLEET, Kernel, Kind, Timer
 
-from .reservations import Claim, box_of, meets, nearest
+from .reservations import Reservation, box_of, meets, nearest
 from .wait_queue import Obstacle, Wait
 from .ways import Ground, Section, sections
 
@@ -17,11 +17,11 @@ if TYPE_CHECKING:
     from plutoc_runtime.domain.airspace import Airspace
     from plutoc_runtime.domain.model import Point
 
-    from ...jobs.controls import Controls, Craft
+    from ...jobs.controls import Controls, FleetDrone
 
 AGAIN = 0.5
 """Seconds after which those who wait are looked at again, even if nobody says to have passed."""
-PATIENT = 10.0
+WAIT_BEFORE_LANDING = 10.0
 """Seconds that a drone hovers where it is in the way of others; then it lands, and waits there."""
 AT_LAST = 30.0
 """Seconds after which it lands even if others are about to let it pass."""
@@ -42,7 +42,7 @@ class Traffic:
         self,
         kernel: Kernel,
         controls: Controls,
-        drones: Sequence[Craft],
+        drones: Sequence[FleetDrone],
         airspace: Airspace,
         *,
         apart: float,
@@ -60,7 +60,7 @@ class Traffic:
         self._most = len(drones) if max_airborne is None else max_airborne
         self.is_limited = self._most < len(drones)
         """Whether only some may be in the air at once."""
-        self._claims: dict[str, Claim] = {}
+        self._claims: dict[str, Reservation] = {}
         """Of those in the air, or about to be."""
         self._silent: dict[str, float] = {}
         """Who is lost, and until when it may still be in the air."""
@@ -233,7 +233,7 @@ class Traffic:
         obstacle.seen(_whole(way), self.limit, now)
         return True
 
-    def _obstacle(self, claim: Claim, way: Section) -> Obstacle:
+    def _obstacle(self, claim: Reservation, way: Section) -> Obstacle:
         obstacle = Obstacle(claim, self._drones[claim.drone].category, self.is_real)
         obstacle.seen(_whole(way), self.limit, self._kernel.now)
         return obstacle
@@ -241,7 +241,7 @@ class Traffic:
     def _should_land(self, wait: Wait) -> bool:
         """Whether a drone that waits had better do so on the ground."""
         waited = self._kernel.now - wait.since
-        if wait.section.stands or waited < PATIENT:
+        if wait.section.stands or waited < WAIT_BEFORE_LANDING:
             return False
         first = wait.obstacles[0]
         blocker = None if first is None else self._claims.get(first.claim.drone)
@@ -257,10 +257,10 @@ class Traffic:
         claim.moves_along(section.points, section.tail)
         return section
 
-    def _claim(self, drone: str) -> Claim:
+    def _claim(self, drone: str) -> Reservation:
         claim = self._claims.get(drone)
         if claim is None:
-            claim = self._claims[drone] = Claim(drone, self._telemetry[drone])
+            claim = self._claims[drone] = Reservation(drone, self._telemetry[drone])
         return claim
 
     def _has_room(self, section: Section) -> bool:
@@ -273,14 +273,14 @@ class Traffic:
                 del claims[claim.drone]
         return len(claims) < self._most
 
-    def _is_over(self, claim: Claim) -> bool:
+    def _is_over(self, claim: Reservation) -> bool:
         """Whether a drone that should hover, or fails, is in the air no more."""
         if claim.telemetry.landed:
             return True
         until = self._silent.get(claim.drone)
         return until is not None and self._kernel.now >= until
 
-    def _blocker(self, section: Section) -> Claim | None:
+    def _blocker(self, section: Section) -> Reservation | None:
         """Return somebody who has what a section takes."""
         claims, drone = self._claims, section.drone
         if not claims or (len(claims) == 1 and drone in claims):
@@ -309,7 +309,7 @@ class Traffic:
         claim = self._claims.get(drone)
         return self.is_real and claim is not None and claim.touches_down
 
-    def _is_in_the_way(self, claim: Claim, way: tuple[Point, ...], stands: bool) -> bool:
+    def _is_in_the_way(self, claim: Reservation, way: tuple[Point, ...], stands: bool) -> bool:
         shape, limit = claim.shape(self._kernel.now), self.limit
         if self.is_real and claim.touches_down:
             limit = self.apart - _EXACT

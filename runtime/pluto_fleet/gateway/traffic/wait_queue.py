@@ -8,10 +8,10 @@ from itertools import pairwise
 from math import dist, inf
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.fleet.energy import CLIMB_SPEED
+from plutoc_runtime.fleet.reach import CLIMB_SPEED
 from plutoc_runtime.time.future import Future
 
-from .reservations import Claim, meets
+from .reservations import Reservation, meets
 from .ways import Section
 
 if TYPE_CHECKING:
@@ -30,7 +30,7 @@ class Obstacle:
 
     __slots__ = ("_cruise", "_points", "_until", "_upright", "claim")
 
-    def __init__(self, claim: Claim, category: Category, is_real: bool) -> None:
+    def __init__(self, claim: Reservation, category: Category, is_real: bool) -> None:
         self.claim = claim
         self._cruise = category.top_speed or category.speed
         self._upright = max(self._cruise, CLIMB_SPEED) if is_real else CLIMB_SPEED

@@ -8,7 +8,8 @@ from itertools import islice, pairwise
 from math import dist, hypot
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.fleet.energy import docked
+from pluto_fleet.jobs.landing_sites import free_spots, is_free
+from plutoc_runtime.fleet.reach import docked
 
 from ...jobs.landing_sites import free_spots, is_free
 
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
     from plutoc_runtime.domain.airspace import Airspace
     from plutoc_runtime.domain.model import Point, Telemetry
 
-    from ...jobs.controls import Craft
+    from ...jobs.controls import FleetDrone
 
 
 FURTHEST, SHARE = 1.5, 0.05
@@ -94,7 +95,7 @@ _SLOPES = (4.0, 1.5, 0.0)
 
 
 def ways_home(
-    airspace: Airspace, drone: Craft, here: Point, stands: bool, step: float
+    airspace: Airspace, drone: FleetDrone, here: Point, stands: bool, step: float
 ) -> list[Section]:
     """Return ways home that end on the ground; none where there is no way."""
     cruise, (x, y, _) = airspace.cruise_height, here
@@ -173,7 +174,7 @@ class Ground:
 
     def __init__(
         self,
-        drones: Mapping[str, Craft],
+        drones: Mapping[str, FleetDrone],
         telemetry: Mapping[str, Telemetry],
         airspace: Airspace,
         step: float,

@@ -8,12 +8,12 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from ._runtime.context import Context
-    from ._runtime.errors import ActionFailed
-    from ._runtime.handle import LiveDrone
-    from ._runtime.model import Category, Drone, Item, Photo, Point
-    from ._runtime.status import Status
-    from ._runtime.verdict import Verdict
+    from ._runtime.domain.errors import ActionFailed
+    from ._runtime.domain.model import Category, Drone, Item, Photo, Point
+    from ._runtime.domain.status import Status
+    from ._runtime.flow.verdict import Verdict
+    from ._runtime.hooks.context import Context
+    from ._runtime.hooks.live_drone import LiveDrone
     from .model import Mission, Result, Results, Trip
 
 __all__ = [
@@ -35,20 +35,20 @@ __all__ = [
 
 if not TYPE_CHECKING:
     _HOMES = {
-        "ActionFailed": "._runtime.errors",
-        "Category": "._runtime.model",
-        "Context": "._runtime.context",
-        "Drone": "._runtime.model",
-        "Item": "._runtime.model",
-        "LiveDrone": "._runtime.handle",
+        "ActionFailed": "._runtime.domain.errors",
+        "Category": "._runtime.domain.model",
+        "Context": "._runtime.hooks.context",
+        "Drone": "._runtime.domain.model",
+        "Item": "._runtime.domain.model",
+        "LiveDrone": "._runtime.hooks.live_drone",
         "Mission": ".model",
-        "Photo": "._runtime.model",
-        "Point": "._runtime.model",
+        "Photo": "._runtime.domain.model",
+        "Point": "._runtime.domain.model",
         "Result": ".model",
         "Results": ".model",
-        "Status": "._runtime.status",
+        "Status": "._runtime.domain.status",
         "Trip": ".model",
-        "Verdict": "._runtime.verdict",
+        "Verdict": "._runtime.flow.verdict",
     }
 
     def __getattr__(name: str) -> object:

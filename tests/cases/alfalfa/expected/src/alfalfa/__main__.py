@@ -7,7 +7,7 @@ from __future__ import annotations
 import sys
 
 from ._runtime import command
-from ._runtime.app import App
+from ._runtime.domain.app import App
 
 
 def main() -> int:

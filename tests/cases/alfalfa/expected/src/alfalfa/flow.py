@@ -5,8 +5,6 @@
 from __future__ import annotations
 
 from . import hooks
-from ._runtime.actions import BUILT_IN, Action, Parameter
-from ._runtime.app import App
 from ._runtime.blocks.clock import wait_for_time
 from ._runtime.blocks.drone_allocator import allocate_drone
 from ._runtime.blocks.mission_creator import create_mission
@@ -15,11 +13,13 @@ from ._runtime.blocks.mission_repeater import repeat_mission
 from ._runtime.blocks.priority_manager import raise_priority
 from ._runtime.blocks.timer_monitor import timer_limit
 from ._runtime.blocks.trip_launcher import launch_trip
-from ._runtime.policies.nearest import nearest
-from ._runtime.quantities import Type
-from ._runtime.run import Run
-from ._runtime.status import COMPLETED, FAILED, STANDBY, Status
-from ._runtime.watching import watch
+from ._runtime.domain.actions import BUILT_IN, Parameter
+from ._runtime.domain.app import App
+from ._runtime.domain.quantities import Type
+from ._runtime.domain.status import COMPLETED, FAILED, STANDBY, Status
+from ._runtime.fleet.policies.nearest import nearest
+from ._runtime.flow.own_action import OwnAction
+from ._runtime.flow.run import Run, watch
 from .model import CATEGORIES, FIELDS, Mission, Trip
 
 
@@ -78,7 +78,7 @@ APP = App(
     actions={
         **BUILT_IN,
         # action pollinate(dose: mass = 50 mg) once
-        "pollinate": Action(
+        "pollinate": OwnAction(
             name="pollinate",
             parameters=(Parameter(name="dose", type=Type.MASS, default=5e-05),),
             repeat="once",

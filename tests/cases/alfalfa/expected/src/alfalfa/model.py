@@ -6,9 +6,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ._runtime import model, results
-from ._runtime.fields import Entity, Field, FieldType
-from ._runtime.model import Category
+from ._runtime.domain import model, results
+from ._runtime.domain.fields import Entity, Field, FieldType
+from ._runtime.domain.model import Category
 
 
 @dataclass(slots=True, kw_only=True, eq=False)

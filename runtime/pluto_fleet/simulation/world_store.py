@@ -1,0 +1,166 @@
+"""Keeps a simulated world on the disk, so that it is still there when its process is not.
+
+What drones do is one line of a file each, written the moment it happens. How they stand is another
+file, written anew at every change. Time passes while nobody looks: whoever reads it back finds every
+drone where it has come to meanwhile.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+from plutoc_runtime.alone.faults import Drawn
+from plutoc_runtime.alone.ideal import Charge, Leg
+from plutoc_runtime.domain.errors import Failure, FlightFailed
+
+from ..journal.values import item_data, item_of, point_of, value_data, value_of
+from .body import Body, Snapshot
+from .drones import WorldAction
+from .moments import Moment
+
+DEEDS, DRONES = "world.jsonl", "drones.json"
+"""What was done, a line each; how the drones stand."""
+
+
+class WorldStore:
+    """The files of one simulated world. Nothing is ever taken out of the one with the deeds."""
+
+    def __init__(
+        self, folder: Path, clock: Callable[[], float], speed: float, moment: Callable[[], Moment]
+    ) -> None:
+        self._drones, self._clock, self._speed = folder / DRONES, clock, speed
+        self._moment = moment
+        self._bodies: Mapping[str, Body] = {}
+        self._counts: dict[str, int] = {}
+        """How many of its deeds are known of each drone."""
+        self._stale = False
+        path = folder / DEEDS
+        told = path.read_bytes() if path.exists() else b""
+        self._end = told.rfind(b"\n") + 1
+        """Where a line that was never finished is written over."""
+        self._told = [json.loads(line) for line in told[: self._end].splitlines()]
+        self._file = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_CLOEXEC, 0o600)
+        os.ftruncate(self._file, self._end)
+
+    def take_over(self, bodies: Mapping[str, Body]) -> None:
+        """Let the drones be as they were, and keep from now on what becomes of them."""
+        self._bodies = bodies
+        saved: Mapping[str, Any] = {}
+        with suppress(OSError, ValueError):
+            saved = json.loads(self._drones.read_bytes())
+        now = self._moment()
+        for id, data in saved.get("drones", {}).items():
+            if id in bodies:
+                passed = now.since(saved["moment"]) * self._speed
+                shift = self._clock() - saved["time"] - passed
+                bodies[id].restore(_snapshot(data, shift))
+                self._counts[id] = data["deeds"]
+        self._catch_up()
+        for body in bodies.values():
+            body.on_change = self._changed
+        self._changed()
+        self.settled()
+
+    def _catch_up(self) -> None:
+        """Let drones remember their deeds, and those that came after they were last kept be so."""
+        seen = dict.fromkeys(self._bodies, 0)
+        for deed in self._told:
+            id = deed["drone"]
+            body = self._bodies.get(id)
+            if body is None:
+                continue
+            seen[id] += 1
+            if deed["boot"] == body.boot and deed["job"] is not None:
+                body.done[deed["job"]] = value_of(deed["value"])
+            if seen[id] > self._counts.get(id, 0):
+                body.carries = item_of(deed["aboard"])
+        self._counts = seen
+        self._told = []
+
+    def record(self, deed: WorldAction) -> None:
+        """Write down what a drone does, or let it fail to do so."""
+        body = self._bodies[deed.drone]
+        data = {
+            "time": self._moment().wall,
+            "drone": deed.drone,
+            "action": deed.action,
+            "item": None if deed.item is None else deed.item.name,
+            "job": deed.job,
+            "at": list(body.location),
+            "boot": deed.boot,
+            "aboard": item_data(deed.aboard),
+            "value": value_data(deed.value),
+        }
+        line = json.dumps(data).encode() + b"\n"
+        try:
+            if os.pwrite(self._file, line, self._end) < len(line):
+                raise OSError("no space is left")
+        except OSError as error:
+            with suppress(OSError):
+                os.ftruncate(self._file, self._end)
+            reason = f"{deed.action} failed: the simulated world cannot be written down: {error}"
+            raise FlightFailed(Failure.ACTION, reason) from error
+        self._end += len(line)
+        self._counts[deed.drone] += 1
+        self._stale = True
+
+    def _changed(self) -> None:
+        self._stale = True
+
+    def settled(self) -> None:
+        """Write down how all drones stand, if that has changed; called when an instant is over."""
+        if not self._stale:
+            return
+        drones = {
+            id: {**_data(body.snapshot), "deeds": self._counts[id]}
+            for id, body in self._bodies.items()
+        }
+        text = json.dumps({"moment": self._moment().data, "time": self._clock(), "drones": drones})
+        part = self._drones.with_name(f"{DRONES}.part")
+        with suppress(OSError):  # the next change is another chance
+            part.write_text(text, encoding="utf-8")
+            part.replace(self._drones)
+            self._stale = False
+
+
+def _data(body: Snapshot) -> dict[str, object]:
+    leg, charge, drawn, down = body.leg, body.charge, body.drawn, body.down
+    return {
+        "boot": body.boot,
+        "carries": item_data(body.carries),
+        "down": None if down is None else [down.failure.name, str(down), body.down_since],
+        "drawn": [drawn.crash, drawn.link, drawn.battery, drawn.action],
+        "began": body.began,
+        "charge": [charge.level, charge.since, charge.rate],
+        "leg": [leg.start, leg.end, leg.leaves, leg.arrives],
+        "landed": body.landed,
+        "flown": body.flown,
+    }
+
+
+def _snapshot(data: Mapping[str, Any], shift: float) -> Snapshot:
+    """Return how a drone was, with its times moved to those of another clock."""
+    start, end, leaves, arrives = data["leg"]
+    level, since, rate = data["charge"]
+    crash, link, battery, action = data["drawn"]
+    down, down_since = None, 0.0
+    if data["down"] is not None:
+        failure, reason, when = data["down"]
+        down, down_since = FlightFailed(Failure[failure], reason), when + shift
+    return Snapshot(
+        boot=data["boot"],
+        carries=item_of(data["carries"]),
+        down=down,
+        down_since=down_since,
+        drawn=Drawn(crash=crash, link=link, battery=battery, action=action),
+        began=data["began"] + shift,
+        charge=Charge(level, since + shift, rate),
+        leg=Leg(point_of(start), point_of(end), leaves + shift, arrives + shift),
+        landed=data["landed"],
+        flown=data["flown"],
+    )
