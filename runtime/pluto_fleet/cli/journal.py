@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 DAMAGED = 1
 
-PAUSE = 0.2
+LOOK_EVERY = 0.2
 """Seconds between two looks at a journal that is followed."""
 
 
@@ -69,7 +69,7 @@ def _follow(reader: Reader, printer: _Printer) -> None:
     """Print what comes, until it is interrupted, or its output is closed."""
     with suppress(KeyboardInterrupt):
         while reader.damaged is None:
-            _wait(PAUSE)
+            _wait(LOOK_EVERY)
             printer.print(reader.more())
 
 

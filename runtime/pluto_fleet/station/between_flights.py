@@ -1,4 +1,4 @@
-"""What is known while nothing flies: the unfinished flight, where each drone was last heard of, who is lost."""
+"""What is known while nothing flies: the unfinished flight, where each drone was last heard of, which are lost."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from ..files.fleet import DroneEntry, FleetFile
     from .config import StationConfig
 
-FRESH = 4.0
+FRESH_FOR = 4.0
 """Seconds for which what was heard of a drone is how it is."""
 
 HOVERED = "it was in the air when it was last heard of: go and look"
@@ -59,7 +59,7 @@ class IdleDrones:
             yield _row(entry.id, sightings.get(entry.id), known, now)
 
     def write_down(self, app: App, known: Records | None) -> bool:
-        """Put on record who has crashed with no app there to be told; say whether anybody has.
+        """Put on record the drones that crashed with no app there to be told; say whether any did.
 
         Each news of the drones is looked at once.
         """
@@ -91,7 +91,7 @@ def _row(id: str, seen: Sighting | None, known: Records | None, now: float) -> r
     retired = known is not None and id in known.retired
     if known is not None and id in known.mended:  # a person has taken it in their hands since
         return rows.drone_at(id, "UNKNOWN", None, trips, retired, BACK)
-    fresh = seen is not None and now - seen.when < FRESH
+    fresh = seen is not None and now - seen.when < FRESH_FOR
     if lost is not None:
         status, why = "LOST", str(lost["reason"])
         if seen is None and lost["at"] is not None:
@@ -107,7 +107,7 @@ def _row(id: str, seen: Sighting | None, known: Records | None, now: float) -> r
     return rows.drone_at(id, status, seen, trips, retired, why)
 
 
-AWAY = "put_away"
+PUT_AWAY_FILE = "put_away"
 """The file that names the last journal that was put away."""
 
 
@@ -148,16 +148,16 @@ def drawn(fleet: FleetFile) -> object:
 
 def put_away(config: StationConfig, journal: Path) -> None:
     """Remember that a journal is not to be gone on with; it stays where it is."""
-    (config.own_folder / AWAY).write_text(journal.name, encoding="utf-8")
+    (config.own_folder / PUT_AWAY_FILE).write_text(journal.name, encoding="utf-8")
 
 
 def _put_away(config: StationConfig) -> str:
     with suppress(OSError, ValueError):
-        return (config.own_folder / AWAY).read_text(encoding="utf-8")
+        return (config.own_folder / PUT_AWAY_FILE).read_text(encoding="utf-8")
     return ""
 
 
-FILE = "drones.json"
+DRONES_FILE = "drones.json"
 
 
 class FleetHistory:
@@ -166,7 +166,7 @@ class FleetHistory:
     def __init__(self, app: App, config: StationConfig) -> None:
         self._app, self._config = app, config
         self._kind = [config.sim, config.crtp_sim is not None]
-        self._file = config.own_folder / FILE
+        self._file = config.own_folder / DRONES_FILE
         self._fleet = [entry.id for entry in config.fleet.drones]
         self.records = Records()
         self._journal: Path | None = None
