@@ -16,7 +16,7 @@ from plutoc_runtime.domain.text import counted
 from ..journal import place
 from ..journal.mending import mend
 from ..journal.reader import Reader
-from ..report.sentences import journal_sentence as told
+from ..report.sentences import journal_sentence
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -112,7 +112,7 @@ def as_json(event: dict[str, Any], wall: float) -> Iterator[str]:
 
 def as_text(event: dict[str, Any], wall: float) -> Iterator[str]:
     """Give an event as people read it, behind the local time at which it was written."""
-    said = told(event, wall)
+    said = journal_sentence(event, wall)
     if said is not None:
         begin = time.strftime("%H:%M:%S", time.localtime(wall)) + "  "
         for line in said.split("\n"):

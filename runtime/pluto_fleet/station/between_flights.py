@@ -111,7 +111,7 @@ PUT_AWAY_FILE = "put_away"
 """The file that names the last journal that was put away."""
 
 
-def found(app: App, config: StationConfig, going_on: bool = False) -> Resumable | None:
+def unfinished_flight(app: App, config: StationConfig, going_on: bool = False) -> Resumable | None:
     """Return the newest journal of the station's folder, opened, to be shown and gone on with.
 
     A flight over another map would be drawn over this one, and misread: it is left alone, unless
@@ -129,7 +129,7 @@ def found(app: App, config: StationConfig, going_on: bool = False) -> Resumable 
     if same != (config.sim, config.crtp_sim is not None):
         taken.store.close()
         return None
-    if not going_on and drawn(taken.fleet) != drawn(config.fleet):
+    if not going_on and shown_fleet(taken.fleet) != shown_fleet(config.fleet):
         taken.store.close()
         if taken.is_over:
             return None
@@ -141,7 +141,7 @@ def found(app: App, config: StationConfig, going_on: bool = False) -> Resumable 
     return taken
 
 
-def drawn(fleet: FleetFile) -> object:
+def shown_fleet(fleet: FleetFile) -> object:
     """Return what people see of a fleet file."""
     return fleet.airspace, [(one.id, one.category, one.home) for one in fleet.drones]
 
@@ -188,7 +188,9 @@ class FleetHistory:
             check(journal, header, self._app)
             if [header["sim"], header.get("crtp_sim") is not None] != self._kind:
                 return
-            same = drawn(fleet_in(self._app, journal, header)) == drawn(self._config.fleet)
+            same = shown_fleet(fleet_in(self._app, journal, header)) == shown_fleet(
+                self._config.fleet
+            )
             records = recovered(store).records
         if "lost" not in header:  # it was not begun by a station
             for drone, why in self.records.lost.items():

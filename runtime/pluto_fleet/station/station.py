@@ -25,8 +25,7 @@ from ..journal.fold import Records
 from ..journal.header import header
 from ..journal.store import Store
 from ..process.asking import Nobody, Silent
-from . import between_flights as leftover
-from .between_flights import FleetHistory
+from .between_flights import FleetHistory, put_away, unfinished_flight
 from .commands import checked
 from .config import described
 from .session import FlightSession, Phase, phase_of
@@ -84,7 +83,7 @@ class Station:
     def begin(self, going_on: bool = False) -> None:
         """Show the flight that an earlier station, or `fly`, has not brought to its end."""
         self.history.read()
-        taken = leftover.found(self._app, self._config, going_on)
+        taken = unfinished_flight(self._app, self._config, going_on)
         if taken is None:
             if self.history.flown_elsewhere() is None:
                 self.plan.unlock()
@@ -278,7 +277,7 @@ class Station:
         self._before = folder
         if self.session.records is not None:
             self.history.leave(self.session.journal, self.session.records)
-        leftover.put_away(self._config, self.session.journal)
+        put_away(self._config, self.session.journal)
         self.plan.settle(self.session.ends)
         self.session = None
         return "put away; its journal is kept"
