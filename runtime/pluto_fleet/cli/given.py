@@ -102,7 +102,7 @@ class Given(ForwardingControls):
         await self._controls.write(drone, name, value)
 
     def break_off(self, drone: str) -> None:
-        """Stop whatever a drone does, and hover; a command under way raises `FlightFailed`."""
+        """Stop what a drone does, and hover; a command under way raises `FlightFailed`."""
         if not self._controls.telemetry[drone].landed:
             self._note(drone, "stop, and hover")
         self._controls.break_off(drone)

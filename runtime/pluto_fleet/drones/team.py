@@ -167,7 +167,7 @@ class Team:
         await self._kernel.call_hook(commands.write, self._vehicles[drone], name, value)
 
     def break_off(self, drone: str) -> None:
-        """Stop whatever a drone does, and hover; a command under way raises `FlightFailed`."""
+        """Stop what a drone does, and hover; a command under way raises `FlightFailed`."""
         self._vehicles[drone].break_off()
 
     async def cut(self, drone: str) -> None:
@@ -188,11 +188,11 @@ class Team:
         )
 
     async def fetched(self, drone: str) -> bool:
-        """Wait until somebody has put a drone back into its dock, well; False: nobody does."""
+        """Wait until a person has put a drone back into its dock, well; False: that does not happen."""
         return bool(await self._kernel.call_hook(wait_until_home, self._vehicles[drone]))
 
     def unload(self, drone: str) -> None:
-        """Whoever meets it takes off what it carries."""
+        """Take off what it carries: a person meets it in its dock."""
         self._cargo.carries(drone, None)
 
     async def drone_report(self, drone: str) -> DroneReport:

@@ -107,7 +107,7 @@ class _Revival:
             interventions.hold(self._core, self._mission, why_held)
         else:
             if state.at is not None and state.at not in self._core.app.resumes:
-                state.at = self._core.app.resumes[0]  # somebody has said so
+                state.at = self._core.app.resumes[0]  # a person has said so
             if self._fate is None:
                 self._check_carrier(engaged)
                 self._resume()

@@ -1,4 +1,4 @@
-"""Moments that another process understands: how long ago was it, whatever the clock was set to?"""
+"""Moments that another process understands: how long ago was it, even if the clock was set since?"""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ class Moment:
     wall: float
     """Seconds since 1970, as far as the clock is right."""
     boot: str
-    """Which start of the machine that was; empty: nobody can say."""
+    """Which start of the machine that was; empty: it cannot be told."""
     up: float
-    """Seconds since then, sleep included; nobody can set them."""
+    """Seconds since then, sleep included; they cannot be set."""
 
     def since(self, data: Mapping[str, Any]) -> float:
         """Return the seconds since a moment that was written down; never less than none."""

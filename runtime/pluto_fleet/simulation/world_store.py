@@ -1,7 +1,7 @@
 """Keeps a simulated world on the disk, so that it is still there when its process is not.
 
 What drones do is one line of a file each, written the moment it happens. How they stand is another
-file, written anew at every change. Time passes while nobody looks: whoever reads it back finds every
+file, written anew at every change. Time passes also while no process runs: when it is read back, it has every
 drone where it has come to meanwhile.
 """
 

@@ -47,7 +47,7 @@ class Wire(Link):
         self._send(partial(self._real.fly, job, partial(self._told, report)))
 
     def break_off(self, drone: str) -> None:
-        """Stop whatever a drone does."""
+        """Stop what a drone does."""
         self._send(partial(self._real.break_off, drone))
 
     def attach(self, id: str, report: Report) -> None:
